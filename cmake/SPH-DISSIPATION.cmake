@@ -1,0 +1,51 @@
+# Adds the package SPH-DISSIPATION to the CMake build of an unmodified LAMMPS:
+#
+#   cmake -S lammps/cmake -B build -D PKG_SPH-DISSIPATION=on \
+#         -D CMAKE_PROJECT_lammps_INCLUDE=/path/to/cmake/SPH-DISSIPATION.cmake
+#
+# CMake includes this file at the end of LAMMPS's own project() command: the target "lammps" does not exist yet,
+# and LAMMPS has not yet written the style headers (style_pair.h, ...) from its lists of headers.
+
+option(PKG_SPH-DISSIPATION "Build SPH-DISSIPATION Package" OFF)
+if(NOT PKG_SPH-DISSIPATION)
+  return()
+endif()
+
+# A build that shares compiled objects between clones hands us the folder under a name that is the same in each.
+if(NOT DEFINED SPH_DISSIPATION_SOURCE_DIR)
+  get_filename_component(SPH_DISSIPATION_SOURCE_DIR "${CMAKE_CURRENT_LIST_DIR}/../src/SPH-DISSIPATION" ABSOLUTE)
+endif()
+
+function(sph_dissipation_check_lammps_version)
+  file(STRINGS "${CMAKE_CURRENT_SOURCE_DIR}/../src/version.h" line REGEX "LAMMPS_VERSION")
+  if(NOT line MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9]+)\"")
+    message(FATAL_ERROR "No LAMMPS version found in ${CMAKE_CURRENT_SOURCE_DIR}/../src/version.h: "
+                        "SPH-DISSIPATION needs the complete LAMMPS source tree.")
+  endif()
+  set(name "${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${CMAKE_MATCH_3}")
+  set(tested "4 Feb 2025" "4 Jul 2026")
+  if(name IN_LIST tested)
+    return()
+  endif()
+  set(months Jan Feb Mar Apr May Jun Jul Aug Sep Oct Nov Dec)
+  list(FIND months "${CMAKE_MATCH_2}" month)
+  math(EXPR date "(${CMAKE_MATCH_3} * 12 + ${month}) * 31 + ${CMAKE_MATCH_1}")
+  math(EXPR oldest "(2025 * 12 + 1) * 31 + 4")
+  if(date LESS oldest)
+    message(FATAL_ERROR "SPH-DISSIPATION does not support LAMMPS ${name}: it is tested with the versions "
+                        "4 Feb 2025 and 4 Jul 2026. Take one of these, or a newer one at your own risk.")
+  endif()
+  message(WARNING "SPH-DISSIPATION is tested with LAMMPS 4 Feb 2025 and 4 Jul 2026; this is ${name}. "
+                  "Run the package's tests before you trust its results.")
+endfunction()
+
+function(sph_dissipation_add_sources)
+  file(GLOB sources CONFIGURE_DEPENDS "${SPH_DISSIPATION_SOURCE_DIR}/[^.]*.cpp")
+  target_sources(lammps PRIVATE ${sources})
+  target_include_directories(lammps PRIVATE "${SPH_DISSIPATION_SOURCE_DIR}")
+endfunction()
+
+sph_dissipation_check_lammps_version()
+include("${CMAKE_CURRENT_SOURCE_DIR}/Modules/StyleHeaderUtils.cmake")
+RegisterStyles("${SPH_DISSIPATION_SOURCE_DIR}")
+cmake_language(DEFER CALL sph_dissipation_add_sources)
