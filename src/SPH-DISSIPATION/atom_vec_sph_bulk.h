@@ -1,0 +1,52 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef ATOM_CLASS
+// clang-format off
+AtomStyle(sph/bulk,AtomVecSPHBulk);
+// clang-format on
+#else
+
+#ifndef LMP_ATOM_VEC_SPH_BULK_H
+#define LMP_ATOM_VEC_SPH_BULK_H
+
+#include "atom_vec.h"
+
+namespace LAMMPS_NS {
+
+// Per-atom arrays of a particle fluid.  Stored: mass (rmass), internal energy (esph), its rate
+// (desph), velocity extrapolated to the end of the step (vest); and, from the last force
+// computation, density rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.
+
+class AtomVecSPHBulk : public AtomVec {
+ public:
+  AtomVecSPHBulk(class LAMMPS *);
+
+  void grow_pointers() override;
+  void force_clear(int, size_t) override;
+  void data_atom_post(int) override;
+  void unpack_restart_init(int) override;
+  int property_atom(const std::string &) override;
+  void pack_property_atom(int, double *, int, int) override;
+
+ private:
+  double *rmass, *rho, *drho, *vfrac, *esph, *desph;
+  double **vest;
+
+  void clear_derived(int);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,186 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "fix_sph_bulk.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "modify.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), remap_v_flag(0), integrated_groups(0),
+    first_instance(false)
+{
+  if (!atom->style_match("sph/bulk"))
+    error->all(FLERR, "Fix {} requires atom style sph/bulk", style);
+  if (narg > 3) error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[3]);
+
+  time_integrate = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHBulk::setmask()
+{
+  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::init()
+{
+  reset_dt();
+
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix {} does not support run_style respa", style);
+
+  const auto &integrators = modify->get_fix_by_style("^sph/bulk$");
+  integrated_groups = 0;
+  for (const auto &ifix : integrators) integrated_groups |= ifix->groupbit;
+  first_instance = (integrators.front() == this);
+
+  remap_v_flag = domain->deform_vremap;
+  if (remap_v_flag && !comm->ghost_velocity)
+    error->all(FLERR, "Fix {} requires comm_modify vel yes when fix deform remaps velocities",
+               style);
+}
+
+/* ----------------------------------------------------------------------
+   at the start of a run the extrapolated velocity is the velocity itself
+   before the exchange of atoms, so that ghost atoms get it with their borders
+   with velocity remapping vest holds the increment only, see pre_force()
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::setup_pre_exchange()
+{
+  if (!first_instance) return;
+
+  double **v = atom->v;
+  double **vest = atom->vest;
+  const double start = remap_v_flag ? 0.0 : 1.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int d = 0; d < 3; d++) vest[i][d] = start * v[i][d];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::setup_pre_force(int vflag)
+{
+  pre_force(vflag);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::initial_integrate(int /*vflag*/)
+{
+  double **x = atom->x;
+  double **v = atom->v;
+  double **f = atom->f;
+  double **vest = atom->vest;
+  double *rmass = atom->rmass;
+  double *esph = atom->esph;
+  double *desph = atom->desph;
+  int *mask = atom->mask;
+  const int nlocal = nlocal_group();
+  const double keep = remap_v_flag ? 0.0 : 1.0;
+
+  for (int i = 0; i < nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double dtfm = dtf / rmass[i];
+    esph[i] += 0.5 * dtv * desph[i];
+    for (int d = 0; d < 3; d++) {
+      const double dv = dtfm * f[i][d];
+      v[i][d] += dv;
+      vest[i][d] = keep * v[i][d] + dv;
+      x[i][d] += dtv * v[i][d];
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   particles that no fix of this kind integrates move with the velocity that
+   another fix gave them
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::post_integrate()
+{
+  if (!first_instance || (integrated_groups & 1)) return;
+
+  double **v = atom->v;
+  double **vest = atom->vest;
+  int *mask = atom->mask;
+  const double start = remap_v_flag ? 0.0 : 1.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!(mask[i] & integrated_groups))
+      for (int d = 0; d < 3; d++) vest[i][d] = start * v[i][d];
+}
+
+/* ----------------------------------------------------------------------
+   velocities of ghost atoms change when fix deform remaps them at a periodic
+   boundary: add the velocity after the communication, on owned and ghost atoms
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::pre_force(int /*vflag*/)
+{
+  if (!remap_v_flag || !first_instance) return;
+
+  double **v = atom->v;
+  double **vest = atom->vest;
+  const int nall = atom->nlocal + atom->nghost;
+  for (int i = 0; i < nall; i++)
+    for (int d = 0; d < 3; d++) vest[i][d] += v[i][d];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::final_integrate()
+{
+  double **v = atom->v;
+  double **f = atom->f;
+  double *rmass = atom->rmass;
+  double *esph = atom->esph;
+  double *desph = atom->desph;
+  int *mask = atom->mask;
+  const int nlocal = nlocal_group();
+
+  for (int i = 0; i < nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double dtfm = dtf / rmass[i];
+    esph[i] += 0.5 * dtv * desph[i];
+    for (int d = 0; d < 3; d++) v[i][d] += dtfm * f[i][d];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::reset_dt()
+{
+  dtv = update->dt;
+  dtf = 0.5 * update->dt * force->ftm2v;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHBulk::nlocal_group() const
+{
+  return (igroup == atom->firstgroup) ? atom->nfirst : atom->nlocal;
+}

@@ -1,0 +1,55 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(sph/bulk,FixSPHBulk);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_SPH_BULK_H
+#define LMP_FIX_SPH_BULK_H
+
+#include "fix.h"
+
+namespace LAMMPS_NS {
+
+// Velocity Verlet for position, velocity and internal energy of a particle fluid, with the
+// velocity extrapolated to the end of the step for the forces: vest = v + dt f/m.
+
+class FixSPHBulk : public Fix {
+ public:
+  FixSPHBulk(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup_pre_exchange() override;
+  void setup_pre_force(int) override;
+  void initial_integrate(int) override;
+  void post_integrate() override;
+  void pre_force(int) override;
+  void final_integrate() override;
+  void reset_dt() override;
+
+ private:
+  double dtv, dtf;
+  int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
+  int integrated_groups;    // bits of all groups with an integrator of this kind
+  bool first_instance;      // acts for the particles outside all these groups
+
+  int nlocal_group() const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,755 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "pair_sph_bulk.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_eos.h"
+#include "sph_dissipation_kernel.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+struct PairSPHBulk::Settings {
+  Kernel kernel = Kernel::WENDLAND_C2;
+  Eos eos = Eos::LINEAR;
+  Shear shear = Shear::MG;
+  Bulk bulk = Bulk::DENSITY;
+  int dim = 0;    // 0: dimension of the simulation
+};
+
+struct PairSPHBulk::TypeCoeff {
+  EosParams eos;
+  double mu = 0.0;
+  double kappa = 0.0;
+  double rc = 0.0;
+  int intrinsic = 0;    // 1: kappa is what the shear term gives
+  double zeta = 0.0;    // coefficient of the bulk term
+
+  // the members that pair_coeff sets, as a restart file holds them
+
+  static constexpr int NSTORED = 8;
+  void store(double *buf) const
+  {
+    const double stored[NSTORED] = {eos.rho0, eos.c0, eos.pb, eos.gamma,
+                                    mu,       kappa,  rc,     (double) intrinsic};
+    std::copy(stored, stored + NSTORED, buf);
+  }
+  void restore(const double *buf)
+  {
+    eos = {buf[0], buf[1], buf[2], buf[3]};
+    mu = buf[4];
+    kappa = buf[5];
+    rc = buf[6];
+    intrinsic = static_cast<int>(buf[7]);
+  }
+};
+
+// adds the virial of each pair to the accumulators of the pair style
+
+class PairSPHBulk::StressTally : public PairTally {
+ public:
+  StressTally(PairSPHBulk *pair, int nlocal, int newton_pair) :
+      pair(pair), nlocal(nlocal), newton_pair(newton_pair)
+  {
+  }
+  void tally(int i, int j, const double *f, const double *r) override
+  {
+    pair->ev_tally_xyz(i, j, nlocal, newton_pair, 0.0, 0.0, f[0], f[1], f[2], r[0], r[1], r[2]);
+  }
+
+ private:
+  PairSPHBulk *pair;
+  int nlocal, newton_pair;
+};
+
+/* ---------------------------------------------------------------------- */
+
+PairSPHBulk::PairSPHBulk(LAMMPS *lmp) :
+    Pair(lmp), choice(new Settings), coeffs(nullptr), mu(nullptr), mu_set(nullptr), dim(0),
+    support(0.0), announced(false), warned_step(false), engine(new Engine(lmp))
+{
+  restartinfo = 1;
+  writedata = 1;
+  manybody_flag = 1;
+  single_enable = 0;
+  respa_enable = 0;
+  comm_forward = 2;
+  comm_reverse = 2;
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairSPHBulk::~PairSPHBulk()
+{
+  if (allocated) {
+    memory->destroy(setflag);
+    memory->destroy(cutsq);
+    memory->destroy(mu);
+    memory->destroy(mu_set);
+  }
+  delete[] coeffs;
+  delete choice;
+  delete engine;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+
+  const int nlocal = atom->nlocal;
+  const int newton_pair = force->newton_pair;
+
+  engine->accumulate_density(list);
+  if (newton_pair) comm->reverse_comm(this);
+  comm->forward_comm(this);
+
+  particle_state(eflag);
+
+  StressTally stress(this, nlocal, newton_pair);
+  engine->accumulate_forces(list, vflag_either ? &stress : nullptr);
+
+  double **f = atom->f;
+  double *desph = atom->desph;
+  const ForceSum *const total = engine->force;
+  const int nforce = newton_pair ? nlocal + atom->nghost : nlocal;
+  for (int i = 0; i < nforce; i++) {
+    for (int d = 0; d < 3; d++) f[i][d] += total[i].f[d];
+    desph[i] += total[i].heat;
+  }
+
+  if (vflag_fdotr) virial_fdotr_compute();
+}
+
+/* ----------------------------------------------------------------------
+   volume, density and pressure of owned and ghost particles from c and cdot
+   energy equation: pressure work p V^2 cdot and the heat of the bulk term,
+   which belong to the particle, not to its pairs
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::particle_state(int eflag)
+{
+  const double *const rmass = atom->rmass;
+  const double *const esph = atom->esph;
+  const int *const type = atom->type;
+  double *const rho = atom->rho;
+  double *const drho = atom->drho;
+  double *const vfrac = atom->vfrac;
+  double *const desph = atom->desph;
+  const int nlocal = atom->nlocal;
+  const int nall = nlocal + atom->nghost;
+  const Eos eos = choice->eos;
+  const bool by_volume = (choice->bulk == Bulk::VOLUME);
+
+  for (int i = 0; i < nall; i++) {
+    const TypeCoeff &coeff = coeffs[type[i]];
+    const double cdot = engine->density[i].cdot;
+    const double vol = 1.0 / engine->density[i].c;
+    const double p = pressure(eos, coeff.eos, rmass[i] / vol, esph[i] / rmass[i]);
+
+    rho[i] = rmass[i] * engine->density[i].c;
+    drho[i] = rmass[i] * cdot;
+    vfrac[i] = vol;
+
+    double g = p * vol * vol;
+    double rate = g * cdot;
+    if (by_volume) {
+      engine->zeta_term[i] = coeff.zeta * vol * cdot;
+    } else {
+      const double bulk = coeff.zeta * vol * vol * vol * cdot;
+      g += bulk;
+      rate += bulk * cdot;
+    }
+    engine->particle[i].vol = vol;
+    engine->particle[i].g = g;
+    if (i < nlocal) desph[i] += rate;
+  }
+
+  if (!eflag_either) return;
+  for (int i = 0; i < nlocal; i++) {
+    const double energy = rmass[i] * elastic_energy(eos, coeffs[type[i]].eos, rho[i]);
+    if (eflag_global) eng_vdwl += energy;
+    if (eflag_atom) eatom[i] += energy;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::allocate()
+{
+  allocated = 1;
+  const int n = atom->ntypes + 1;
+
+  memory->create(setflag, n, n, "pair:setflag");
+  memory->create(cutsq, n, n, "pair:cutsq");
+  memory->create(mu, n, n, "pair:mu");
+  memory->create(mu_set, n, n, "pair:mu_set");
+  coeffs = new TypeCoeff[n];
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++) {
+      setflag[i][j] = mu_set[i][j] = 0;
+      cutsq[i][j] = mu[i][j] = 0.0;
+    }
+}
+
+/* ----------------------------------------------------------------------
+   the choice that has this name
+------------------------------------------------------------------------- */
+
+template <class Choice>
+static Choice choice_of(const std::vector<std::pair<std::string, Choice>> &table, const char *what,
+                        const std::string &word, Error *error)
+{
+  for (const auto &entry : table)
+    if (entry.first == word) return entry.second;
+  error->all(FLERR, "Unknown {} {} for pair_style sph/bulk", what, word);
+  return table.front().second;
+}
+
+/* ----------------------------------------------------------------------
+   global settings
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::settings(int narg, char **arg)
+{
+  *choice = Settings();
+  announced = false;
+
+  for (int iarg = 0; iarg < narg; iarg += 2) {
+    const std::string keyword = arg[iarg];
+    if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "shear" &&
+        keyword != "bulk")
+      error->all(FLERR, "Unknown pair_style sph/bulk keyword: {}", keyword);
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_style sph/bulk " + keyword, error);
+    const std::string word = arg[iarg + 1];
+
+    if (keyword == "kernel") {
+      std::vector<std::pair<std::string, Kernel>> kernels;
+      for (auto k : {Kernel::WENDLAND_C2, Kernel::WENDLAND_C4, Kernel::WENDLAND_C6, Kernel::CUBIC,
+                     Kernel::QUINTIC, Kernel::LUCY})
+        kernels.emplace_back(kernel_name(k), k);
+      choice->kernel = choice_of(kernels, "kernel", word, error);
+    } else if (keyword == "eos") {
+      choice->eos =
+          choice_of<Eos>({{"linear", Eos::LINEAR}, {"tait", Eos::TAIT}, {"ideal", Eos::IDEAL}},
+                         "eos", word, error);
+    } else if (keyword == "shear") {
+      choice->shear = choice_of<Shear>({{"mg", Shear::MG},
+                                        {"mg/fr", Shear::MG_FR},
+                                        {"morris", Shear::MORRIS},
+                                        {"none", Shear::NONE}},
+                                       "shear form", word, error);
+    } else if (keyword == "bulk") {
+      choice->bulk = choice_of<Bulk>(
+          {{"density", Bulk::DENSITY}, {"volume", Bulk::VOLUME}, {"none", Bulk::NONE}}, "bulk form",
+          word, error);
+    } else {
+      choice->dim = utils::inumeric(FLERR, word, false, lmp);
+      if (choice->dim < 1 || choice->dim > 3)
+        error->all(FLERR, "Pair_style sph/bulk dim must be 1, 2, or 3, not {}", word);
+    }
+  }
+  comm_forward = (choice->eos == Eos::IDEAL) ? 3 : 2;
+}
+
+/* ----------------------------------------------------------------------
+   set coeffs for one or more type pairs
+   I J rho0 c0 mu kappa rc [pb p] [gamma g]: the types I = J of both ranges
+   I J mu VALUE: the unlike pairs of both ranges
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::coeff(int narg, char **arg)
+{
+  if (narg < 3) utils::missing_cmd_args(FLERR, "pair_coeff", error);
+  if (!allocated) allocate();
+
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+
+  const bool by_keyword = !utils::is_double(arg[2]);
+  const int count = by_keyword ? unlike_coeff(narg, arg, ilo, ihi, jlo, jhi)
+                               : type_coeff(narg, arg, ilo, ihi, jlo, jhi);
+  if (count == 0) {
+    if (by_keyword)
+      error->all(FLERR,
+                 "Pair_coeff {} {} {}: keywords are for unlike types; use pair_coeff I I "
+                 "rho0 c0 mu kappa rc for a type",
+                 arg[0], arg[1], arg[2]);
+    error->all(FLERR,
+               "Pair_coeff {} {}: rho0 c0 kappa rc pb gamma belong to a type; unlike types "
+               "take only the keyword mu",
+               arg[0], arg[1]);
+  }
+  announced = false;
+}
+
+/* ----------------------------------------------------------------------
+   coefficients of a type; return # of types
+------------------------------------------------------------------------- */
+
+int PairSPHBulk::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi)
+{
+  if (narg < 7) utils::missing_cmd_args(FLERR, "pair_coeff", error);
+
+  auto positive = [&](const char *what, const char *word) {
+    const double value = utils::numeric(FLERR, word, false, lmp);
+    if (!(value > 0.0) || !std::isfinite(value))
+      error->all(FLERR, "Pair_coeff {} must be > 0, not {}", what, word);
+    return value;
+  };
+
+  TypeCoeff one;
+  one.eos.gamma = default_gamma(choice->eos);
+  one.eos.rho0 = positive("rho0", arg[2]);
+  one.eos.c0 = positive("c0", arg[3]);
+  one.mu = utils::numeric(FLERR, arg[4], false, lmp);
+  one.intrinsic = (strcmp(arg[5], "intrinsic") == 0) ? 1 : 0;
+  if (!one.intrinsic) one.kappa = utils::numeric(FLERR, arg[5], false, lmp);
+  one.rc = positive("rc", arg[6]);
+
+  for (int iarg = 7; iarg < narg; iarg += 2) {
+    const std::string keyword = arg[iarg];
+    if (keyword != "pb" && keyword != "gamma")
+      error->all(FLERR, "Unknown pair_coeff keyword for pair_style sph/bulk: {}", keyword);
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
+    if (keyword == "pb")
+      one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    else
+      one.eos.gamma = positive("gamma", arg[iarg + 1]);
+  }
+
+  const char *violated = inadmissible(one.mu, one.kappa);
+  if (violated)
+    error->all(FLERR, "Pair_coeff {}, not mu = {} kappa = {}", violated, arg[4], arg[5]);
+  if (choice->shear == Shear::NONE && one.mu != 0.0)
+    error->all(FLERR, "Pair_coeff mu must be 0 with shear none, not {}", arg[4]);
+
+  int count = 0;
+  for (int i = std::max(ilo, jlo); i <= std::min(ihi, jhi); i++) {
+    coeffs[i] = one;
+    setflag[i][i] = 1;
+    count++;
+  }
+  return count;
+}
+
+/* ----------------------------------------------------------------------
+   viscosity between unlike types; return # of pairs
+------------------------------------------------------------------------- */
+
+int PairSPHBulk::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi)
+{
+  double value = 0.0;
+  for (int iarg = 2; iarg < narg; iarg += 2) {
+    const std::string keyword = arg[iarg];
+    for (const auto &property : {"rho0", "c0", "kappa", "rc", "pb", "gamma"})
+      if (keyword == property)
+        error->all(FLERR, "Pair_coeff keyword {} belongs to a type, not to a pair of types",
+                   keyword);
+    if (keyword != "mu")
+      error->all(FLERR, "Unknown pair_coeff keyword for pair_style sph/bulk: {}", keyword);
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff mu", error);
+    value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    if (!(value >= 0.0)) error->all(FLERR, "Pair_coeff mu must be >= 0, not {}", arg[iarg + 1]);
+    if (choice->shear == Shear::NONE && value != 0.0)
+      error->all(FLERR, "Pair_coeff mu must be 0 with shear none, not {}", arg[iarg + 1]);
+  }
+
+  int count = 0;
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = jlo; j <= jhi; j++) {
+      if (i == j) continue;
+      mu[i][j] = mu[j][i] = value;
+      mu_set[i][j] = mu_set[j][i] = 1;
+      setflag[std::min(i, j)][std::max(i, j)] = 1;
+      count++;
+    }
+  return count;
+}
+
+/* ----------------------------------------------------------------------
+   init specific to this pair style
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::init_style()
+{
+  check_setup();
+  derive_coeffs();
+  announce();
+  neighbor->add_request(this);
+}
+
+/* ----------------------------------------------------------------------
+   what the style needs from the rest of the simulation
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::check_setup()
+{
+  if (!atom->style_match("sph/bulk"))
+    error->all(FLERR, "Pair style sph/bulk requires atom style sph/bulk");
+  if (modify->get_fix_by_style("^sph/bulk$").empty())
+    error->all(FLERR, "Pair style sph/bulk requires fix sph/bulk");
+  if (force->mvv2e != 1.0)
+    error->all(FLERR,
+               "Pair style sph/bulk requires units in which mass * velocity^2 is an energy, "
+               "not units {}",
+               update->unit_style);
+
+  dim = choice->dim ? choice->dim : domain->dimension;
+  if (dim == 1 && domain->dimension == 3)
+    error->all(FLERR, "Pair_style sph/bulk dim 1 requires a 2d box");
+  if (dim != 1 && dim != domain->dimension)
+    error->all(FLERR, "Pair_style sph/bulk dim {} does not match the {}-d simulation box", dim,
+               domain->dimension);
+
+  support = 0.0;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    if (!setflag[i][i]) continue;
+    if (support == 0.0) support = coeffs[i].rc;
+    if (coeffs[i].rc != support)
+      error->all(FLERR,
+                 "Pair style sph/bulk rc must be the same for all types: {} of type {} "
+                 "differs from {}",
+                 coeffs[i].rc, i, support);
+  }
+
+  if (comm->cutghostuser > 0.0 && comm->cutghostuser < support)
+    error->all(FLERR,
+               "The ghost cutoff {} of comm_modify is smaller than the support radius {} of "
+               "pair style sph/bulk",
+               comm->cutghostuser, support);
+  if (dim == 1) check_line_of_particles();
+
+  double lightest = 1.0;
+  tagint id = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (setflag[atom->type[i]][atom->type[i]] && !(atom->rmass[i] > 0.0)) {
+      lightest = 0.0;
+      id = atom->tag[i];
+    }
+  double lightest_all;
+  tagint id_all;
+  MPI_Allreduce(&lightest, &lightest_all, 1, MPI_DOUBLE, MPI_MIN, world);
+  MPI_Allreduce(&id, &id_all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (lightest_all <= 0.0)
+    error->all(FLERR,
+               "Pair style sph/bulk: mass must be > 0, which that of particle {} is not; "
+               "use the set command",
+               id_all);
+}
+
+/* ----------------------------------------------------------------------
+   dim 1: the periodic images across the line must not interact
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::check_line_of_particles()
+{
+  constexpr double FAR = 1.0e300;
+  double extent[4] = {-FAR, -FAR, -FAR, -FAR}, all[4];    // largest x, -x, y, -y
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int d = 0; d < 2; d++) {
+      extent[2 * d] = std::max(extent[2 * d], atom->x[i][d]);
+      extent[2 * d + 1] = std::max(extent[2 * d + 1], -atom->x[i][d]);
+    }
+  MPI_Allreduce(extent, all, 4, MPI_DOUBLE, MPI_MAX, world);
+
+  const int across = (all[0] + all[1] < all[2] + all[3]) ? 0 : 1;
+  const double *const prd = domain->prd;
+  if (domain->periodicity[across] && prd[across] <= support)
+    error->all(FLERR,
+               "Pair_style sph/bulk: box too narrow for dim 1: its {} extent {} must be "
+               "larger than the support radius {}",
+               "xy"[across], prd[across], support);
+}
+
+/* ----------------------------------------------------------------------
+   viscosities of unlike types and coefficients of the bulk term
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::derive_coeffs()
+{
+  const int n = atom->ntypes;
+  for (int i = 1; i <= n; i++) {
+    TypeCoeff &type = coeffs[i];
+    mu[i][i] = type.mu;
+    const double intrinsic = intrinsic_kappa(choice->shear, dim, type.mu);
+    type.zeta = (type.intrinsic || choice->bulk == Bulk::NONE)
+        ? 0.0
+        : bulk_coefficient(choice->shear, dim, type.mu, type.kappa);
+    if (!announced && choice->bulk == Bulk::NONE && !type.intrinsic && setflag[i][i] &&
+        type.kappa != intrinsic && comm->me == 0)
+      error->warning(FLERR,
+                     "Pair_coeff kappa {} of type {} is ignored with bulk none: the shear "
+                     "term gives kappa {}",
+                     type.kappa, i, intrinsic);
+    for (int j = 1; j < i; j++)
+      if (!mu_set[i][j]) {
+        const double sum = type.mu + coeffs[j].mu;
+        mu[i][j] = mu[j][i] = (sum > 0.0) ? 2.0 * type.mu * coeffs[j].mu / sum : 0.0;
+      }
+  }
+
+  engine->setup(choice->kernel, dim, support, choice->shear, choice->bulk, mu, n);
+}
+
+/* ----------------------------------------------------------------------
+   table of viscosities, model coefficients and time-step limits by type pair,
+   when the coefficients are new; warning when the time step is too large
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::announce()
+{
+  double speed = 0.0, fastest;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const v = atom->v[i];
+    speed = std::max(speed, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+  MPI_Allreduce(&speed, &fastest, 1, MPI_DOUBLE, MPI_MAX, world);
+  fastest = sqrt(fastest);
+
+  const double hsq = stability_length_squared(kernel_slope_integral(choice->kernel, dim, support));
+  const double factor =
+      shear_factor(choice->shear, dim, kernel_mean_radius(choice->kernel, dim, support));
+
+  std::string table = fmt::format(
+      "Pair style sph/bulk: kernel {}, dim {}, eos {}, shear {}, bulk {}, "
+      "support radius {:g}, {} loops\n"
+      "  types      mu         kappa      zeta       shear coeff  largest stable time "
+      "step: acoustic  shear      bulk       all\n",
+      kernel_name(choice->kernel), dim, eos_name(choice->eos), shear_name(choice->shear),
+      bulk_name(choice->bulk), support, engine->instruction_set());
+  double smallest = UNLIMITED_STEP;
+
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (!setflag[i][i] || !setflag[j][j]) continue;
+      const TypeCoeff &a = coeffs[i], &b = coeffs[j];
+      const double zeta = 0.5 * (a.zeta + b.zeta);
+      const double rho = std::min(a.eos.rho0, b.eos.rho0);
+      const double acoustic = acoustic_step(sqrt(hsq), std::max(a.eos.c0, b.eos.c0) + fastest);
+      const double shear = shear_step(choice->shear, hsq, mu[i][j] / rho);
+      const double bulk = bulk_step(hsq, zeta / rho);
+      const double all = combined_step(acoustic, shear, bulk);
+      smallest = std::min(smallest, all);
+
+      auto step = [](double value) {
+        return (value < UNLIMITED_STEP) ? fmt::format("{:<10.4g}", value)
+                                        : fmt::format("{:<10}", "-");
+      };
+      table += fmt::format("  {:<10} {:<10.4g} {:<10.4g} {:<10.4g} {:<12.4g} {:>35} {} {} {}\n",
+                           fmt::format("{}-{}", i, j), mu[i][j],
+                           zeta + intrinsic_kappa(choice->shear, dim, mu[i][j]), zeta,
+                           factor * mu[i][j], step(acoustic), step(shear), step(bulk), step(all));
+    }
+
+  if (!announced && comm->me == 0) utils::logmesg(lmp, table);
+  announced = true;
+
+  if (update->dt > smallest && !warned_step) {
+    warned_step = true;
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "The time step {:g} exceeds the largest stable time step {:g} of pair "
+                     "style sph/bulk",
+                     update->dt, smallest);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   init for one type pair i,j and corresponding j,i
+------------------------------------------------------------------------- */
+
+double PairSPHBulk::init_one(int i, int j)
+{
+  if (i != j && !mu_set[i][j]) did_mix = true;
+  return support;
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 writes to restart file
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::write_restart(FILE *fp)
+{
+  write_restart_settings(fp);
+  for (int i = 1; i <= atom->ntypes; i++) {
+    fwrite(&setflag[i][i], sizeof(int), 1, fp);
+    double stored[TypeCoeff::NSTORED];
+    coeffs[i].store(stored);
+    fwrite(stored, sizeof(double), TypeCoeff::NSTORED, fp);
+    fwrite(mu_set[i], sizeof(int), atom->ntypes + 1, fp);
+    fwrite(mu[i], sizeof(double), atom->ntypes + 1, fp);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 reads from restart file, bcasts
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::read_restart(FILE *fp)
+{
+  read_restart_settings(fp);
+  allocate();
+
+  const int n = atom->ntypes + 1;
+  for (int i = 1; i < n; i++) {
+    double stored[TypeCoeff::NSTORED];
+    if (comm->me == 0) {
+      utils::sfread(FLERR, &setflag[i][i], sizeof(int), 1, fp, nullptr, error);
+      utils::sfread(FLERR, stored, sizeof(double), TypeCoeff::NSTORED, fp, nullptr, error);
+      utils::sfread(FLERR, mu_set[i], sizeof(int), n, fp, nullptr, error);
+      utils::sfread(FLERR, mu[i], sizeof(double), n, fp, nullptr, error);
+    }
+    MPI_Bcast(&setflag[i][i], 1, MPI_INT, 0, world);
+    MPI_Bcast(stored, TypeCoeff::NSTORED, MPI_DOUBLE, 0, world);
+    coeffs[i].restore(stored);
+    MPI_Bcast(mu_set[i], n, MPI_INT, 0, world);
+    MPI_Bcast(mu[i], n, MPI_DOUBLE, 0, world);
+  }
+  for (int i = 1; i < n; i++)
+    for (int j = i + 1; j < n; j++) setflag[i][j] = mu_set[i][j];
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 writes to restart file
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::write_restart_settings(FILE *fp)
+{
+  fwrite(choice, sizeof(Settings), 1, fp);
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 reads from restart file, bcasts
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::read_restart_settings(FILE *fp)
+{
+  if (comm->me == 0) utils::sfread(FLERR, choice, sizeof(Settings), 1, fp, nullptr, error);
+  MPI_Bcast(choice, sizeof(Settings), MPI_BYTE, 0, world);
+  comm_forward = (choice->eos == Eos::IDEAL) ? 3 : 2;
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 writes coefficients of types to data file
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::write_data(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++) utils::print(fp, "{} {}\n", i, type_line(i));
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 writes coefficients of types and of unlike pairs to data file
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::write_data_all(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++) {
+    utils::print(fp, "{} {} {}\n", i, i, type_line(i));
+    for (int j = i + 1; j <= atom->ntypes; j++)
+      utils::print(fp, "{} {} mu {:.17g}\n", i, j, mu[i][j]);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   arguments of pair_coeff I I
+------------------------------------------------------------------------- */
+
+std::string PairSPHBulk::type_line(int i) const
+{
+  const TypeCoeff &c = coeffs[i];
+  return fmt::format("{:.17g} {:.17g} {:.17g} {} {:.17g} pb {:.17g} gamma {:.17g}", c.eos.rho0,
+                     c.eos.c0, c.mu, c.intrinsic ? "intrinsic" : fmt::format("{:.17g}", c.kappa),
+                     c.rc, c.eos.pb, c.eos.gamma);
+}
+
+/* ----------------------------------------------------------------------
+   ghost stage 1: number density and its rate, first summed onto the owner,
+   then copied to all ghosts; the ideal gas needs the internal energy there, too
+------------------------------------------------------------------------- */
+
+int PairSPHBulk::pack_forward_comm(int n, int *sendlist, double *buf, int /*pbc_flag*/,
+                                   int * /*pbc*/)
+{
+  int m = 0;
+  for (int k = 0; k < n; k++) {
+    const int i = sendlist[k];
+    buf[m++] = engine->density[i].c;
+    buf[m++] = engine->density[i].cdot;
+    if (comm_forward == 3) buf[m++] = atom->esph[i];
+  }
+  return m;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::unpack_forward_comm(int n, int nfirst, double *buf)
+{
+  int m = 0;
+  for (int i = nfirst; i < nfirst + n; i++) {
+    engine->density[i].c = buf[m++];
+    engine->density[i].cdot = buf[m++];
+    if (comm_forward == 3) atom->esph[i] = buf[m++];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int PairSPHBulk::pack_reverse_comm(int n, int nfirst, double *buf)
+{
+  int m = 0;
+  for (int i = nfirst; i < nfirst + n; i++) {
+    buf[m++] = engine->density[i].c;
+    buf[m++] = engine->density[i].cdot;
+  }
+  return m;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::unpack_reverse_comm(int n, int *sendlist, double *buf)
+{
+  int m = 0;
+  for (int k = 0; k < n; k++) {
+    const int i = sendlist[k];
+    engine->density[i].c += buf[m++];
+    engine->density[i].cdot += buf[m++];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairSPHBulk::memory_usage()
+{
+  return Pair::memory_usage() + engine->memory_usage();
+}

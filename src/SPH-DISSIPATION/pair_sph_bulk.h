@@ -1,0 +1,84 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef PAIR_CLASS
+// clang-format off
+PairStyle(sph/bulk,PairSPHBulk);
+// clang-format on
+#else
+
+#ifndef LMP_PAIR_SPH_BULK_H
+#define LMP_PAIR_SPH_BULK_H
+
+#include "pair.h"
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+  class Engine;
+}
+
+// Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
+// shear force by pairs, bulk force through the rate of change of the particle volume.
+
+class PairSPHBulk : public Pair {
+ public:
+  PairSPHBulk(class LAMMPS *);
+  ~PairSPHBulk() override;
+
+  void compute(int, int) override;
+  void settings(int, char **) override;
+  void coeff(int, char **) override;
+  void init_style() override;
+  double init_one(int, int) override;
+  void write_restart(FILE *) override;
+  void read_restart(FILE *) override;
+  void write_restart_settings(FILE *) override;
+  void read_restart_settings(FILE *) override;
+  void write_data(FILE *) override;
+  void write_data_all(FILE *) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
+  double memory_usage() override;
+
+ protected:
+  struct Settings;     // choices of the pair_style command
+  struct TypeCoeff;    // what pair_coeff I I sets and what follows from it
+  class StressTally;
+
+  Settings *choice;
+  TypeCoeff *coeffs;                 // by type, from 1
+  double **mu;                       // shear viscosity by type pair
+  int **mu_set;                      // 1 if set by pair_coeff, 0 if mixed from the types
+  int dim;                           // dimension of the kernel
+  double support;                    // support radius rc
+  bool announced;                    // the table of coefficients is up to date
+  bool warned_step;                  // the warning about the time step was given
+  SPHDissipation::Engine *engine;    // the two pair loops
+
+  virtual void allocate();
+  int type_coeff(int, char **, int, int, int, int);
+  int unlike_coeff(int, char **, int, int, int, int);
+  void check_setup();
+  void check_line_of_particles();
+  void derive_coeffs();
+  void announce();
+  void particle_state(int);
+  std::string type_line(int) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,216 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_engine.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "memory.h"
+#include "neigh_list.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ----------------------------------------------------------------------
+   widest instruction set of this processor, or the one that the environment
+   variable SPH_DISSIPATION_SIMD asks for, if the processor has it
+------------------------------------------------------------------------- */
+
+static const LoopSet *choose_loops()
+{
+#ifdef SPH_DISSIPATION_DISPATCH
+  __builtin_cpu_init();
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  const char *wish = getenv("SPH_DISSIPATION_SIMD");
+  const std::string simd = wish ? wish : "avx512";
+  if (avx512 && simd == "avx512") return &loops_avx512;
+  if (avx2 && simd != "default") return &loops_avx2;
+#endif
+  return &loops_default;
+}
+
+/* ---------------------------------------------------------------------- */
+
+Engine::Engine(LAMMPS *lmp) :
+    Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
+    loops(choose_loops()), density_loop(nullptr), force_loop(nullptr), data(), bulk(Bulk::NONE),
+    self_weight(0.0), nmax(0), imax(0), stride_max(0), pair_max(0), first(nullptr)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+Engine::~Engine()
+{
+  memory->sfree(particle);
+  memory->sfree(density);
+  memory->sfree(force);
+  memory->sfree(zeta_term);
+  memory->sfree(first);
+  memory->sfree(data.count);
+  memory->sfree(data.neighbor);
+  memory->sfree(data.slope);
+  memory->sfree(data.approach);
+  memory->sfree(data.scratch);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::setup(Kernel kernel, int n, double support, Shear shear, Bulk bulk_in,
+                   const double *const *mu, int ntypes)
+{
+  bulk = bulk_in;
+  density_loop = loops->density(kernel);
+
+  data.mu = mu;
+  data.one_mu = true;
+  bool inviscid = true;
+  for (int i = 1; i <= ntypes; i++)
+    for (int j = 1; j <= ntypes; j++) {
+      if (mu[i][j] != mu[1][1]) data.one_mu = false;
+      if (mu[i][j] != 0.0) inviscid = false;
+    }
+  force_loop = loops->forces(inviscid ? Shear::NONE : shear, bulk);
+
+  data.support = support;
+  self_weight = kernel_weight(kernel, n, 0.0, support);
+  data.weight_norm = self_weight / with_kernel(kernel, [](auto k) {
+                       return k.shape(0.0);
+                     });
+  data.slope_norm = data.weight_norm / (support * support);
+  data.shear_factor =
+      SPHDissipation::shear_factor(shear, n, kernel_mean_radius(kernel, n, support));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::grow_atoms()
+{
+  if (nmax >= atom->nmax) return;
+  nmax = atom->nmax;
+  memory->sfree(particle);
+  memory->sfree(density);
+  memory->sfree(force);
+  particle = (Particle *) memory->smalloc(nmax * sizeof(Particle), "sph:particle");
+  density = (DensitySum *) memory->smalloc(nmax * sizeof(DensitySum), "sph:density");
+  force = (ForceSum *) memory->smalloc(nmax * sizeof(ForceSum), "sph:force");
+  if (bulk == Bulk::VOLUME) {
+    memory->sfree(zeta_term);
+    zeta_term = (double *) memory->smalloc(nmax * sizeof(double), "sph:zeta_term");
+  }
+}
+
+/* ----------------------------------------------------------------------
+   room for all pairs of the neighbor list; each atom starts on a full block,
+   so that the loops may fill up its last block
+------------------------------------------------------------------------- */
+
+void Engine::grow_pairs(NeighList *list)
+{
+  if (list->inum > imax) {
+    imax = list->inum;
+    memory->sfree(first);
+    memory->sfree(data.count);
+    first = (bigint *) memory->smalloc(imax * sizeof(bigint), "sph:first");
+    data.count = (int *) memory->smalloc(imax * sizeof(int), "sph:count");
+  }
+
+  bigint npair = 0;
+  int longest = 0;
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int room = round_up(list->numneigh[list->ilist[ii]]);
+    if (room > longest) longest = room;
+    first[ii] = npair;
+    npair += room;
+  }
+
+  if (npair > pair_max) {
+    pair_max = npair + npair / 16;
+    memory->sfree(data.neighbor);
+    memory->sfree(data.slope);
+    memory->sfree(data.approach);
+    data.neighbor = (int *) memory->smalloc(pair_max * sizeof(int), "sph:neighbor");
+    data.slope = (double *) memory->smalloc(pair_max * sizeof(double), "sph:slope");
+    data.approach = (double *) memory->smalloc(pair_max * sizeof(double), "sph:approach");
+  }
+
+  if (longest > stride_max) {
+    stride_max = round_up(longest + longest / 4);
+    memory->sfree(data.scratch);
+    data.scratch =
+        (double *) memory->smalloc(sizeof(double) * NSCRATCH * stride_max, "sph:scratch");
+  }
+  data.stride = stride_max;
+  data.first = first;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_density(NeighList *list)
+{
+  grow_atoms();
+  grow_pairs(list);
+
+  double **x = atom->x;
+  double **vest = atom->vest;
+  const int nlocal = atom->nlocal;
+  const int nall = nlocal + atom->nghost;
+
+  for (int i = 0; i < nall; i++) {
+    for (int d = 0; d < 3; d++) {
+      particle[i].x[d] = x[i][d];
+      particle[i].u[d] = vest[i][d];
+    }
+    density[i].c = (i < nlocal) ? self_weight : 0.0;
+    density[i].cdot = 0.0;
+  }
+
+  data.inum = list->inum;
+  data.ilist = list->ilist;
+  data.numneigh = list->numneigh;
+  data.firstneigh = list->firstneigh;
+  data.particle = particle;
+  data.density = density;
+  density_loop(data);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_forces(NeighList *list, PairTally *tally)
+{
+  memset(force, 0, (atom->nlocal + atom->nghost) * sizeof(ForceSum));
+
+  data.inum = list->inum;
+  data.type = atom->type;
+  data.zeta_term = zeta_term;
+  data.force = force;
+  data.tally = tally;
+  force_loop(data);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double Engine::memory_usage() const
+{
+  return (double) nmax * (sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum)) +
+      (double) imax * (sizeof(bigint) + sizeof(int)) +
+      (double) pair_max * (sizeof(int) + 2 * sizeof(double)) +
+      (double) stride_max * NSCRATCH * sizeof(double);
+}

@@ -1,0 +1,172 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_ENGINE_H
+#define LMP_SPH_DISSIPATION_ENGINE_H
+
+#include "pointers.h"
+#include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_kernel.h"
+
+// GCC can compile single functions for other instruction sets than the rest of LAMMPS
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__INTEL_COMPILER)
+#define SPH_DISSIPATION_DISPATCH
+#endif
+
+#ifdef __GNUC__
+#define SPH_RESTRICT __restrict__
+#else
+#define SPH_RESTRICT
+#endif
+
+namespace LAMMPS_NS {
+class NeighList;
+
+namespace SPHDissipation {
+
+  // what the pair loops read of a particle: one cache line
+
+  struct Particle {
+    double x[3];    // position
+    double u[3];    // velocity extrapolated to the end of the step
+    double vol;     // V = 1/c
+    double g;       // p V^2 + zeta V^3 cdot (bulk density), p V^2 (otherwise)
+  };
+
+  // number density and its rate: what pass 1 accumulates
+
+  struct DensitySum {
+    double c, cdot;
+  };
+
+  // force and heating: what pass 2 accumulates
+
+  struct ForceSum {
+    double f[3];
+    double heat;
+  };
+
+  // receives the force on i from j of each pair, for virials that are summed by pair
+
+  class PairTally {
+   public:
+    virtual ~PairTally() = default;
+    virtual void tally(int i, int j, const double *force_on_i, const double *rij) = 0;
+  };
+
+  // pairs are worked off in blocks of this many, the widest vector in doubles
+
+  constexpr int BLOCK = 8;
+  inline int round_up(int n)
+  {
+    return (n + BLOCK - 1) / BLOCK * BLOCK;
+  }
+
+  // Input, output and scratch space of the two loops.  Both run over a half neighbor list; pass 1
+  // leaves the pairs inside the support, F and r_ij.u_ij of each, for pass 2.
+
+  struct LoopData {
+    int inum;
+    const int *ilist, *numneigh;
+    const int *const *firstneigh;
+
+    const Particle *particle;    // owned and ghost
+    const int *type;             // read if mu differs between types
+    const double *zeta_term;     // zeta V cdot of each particle (bulk volume)
+    DensitySum *density;         // owned and ghost, accumulated by pass 1
+    ForceSum *force;             // owned and ghost, accumulated by pass 2
+
+    double support;             // R
+    double weight_norm;         // W = weight_norm * shape(r/R)
+    double slope_norm;          // F = slope_norm * slope(r/R)
+    double shear_factor;        // of the shear form, per unit mu
+    const double *const *mu;    // by type of i and j
+    bool one_mu;                // mu[1][1] holds for all pairs
+
+    // pairs of the ii-th atom: entries first[ii] ... first[ii] + count[ii] - 1
+
+    const bigint *first;
+    int *count;
+    int *neighbor;
+    double *slope;       // F
+    double *approach;    // r_ij . u_ij
+
+    // scratch for the pairs of one atom, stride doubles each
+
+    double *scratch;
+    int stride;
+
+    PairTally *tally;    // nullptr if nobody asks
+  };
+
+  constexpr int NSCRATCH = 16;
+
+  typedef void (*Loop)(LoopData &);
+
+  // the loops compiled for one instruction set
+
+  struct LoopSet {
+    const char *name;
+    Loop (*density)(Kernel);
+    Loop (*forces)(Shear, Bulk);
+  };
+
+  extern const LoopSet loops_default, loops_avx2, loops_avx512;
+
+  // Pair engine of the particle fluid styles: number density and its rate in one loop over the
+  // neighbor list, forces and heating in a second one.
+
+  class Engine : protected Pointers {
+   public:
+    Engine(class LAMMPS *);
+    ~Engine() override;
+
+    // choose the loops; n = dimension of the kernel
+    // mu = by type pair, owned by the caller; ntypes = number of its types
+    void setup(Kernel, int n, double support, Shear, Bulk, const double *const *mu, int ntypes);
+
+    // pass 1: particle[] from atom->x and atom->vest; density[] of owned atoms (with the particle
+    // itself) and the contributions to ghost atoms
+    void accumulate_density(NeighList *);
+
+    // pass 2: force[] from particle[] with vol and g set by the caller on owned and ghost atoms
+    void accumulate_forces(NeighList *, PairTally *);
+
+    double memory_usage() const;
+    const char *instruction_set() const { return loops->name; }
+
+    Particle *particle;
+    DensitySum *density;
+    ForceSum *force;
+    double *zeta_term;    // allocated for bulk volume only
+
+   private:
+    const LoopSet *loops;
+    Loop density_loop, force_loop;
+    LoopData data;
+    Bulk bulk;
+    double self_weight;    // W(0)
+
+    int nmax, imax, stride_max;
+    bigint pair_max;
+    bigint *first;
+
+    void grow_atoms();
+    void grow_pairs(NeighList *);
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

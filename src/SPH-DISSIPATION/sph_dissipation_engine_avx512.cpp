@@ -1,0 +1,34 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_engine.h"
+
+#include <cmath>
+
+// the pair loops for processors with AVX512, chosen at run time
+
+#ifdef SPH_DISSIPATION_DISPATCH
+
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,avx512f,avx512dq,avx512vl,prefer-vector-width=512")
+#define LOOPS loops_of_avx512
+#include "sph_dissipation_loops.h"
+#pragma GCC pop_options
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+  const LoopSet loops_avx512 = {"avx512", LOOPS::choose_density_loop, LOOPS::choose_force_loop};
+}
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,27 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_engine.h"
+
+#include <cmath>
+
+// the pair loops for the instruction set that the whole of LAMMPS is compiled for
+
+#define LOOPS loops_of_default
+#include "sph_dissipation_loops.h"
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+  const LoopSet loops_default = {"default", LOOPS::choose_density_loop, LOOPS::choose_force_loop};
+}
+}    // namespace LAMMPS_NS

@@ -1,0 +1,266 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_KERNEL_H
+#define LMP_SPH_DISSIPATION_KERNEL_H
+
+// Smoothing kernels of package SPH-DISSIPATION.  No LAMMPS include.
+//
+// With R the support radius, q = r/R and n the dimension of the kernel
+//
+//   W(r) = A_n / R^n     * shape(q)     number density weight, units 1/length^n
+//   F(r) = A_n / R^(n+2) * slope(q)     = -(1/r) dW/dr >= 0, units 1/length^(n+2)
+//
+// both zero for r >= R, with the integral of W over all space equal to one.
+// slope(0) is finite and positive.  shape() and slope() expect 0 <= q <= 1, are
+// free of branches, and can be evaluated for many pairs at once.
+//
+// Wendland functions: H. Wendland, Adv. Comput. Math. 4, 389 (1995), the polynomials of
+// 2 and 3 dimensions for every n.  Lucy: Astron. J. 82, 1013 (1977).  Splines: J. J. Monaghan,
+// Rep. Prog. Phys. 68, 1703 (2005).
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  constexpr double KERNEL_PI = 3.14159265358979323846;
+
+  // surface of the unit sphere in n = 1, 2, 3 dimensions
+
+  inline double unit_sphere_surface(int n)
+  {
+    return (n == 1) ? 2.0 : (n == 2) ? 2.0 * KERNEL_PI : 4.0 * KERNEL_PI;
+  }
+
+  struct WendlandC2 {
+    static constexpr const char *name = "wendland/c2";
+    static double norm(int n)
+    {
+      return (n == 1) ? 1.5 : (n == 2) ? 7.0 / KERNEL_PI : 10.5 / KERNEL_PI;
+    }
+    static inline double shape(double q)
+    {
+      const double a = (1.0 - q) * (1.0 - q);
+      return a * a * (1.0 + 4.0 * q);
+    }
+    static inline double slope(double q)
+    {
+      const double a = 1.0 - q;
+      return 20.0 * a * a * a;
+    }
+  };
+
+  struct WendlandC4 {
+    static constexpr const char *name = "wendland/c4";
+    static double norm(int n)
+    {
+      return (n == 1) ? 27.0 / 16.0 : (n == 2) ? 9.0 / KERNEL_PI : 495.0 / (32.0 * KERNEL_PI);
+    }
+    static inline double shape(double q)
+    {
+      const double a = (1.0 - q) * (1.0 - q);
+      return a * a * a * (1.0 + q * (6.0 + q * (35.0 / 3.0)));
+    }
+    static inline double slope(double q)
+    {
+      const double a = (1.0 - q) * (1.0 - q);
+      return (56.0 / 3.0) * a * a * (1.0 - q) * (1.0 + 5.0 * q);
+    }
+  };
+
+  struct WendlandC6 {
+    static constexpr const char *name = "wendland/c6";
+    static double norm(int n)
+    {
+      return (n == 1) ? 1.875 : (n == 2) ? 78.0 / (7.0 * KERNEL_PI) : 1365.0 / (64.0 * KERNEL_PI);
+    }
+    static inline double shape(double q)
+    {
+      const double a = (1.0 - q) * (1.0 - q);
+      return a * a * a * a * (1.0 + q * (8.0 + q * (25.0 + q * 32.0)));
+    }
+    static inline double slope(double q)
+    {
+      const double a = (1.0 - q) * (1.0 - q);
+      return 22.0 * a * a * a * (1.0 - q) * (1.0 + q * (7.0 + q * 16.0));
+    }
+  };
+
+  struct Lucy {
+    static constexpr const char *name = "lucy";
+    static double norm(int n)
+    {
+      return (n == 1) ? 1.25 : (n == 2) ? 5.0 / KERNEL_PI : 105.0 / (16.0 * KERNEL_PI);
+    }
+    static inline double shape(double q)
+    {
+      const double a = 1.0 - q;
+      return a * a * a * (1.0 + 3.0 * q);
+    }
+    static inline double slope(double q) { return 12.0 * (1.0 - q) * (1.0 - q); }
+  };
+
+  struct CubicSpline {
+    static constexpr const char *name = "cubic";
+    static double norm(int n)
+    {
+      return (n == 1) ? 4.0 / 3.0 : (n == 2) ? 40.0 / (7.0 * KERNEL_PI) : 8.0 / KERNEL_PI;
+    }
+    static inline double shape(double q)
+    {
+      const double s = 2.0 * q;
+      const double b = 2.0 - s;
+      const double inner = 1.0 - s * s * (1.5 - 0.75 * s);
+      const double outer = 0.25 * b * b * b;
+      return (s < 1.0) ? inner : outer;
+    }
+    static inline double slope(double q)
+    {
+      const double s = 2.0 * q;
+      const double b = 2.0 - s;
+      const double inner = 4.0 * (3.0 - 2.25 * s);
+      const double outer = 3.0 * b * b / (s < 1.0 ? 1.0 : s);
+      return (s < 1.0) ? inner : outer;
+    }
+  };
+
+  struct QuinticSpline {
+    static constexpr const char *name = "quintic";
+    static double norm(int n)
+    {
+      return (n == 1) ? 1.0 / 40.0
+          : (n == 2)  ? 63.0 / (478.0 * KERNEL_PI)
+                      : 27.0 / (120.0 * KERNEL_PI);
+    }
+    static inline double shape(double q)
+    {
+      const double s = 3.0 * q;
+      const double a = 3.0 - s;
+      const double b = (s < 2.0) ? 2.0 - s : 0.0;
+      const double c = (s < 1.0) ? 1.0 - s : 0.0;
+      const double a2 = a * a, b2 = b * b, c2 = c * c;
+      return a2 * a2 * a - 6.0 * (b2 * b2 * b) + 15.0 * (c2 * c2 * c);
+    }
+    static inline double slope(double q)
+    {
+      const double s = 3.0 * q;
+      const double a = 3.0 - s;
+      const double b = (s < 2.0) ? 2.0 - s : 0.0;
+      const double a2 = a * a, b2 = b * b;
+      const double inner = 9.0 * (120.0 - s * s * (120.0 - 50.0 * s));
+      const double outer = 45.0 * (a2 * a2 - 6.0 * (b2 * b2)) / (s < 1.0 ? 1.0 : s);
+      return (s < 1.0) ? inner : outer;
+    }
+  };
+
+  enum class Kernel { WENDLAND_C2, WENDLAND_C4, WENDLAND_C6, CUBIC, QUINTIC, LUCY };
+
+  // call function(KernelClass()) for the kernel chosen at run time
+
+  template <class Function> auto with_kernel(Kernel kernel, Function &&function)
+  {
+    switch (kernel) {
+      case Kernel::WENDLAND_C4:
+        return function(WendlandC4());
+      case Kernel::WENDLAND_C6:
+        return function(WendlandC6());
+      case Kernel::CUBIC:
+        return function(CubicSpline());
+      case Kernel::QUINTIC:
+        return function(QuinticSpline());
+      case Kernel::LUCY:
+        return function(Lucy());
+      default:
+        return function(WendlandC2());
+    }
+  }
+
+  inline const char *kernel_name(Kernel kernel)
+  {
+    return with_kernel(kernel, [](auto k) {
+      return decltype(k)::name;
+    });
+  }
+
+  // W(r) and F(r) = -(1/r) dW/dr of one pair; the pair loops use shape() and slope() directly
+
+  inline double kernel_weight(Kernel kernel, int n, double r, double support)
+  {
+    if (r >= support) return 0.0;
+    double volume = support;
+    for (int d = 1; d < n; d++) volume *= support;
+    return with_kernel(kernel, [=](auto k) {
+      return k.norm(n) / volume * k.shape(r / support);
+    });
+  }
+
+  inline double kernel_slope(Kernel kernel, int n, double r, double support)
+  {
+    if (r >= support) return 0.0;
+    double volume = support * support * support;
+    for (int d = 1; d < n; d++) volume *= support;
+    return with_kernel(kernel, [=](auto k) {
+      return k.norm(n) / volume * k.slope(r / support);
+    });
+  }
+
+  // integral of integrand(q) q^(n-1) over the unit n-ball of the kernels, surface included.
+  // Gauss-Legendre with 8 points on each sixth of [0,1]: exact for every kernel above,
+  // whose pieces join at multiples of 1/6 and stay below degree 16.
+
+  template <class Function> double unit_ball_integral(int n, Function &&integrand)
+  {
+    constexpr int PANELS = 6;
+    constexpr int POINTS = 4;
+    constexpr double NODE[POINTS] = {0.18343464249564980494, 0.52553240991632898582,
+                                     0.79666647741362673959, 0.96028985649753623168};
+    constexpr double WEIGHT[POINTS] = {0.36268378337836198297, 0.31370664587788728734,
+                                       0.22238103445337447054, 0.10122853629037625915};
+    double sum = 0.0;
+    for (int panel = 0; panel < PANELS; panel++)
+      for (int point = 0; point < 2 * POINTS; point++) {
+        const double node = (point < POINTS) ? NODE[point] : -NODE[point - POINTS];
+        const double q = (panel + 0.5 + 0.5 * node) / PANELS;
+        double measure = 1.0;
+        for (int d = 1; d < n; d++) measure *= q;
+        sum += WEIGHT[point % POINTS] * measure * integrand(q);
+      }
+    return unit_sphere_surface(n) * sum / (2.0 * PANELS);
+  }
+
+  // mean radius <r> = integral of r W, used by the F r weighting of P1 (15) and (49); length
+
+  inline double kernel_mean_radius(Kernel kernel, int n, double support)
+  {
+    return support * with_kernel(kernel, [=](auto k) {
+             return k.norm(n) * unit_ball_integral(n, [=](double q) {
+                      return q * k.shape(q);
+                    });
+           });
+  }
+
+  // integral of F, units 1/length^2: 14/R^2 for Wendland C2 in 2 and 3 dimensions
+
+  inline double kernel_slope_integral(Kernel kernel, int n, double support)
+  {
+    return with_kernel(kernel,
+                       [=](auto k) {
+                         return k.norm(n) * unit_ball_integral(n, [=](double q) {
+                                  return k.slope(q);
+                                });
+                       }) /
+        (support * support);
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+#endif
