@@ -24,10 +24,14 @@
 #define SPH_DISSIPATION_DISPATCH
 #endif
 
-#ifdef __GNUC__
-#define SPH_RESTRICT __restrict__
+// no iteration of the loop that follows depends on another one
+
+#if defined(__clang__)
+#define SPH_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__)
+#define SPH_INDEPENDENT _Pragma("GCC ivdep")
 #else
-#define SPH_RESTRICT
+#define SPH_INDEPENDENT
 #endif
 
 namespace LAMMPS_NS {

@@ -14,6 +14,9 @@
 #include "sph_dissipation_engine.h"
 
 #include <cmath>
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
 
 // the pair loops for processors with AVX2, chosen at run time
 
@@ -22,6 +25,7 @@
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 #define LOOPS loops_of_avx2
+#define LOOPS_AVX2
 #include "sph_dissipation_loops.h"
 #pragma GCC pop_options
 

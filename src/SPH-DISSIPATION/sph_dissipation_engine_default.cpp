@@ -14,6 +14,9 @@
 #include "sph_dissipation_engine.h"
 
 #include <cmath>
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
 
 // the pair loops for the instruction set that the whole of LAMMPS is compiled for
 

@@ -25,19 +25,31 @@ namespace SPHDissipation {
 
     constexpr double TINY = 1.0e-300;
 
-    // the compiler vectorizes sqrt() only if it need not set errno
+    // out = sqrt(in); n is a multiple of BLOCK.  Compilers vectorize sqrt() only where it need not
+    // set errno, hence the intrinsics.
 
-#if defined(__GNUC__) && !defined(__clang__)
-    __attribute__((optimize("no-math-errno")))
-#endif
-    inline void
-    square_roots(const double *in, double *out, int n)
+    inline void square_roots(const double *in, double *out, int n)
     {
+#if defined(LOOPS_AVX512)
+      for (int k = 0; k < n; k += 8)
+        _mm512_storeu_pd(out + k, _mm512_sqrt_pd(_mm512_loadu_pd(in + k)));
+#elif defined(LOOPS_AVX2)
+      for (int k = 0; k < n; k += 4)
+        _mm256_storeu_pd(out + k, _mm256_sqrt_pd(_mm256_loadu_pd(in + k)));
+#elif defined(__SSE2__)
+      for (int k = 0; k < n; k += 2) _mm_storeu_pd(out + k, _mm_sqrt_pd(_mm_loadu_pd(in + k)));
+#else
       for (int k = 0; k < n; k++) out[k] = std::sqrt(in[k]);
+#endif
     }
 
-    inline double sum_block(const double *lane)
+    // sum of n entries, a multiple of BLOCK, with one partial sum for each lane of a vector
+
+    inline double sum(const double *in, int n)
     {
+      double lane[BLOCK] = {};
+      for (int k = 0; k < n; k += BLOCK)
+        for (int l = 0; l < BLOCK; l++) lane[l] += in[k + l];
       return ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
           ((lane[4] + lane[5]) + (lane[6] + lane[7]));
     }
@@ -52,18 +64,18 @@ namespace SPHDissipation {
       const double support_inv = 1.0 / data.support;
       const double weight_norm = data.weight_norm;
       const double slope_norm = data.slope_norm;
-      double *SPH_RESTRICT const radius = data.scratch;
-      double *SPH_RESTRICT const weight = radius + data.stride;
-      double *SPH_RESTRICT const flux = weight + data.stride;
+      double *const radius = data.scratch;
+      double *const weight = radius + data.stride;
+      double *const flux = weight + data.stride;
 
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         const int *const jlist = data.firstneigh[i];
         const int jnum = data.numneigh[i];
         const Particle pi = particle[i];
-        int *SPH_RESTRICT const neighbor = data.neighbor + data.first[ii];
-        double *SPH_RESTRICT const slope = data.slope + data.first[ii];
-        double *SPH_RESTRICT const approach = data.approach + data.first[ii];
+        int *const neighbor = data.neighbor + data.first[ii];
+        double *const slope = data.slope + data.first[ii];
+        double *const approach = data.approach + data.first[ii];
 
         // keep the pairs inside the support; slope[] holds r^2 until F overwrites it
 
@@ -90,27 +102,20 @@ namespace SPHDissipation {
 
         square_roots(slope, radius, nblock);
 
-        double csum[BLOCK] = {}, fluxsum[BLOCK] = {};
-        for (int k0 = 0; k0 < nblock; k0 += BLOCK)
-          for (int l = 0; l < BLOCK; l++) {
-            const int k = k0 + l;
-            const double q = radius[k] * support_inv;
-            const double w = weight_norm * K::shape(q);
-            const double f = slope_norm * K::slope(q);
-            const double fu = f * approach[k];
-            slope[k] = f;
-            weight[k] = w;
-            flux[k] = fu;
-            csum[l] += w;
-            fluxsum[l] += fu;
-          }
+        SPH_INDEPENDENT
+        for (int k = 0; k < nblock; k++) {
+          const double q = radius[k] * support_inv;
+          weight[k] = weight_norm * K::shape(q);
+          slope[k] = slope_norm * K::slope(q);
+          flux[k] = slope[k] * approach[k];
+        }
 
         for (int k = 0; k < n; k++) {
           density[neighbor[k]].c += weight[k];
           density[neighbor[k]].cdot -= flux[k];
         }
-        density[i].c += sum_block(csum);
-        density[i].cdot -= sum_block(fluxsum);
+        density[i].c += sum(weight, nblock);
+        density[i].cdot -= sum(flux, nblock);
       }
     }
 
@@ -126,24 +131,24 @@ namespace SPHDissipation {
       const Particle *const particle = data.particle;
       ForceSum *const force = data.force;
 
-      double *SPH_RESTRICT column[NSCRATCH];
+      double *column[NSCRATCH];
       for (int c = 0; c < NSCRATCH; c++) column[c] = data.scratch + (bigint) c * data.stride;
-      double *SPH_RESTRICT const dx = column[0];
-      double *SPH_RESTRICT const dy = column[1];
-      double *SPH_RESTRICT const dz = column[2];
-      double *SPH_RESTRICT const ux = column[3];
-      double *SPH_RESTRICT const uy = column[4];
-      double *SPH_RESTRICT const uz = column[5];
-      double *SPH_RESTRICT const fx = column[6];
-      double *SPH_RESTRICT const fy = column[7];
-      double *SPH_RESTRICT const fz = column[8];
-      double *SPH_RESTRICT const vol = column[9];
-      double *SPH_RESTRICT const g = column[10];
-      double *SPH_RESTRICT const factor = column[11];
-      double *SPH_RESTRICT const metric = column[12];
-      double *SPH_RESTRICT const zeta_term = column[13];
-      double *SPH_RESTRICT const heat = column[14];
-      double *SPH_RESTRICT const heat_bulk = column[15];
+      double *const dx = column[0];
+      double *const dy = column[1];
+      double *const dz = column[2];
+      double *const ux = column[3];
+      double *const uy = column[4];
+      double *const uz = column[5];
+      double *const fx = column[6];
+      double *const fy = column[7];
+      double *const fz = column[8];
+      double *const vol = column[9];
+      double *const g = column[10];
+      double *const factor = column[11];
+      double *const metric = column[12];
+      double *const zeta_term = column[13];
+      double *const heat = column[14];
+      double *const heat_bulk = column[15];
 
       if (data.one_mu) {
         const double factor_one = data.shear_factor * data.mu[1][1];
@@ -155,9 +160,9 @@ namespace SPHDissipation {
         const Particle pi = particle[i];
         const int n = data.count[ii];
         const int nblock = round_up(n);
-        const int *SPH_RESTRICT const neighbor = data.neighbor + data.first[ii];
-        const double *SPH_RESTRICT const slope = data.slope + data.first[ii];
-        const double *SPH_RESTRICT const approach = data.approach + data.first[ii];
+        const int *const neighbor = data.neighbor + data.first[ii];
+        const double *const slope = data.slope + data.first[ii];
+        const double *const approach = data.approach + data.first[ii];
         const double zeta_term_i = VOLUME ? data.zeta_term[i] : 0.0;
 
         for (int k = 0; k < n; k++) {
@@ -189,41 +194,36 @@ namespace SPHDissipation {
             metric[k] = dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k];
         if (SHEAR == Shear::MG_FR) square_roots(metric, metric, nblock);
 
-        double sum[4][BLOCK] = {};
-        for (int k0 = 0; k0 < nblock; k0 += BLOCK)
-          for (int l = 0; l < BLOCK; l++) {
-            const int k = k0 + l;
-            const double vv_slope = pi.vol * vol[k] * slope[k];
-            double central = (pi.g + g[k]) * slope[k];
-            double heat_shear = 0.0;
+        SPH_INDEPENDENT
+        for (int k = 0; k < nblock; k++) {
+          const double vv_slope = pi.vol * vol[k] * slope[k];
+          double central = (pi.g + g[k]) * slope[k];
+          double heat_shear = 0.0;
 
-            if (CENTRAL) {
-              const double drag = factor[k] * vv_slope * approach[k] / (metric[k] + TINY);
-              central -= drag;
-              heat_shear = 0.5 * drag * approach[k];
-            }
-            if (VOLUME) central += (zeta_term_i + zeta_term[k]) * vv_slope;
-            fx[k] = central * dx[k];
-            fy[k] = central * dy[k];
-            fz[k] = central * dz[k];
-            if (MORRIS) {
-              const double drag = factor[k] * vv_slope;
-              fx[k] -= drag * ux[k];
-              fy[k] -= drag * uy[k];
-              fz[k] -= drag * uz[k];
-              heat_shear = 0.5 * drag * (ux[k] * ux[k] + uy[k] * uy[k] + uz[k] * uz[k]);
-            }
-            heat[k] = heat_shear;
-
-            sum[0][l] += fx[k];
-            sum[1][l] += fy[k];
-            sum[2][l] += fz[k];
-            sum[3][l] += heat_shear;
-            if (VOLUME) {
-              heat_bulk[k] = -vv_slope * approach[k];
-              sum[3][l] += zeta_term_i * heat_bulk[k];
-            }
+          if (CENTRAL) {
+            const double drag = factor[k] * vv_slope * approach[k] / (metric[k] + TINY);
+            central -= drag;
+            heat_shear = 0.5 * drag * approach[k];
           }
+          if (VOLUME) {
+            central += (zeta_term_i + zeta_term[k]) * vv_slope;
+            heat_bulk[k] = -vv_slope * approach[k];
+          }
+          double fxk = central * dx[k];
+          double fyk = central * dy[k];
+          double fzk = central * dz[k];
+          if (MORRIS) {
+            const double drag = factor[k] * vv_slope;
+            fxk -= drag * ux[k];
+            fyk -= drag * uy[k];
+            fzk -= drag * uz[k];
+            heat_shear = 0.5 * drag * (ux[k] * ux[k] + uy[k] * uy[k] + uz[k] * uz[k]);
+          }
+          fx[k] = fxk;
+          fy[k] = fyk;
+          fz[k] = fzk;
+          heat[k] = heat_shear;
+        }
 
         for (int k = 0; k < n; k++) {
           ForceSum &fj = force[neighbor[k]];
@@ -232,8 +232,11 @@ namespace SPHDissipation {
           fj.f[2] -= fz[k];
           fj.heat += VOLUME ? heat[k] + zeta_term[k] * heat_bulk[k] : heat[k];
         }
-        for (int d = 0; d < 3; d++) force[i].f[d] += sum_block(sum[d]);
-        force[i].heat += sum_block(sum[3]);
+        force[i].f[0] += sum(fx, nblock);
+        force[i].f[1] += sum(fy, nblock);
+        force[i].f[2] += sum(fz, nblock);
+        force[i].heat += sum(heat, nblock);
+        if (VOLUME) force[i].heat += zeta_term_i * sum(heat_bulk, nblock);
 
         if (data.tally)
           for (int k = 0; k < n; k++) {
