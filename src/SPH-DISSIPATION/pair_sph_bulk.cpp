@@ -265,6 +265,7 @@ void PairSPHBulk::settings(int narg, char **arg)
       choice->shear = choice_of<Shear>({{"mg", Shear::MG},
                                         {"mg/fr", Shear::MG_FR},
                                         {"morris", Shear::MORRIS},
+                                        {"espanol", Shear::ESPANOL},
                                         {"none", Shear::NONE}},
                                        "shear form", word, error);
     } else if (keyword == "bulk") {

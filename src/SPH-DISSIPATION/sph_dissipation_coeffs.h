@@ -28,8 +28,10 @@ namespace SPHDissipation {
   // mg:      f_i = -2 (n+2) mu sum_j F (u.e) e V_i V_j        P1 (12)
   // mg/fr:   f_i = -eta sum_j F r (u.e) e V_i V_j             P1 (15), (49)
   // morris:  f_i = -2 mu sum_j F u V_i V_j                    Laplacian of the velocity
+  // espanol: f_i = -a sum_j F [u + (u.e) e] V_i V_j           P. Espanol, M. Revenga, Phys. Rev. E 67,
+  //                                                           026705 (2003), with bulk term zero
 
-  enum class Shear { NONE, MG, MG_FR, MORRIS };
+  enum class Shear { NONE, MG, MG_FR, MORRIS, ESPANOL };
 
   // density: f_i = zeta sum_j (V_i^3 cdot_i + V_j^3 cdot_j) F r_ij             P1 (18)
   // volume:  f_i = zeta sum_j (V_i cdot_i + V_j cdot_j) F r_ij V_i V_j         P1 (64)
@@ -38,10 +40,11 @@ namespace SPHDissipation {
 
   inline const char *shear_name(Shear shear)
   {
-    return (shear == Shear::MG)    ? "mg"
-        : (shear == Shear::MG_FR)  ? "mg/fr"
-        : (shear == Shear::MORRIS) ? "morris"
-                                   : "none";
+    return (shear == Shear::MG)     ? "mg"
+        : (shear == Shear::MG_FR)   ? "mg/fr"
+        : (shear == Shear::MORRIS)  ? "morris"
+        : (shear == Shear::ESPANOL) ? "espanol"
+                                    : "none";
   }
 
   inline const char *bulk_name(Bulk bulk)
@@ -66,7 +69,8 @@ namespace SPHDissipation {
   }
 
   // bulk viscosity that the shear term brings with it: lambda = mu for mg and
-  // lambda = -mu for Morris, kappa = lambda + 2 mu/n; P1 (66)
+  // lambda = -mu for Morris, kappa = lambda + 2 mu/n; P1 (66).  The form of Espanol and Revenga
+  // is the sum of mg with mu/(n+3) and Morris with mu (n+2)/(n+3).
 
   inline double intrinsic_kappa(Shear shear, int n, double mu)
   {
@@ -108,7 +112,8 @@ namespace SPHDissipation {
 
   // Largest recommended time steps.  The forces see the velocity extrapolated to the end of the
   // step, for which a mode of damping rate g is stable for g dt < 1; the largest rates on lattices
-  // are 17.7 nu/h^2 (mg), 7.0 nu/h^2 (Morris) and 1.35 zeta/(rho h^2) (bulk).
+  // are 17.7 nu/h^2 (mg), 7.0 nu/h^2 (Morris), at most 9.7 nu/h^2 (Espanol, from the two others)
+  // and 1.35 zeta/(rho h^2) (bulk).
 
   constexpr double UNLIMITED_STEP = 1.0e300;
 
@@ -120,7 +125,8 @@ namespace SPHDissipation {
   inline double shear_step(Shear shear, double hsq, double nu)
   {
     if (shear == Shear::NONE || nu == 0.0) return UNLIMITED_STEP;
-    return ((shear == Shear::MORRIS) ? 0.05 * 17.7 / 7.0 : 0.05) * hsq / nu;
+    const double rate = (shear == Shear::MORRIS) ? 7.0 : (shear == Shear::ESPANOL) ? 9.7 : 17.7;
+    return 0.05 * 17.7 / rate * hsq / nu;
   }
 
   inline double bulk_step(double hsq, double zeta_over_rho)

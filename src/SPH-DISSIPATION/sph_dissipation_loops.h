@@ -125,8 +125,9 @@ namespace SPHDissipation {
 
     template <Shear SHEAR, bool VOLUME> void force_loop(LoopData &data)
     {
-      constexpr bool CENTRAL = (SHEAR == Shear::MG || SHEAR == Shear::MG_FR);
-      constexpr bool MORRIS = (SHEAR == Shear::MORRIS);
+      constexpr bool ALONG_R =
+          (SHEAR == Shear::MG || SHEAR == Shear::MG_FR || SHEAR == Shear::ESPANOL);
+      constexpr bool ALONG_U = (SHEAR == Shear::MORRIS || SHEAR == Shear::ESPANOL);
 
       const Particle *const particle = data.particle;
       ForceSum *const force = data.force;
@@ -172,7 +173,7 @@ namespace SPHDissipation {
           dz[k] = pi.x[2] - pj.x[2];
           vol[k] = pj.vol;
           g[k] = pj.g;
-          if (MORRIS) {
+          if (ALONG_U) {
             ux[k] = pi.u[0] - pj.u[0];
             uy[k] = pi.u[1] - pj.u[1];
             uz[k] = pi.u[2] - pj.u[2];
@@ -181,15 +182,15 @@ namespace SPHDissipation {
         }
         for (int k = n; k < nblock; k++) {
           dx[k] = dy[k] = dz[k] = vol[k] = g[k] = 0.0;
-          if (MORRIS) ux[k] = uy[k] = uz[k] = 0.0;
+          if (ALONG_U) ux[k] = uy[k] = uz[k] = 0.0;
           if (VOLUME) zeta_term[k] = 0.0;
         }
-        if ((CENTRAL || MORRIS) && !data.one_mu) {
+        if ((ALONG_R || ALONG_U) && !data.one_mu) {
           const double *const mu = data.mu[data.type[i]];
           for (int k = 0; k < n; k++) factor[k] = data.shear_factor * mu[data.type[neighbor[k]]];
           for (int k = n; k < nblock; k++) factor[k] = 0.0;
         }
-        if (CENTRAL)
+        if (ALONG_R)
           for (int k = 0; k < nblock; k++)
             metric[k] = dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k];
         if (SHEAR == Shear::MG_FR) square_roots(metric, metric, nblock);
@@ -200,7 +201,7 @@ namespace SPHDissipation {
           double central = (pi.g + g[k]) * slope[k];
           double heat_shear = 0.0;
 
-          if (CENTRAL) {
+          if (ALONG_R) {
             const double drag = factor[k] * vv_slope * approach[k] / (metric[k] + TINY);
             central -= drag;
             heat_shear = 0.5 * drag * approach[k];
@@ -212,12 +213,12 @@ namespace SPHDissipation {
           double fxk = central * dx[k];
           double fyk = central * dy[k];
           double fzk = central * dz[k];
-          if (MORRIS) {
+          if (ALONG_U) {
             const double drag = factor[k] * vv_slope;
             fxk -= drag * ux[k];
             fyk -= drag * uy[k];
             fzk -= drag * uz[k];
-            heat_shear = 0.5 * drag * (ux[k] * ux[k] + uy[k] * uy[k] + uz[k] * uz[k]);
+            heat_shear += 0.5 * drag * (ux[k] * ux[k] + uy[k] * uy[k] + uz[k] * uz[k]);
           }
           fx[k] = fxk;
           fy[k] = fyk;
