@@ -1,0 +1,58 @@
+"""Let pages written for the LAMMPS manual build on their own.
+
+* the code-block language ``LAMMPS`` gets a small lexer,
+* ``:doc:`` links to pages of the LAMMPS manual become links to its public web site.
+"""
+
+from docutils import nodes
+from pygments.lexer import RegexLexer, bygroups
+from pygments.token import Comment, Keyword, Name, Number, String, Text
+
+MANUAL = "https://docs.lammps.org/"
+
+# the pages of the LAMMPS manual that may be linked to: a misspelled name stays a warning
+MANUAL_PAGES = frozenset("""
+    Build_package Howto_2d Howto_output Howto_triclinic Howto_viscosity Modify_style
+    atom_modify atom_style balance boundary comm_modify comm_style compute_pe_atom
+    compute_pressure compute_property_atom compute_stress_atom create_atoms dimension dump
+    fix fix_deform fix_modify fix_move fix_nve fix_setforce fix_sph fix_sph_stationary lattice mass
+    minimize neigh_modify newton pair_coeff pair_hybrid pair_modify pair_sph_idealgas
+    pair_sph_rhosum pair_sph_taitwater pair_sph_taitwater_morris pair_style pair_write
+    plugin read_data read_restart replicate restart run run_style set thermo_style timestep
+    units velocity write_data write_restart
+""".split())
+
+
+class LAMMPSLexer(RegexLexer):
+    """LAMMPS input scripts: command, comment, variable, string and number."""
+
+    name = "LAMMPS"
+    aliases = ["LAMMPS"]
+
+    tokens = {
+        "root": [
+            (r"#.*$", Comment),
+            (r"^(\s*)([A-Za-z][\w/]*)", bygroups(Text, Keyword)),
+            (r'"[^"\n]*"|\'[^\'\n]*\'', String),
+            (r"\$\{[^}\n]*\}|\$\w|\$\([^\n]*?\)|\bv_\w+", Name.Variable),
+            (r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?=\s|$)", Number),
+            (r"[^\s#$\"']+", Text),
+            (r"\s+|.", Text),
+        ],
+    }
+
+
+def link_to_manual(app, env, node, contnode):
+    """Resolve a :doc: reference that is no page of this documentation."""
+    if node.get("reftype") != "doc" or node.get("reftarget") not in MANUAL_PAGES:
+        return None
+    title = contnode.astext()
+    return nodes.reference("", title, internal=False,
+                           refuri=f"{MANUAL}{node['reftarget']}.html",
+                           reftitle="LAMMPS manual")
+
+
+def setup(app):
+    app.add_lexer("LAMMPS", LAMMPSLexer)
+    app.connect("missing-reference", link_to_manual)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
