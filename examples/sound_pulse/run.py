@@ -49,19 +49,20 @@ class Run:
         self.kappa, self.kernel, self.support, _, targets = CASES[case]
         self.target_v, self.target_e = targets[n]
         kernel = self.kernel.replace("/", "_")
-        self.prefix = out / f"{kernel}.kappa{self.kappa}.n{n}"
+        self.out, self.name = out, f"{kernel}.kappa{self.kappa}.n{n}"
+        self.prefix = out / self.name
 
     def command(self, lmp, mpiexec, ranks):
         mpi = shlex.split(mpiexec) + ["-n", str(ranks)] if ranks > 1 else []
         variables = {"n": self.n, "kappa": self.kappa, "kernel": self.kernel,
-                     "support": self.support, "out": self.prefix}
+                     "support": self.support, "out": self.name}
         args = [word for name, value in variables.items() for word in ("-var", name, str(value))]
         return mpi + [lmp, "-in", str(HERE / "in.sound_pulse"), "-screen", "none",
-                      "-log", f"{self.prefix}.log", *args]
+                      "-log", f"{self.name}.log", *args]
 
     def start(self, lmp, mpiexec, ranks, env):
         # LAMMPS writes its error messages to the log as well; a launcher has only stderr
-        done = subprocess.run(self.command(lmp, mpiexec, ranks), env=env, text=True,
+        done = subprocess.run(self.command(lmp, mpiexec, ranks), env=env, text=True, cwd=self.out,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode != 0:
             log = Path(f"{self.prefix}.log")
@@ -105,7 +106,7 @@ def find_lmp():
     lmp = shutil.which(name)
     if lmp is None:
         raise SystemExit(f"sound_pulse: no LAMMPS executable {name}; set SPHD_LMP or run ./sphd run sound_pulse")
-    return lmp
+    return os.path.abspath(lmp)     # LAMMPS runs in the folder of the results, whose name may have blanks
 
 
 def environment(ranks, cores):
@@ -190,7 +191,7 @@ def plot(out, cases, solutions):
         figure.savefig(paths[-1], **size)
         plt.close(figure)
 
-    figure, axes = plt.subplots(2, 2, figsize=(8.6, 6.0), sharex=True, height_ratios=[2, 1])
+    figure, axes = plt.subplots(2, 2, figsize=(8.6, 6.0), sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     for column, case in enumerate(wendland):
         upper, lower = axes[:, column]
         upper.plot(x, reference.initial_velocity(x) / (A * c0), ":", color="0.5", label="$t = 0$")
@@ -218,7 +219,7 @@ def plot(out, cases, solutions):
     axes[0, 0].legend(loc="lower right")
     save(figure, "velocity.png")
 
-    figure, axes = plt.subplots(2, 2, figsize=(8.6, 5.6), sharex=True, height_ratios=[2, 1])
+    figure, axes = plt.subplots(2, 2, figsize=(8.6, 5.6), sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     for column, case in enumerate(wendland):
         upper, lower = axes[:, column]
         t = np.linspace(0, reference.TIME, 400)
