@@ -36,12 +36,17 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
+// negative coefficients of the bulk term beyond the bound of a particle: let be, count, cut off
+
+enum class Limit { NO, COUNT, YES };
+
 struct PairSPHBulk::Settings {
   Kernel kernel = Kernel::WENDLAND_C2;
   Eos eos = Eos::LINEAR;
   Shear shear = Shear::MG;
   Bulk bulk = Bulk::DENSITY;
   int dim = 0;    // 0: dimension of the simulation
+  Limit limit = Limit::NO;
 };
 
 struct PairSPHBulk::TypeCoeff {
@@ -93,7 +98,7 @@ class PairSPHBulk::StressTally : public PairTally {
 
 PairSPHBulk::PairSPHBulk(LAMMPS *lmp) :
     Pair(lmp), choice(new Settings), coeffs(nullptr), mu(nullptr), mu_set(nullptr), dim(0),
-    support(0.0), announced(false), warned_step(false), engine(new Engine(lmp))
+    support(0.0), announced(false), warned_step(false), engine(new Engine(lmp)), comm_bound(false)
 {
   restartinfo = 1;
   writedata = 1;
@@ -102,6 +107,9 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp) :
   respa_enable = 0;
   comm_forward = 2;
   comm_reverse = 2;
+  nextra = 1;
+  pvector = new double[nextra];
+  pvector[0] = 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -114,6 +122,7 @@ PairSPHBulk::~PairSPHBulk()
     memory->destroy(mu);
     memory->destroy(mu_set);
   }
+  delete[] pvector;
   delete[] coeffs;
   delete choice;
   delete engine;
@@ -132,7 +141,15 @@ void PairSPHBulk::compute(int eflag, int vflag)
   if (newton_pair) comm->reverse_comm(this);
   comm->forward_comm(this);
 
-  particle_state(eflag);
+  particle_volume();
+  if (choice->limit != Limit::NO) {
+    engine->accumulate_bound(list);
+    comm_bound = true;
+    if (newton_pair) comm->reverse_comm(this);
+    comm->forward_comm(this);
+    comm_bound = false;
+  }
+  particle_state();
 
   StressTally stress(this, nlocal, newton_pair);
   engine->accumulate_forces(list, vflag_either ? &stress : nullptr);
@@ -143,61 +160,103 @@ void PairSPHBulk::compute(int eflag, int vflag)
   const int nforce = newton_pair ? nlocal + atom->nghost : nlocal;
   for (int i = 0; i < nforce; i++) {
     for (int d = 0; d < 3; d++) f[i][d] += total[i].f[d];
-    desph[i] += total[i].heat;
+    desph[i] += total[i].heat + bulk_heat(i);
   }
 
   if (vflag_fdotr) virial_fdotr_compute();
 }
 
 /* ----------------------------------------------------------------------
-   volume, density and pressure of owned and ghost particles from c and cdot
-   energy equation: pressure work p V^2 cdot and the heat of the bulk term,
-   which belong to the particle, not to its pairs
+   volume and density of owned and ghost particles from c and cdot
 ------------------------------------------------------------------------- */
 
-void PairSPHBulk::particle_state(int eflag)
+void PairSPHBulk::particle_volume()
 {
   const double *const rmass = atom->rmass;
-  const double *const esph = atom->esph;
-  const int *const type = atom->type;
   double *const rho = atom->rho;
   double *const drho = atom->drho;
   double *const vfrac = atom->vfrac;
+  const int nall = atom->nlocal + atom->nghost;
+
+  for (int i = 0; i < nall; i++) {
+    const DensitySum &density = engine->density[i];
+    rho[i] = rmass[i] * density.c;
+    drho[i] = rmass[i] * density.cdot;
+    vfrac[i] = engine->particle[i].vol = 1.0 / density.c;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   pressure and bulk term of owned and ghost particles, pressure work and
+   elastic energy of owned ones
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::particle_state()
+{
+  const double *const rmass = atom->rmass;
+  const double *const rho = atom->rho;
+  const double *const esph = atom->esph;
+  const int *const type = atom->type;
   double *const desph = atom->desph;
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
   const Eos eos = choice->eos;
-  const bool by_volume = (choice->bulk == Bulk::VOLUME);
+  const Limit limit = choice->limit;
+  const bool by_density = (choice->bulk == Bulk::DENSITY);
+  bigint nbeyond = 0;
 
   for (int i = 0; i < nall; i++) {
     const TypeCoeff &coeff = coeffs[type[i]];
+    const double vol = engine->particle[i].vol;
     const double cdot = engine->density[i].cdot;
-    const double vol = 1.0 / engine->density[i].c;
-    const double p = pressure(eos, coeff.eos, rmass[i] / vol, esph[i] / rmass[i]);
 
-    rho[i] = rmass[i] * engine->density[i].c;
-    drho[i] = rmass[i] * cdot;
-    vfrac[i] = vol;
-
-    double g = p * vol * vol;
-    double rate = g * cdot;
-    if (by_volume) {
-      engine->zeta_term[i] = coeff.zeta * vol * cdot;
-    } else {
-      const double bulk = coeff.zeta * vol * vol * vol * cdot;
-      g += bulk;
-      rate += bulk * cdot;
+    double zeta = coeff.zeta;
+    if (limit != Limit::NO && zeta * engine->bound[i] < -0.5) {
+      if (i < nlocal) nbeyond++;
+      if (limit == Limit::YES) zeta = -0.5 / engine->bound[i];
     }
-    engine->particle[i].vol = vol;
-    engine->particle[i].g = g;
-    if (i < nlocal) desph[i] += rate;
+
+    const double pressure_term = pressure(eos, coeff.eos, rho[i], esph[i] / rmass[i]) * vol * vol;
+    const double zeta_term = zeta * vol * cdot;
+    engine->zeta_term[i] = zeta_term;
+    engine->particle[i].g = by_density ? pressure_term + zeta_term * vol * vol : pressure_term;
+    if (i < nlocal) desph[i] += pressure_term * cdot;
   }
+  pvector[0] = static_cast<double>(nbeyond);
 
   if (!eflag_either) return;
   for (int i = 0; i < nlocal; i++) {
     const double energy = rmass[i] * elastic_energy(eos, coeffs[type[i]].eos, rho[i]);
     if (eflag_global) eng_vdwl += energy;
     if (eflag_atom) eatom[i] += energy;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   heat of the bulk term: zeta V^3 cdot^2 of the particle (density);
+   zeta V^2 cdot D with D summed by pairs, also on ghost atoms (volume)
+------------------------------------------------------------------------- */
+
+double PairSPHBulk::bulk_heat(int i) const
+{
+  const double vol = engine->particle[i].vol;
+  if (choice->bulk == Bulk::VOLUME) return engine->zeta_term[i] * vol * engine->divergence[i];
+  return (i < atom->nlocal) ? engine->zeta_term[i] * vol * vol * engine->density[i].cdot : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::heating(double *heat, double *power) const
+{
+  const int nlocal = atom->nlocal;
+  const int nforce = force->newton_pair ? nlocal + atom->nghost : nlocal;
+  power[SHEAR_CHANNEL] = power[BULK_CHANNEL] = 0.0;
+  for (int i = 0; i < nforce; i++) {
+    const double shear = engine->force[i].heat;
+    const double bulk = bulk_heat(i);
+    heat[i] = shear + bulk;
+    power[SHEAR_CHANNEL] += shear;
+    power[BULK_CHANNEL] += bulk;
   }
 }
 
@@ -246,7 +305,7 @@ void PairSPHBulk::settings(int narg, char **arg)
   for (int iarg = 0; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
     if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "shear" &&
-        keyword != "bulk")
+        keyword != "bulk" && keyword != "limit")
       error->all(FLERR, "Unknown pair_style sph/bulk keyword: {}", keyword);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_style sph/bulk " + keyword, error);
     const std::string word = arg[iarg + 1];
@@ -272,12 +331,17 @@ void PairSPHBulk::settings(int narg, char **arg)
       choice->bulk = choice_of<Bulk>(
           {{"density", Bulk::DENSITY}, {"volume", Bulk::VOLUME}, {"none", Bulk::NONE}}, "bulk form",
           word, error);
+    } else if (keyword == "limit") {
+      choice->limit = choice_of<Limit>(
+          {{"no", Limit::NO}, {"count", Limit::COUNT}, {"yes", Limit::YES}}, "limit", word, error);
     } else {
       choice->dim = utils::inumeric(FLERR, word, false, lmp);
       if (choice->dim < 1 || choice->dim > 3)
         error->all(FLERR, "Pair_style sph/bulk dim must be 1, 2, or 3, not {}", word);
     }
   }
+  if (choice->limit != Limit::NO && choice->bulk != Bulk::DENSITY)
+    error->all(FLERR, "Pair_style sph/bulk limit requires bulk density");
   comm_forward = (choice->eos == Eos::IDEAL) ? 3 : 2;
 }
 
@@ -360,6 +424,11 @@ int PairSPHBulk::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int
     setflag[i][i] = 1;
     count++;
   }
+
+  // pairs of unlike types in both ranges are ours, too, if another style shares the simulation
+
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = std::max(jlo, i); j <= jhi; j++) setflag[i][j] = 1;
   return count;
 }
 
@@ -453,7 +522,7 @@ void PairSPHBulk::check_setup()
   double lightest = 1.0;
   tagint id = 0;
   for (int i = 0; i < atom->nlocal; i++)
-    if (setflag[atom->type[i]][atom->type[i]] && !(atom->rmass[i] > 0.0)) {
+    if (!(atom->rmass[i] > 0.0)) {
       lightest = 0.0;
       id = atom->tag[i];
     }
@@ -697,18 +766,24 @@ std::string PairSPHBulk::type_line(int i) const
 /* ----------------------------------------------------------------------
    ghost stage 1: number density and its rate, first summed onto the owner,
    then copied to all ghosts; the ideal gas needs the internal energy there, too
+   with a limit on zeta, once more for the bound of each particle
 ------------------------------------------------------------------------- */
+
+double &PairSPHBulk::comm_value(int i, int k)
+{
+  if (comm_bound) return engine->bound[i];
+  return (k == 0) ? engine->density[i].c : (k == 1) ? engine->density[i].cdot : atom->esph[i];
+}
+
+/* ---------------------------------------------------------------------- */
 
 int PairSPHBulk::pack_forward_comm(int n, int *sendlist, double *buf, int /*pbc_flag*/,
                                    int * /*pbc*/)
 {
+  const int nvalues = comm_bound ? 1 : comm_forward;
   int m = 0;
-  for (int k = 0; k < n; k++) {
-    const int i = sendlist[k];
-    buf[m++] = engine->density[i].c;
-    buf[m++] = engine->density[i].cdot;
-    if (comm_forward == 3) buf[m++] = atom->esph[i];
-  }
+  for (int ii = 0; ii < n; ii++)
+    for (int k = 0; k < nvalues; k++) buf[m++] = comm_value(sendlist[ii], k);
   return m;
 }
 
@@ -716,23 +791,20 @@ int PairSPHBulk::pack_forward_comm(int n, int *sendlist, double *buf, int /*pbc_
 
 void PairSPHBulk::unpack_forward_comm(int n, int nfirst, double *buf)
 {
+  const int nvalues = comm_bound ? 1 : comm_forward;
   int m = 0;
-  for (int i = nfirst; i < nfirst + n; i++) {
-    engine->density[i].c = buf[m++];
-    engine->density[i].cdot = buf[m++];
-    if (comm_forward == 3) atom->esph[i] = buf[m++];
-  }
+  for (int i = nfirst; i < nfirst + n; i++)
+    for (int k = 0; k < nvalues; k++) comm_value(i, k) = buf[m++];
 }
 
 /* ---------------------------------------------------------------------- */
 
 int PairSPHBulk::pack_reverse_comm(int n, int nfirst, double *buf)
 {
+  const int nvalues = comm_bound ? 1 : comm_reverse;
   int m = 0;
-  for (int i = nfirst; i < nfirst + n; i++) {
-    buf[m++] = engine->density[i].c;
-    buf[m++] = engine->density[i].cdot;
-  }
+  for (int i = nfirst; i < nfirst + n; i++)
+    for (int k = 0; k < nvalues; k++) buf[m++] = comm_value(i, k);
   return m;
 }
 
@@ -740,12 +812,10 @@ int PairSPHBulk::pack_reverse_comm(int n, int nfirst, double *buf)
 
 void PairSPHBulk::unpack_reverse_comm(int n, int *sendlist, double *buf)
 {
+  const int nvalues = comm_bound ? 1 : comm_reverse;
   int m = 0;
-  for (int k = 0; k < n; k++) {
-    const int i = sendlist[k];
-    engine->density[i].c += buf[m++];
-    engine->density[i].cdot += buf[m++];
-  }
+  for (int ii = 0; ii < n; ii++)
+    for (int k = 0; k < nvalues; k++) comm_value(sendlist[ii], k) += buf[m++];
 }
 
 /* ---------------------------------------------------------------------- */

@@ -52,6 +52,12 @@ class PairSPHBulk : public Pair {
   void unpack_reverse_comm(int, int *, double *) override;
   double memory_usage() override;
 
+  // heat of the dissipative forces of the last step, per owned and ghost atom as this rank summed
+  // it (with newton on, the sums of the ghosts belong to their owners), and its sum on this rank
+  // by channel; energy per time
+  enum Channel { SHEAR_CHANNEL, BULK_CHANNEL, NCHANNEL };
+  void heating(double *heat, double *power) const;
+
  protected:
   struct Settings;     // choices of the pair_style command
   struct TypeCoeff;    // what pair_coeff I I sets and what follows from it
@@ -66,6 +72,7 @@ class PairSPHBulk : public Pair {
   bool announced;                    // the table of coefficients is up to date
   bool warned_step;                  // the warning about the time step was given
   SPHDissipation::Engine *engine;    // the two pair loops
+  bool comm_bound;                   // communicate the bound on zeta, not the density
 
   virtual void allocate();
   int type_coeff(int, char **, int, int, int, int);
@@ -74,8 +81,11 @@ class PairSPHBulk : public Pair {
   void check_line_of_particles();
   void derive_coeffs();
   void announce();
-  void particle_state(int);
+  void particle_volume();
+  void particle_state();
+  double bulk_heat(int) const;
   std::string type_line(int) const;
+  double &comm_value(int, int);
 };
 
 }    // namespace LAMMPS_NS

@@ -68,6 +68,14 @@ namespace SPHDissipation {
     }
   }
 
+  // what the shear term puts before (u.e)^2 in the dissipation of a pair at distance r, in units of
+  // shear_factor mu F V_i V_j
+
+  inline double central_weight(Shear shear, double r)
+  {
+    return (shear == Shear::MG_FR) ? r : (shear == Shear::ESPANOL) ? 2.0 : 1.0;
+  }
+
   // bulk viscosity that the shear term brings with it: lambda = mu for mg and
   // lambda = -mu for Morris, kappa = lambda + 2 mu/n; P1 (66).  The form of Espanol and Revenga
   // is the sum of mg with mu/(n+3) and Morris with mu (n+2)/(n+3).

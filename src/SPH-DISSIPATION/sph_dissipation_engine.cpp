@@ -19,6 +19,7 @@
 #include "memory.h"
 #include "neigh_list.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -50,8 +51,9 @@ static const LoopSet *choose_loops()
 
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
-    loops(choose_loops()), density_loop(nullptr), force_loop(nullptr), data(), bulk(Bulk::NONE),
-    self_weight(0.0), nmax(0), imax(0), stride_max(0), pair_max(0), first(nullptr)
+    divergence(nullptr), bound(nullptr), loops(choose_loops()), density_loop(nullptr),
+    force_loop(nullptr), data(), shear(Shear::NONE), bulk(Bulk::NONE), self_weight(0.0), nmax(0),
+    imax(0), stride_max(0), pair_max(0), first(nullptr)
 {
 }
 
@@ -63,6 +65,8 @@ Engine::~Engine()
   memory->sfree(density);
   memory->sfree(force);
   memory->sfree(zeta_term);
+  memory->sfree(divergence);
+  memory->sfree(bound);
   memory->sfree(first);
   memory->sfree(data.count);
   memory->sfree(data.neighbor);
@@ -73,10 +77,11 @@ Engine::~Engine()
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::setup(Kernel kernel, int n, double support, Shear shear, Bulk bulk_in,
+void Engine::setup(Kernel kernel, int n, double support, Shear shear_in, Bulk bulk_in,
                    const double *const *mu, int ntypes)
 {
   bulk = bulk_in;
+  shear = shear_in;
   density_loop = loops->density(kernel);
 
   data.mu = mu;
@@ -111,10 +116,12 @@ void Engine::grow_atoms()
   particle = (Particle *) memory->smalloc(nmax * sizeof(Particle), "sph:particle");
   density = (DensitySum *) memory->smalloc(nmax * sizeof(DensitySum), "sph:density");
   force = (ForceSum *) memory->smalloc(nmax * sizeof(ForceSum), "sph:force");
-  if (bulk == Bulk::VOLUME) {
-    memory->sfree(zeta_term);
-    zeta_term = (double *) memory->smalloc(nmax * sizeof(double), "sph:zeta_term");
-  }
+  memory->sfree(zeta_term);
+  zeta_term = (double *) memory->smalloc(nmax * sizeof(double), "sph:zeta_term");
+  memory->sfree(divergence);
+  divergence = (double *) memory->smalloc(nmax * sizeof(double), "sph:divergence");
+  memory->sfree(bound);
+  bound = (double *) memory->smalloc(nmax * sizeof(double), "sph:bound");
 }
 
 /* ----------------------------------------------------------------------
@@ -193,13 +200,42 @@ void Engine::accumulate_density(NeighList *list)
 
 /* ---------------------------------------------------------------------- */
 
+void Engine::accumulate_bound(NeighList *list)
+{
+  const int *const type = atom->type;
+  memset(bound, 0, (atom->nlocal + atom->nghost) * sizeof(double));
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    for (int k = 0; k < data.count[ii]; k++) {
+      const int j = data.neighbor[first[ii] + k];
+      double rsq = 0.0;
+      for (int d = 0; d < 3; d++) {
+        const double del = particle[i].x[d] - particle[j].x[d];
+        rsq += del * del;
+      }
+      const double weight =
+          data.shear_factor * data.mu[type[i]][type[j]] * central_weight(shear, sqrt(rsq));
+      if (rsq == 0.0) continue;
+      const double pair = data.slope[first[ii] + k] * rsq / weight;
+      bound[i] += particle[i].vol * particle[i].vol / particle[j].vol * pair;
+      bound[j] += particle[j].vol * particle[j].vol / particle[i].vol * pair;
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
 void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 {
-  memset(force, 0, (atom->nlocal + atom->nghost) * sizeof(ForceSum));
+  const int nall = atom->nlocal + atom->nghost;
+  memset(force, 0, nall * sizeof(ForceSum));
+  if (bulk == Bulk::VOLUME) memset(divergence, 0, nall * sizeof(double));
 
   data.inum = list->inum;
   data.type = atom->type;
   data.zeta_term = zeta_term;
+  data.divergence = divergence;
   data.force = force;
   data.tally = tally;
   force_loop(data);
@@ -209,7 +245,8 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 
 double Engine::memory_usage() const
 {
-  return (double) nmax * (sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum)) +
+  return (double) nmax *
+      (sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double)) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + 2 * sizeof(double)) +
       (double) stride_max * NSCRATCH * sizeof(double);

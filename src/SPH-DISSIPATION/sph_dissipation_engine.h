@@ -54,7 +54,7 @@ namespace SPHDissipation {
     double c, cdot;
   };
 
-  // force and heating: what pass 2 accumulates
+  // force and heat of the shear term: what pass 2 accumulates
 
   struct ForceSum {
     double f[3];
@@ -88,6 +88,7 @@ namespace SPHDissipation {
     const Particle *particle;    // owned and ghost
     const int *type;             // read if mu differs between types
     const double *zeta_term;     // zeta V cdot of each particle (bulk volume)
+    double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
     DensitySum *density;         // owned and ghost, accumulated by pass 1
     ForceSum *force;             // owned and ghost, accumulated by pass 2
 
@@ -144,6 +145,11 @@ namespace SPHDissipation {
     // itself) and the contributions to ghost atoms
     void accumulate_density(NeighList *);
 
+    // between the passes, with particle[].vol set: bound[] = V_i^2 sum_j F r^2 / (V_j a_ij), where
+    // a_ij F V_i V_j is what the shear term puts before (u.e)^2.  The total dissipation is
+    // non-negative for any velocities if zeta_i bound_i >= -1/2 for all particles.
+    void accumulate_bound(NeighList *);
+
     // pass 2: force[] from particle[] with vol and g set by the caller on owned and ghost atoms
     void accumulate_forces(NeighList *, PairTally *);
 
@@ -153,12 +159,15 @@ namespace SPHDissipation {
     Particle *particle;
     DensitySum *density;
     ForceSum *force;
-    double *zeta_term;    // allocated for bulk volume only
+    double *zeta_term;     // zeta V cdot, set by the caller on owned and ghost atoms
+    double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
+    double *bound;         // of accumulate_bound()
 
    private:
     const LoopSet *loops;
     Loop density_loop, force_loop;
     LoopData data;
+    Shear shear;
     Bulk bulk;
     double self_weight;    // W(0)
 

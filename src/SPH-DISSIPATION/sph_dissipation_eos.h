@@ -40,8 +40,10 @@ namespace SPHDissipation {
     return (eos == Eos::IDEAL) ? 1.4 : 7.0;
   }
 
+  // the defaults are those of a type without coefficients: no pressure, no energy
+
   struct EosParams {
-    double rho0 = 0.0;     // reference density, mass/length^n
+    double rho0 = 1.0;     // reference density, mass/length^n
     double c0 = 0.0;       // sound speed at rho0
     double pb = 0.0;       // background pressure
     double gamma = 7.0;    // exponent of tait and ideal

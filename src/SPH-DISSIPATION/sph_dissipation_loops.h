@@ -20,8 +20,8 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   namespace LOOPS {
 
-    // added to r and r^2 before dividing: two particles at the same point have r_ij = 0 and
-    // exert no force on each other
+    // added to r and r^2 before dividing: two particles at the same point, r_ij = 0, exert no force
+    // on each other
 
     constexpr double TINY = 1.0e-300;
 
@@ -120,8 +120,8 @@ namespace SPHDissipation {
     }
 
     // pass 2: pressure, shear and bulk forces and the heating of shear (half to each partner)
-    // VOLUME: the bulk form P1 (64) with its own pair weights and heating; the form P1 (18)
-    // acts through g and heats per particle, outside this loop
+    // VOLUME: the bulk form P1 (64) with its own pair weights, and D_i = -sum_j V_j F r_ij.u_ij, by
+    // which it heats; the form P1 (18) acts through g and heats by cdot
 
     template <Shear SHEAR, bool VOLUME> void force_loop(LoopData &data)
     {
@@ -149,7 +149,7 @@ namespace SPHDissipation {
       double *const metric = column[12];
       double *const zeta_term = column[13];
       double *const heat = column[14];
-      double *const heat_bulk = column[15];
+      double *const flux = column[15];
 
       if (data.one_mu) {
         const double factor_one = data.shear_factor * data.mu[1][1];
@@ -190,7 +190,7 @@ namespace SPHDissipation {
           for (int k = 0; k < n; k++) factor[k] = data.shear_factor * mu[data.type[neighbor[k]]];
           for (int k = n; k < nblock; k++) factor[k] = 0.0;
         }
-        if (ALONG_R)
+        if (ALONG_R || ALONG_U)
           for (int k = 0; k < nblock; k++)
             metric[k] = dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k];
         if (SHEAR == Shear::MG_FR) square_roots(metric, metric, nblock);
@@ -208,13 +208,13 @@ namespace SPHDissipation {
           }
           if (VOLUME) {
             central += (zeta_term_i + zeta_term[k]) * vv_slope;
-            heat_bulk[k] = -vv_slope * approach[k];
+            flux[k] = slope[k] * approach[k];
           }
           double fxk = central * dx[k];
           double fyk = central * dy[k];
           double fzk = central * dz[k];
           if (ALONG_U) {
-            const double drag = factor[k] * vv_slope;
+            const double drag = (metric[k] > 0.0) ? factor[k] * vv_slope : 0.0;
             fxk -= drag * ux[k];
             fyk -= drag * uy[k];
             fzk -= drag * uz[k];
@@ -231,13 +231,17 @@ namespace SPHDissipation {
           fj.f[0] -= fx[k];
           fj.f[1] -= fy[k];
           fj.f[2] -= fz[k];
-          fj.heat += VOLUME ? heat[k] + zeta_term[k] * heat_bulk[k] : heat[k];
+          fj.heat += heat[k];
+          if (VOLUME) data.divergence[neighbor[k]] -= pi.vol * flux[k];
         }
         force[i].f[0] += sum(fx, nblock);
         force[i].f[1] += sum(fy, nblock);
         force[i].f[2] += sum(fz, nblock);
         force[i].heat += sum(heat, nblock);
-        if (VOLUME) force[i].heat += zeta_term_i * sum(heat_bulk, nblock);
+        if (VOLUME) {
+          for (int k = 0; k < nblock; k++) flux[k] *= vol[k];
+          data.divergence[i] -= sum(flux, nblock);
+        }
 
         if (data.tally)
           for (int k = 0; k < n; k++) {
