@@ -11,10 +11,7 @@ if(NOT PKG_SPH-DISSIPATION)
   return()
 endif()
 
-# A build that shares compiled objects between clones hands us the folder under a name that is the same in each.
-if(NOT DEFINED SPH_DISSIPATION_SOURCE_DIR)
-  get_filename_component(SPH_DISSIPATION_SOURCE_DIR "${CMAKE_CURRENT_LIST_DIR}/../src/SPH-DISSIPATION" ABSOLUTE)
-endif()
+get_filename_component(SPH_DISSIPATION_SOURCE_DIR "${CMAKE_CURRENT_LIST_DIR}/../src/SPH-DISSIPATION" ABSOLUTE)
 
 function(sph_dissipation_check_lammps_version)
   file(STRINGS "${CMAKE_CURRENT_SOURCE_DIR}/../src/version.h" line REGEX "LAMMPS_VERSION")
