@@ -22,9 +22,11 @@
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "pair_hybrid.h"
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
+#include "sph_dissipation_fluids.h"
 #include "sph_dissipation_kernel.h"
 #include "update.h"
 
@@ -346,8 +348,20 @@ void PairSPHBulk::settings(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
+   words that pair_coeff I J may start with, though all but mu belong to a type
+------------------------------------------------------------------------- */
+
+static bool is_coeff_keyword(const std::string &word)
+{
+  for (const auto &keyword : {"mu", "rho0", "c0", "kappa", "rc", "pb", "gamma"})
+    if (word == keyword) return true;
+  return false;
+}
+
+/* ----------------------------------------------------------------------
    set coeffs for one or more type pairs
    I J rho0 c0 mu kappa rc [pb p] [gamma g]: the types I = J of both ranges
+   I J FILE NAME rc [pb p] [gamma g]: the same, from a file of fluids
    I J mu VALUE: the unlike pairs of both ranges
 ------------------------------------------------------------------------- */
 
@@ -360,20 +374,20 @@ void PairSPHBulk::coeff(int narg, char **arg)
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
 
-  const bool by_keyword = !utils::is_double(arg[2]);
-  const int count = by_keyword ? unlike_coeff(narg, arg, ilo, ihi, jlo, jhi)
-                               : type_coeff(narg, arg, ilo, ihi, jlo, jhi);
-  if (count == 0) {
-    if (by_keyword)
-      error->all(FLERR,
-                 "Pair_coeff {} {} {}: keywords are for unlike types; use pair_coeff I I "
-                 "rho0 c0 mu kappa rc for a type",
-                 arg[0], arg[1], arg[2]);
+  const std::string word = arg[2];
+  int count;
+  if (utils::is_double(word))
+    count = type_coeff(narg, arg, ilo, ihi, jlo, jhi);
+  else if (narg < 5 || is_coeff_keyword(word))
+    count = unlike_coeff(narg, arg, ilo, ihi, jlo, jhi);
+  else
+    count = fluid_coeff(narg, arg, ilo, ihi, jlo, jhi);
+
+  if (count == 0)
     error->all(FLERR,
-               "Pair_coeff {} {}: rho0 c0 kappa rc pb gamma belong to a type; unlike types "
-               "take only the keyword mu",
-               arg[0], arg[1]);
-  }
+               "Pair_coeff {} {} {}: rho0 c0 mu kappa rc are for a type, I = J; the keyword mu is "
+               "for unlike types",
+               arg[0], arg[1], arg[2]);
   announced = false;
 }
 
@@ -433,6 +447,23 @@ int PairSPHBulk::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int
 }
 
 /* ----------------------------------------------------------------------
+   coefficients of a type from a file of fluids; return # of types
+------------------------------------------------------------------------- */
+
+int PairSPHBulk::fluid_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi)
+{
+  const Fluid fluid = read_fluid(lmp, arg[2], arg[3]);
+  std::vector<std::string> words = {arg[0], arg[1]};
+  for (double value : {fluid.rho, fluid.c, fluid.mu, fluid.kappa})
+    words.push_back(fmt::format("{:.17g}", value));
+  words.insert(words.end(), arg + 4, arg + narg);
+
+  std::vector<char *> pointers;
+  for (auto &word : words) pointers.push_back(&word[0]);
+  return type_coeff(static_cast<int>(pointers.size()), pointers.data(), ilo, ihi, jlo, jhi);
+}
+
+/* ----------------------------------------------------------------------
    viscosity between unlike types; return # of pairs
 ------------------------------------------------------------------------- */
 
@@ -441,10 +472,8 @@ int PairSPHBulk::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, i
   double value = 0.0;
   for (int iarg = 2; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
-    for (const auto &property : {"rho0", "c0", "kappa", "rc", "pb", "gamma"})
-      if (keyword == property)
-        error->all(FLERR, "Pair_coeff keyword {} belongs to a type, not to a pair of types",
-                   keyword);
+    if (keyword != "mu" && is_coeff_keyword(keyword))
+      error->all(FLERR, "Pair_coeff keyword {} belongs to a type, not to a pair of types", keyword);
     if (keyword != "mu")
       error->all(FLERR, "Unknown pair_coeff keyword for pair_style sph/bulk: {}", keyword);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff mu", error);
@@ -493,6 +522,17 @@ void PairSPHBulk::check_setup()
                "Pair style sph/bulk requires units in which mass * velocity^2 is an energy, "
                "not units {}",
                update->unit_style);
+
+  // LAMMPS's own particle fluids read the masses of types, which do not exist here
+
+  if (auto *hybrid = dynamic_cast<PairHybrid *>(force->pair))
+    for (int k = 0; k < hybrid->nstyles; k++)
+      if ((utils::strmatch(hybrid->keywords[k], "^sph/") && hybrid->styles[k] != this) ||
+          utils::strmatch(hybrid->keywords[k], "^sdpd/"))
+        error->all(FLERR,
+                   "Pair style sph/bulk cannot be combined with pair style {}, which needs "
+                   "masses by type",
+                   hybrid->keywords[k]);
 
   dim = choice->dim ? choice->dim : domain->dimension;
   if (dim == 1 && domain->dimension == 3)

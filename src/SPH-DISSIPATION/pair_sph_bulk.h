@@ -76,6 +76,7 @@ class PairSPHBulk : public Pair {
 
   virtual void allocate();
   int type_coeff(int, char **, int, int, int, int);
+  int fluid_coeff(int, char **, int, int, int, int);
   int unlike_coeff(int, char **, int, int, int, int);
   void check_setup();
   void check_line_of_particles();

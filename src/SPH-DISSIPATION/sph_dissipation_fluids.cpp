@@ -1,0 +1,89 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_fluids.h"
+
+#include "comm.h"
+#include "error.h"
+#include "lammps.h"
+#include "sph_dissipation_coeffs.h"
+#include "tokenizer.h"
+#include "utils.h"
+
+#include <vector>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+static constexpr int MAXLINE = 1024;
+static constexpr int NCOLUMN = 6;    // name temperature rho c mu kappa
+
+/* ----------------------------------------------------------------------
+   the fluid of one line
+------------------------------------------------------------------------- */
+
+static Fluid fluid_of_line(LAMMPS *lmp, const std::string &where,
+                           const std::vector<std::string> &words)
+{
+  Error *error = lmp->error;
+  if (words.size() != NCOLUMN)
+    error->one(FLERR, "{}: a fluid has {} columns (name temperature rho c mu kappa), not {}", where,
+               NCOLUMN, words.size());
+
+  double value[NCOLUMN];
+  for (int k = 1; k < NCOLUMN; k++) {
+    if (!utils::is_double(words[k])) error->one(FLERR, "{}: '{}' is not a number", where, words[k]);
+    value[k] = std::stod(words[k]);
+  }
+  const Fluid fluid = {value[1], value[2], value[3], value[4], value[5]};
+
+  if (!(fluid.rho > 0.0)) error->one(FLERR, "{}: rho must be > 0, not {}", where, words[2]);
+  if (!(fluid.c > 0.0)) error->one(FLERR, "{}: c must be > 0, not {}", where, words[3]);
+  if (const char *violated = inadmissible(fluid.mu, fluid.kappa))
+    error->one(FLERR, "{}: {}, not mu = {} kappa = {}", where, violated, words[4], words[5]);
+  return fluid;
+}
+
+/* ---------------------------------------------------------------------- */
+
+Fluid SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const std::string &name)
+{
+  Error *error = lmp->error;
+  Fluid fluid = {};
+
+  if (lmp->comm->me == 0) {
+    FILE *fp = utils::open_potential(file, lmp, nullptr);
+    if (!fp) error->one(FLERR, "Cannot open file of fluids {}: {}", file, utils::getsyserror());
+
+    char line[MAXLINE];
+    int number = 0, found = 0;
+    std::string known;
+    while (fgets(line, MAXLINE, fp)) {
+      number++;
+      const auto words = Tokenizer(utils::trim_comment(line)).as_vector();
+      if (words.empty()) continue;
+      const Fluid one = fluid_of_line(lmp, fmt::format("{}:{}", file, number), words);
+      known += " " + words[0];
+      if (words[0] != name) continue;
+      if (found)
+        error->one(FLERR, "{}:{}: fluid {} stands already in line {}", file, number, name, found);
+      found = number;
+      fluid = one;
+    }
+    fclose(fp);
+    if (!found) error->one(FLERR, "No fluid {} in file {}, which has:{}", name, file, known);
+  }
+
+  MPI_Bcast(&fluid, sizeof(Fluid), MPI_BYTE, 0, lmp->world);
+  return fluid;
+}

@@ -1,0 +1,43 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_FLUIDS_H
+#define LMP_SPH_DISSIPATION_FLUIDS_H
+
+#include <string>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+
+namespace SPHDissipation {
+
+  // one line of a file of fluids, in the units that the file declares
+
+  struct Fluid {
+    double temperature;
+    double rho;      // density
+    double c;        // sound speed
+    double mu;       // shear viscosity
+    double kappa;    // bulk viscosity
+  };
+
+  // Read the fluid called name from a file of fluids, see potentials/fluids.sph.  Called by all
+  // ranks, rank 0 reads.  Errors name the file and the line: a word that is not a number, a value
+  // that no fluid can have, a missing column, a name that stands twice or not at all, other units.
+
+  Fluid read_fluid(LAMMPS *, const std::string &file, const std::string &name);
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
