@@ -22,7 +22,6 @@
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
-#include "pair_hybrid.h"
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
@@ -525,14 +524,13 @@ void PairSPHBulk::check_setup()
 
   // LAMMPS's own particle fluids read the masses of types, which do not exist here
 
-  if (auto *hybrid = dynamic_cast<PairHybrid *>(force->pair))
-    for (int k = 0; k < hybrid->nstyles; k++)
-      if ((utils::strmatch(hybrid->keywords[k], "^sph/") && hybrid->styles[k] != this) ||
-          utils::strmatch(hybrid->keywords[k], "^sdpd/"))
-        error->all(FLERR,
-                   "Pair style sph/bulk cannot be combined with pair style {}, which needs "
-                   "masses by type",
-                   hybrid->keywords[k]);
+  for (const char *other : {"sph/heatconduction", "sph/idealgas", "sph/lj", "sph/rhosum",
+                            "sph/taitwater", "sph/taitwater/morris", "sdpd/taitwater/isothermal"})
+    if (force->pair_match(other, 1))
+      error->all(FLERR,
+                 "Pair style sph/bulk cannot be combined with pair style {}, which needs "
+                 "masses by type",
+                 other);
 
   dim = choice->dim ? choice->dim : domain->dimension;
   if (dim == 1 && domain->dimension == 3)
