@@ -1,0 +1,284 @@
+"""Run LAMMPS on an input text, read what it leaves behind, and make particle sets.
+
+The executables come from the environment: SPHD_LMP (the LAMMPS executable) and SPHD_MPIEXEC
+(the MPI launcher); ctest sets both.
+"""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+LMP = os.environ.get("SPHD_LMP") or shutil.which("lmp") or "lmp"
+MPIEXEC = os.environ.get("SPHD_MPIEXEC") or shutil.which("mpiexec") or "mpiexec"
+
+# Containers run as root and have fewer cores than ranks; Open MPI has to be told that this is meant.
+# After an error it waits a second before it ends ranks that are gone already.
+MPI_ENVIRONMENT = {
+    "OMP_NUM_THREADS": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none",
+    "OMPI_MCA_mpi_yield_when_idle": "1",
+    "OMPI_MCA_odls_base_sigkill_timeout": "0",
+    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+    "PRTE_MCA_hwloc_default_binding_policy": "none",
+}
+
+SUPPORT = {1: 4.0, 2: 3.0, 3: 2.5}  # default support radius in particle spacings
+VECTORS = {"x": ("xu", "yu", "zu"), "v": ("vx", "vy", "vz"), "f": ("fx", "fy", "fz"),
+           "vest": ("vestx", "vesty", "vestz")}
+FIELDS = ("numden", "dnumden", "vol", "rho", "esph", "desph", "vestx", "vesty", "vestz")
+
+
+# ---------------------------------------------------------------------------------------------
+# running
+
+
+@dataclass
+class Result:
+    """What one LAMMPS run left behind."""
+
+    code: int
+    output: str
+    log: str
+
+    @property
+    def error(self):
+        """The error messages alone: without the input line that LAMMPS echoes below them."""
+        messages = re.findall(r"^ERROR[^:]*:.*?(?=^Last |^-->|^MPI_ABORT|^-----|\Z)",
+                              self.output, re.MULTILINE | re.DOTALL)
+        return "\n".join(messages)
+
+    @property
+    def warnings(self):
+        return re.findall(r"^WARNING.*$", self.log, re.MULTILINE)
+
+    def thermo(self):
+        """Thermodynamic output of every run: a list of {column: array}."""
+        tables = re.findall(r"^ *(Step .*?)\n(.*?)^Loop time", self.log, re.MULTILINE | re.DOTALL)
+        result = []
+        for head, body in tables:
+            names = head.split()
+            rows = [line.split() for line in body.splitlines()
+                    if re.match(r"^\s*\d+(\s+[-+.\deEnaif]+)*\s*$", line)]
+            result.append(dict(zip(names, np.array(rows, dtype=float).T)))
+        return result
+
+
+class Lammps:
+    """Runs LAMMPS inside one folder; files of earlier runs stay, so that a run may continue another."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.results = []
+
+    def path(self, name):
+        return self.folder / name
+
+    def __call__(self, text, ranks=1, timeout=120, check=True):
+        name = f"in.{len(self.results)}"
+        log = self.path(f"log.{len(self.results)}")
+        self.path(name).write_text(text)
+        command = [LMP, "-in", name, "-log", log.name, "-nocite"]
+        if ranks > 1:
+            command = [MPIEXEC, "-n", str(ranks), *command]
+        process = subprocess.Popen(command, cwd=self.folder, env={**os.environ, **MPI_ENVIRONMENT},
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, text=True, errors="replace",
+                                   start_new_session=True)
+        try:
+            output, _ = process.communicate(timeout=timeout)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            output, _ = process.communicate()
+            raise AssertionError(f"LAMMPS hangs (no end after {timeout} s):\n{output[-3000:]}") from None
+        result = Result(process.returncode, output, log.read_text() if log.exists() else "")
+        self.results.append(result)
+        if check:
+            assert result.code == 0, f"LAMMPS failed with status {result.code}:\n{output[-3000:]}"
+        return result
+
+    def frames(self, name):
+        return read_dump(self.path(name))
+
+    def frame(self, name):
+        """The last frame of a dump file."""
+        return self.frames(name)[-1]
+
+
+@dataclass
+class Frame:
+    """One snapshot of a dump file, sorted by atom id."""
+
+    step: int
+    columns: dict
+
+    def __getitem__(self, name):
+        if name in VECTORS:
+            return np.column_stack([self.columns[part] for part in VECTORS[name]])
+        return self.columns[name]
+
+
+def read_dump(path):
+    """All frames of a dump file written by the commands of dump()."""
+    frames = []
+    with open(path) as file:
+        for line in file:
+            if line.startswith("ITEM: TIMESTEP"):
+                step = int(next(file))
+            elif line.startswith("ITEM: NUMBER OF ATOMS"):
+                number = int(next(file))
+            elif line.startswith("ITEM: ATOMS"):
+                names = [dump_name(word) for word in line.split()[2:]]
+                rows = np.array([next(file).split() for _ in range(number)], dtype=float)
+                rows = rows.reshape(number, len(names))
+                frames.append(Frame(step, dict(zip(names, rows.T))))
+    return frames
+
+
+def dump_name(word):
+    """c_F[k] is the k-th of FIELDS; anything else keeps its name."""
+    match = re.fullmatch(r"c_F\[(\d+)\]", word)
+    return FIELDS[int(match[1]) - 1] if match else word
+
+
+def dump(name, every=1, extra=""):
+    """Input lines that dump every field to a file; with undump() they may stand around each of several runs."""
+    return (f"compute F all property/atom {' '.join(FIELDS)}\n"
+            f"dump D all custom {every} {name} id type mass x y z xu yu zu vx vy vz fx fy fz c_F[*] {extra}\n"
+            "dump_modify D sort id format float %.17g\n")
+
+
+def undump():
+    return "undump D\nuncompute F\n"
+
+
+# ---------------------------------------------------------------------------------------------
+# particle sets
+
+
+@dataclass
+class Particles:
+    """Particles in a periodic box; tilt = (xy, xz, yz) makes it triclinic."""
+
+    dim: int
+    x: np.ndarray
+    v: np.ndarray
+    mass: np.ndarray
+    esph: np.ndarray
+    type: np.ndarray
+    lo: np.ndarray
+    hi: np.ndarray
+    tilt: tuple = None
+    charge: np.ndarray = None
+
+    def __len__(self):
+        return len(self.x)
+
+    def where(self, mask):
+        """The particles selected by a mask, renumbered."""
+        return replace(self, **{name: getattr(self, name)[mask] for name in ("x", "v", "mass", "esph", "type")})
+
+    def write(self, path, ntypes=None, style="sph/bulk"):
+        ntypes = ntypes or int(self.type.max())
+        lines = ["LAMMPS data file of a test", "", f"{len(self)} atoms", f"{ntypes} atom types", ""]
+        lines += [f"{lo!r} {hi!r} {axis}lo {axis}hi"
+                  for axis, lo, hi in zip("xyz", self.lo.tolist(), self.hi.tolist())]
+        if self.tilt is not None:
+            lines.append(" ".join(repr(float(t)) for t in self.tilt) + " xy xz yz")
+        lines += ["", f"Atoms # {style}", ""]
+        for i, (x, m, e, t) in enumerate(zip(self.x.tolist(), self.mass.tolist(), self.esph.tolist(), self.type), 1):
+            place = " ".join(map(repr, x))
+            lines.append(f"{i} {t} {m!r} {e!r} {place}" if style == "sph/bulk"
+                         else f"{i} {t} {place} {m!r} {e!r} {self.charge[i - 1]!r}")
+        lines += ["", "Velocities", ""]
+        lines += [f"{i} " + " ".join(map(repr, v)) for i, v in enumerate(self.v.tolist(), 1)]
+        path.write_text("\n".join(lines) + "\n")
+
+
+def lattice(dim, cells, spacing=1.0):
+    """A square or cubic lattice of particles at rest in a periodic box of `cells` cells per direction."""
+    counts = [cells] * dim if np.isscalar(cells) else list(cells)
+    grid = np.stack(np.meshgrid(*[np.arange(n) + 0.5 for n in counts], indexing="ij"), axis=-1).reshape(-1, dim)
+    x = np.zeros((len(grid), 3))
+    x[:, :dim] = grid * spacing
+    lo, hi = np.full(3, -0.5), np.full(3, 0.5)
+    lo[:dim], hi[:dim] = 0.0, np.array(counts) * spacing
+    if dim == 1:  # a line in a box that is too wide for images across it to be seen
+        lo[1], hi[1] = -10.0, 10.0
+    number = len(x)
+    return Particles(dim, x, np.zeros((number, 3)), np.ones(number), np.full(number, 5.0),
+                     np.ones(number, dtype=int), lo, hi)
+
+
+def disordered(dim, cells, seed=1, jitter=0.2, speed=0.5, ntypes=1, tilt=None):
+    """A lattice with random displacements, velocities, masses, energies and types."""
+    random = np.random.default_rng(seed)
+    particles = lattice(dim, cells)
+    number = len(particles)
+    shift = np.zeros((number, 3))
+    shift[:, :dim] = random.uniform(-jitter, jitter, (number, dim))
+    particles.x = particles.x + shift
+    particles.v[:, :dim] = random.normal(0.0, speed, (number, dim))
+    particles.mass = random.uniform(0.9, 1.1, number)
+    particles.esph = particles.mass * random.uniform(4.0, 6.0, number)
+    particles.type = random.integers(1, ntypes + 1, number)
+    if tilt is not None:
+        xy, xz, yz = tilt
+        length = particles.hi - particles.lo
+        y, z = ((particles.x - particles.lo) / length)[:, 1:].T
+        particles.x[:, 0] += xy * y + xz * z
+        particles.x[:, 1] += yz * z
+        particles.tilt = tilt
+    return particles
+
+
+def drop(dim, radius, seed=1, rate=0.1, speed=0.3):
+    """An isolated disordered drop that rotates; its box must not be periodic (boundary())."""
+    particles = disordered(dim, 2 * int(radius) + 2, seed=seed, speed=speed)
+    centre = 0.5 * (particles.lo + particles.hi)
+    x = particles.x - centre
+    if dim == 2:
+        x[:, 2] = 0.0
+    particles.x = x
+    axis = np.array([0.0, 0.0, rate]) if dim == 2 else rate * np.array([0.6, -0.5, 0.8])
+    particles.v += np.cross(axis, x)
+    particles = particles.where(np.linalg.norm(x, axis=1) < radius)
+    reach = np.array([4.0 * radius] * dim + [0.5] * (3 - dim))
+    return replace(particles, lo=-reach, hi=reach)
+
+
+# ---------------------------------------------------------------------------------------------
+# input text
+
+
+def header(dim, newton="on", boundary="p p p", style="sph/bulk"):
+    return (f"units lj\ndimension {max(dim, 2)}\nboundary {boundary}\nnewton {newton}\n"
+            f"atom_style {style}\n")
+
+
+def free(dim):
+    """Boundary setting of an isolated set of particles."""
+    return "f f p" if dim < 3 else "f f f"
+
+
+def fluid(dim, options="", coeff=None, mu=0.5, kappa=2.0, c0=10.0, rho0=1.0, support=None, keywords=""):
+    """pair_style and pair_coeff of one fluid; `options` are pair_style keywords, `keywords` those of pair_coeff."""
+    support = support or SUPPORT[dim]
+    coeff = coeff or f"pair_coeff * * {rho0} {c0} {mu} {kappa} {support} {keywords}\n"
+    return f"pair_style sph/bulk dim {dim} {options}\n{coeff}"
+
+
+INTEGRATE = "fix FLUID all sph/bulk\ntimestep 0.005\n"
+
+
+def relative(difference, scale):
+    """Largest absolute entry of `difference` over that of `scale`."""
+    return np.abs(difference).max() / np.abs(scale).max()

@@ -1,0 +1,245 @@
+"""Bad input: LAMMPS's usual error, naming the word or the value, on every rank; no crash, no hang, no NaN."""
+
+import re
+
+import pytest
+
+from helpers import disordered, lattice
+
+GOOD = {
+    "units": "units lj",
+    "dimension": "dimension 2",
+    "boundary": "boundary p p p",
+    "newton": "newton on",
+    "atom_style": "atom_style sph/bulk",
+    "box": "read_data box.data",
+    "pair_style": "pair_style sph/bulk",
+    "pair_coeff": "pair_coeff * * 1.0 10.0 0.5 2.0 3.0",
+    "fix": "fix 1 all sph/bulk",
+    "extra": "",
+    "timestep": "timestep 0.005",
+    "run": "run 2",
+}
+TWO = "pair_coeff 1 1 1.0 10.0 0.5 2.0 3.0\npair_coeff 2 2 1.0 10.0 0.5 2.0 3.0\n"
+LJ = "pair_style lj/cut 2.5"
+LJ_COEFF = "pair_coeff * * 1.0 1.0"
+
+
+def deck(**changes):
+    assert set(changes) <= set(GOOD)
+    return "\n".join({**GOOD, **changes}.values()) + "\n"
+
+
+@pytest.fixture
+def box(lammps):
+    disordered(2, 10, ntypes=2).write(lammps.path("box.data"))
+    disordered(3, 6, ntypes=2).write(lammps.path("box3.data"))
+    return lammps
+
+
+def case(words, **changes):
+    """Changed input, and what its error has to say: one pattern or several."""
+    words = [words] if isinstance(words, str) else words
+    return pytest.param(changes, words, id=" | ".join(value.replace("\n", "; ") for value in changes.values()))
+
+
+def style(words, arguments, **changes):
+    return case(words, pair_style=f"pair_style sph/bulk {arguments}", **changes)
+
+
+def coeff(words, arguments, **changes):
+    return case(words, pair_coeff=f"pair_coeff {arguments}", **changes)
+
+
+def unlike(words, arguments):
+    return case(words, pair_coeff=TWO + f"pair_coeff {arguments}")
+
+
+IN_3D = dict(dimension="dimension 3", box="read_data box3.data")
+
+PAIR_STYLE = [
+    style("Unknown pair_style sph/bulk keyword: krenel", "krenel lucy"),
+    style("Unknown pair_style sph/bulk keyword: 3.0", "3.0"),
+    style("Unknown pair_style sph/bulk keyword: lucy", "kernel cubic lucy"),
+    style("Unknown kernel gauss", "kernel gauss"),
+    style("Unknown kernel wendland", "kernel wendland"),
+    style("Unknown eos stiff", "eos stiff"),
+    style("Unknown shear form monaghan", "shear monaghan"),
+    style("Unknown bulk form pressure", "bulk pressure"),
+    style("kernel", "kernel"),
+    style("dim", "dim"),
+    style("eos", "kernel lucy eos"),
+    style("shear", "shear"),
+    style("bulk", "shear mg bulk"),
+    style("dim 3 does not match the 2-d simulation box", "dim 3"),
+    style("dim 2 does not match the 3-d simulation box", "dim 2", **IN_3D),
+    style("dim 1 requires a 2d box", "dim 1", **IN_3D),
+    style("dim.* 0", "dim 0"),
+    style("dim.* 4", "dim 4"),
+    style("-1", "dim -1"),
+    style("2.5", "dim 2.5"),
+    style("two", "dim two"),
+]
+
+PAIR_COEFF = [
+    *[coeff(r"Incorrect (number of )?arg|[Mm]issing", "* * " + " ".join("1.0 10.0 0.5 2.0".split()[:k])) for k in range(5)],
+    coeff("missing", "*"),
+    coeff(r"\bx1\b", "* * x1 10.0 0.5 2.0 3.0"),
+    coeff(r"\bfast\b", "* * 1.0 fast 0.5 2.0 3.0"),
+    coeff("0,5", "* * 1.0 10.0 0,5 2.0 3.0"),
+    coeff("intrinsick", "* * 1.0 10.0 0.5 intrinsick 3.0"),
+    coeff("three", "* * 1.0 10.0 0.5 2.0 three"),
+    coeff(r"\bnan\b", "* * 1.0 nan 0.5 2.0 3.0"),
+    coeff("1e999", "* * 1.0 1e999 0.5 2.0 3.0"),
+    coeff("rho0 must be > 0", "* * 0.0 10.0 0.5 2.0 3.0"),
+    coeff("rho0 must be > 0", "* * -1.0 10.0 0.5 2.0 3.0"),
+    coeff("c0 must be > 0", "* * 1.0 0.0 0.5 2.0 3.0"),
+    coeff("c0 must be > 0", "* * 1.0 -10.0 0.5 2.0 3.0"),
+    coeff("mu must be >= 0", "* * 1.0 10.0 -0.5 2.0 3.0"),
+    coeff("kappa must be >= 0", "* * 1.0 10.0 0.5 -0.001 3.0"),
+    coeff("rc must be > 0", "* * 1.0 10.0 0.5 2.0 0.0"),
+    coeff("rc must be > 0", "* * 1.0 10.0 0.5 2.0 -3.0"),
+    coeff("viscosity", "* * 1.0 10.0 0.5 2.0 3.0 viscosity 1.0"),
+    coeff(r"\b7\b", "* * 1.0 10.0 0.5 2.0 3.0 7"),
+    coeff("pb", "* * 1.0 10.0 0.5 2.0 3.0 pb"),
+    coeff("gamma", "* * 1.0 10.0 0.5 2.0 3.0 pb 1.0 gamma"),
+    coeff("high", "* * 1.0 10.0 0.5 2.0 3.0 pb high"),
+    coeff("seven", "* * 1.0 10.0 0.5 2.0 3.0 gamma seven"),
+    *[coeff("gamma must be > 0", f"* * 1.0 10.0 0.5 2.0 3.0 gamma {gamma}", pair_style=f"pair_style sph/bulk eos {eos}")
+      for eos in ("tait", "ideal") for gamma in (-1, 0)],
+    coeff(["mu", "shear none"], "* * 1.0 10.0 0.5 2.0 3.0", pair_style="pair_style sph/bulk shear none"),
+    coeff("3.*1-2", "3 3 1.0 10.0 0.5 2.0 3.0"),
+    coeff("range.* 0 ", "0 1 1.0 10.0 0.5 2.0 3.0"),
+    coeff("range.* -1 ", "-1 1 1.0 10.0 0.5 2.0 3.0"),
+    coeff("All pair coeffs are not set", "1 1 1.0 10.0 0.5 2.0 3.0"),
+    case("All pair coeffs are not set", pair_coeff=""),
+    coeff("[Pp]air_?coeff", "* * 1.0 10.0 0.5 2.0 3.0", pair_style=""),
+    case(["rc", r"\b2\.9\b"], pair_coeff="pair_coeff 1 1 1 10 0.5 2 3.0\npair_coeff 2 2 1 10 0.5 2 2.9"),
+    unlike(r"\b1\.0\b|type", "1 2 1.0 10.0 0.5 2.0 3.0"),
+    *[unlike(word, f"1 2 {word} 1.0") for word in ("rho0", "c0", "kappa", "pb", "gamma", "rc", "nu")],
+    unlike("pb", "1 2 mu 0.3 pb 1.0"),
+    unlike("kappa", "2 1 mu 0.3 kappa 1.0"),
+    unlike("mu", "1 2 mu"),
+    unlike("thick", "1 2 mu thick"),
+    unlike("mu must be >= 0", "1 2 mu -0.3"),
+    unlike("[Ii]ncorrect arg|[Mm]issing", "1 2"),
+    unlike(r"\bmu\b", "1 1 mu 0.3"),
+]
+
+FIX = [
+    case("requires fix sph/bulk", fix=""),
+    case("requires fix sph/bulk", fix="fix 1 all nve"),
+    case(r"\bdamp\b", fix="fix 1 all sph/bulk damp 1.0"),
+    case("fluid", fix="fix 1 fluid sph/bulk"),
+]
+
+PARTICLES = [
+    case("requires atom style sph/bulk", atom_style="atom_style sph", box="region B block 0 9 0 9 -.5 .5\n"
+         "create_box 2 B\ncreate_atoms 1 random 50 1 B\nmass * 1.0", fix=""),
+    case("requires atom style sph/bulk", atom_style="atom_style atomic", box="region B block 0 9 0 9 -.5 .5\n"
+         "create_box 2 B\ncreate_atoms 1 random 50 1 B\nmass * 1.0", pair_style=LJ, pair_coeff=LJ_COEFF),
+    case("atom_style", atom_style="atom_style sph/bulk 3"),
+    case("mass must be > 0", box="read_data zero.data"),
+    case("mass must be > 0", box="read_data negative.data"),
+    case(["mass must be > 0", "set"], box="region B block 0 9 0 9 -.5 .5\ncreate_box 2 B\n"
+         "create_atoms 1 random 50 1 B"),
+    case("heavy", box="read_data word.data"),
+    case("Atoms|format|columns", box="read_data short.data"),
+    case(r"mass", extra="set type 1 mass 0.0"),
+    case("box too narrow for dim 1", box="read_data narrow.data", pair_style="pair_style sph/bulk dim 1",
+         pair_coeff="pair_coeff * * 1.0 10.0 0.5 2.0 4.0"),
+    case("units", units="units real"),
+    case("units", units="units metal"),
+    case("comm_modify vel yes", box="read_data tilted.data", extra="fix 2 all deform 1 xy erate 0.1 remap v"),
+    case("comm_modify vel yes", extra="fix 2 all deform 1 x erate 0.1 remap v", newton="newton off"),
+    case(["ghost cutoff", "2.5"], extra="comm_modify cutoff 2.5"),
+    case("pair_write", extra="pair_write 1 1 100 r 0.5 3.0 table.txt FLUID"),
+    case("group/group", extra="compute G all group/group all"),
+    case("respa", extra="run_style respa 2 2 pair 1"),
+    case("respa|rRESPA", extra="run_style respa 2 2 inner 1 2.0 2.5 outer 2"),
+]
+
+def damaged(lammps):
+    """Data files with one wrong line each."""
+    text = lammps.path("box.data").read_text()
+    atom = re.search(r"^7 [12] .*$", text, re.MULTILINE)[0]
+    words = atom.split()
+    for name, changed in {"zero": [*words[:2], "0.0", *words[3:]], "negative": [*words[:2], "-1.0", *words[3:]],
+                          "word": [*words[:2], "heavy", *words[3:]], "short": words[:-2]}.items():
+        lammps.path(f"{name}.data").write_text(text.replace(atom, " ".join(changed)))
+    narrow = lattice(1, 60)
+    narrow.type[::2] = 2
+    narrow.lo[1], narrow.hi[1] = -1.5, 1.5
+    narrow.write(lammps.path("narrow.data"))
+    disordered(2, 10, ntypes=2, tilt=(0.0, 0.0, 0.0)).write(lammps.path("tilted.data"))
+
+
+def assert_refused(result, words):
+    assert result.code != 0, f"accepted:\n{result.output[-3000:]}"
+    assert result.code == 1, f"ended by status {result.code}:\n{result.output[-3000:]}"
+    assert result.error, f"no ERROR message:\n{result.output[-3000:]}"
+    assert not re.search(r"segmentation|signal \d|\bassert", result.output, re.IGNORECASE), result.output[-3000:]
+    for word in words:
+        assert re.search(word, result.error), f"the message lacks '{word}':\n{result.error}"
+
+
+CASES = [*PAIR_STYLE, *PAIR_COEFF, *FIX, *PARTICLES]
+
+
+@pytest.mark.parametrize("changes, words", CASES)
+def test_refused(box, changes, words):
+    damaged(box)
+    assert_refused(box(deck(**changes), check=False, timeout=60), words)
+
+
+@pytest.mark.parametrize("changes, words", PAIR_STYLE[::6] + PAIR_COEFF[::6] + FIX + PARTICLES)
+def test_refused_on_two_ranks(box, changes, words):
+    damaged(box)
+    assert_refused(box(deck(**changes), ranks=2, check=False, timeout=60), words)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_the_input_all_cases_start_from_is_good(box, ranks):
+    result = box(deck(), ranks=ranks)
+    assert not result.warnings, result.warnings
+    assert not re.search(r"\bnan\b", result.log)
+
+
+@pytest.mark.parametrize("arguments", [
+    "* * 1.0 10.0 0.5 intrinsic 3.0", "* * 1.0 10.0 0.5 0.0 3.0", "* * 1.0 10.0 0.0 0.0 3.0",
+    "* * 1.0 10.0 0.5 2.0 3.0 pb -1.0 gamma 1.4", "1*2 1*2 1.0 10.0 0.5 2.0 3.0"])
+def test_limits_of_the_admissible_range_are_accepted(box, arguments):
+    result = box(deck(pair_coeff=f"pair_coeff {arguments}"))
+    assert not result.warnings, result.warnings
+
+
+@pytest.mark.parametrize("options", ["shear none", "bulk none"])
+def test_no_viscosity_is_accepted(box, options):
+    box(deck(pair_style=f"pair_style sph/bulk {options}", pair_coeff="pair_coeff * * 1.0 10.0 0.0 intrinsic 3.0"))
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_kappa_without_bulk_term_is_a_warning(box, ranks):
+    result = box(deck(pair_style="pair_style sph/bulk bulk none"), ranks=ranks)
+    assert len(result.warnings) == 2, result.warnings
+    for line, number in zip(result.warnings, (1, 2)):
+        assert re.search(f"kappa 2 of type {number} is ignored with bulk none", line)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_time_step_above_the_limit_is_a_warning_given_once(box, ranks):
+    """In one run as in several."""
+    for run in ("run 0", "run 0\nrun 0\nrun 0"):
+        result = box(deck(timestep="timestep 0.2", run=run), ranks=ranks)
+        warnings = [line for line in result.warnings if "time step" in line]
+        assert len(warnings) == 1, result.warnings
+        assert re.search(r"time step 0\.2 exceeds", warnings[0])
+
+
+@pytest.mark.parametrize("name, change", {
+    "acoustic": dict(pair_coeff="pair_coeff * * 1.0 1000.0 0.0 0.0 3.0"),
+    "shear": dict(pair_coeff="pair_coeff * * 1.0 10.0 50.0 intrinsic 3.0"),
+    "bulk": dict(pair_coeff="pair_coeff * * 1.0 10.0 0.0 400.0 3.0"),
+}.items(), ids=lambda value: value if isinstance(value, str) else "")
+def test_every_mechanism_limits_the_time_step(box, name, change):
+    assert any("time step" in line for line in box(deck(run="run 0", **change)).warnings)

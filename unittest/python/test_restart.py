@@ -1,0 +1,110 @@
+"""Continuing from restart and data files."""
+
+import numpy as np
+import pytest
+
+from helpers import INTEGRATE, disordered, dump, fluid, header, relative, undump
+
+# every keyword away from its default at least once
+SETTINGS = {
+    "c4": (2, "kernel wendland/c4 eos tait shear mg/fr bulk volume",
+           ["1 1 1.0 10.0 0.5 2.0 3.0 gamma 5 pb 1.25", "2 2 1.1 12.0 0.2 0.8 3.0", "1 2 mu 0.3"]),
+    "quintic": (2, "kernel quintic eos ideal shear morris bulk none",
+                ["1 1 1.0 10.0 0.5 intrinsic 3.0 gamma 1.6", "2 2 1.1 12.0 0.2 intrinsic 3.0", "1 2 mu 0.7"]),
+    "lucy": (3, "kernel lucy eos linear shear mg bulk density",
+             ["1 1 1.0 10.0 0.5 2.0 2.5 pb 3.5", "2 2 1.1 12.0 0.2 intrinsic 2.5"]),
+    "line": (1, "kernel cubic eos linear shear none bulk density",
+             ["1 1 1.0 10.0 0.0 2.0 4.0 pb 3.5", "2 2 1.1 12.0 0.0 1.0 4.0"]),
+    "c6": (2, "kernel wendland/c6 eos tait shear mg bulk density", ["* * 1.0 10.0 0.5 0.1 3.0"]),
+}
+CELLS = {1: 80, 2: 16, 3: 7}
+
+
+def model(name):
+    dim, options, lines = SETTINGS[name]
+    return fluid(dim, options, coeff="".join(f"pair_coeff {line}\n" for line in lines))
+
+
+def start(lammps, name):
+    dim = SETTINGS[name][0]
+    disordered(dim, CELLS[dim], ntypes=2).write(lammps.path("box.data"))
+    return header(dim) + "read_data box.data\n" + model(name) + INTEGRATE
+
+
+@pytest.mark.parametrize("name", SETTINGS)
+@pytest.mark.parametrize("before, after", [(1, 1), (2, 4)])
+def test_continue_from_a_restart_file(lammps, name, before, after):
+    """No pair_style and no pair_coeff after read_restart: the file has them."""
+    if (before, after) == (2, 4) and name not in ("c4", "lucy", "line"):
+        pytest.skip("ranks are covered by the other settings")
+    lammps(start(lammps, name) + "run 200\nwrite_restart state.restart\n" + dump("whole.dump", 200) + "run 200\n",
+           ranks=before)
+    lammps("read_restart state.restart\n" + INTEGRATE + dump("parts.dump", 200) + "run 200\n", ranks=after)
+    whole, parts = lammps.frames("whole.dump"), lammps.frames("parts.dump")
+    assert [frame.step for frame in whole] == [frame.step for frame in parts] == [200, 400]
+    for key in ("mass", "type"):
+        assert (whole[0][key] == parts[0][key]).all()
+    for key in ("x", "v", "esph"):
+        assert np.abs(whole[0][key] - parts[0][key]).max() < 1e-13, f"{key} changed on the way through the file"
+    difference = np.abs(whole[1]["x"] - parts[1]["x"]).max()
+    print(f"largest difference {difference:.2e}")
+    assert difference < 1e-11
+
+
+def test_a_restart_file_of_a_restarted_run(lammps):
+    """What was read from a file is written to the next one unchanged, and may be overridden after reading."""
+    lammps(start(lammps, "c4") + "run 10\nwrite_restart one.restart\n" + dump("one.dump") + "run 0\n")
+    lammps("read_restart one.restart\n" + INTEGRATE + "write_restart two.restart\n")
+    lammps("read_restart two.restart\n" + INTEGRATE + dump("two.dump") + "run 0\n")
+    lammps("read_restart two.restart\n" + model("c6") + INTEGRATE + dump("other.dump") + "run 0\n")
+    one, two, other = (lammps.frame(f"{name}.dump") for name in ("one", "two", "other"))
+    assert relative(two["f"] - one["f"], one["f"]) < 1e-13
+    assert relative(other["f"] - one["f"], one["f"]) > 1e-3
+
+
+def test_run_continues_after_write_restart_as_without(lammps):
+    text = start(lammps, "c4") + "run 100\n{}" + dump("{}") + "run 50\n"
+    lammps(text.format("", "without.dump"))
+    lammps(text.format("write_restart state.restart\n", "with.dump"))
+    assert np.abs(lammps.frame("with.dump")["x"] - lammps.frame("without.dump")["x"]).max() < 1e-11
+
+
+@pytest.mark.parametrize("name", SETTINGS)
+def test_data_file_round_trip(lammps, name):
+    """Particles, velocities and the coefficients of all type pairs survive write_data and read_data."""
+    dim = SETTINGS[name][0]
+    style = model(name).splitlines()[0] + "\n"
+    lammps(start(lammps, name) + "run 20\nwrite_data out.data pair ij\n" + dump("before.dump") + "run 0\n")
+    lammps(header(dim) + style + "read_data out.data\n" + INTEGRATE + dump("after.dump") + "run 0\n")
+    before, after = lammps.frame("before.dump"), lammps.frame("after.dump")
+    for key in ("mass", "type", "esph", "v"):  # LAMMPS writes them with 16 digits
+        np.testing.assert_allclose(after[key], before[key], rtol=5e-16)
+    for key in ("f", "numden", "desph"):
+        assert relative(after[key] - before[key], before[key]) < 1e-13, key
+
+
+def test_data_file_with_coefficients_of_like_types_only(lammps):
+    """write_data ... pair ii leaves unlike pairs to the mixing rule."""
+    name = "lucy"
+    style = model(name).splitlines()[0] + "\n"
+    lammps(start(lammps, name) + "write_data out.data pair ii\n" + dump("before.dump") + "run 0\n")
+    lammps(header(3) + style + "read_data out.data\n" + INTEGRATE + dump("after.dump") + "run 0\n")
+    before, after = lammps.frame("before.dump"), lammps.frame("after.dump")
+    assert relative(after["f"] - before["f"], before["f"]) < 1e-13
+
+
+def test_unlike_viscosity_is_the_harmonic_mean(lammps):
+    """The default for an unlike pair equals setting 2 mu1 mu2 / (mu1 + mu2), whatever the order of the lines."""
+    disordered(2, 12, ntypes=2).write(lammps.path("box.data"))
+    like = ["pair_coeff 1 1 1.0 10.0 0.5 2.0 3.0\n", "pair_coeff 2 2 1.1 12.0 0.2 2.0 3.0\n"]
+    mean = f"mu {2 * 0.5 * 0.2 / 0.7!r}\n"
+    texts = {"default": [*like], "last": [*like, "pair_coeff 1 2 " + mean], "first": ["pair_coeff 1 2 " + mean, *like],
+             "swapped": [*like, "pair_coeff 2 1 " + mean], "other": [*like, "pair_coeff 1 2 mu 0.4\n"]}
+    text = header(2) + "read_data box.data\n" + INTEGRATE
+    for name, lines in texts.items():
+        text += (fluid(2, coeff="".join(lines)) + dump(f"{name}.dump") + "run 0\n" + undump() + "pair_style none\n")
+    lammps(text)
+    forces = {name: lammps.frame(f"{name}.dump")["f"] for name in texts}
+    for name in ("last", "first", "swapped"):
+        assert relative(forces[name] - forces["default"], forces["default"]) < 1e-13, name
+    assert relative(forces["other"] - forces["default"], forces["default"]) > 1e-4
