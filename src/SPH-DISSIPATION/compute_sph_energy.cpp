@@ -1,0 +1,74 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "compute_sph_energy.h"
+
+#include "atom.h"
+#include "error.h"
+#include "force.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+
+enum { KINETIC, INTERNAL, NENERGY };
+
+/* ---------------------------------------------------------------------- */
+
+ComputeSPHEnergy::ComputeSPHEnergy(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
+{
+  if (narg > 3) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
+  if (!atom->esph_flag || !atom->rmass_flag)
+    error->all(FLERR, "Compute {} requires atom style sph/bulk", style);
+
+  scalar_flag = vector_flag = 1;
+  size_vector = NENERGY;
+  extscalar = extvector = 1;
+  vector = new double[size_vector];
+}
+
+/* ---------------------------------------------------------------------- */
+
+ComputeSPHEnergy::~ComputeSPHEnergy()
+{
+  delete[] vector;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeSPHEnergy::compute_scalar()
+{
+  if (invoked_vector != update->ntimestep) compute_vector();
+  invoked_scalar = update->ntimestep;
+  scalar = vector[KINETIC] + vector[INTERNAL];
+  return scalar;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeSPHEnergy::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+
+  double **v = atom->v;
+  const double *const rmass = atom->rmass;
+  const double *const esph = atom->esph;
+  const int *const mask = atom->mask;
+  double energy[NENERGY] = {};
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    energy[KINETIC] += rmass[i] * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
+    energy[INTERNAL] += esph[i];
+  }
+  energy[KINETIC] *= 0.5 * force->mvv2e;
+  MPI_Allreduce(energy, vector, NENERGY, MPI_DOUBLE, MPI_SUM, world);
+}
