@@ -1,0 +1,447 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License,
+   version 2. See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#include "dense_reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+using namespace DenseReference;
+
+static constexpr Real PI = 3.14159265358979323846264338327950288L;
+
+/* ---------------------------------------------------------------------- */
+
+Real Polynomial::operator()(Real x) const
+{
+  Real value = 0.0;
+  for (auto it = coeff.rbegin(); it != coeff.rend(); ++it) value = value * x + *it;
+  return value;
+}
+
+Polynomial Polynomial::operator*(const Polynomial &other) const
+{
+  if (coeff.empty() || other.coeff.empty()) return Polynomial();
+  std::vector<Real> result(coeff.size() + other.coeff.size() - 1, 0.0);
+  for (std::size_t i = 0; i < coeff.size(); i++)
+    for (std::size_t j = 0; j < other.coeff.size(); j++) result[i + j] += coeff[i] * other.coeff[j];
+  return Polynomial(result);
+}
+
+Polynomial Polynomial::operator+(const Polynomial &other) const
+{
+  std::vector<Real> result(std::max(coeff.size(), other.coeff.size()), 0.0);
+  for (std::size_t i = 0; i < coeff.size(); i++) result[i] += coeff[i];
+  for (std::size_t i = 0; i < other.coeff.size(); i++) result[i] += other.coeff[i];
+  return Polynomial(result);
+}
+
+Polynomial Polynomial::scaled(Real factor) const
+{
+  return *this * Polynomial({factor});
+}
+
+Polynomial Polynomial::derivative() const
+{
+  std::vector<Real> result;
+  for (std::size_t i = 1; i < coeff.size(); i++) result.push_back(i * coeff[i]);
+  return Polynomial(result);
+}
+
+Polynomial Polynomial::antiderivative() const
+{
+  std::vector<Real> result(1, 0.0);
+  for (std::size_t i = 0; i < coeff.size(); i++) result.push_back(coeff[i] / (i + 1));
+  return Polynomial(result);
+}
+
+Polynomial Polynomial::linear_power(Real a, Real b, int power)
+{
+  Polynomial result({1.0L});
+  for (int i = 0; i < power; i++) result = result * Polynomial({a, b});
+  return result;
+}
+
+/* ---------------------------------------------------------------------- */
+
+Real DenseReference::integrate(const Polynomial &f, Real a, Real b)
+{
+  constexpr int points = 20;
+  Real sum = 0.0;
+  for (int k = 0; k < points; k++) {
+    // Newton iteration for the k-th root of the Legendre polynomial
+    Real x = std::cos(PI * (k + 0.75L) / (points + 0.5L)), slope = 1.0;
+    for (int iter = 0; iter < 30; iter++) {
+      Real p0 = 1.0, p1 = x;
+      for (int m = 2; m <= points; m++) {
+        const Real p2 = ((2 * m - 1) * x * p1 - (m - 1) * p0) / m;
+        p0 = p1;
+        p1 = p2;
+      }
+      slope = points * (x * p1 - p0) / (x * x - 1.0L);
+      x -= p1 / slope;
+    }
+    const Real weight = 2.0L / ((1.0L - x * x) * slope * slope);
+    sum += weight * f(0.5L * (a + b) + 0.5L * (b - a) * x);
+  }
+  return 0.5L * (b - a) * sum;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const std::vector<std::string> &DenseReference::kernel_names()
+{
+  static const std::vector<std::string> names = {"wendland/c2", "wendland/c4", "wendland/c6",
+                                                 "cubic",       "quintic",     "lucy"};
+  return names;
+}
+
+// Wendland functions are (1-q)^l with the operator f -> integral from q to 1 of t f(t) dt applied
+// k times; Lucy's kernel is the one of l = 2, k = 1
+
+static Polynomial wendland(int l, int k)
+{
+  Polynomial f = Polynomial::linear_power(1.0, -1.0, l);
+  for (int i = 0; i < k; i++) {
+    const Polynomial primitive = (f * Polynomial({0.0L, 1.0L})).antiderivative();
+    f = Polynomial({primitive(1.0L)}) + primitive.scaled(-1.0L);
+  }
+  return f;
+}
+
+// central B-spline of an even order k with knots at the integers, one polynomial of s = q k/2 per
+// interval: the sum over j of (-1)^j binomial(k,j) (k/2-j-s)^(k-1) over terms with k/2-j-s > 0
+
+static Polynomial spline_piece(int order, int interval)
+{
+  const int half = order / 2;
+  Polynomial f;
+  Real binomial = 1.0;
+  for (int j = 0; j < half - interval; j++) {
+    f = f +
+        Polynomial::linear_power(half - j, -half, order - 1).scaled(j % 2 ? -binomial : binomial);
+    binomial *= static_cast<Real>(order - j) / (j + 1);
+  }
+  return f;
+}
+
+Kernel::Kernel(const std::string &name, int _n, Real _support) : n(_n), support(_support), norm(1.0)
+{
+  auto add = [this](Real end, const Polynomial &shape) {
+    pieces.push_back({end, shape, shape.derivative()});
+  };
+  auto add_spline = [&add](int order) {
+    const int half = order / 2;
+    for (int m = 0; m < half; m++) add((m + 1.0L) / half, spline_piece(order, m));
+  };
+
+  if (name == "lucy")
+    add(1.0, wendland(2, 1));
+  else if (name == "wendland/c2")
+    add(1.0, wendland(3, 1));
+  else if (name == "wendland/c4")
+    add(1.0, wendland(4, 2));
+  else if (name == "wendland/c6")
+    add(1.0, wendland(5, 3));
+  else if (name == "cubic")
+    add_spline(4);
+  else if (name == "quintic")
+    add_spline(6);
+  else
+    throw std::invalid_argument("kernel " + name);
+
+  norm = 1.0L / moment(0);
+}
+
+// integral of r^power W over space
+
+Real Kernel::moment(int power) const
+{
+  const Real sphere[3] = {2.0L, 2.0L * PI, 4.0L * PI};
+  std::vector<Real> radial(n + power, 0.0L);
+  radial.back() = 1.0L;
+  Real sum = 0.0, begin = 0.0;
+  for (const auto &p : pieces) {
+    sum += integrate(p.shape * Polynomial(radial), begin, p.end);
+    begin = p.end;
+  }
+  return norm * sphere[n - 1] * sum * std::pow(support, static_cast<Real>(n + power));
+}
+
+Real Kernel::mean_distance() const
+{
+  return moment(1);
+}
+
+const Kernel::Piece &Kernel::piece(Real q) const
+{
+  for (const auto &p : pieces)
+    if (q < p.end) return p;
+  return pieces.back();
+}
+
+Real Kernel::W(Real r) const
+{
+  const Real q = r / support;
+  return q < 1.0L ? norm * piece(q).shape(q) : 0.0L;
+}
+
+Real Kernel::F(Real r) const
+{
+  const Real q = r / support;
+  return q < 1.0L ? -norm * piece(q).slope(q) / (support * r) : 0.0L;
+}
+
+/* ---------------------------------------------------------------------- */
+
+System::System(const Model &_model, const Box &box, const Particles &particles) :
+    model(_model), atoms(particles), kernel(model.kernel, model.n, model.support),
+    mean_distance(kernel.mean_distance()), N(particles.size()), n(model.n)
+{
+  // fractional coordinates of two particles differ by less than 1, those of points within the
+  // support by no more than the support over the height of the cell, 1/|row of the inverse|
+
+  const Matrix inverse = box.lattice.inverse();
+  std::array<int, 3> range = {0, 0, 0};
+  for (int k = 0; k < n; k++)
+    if (box.periodic[k]) range[k] = static_cast<int>(1.0L + model.support * inverse.row(k).norm());
+
+  c = Vector::Zero(N);
+  cdot = Vector::Zero(N);
+  for (int i = 0; i < N; i++) {
+    for (int j = 0; j < N; j++) {
+      for (int a = -range[0]; a <= range[0]; a++) {
+        for (int b = -range[1]; b <= range[1]; b++) {
+          for (int d = -range[2]; d <= range[2]; d++) {
+            const Real shift[3] = {static_cast<Real>(a), static_cast<Real>(b),
+                                   static_cast<Real>(d)};
+            SmallVector r = atoms.x.col(i) - atoms.x.col(j);
+            for (int k = 0; k < n; k++) r -= shift[k] * box.lattice.col(k);
+            const Real dist = r.norm();
+            if (dist >= model.support) continue;
+            c(i) += kernel.W(dist);
+            if (dist == 0.0L) continue;    // the particle itself, or another one at the same point
+            pairs.push_back({i, j, r, dist, kernel.F(dist)});
+          }
+        }
+      }
+    }
+  }
+  V = c.cwiseInverse();
+  cdot = density_rate_rows() * velocity();
+}
+
+Vector System::velocity() const
+{
+  return Eigen::Map<const Vector>(atoms.v.data(), N * n);
+}
+
+// row k: derivative of cdot_k with respect to all velocities
+
+Sparse System::density_rate_rows() const
+{
+  std::vector<Eigen::Triplet<Real>> entries;
+  for (const auto &p : pairs) {
+    for (int a = 0; a < n; a++) {
+      entries.emplace_back(p.i, n * p.i + a, -p.F * p.r(a));
+      entries.emplace_back(p.i, n * p.j + a, p.F * p.r(a));
+    }
+  }
+  Sparse rows(N, N * n);
+  rows.setFromTriplets(entries.begin(), entries.end());
+  return rows;
+}
+
+Vector System::density() const
+{
+  Vector rho(N);
+  for (int i = 0; i < N; i++) rho(i) = atoms.mass[i] * c(i);
+  return rho;
+}
+
+static Real exponent(const Fluid &fluid, const std::string &eos)
+{
+  if (fluid.gamma > 0.0L) return fluid.gamma;
+  return eos == "tait" ? 7.0L : 1.4L;
+}
+
+Vector System::pressure(const std::string &eos) const
+{
+  const Vector rho = density();
+  Vector p(N);
+  for (int i = 0; i < N; i++) {
+    const Fluid &fluid = model.fluids[atoms.type[i] - 1];
+    const Real gamma = exponent(fluid, eos);
+    if (eos == "linear")
+      p(i) = fluid.c0 * fluid.c0 * (rho(i) - fluid.rho0);
+    else if (eos == "tait")
+      p(i) =
+          fluid.rho0 * fluid.c0 * fluid.c0 / gamma * (std::pow(rho(i) / fluid.rho0, gamma) - 1.0L);
+    else if (eos == "ideal")
+      p(i) = (gamma - 1.0L) * rho(i) * atoms.energy[i] / atoms.mass[i];
+    else
+      throw std::invalid_argument("eos " + eos);
+    p(i) += fluid.pb;
+  }
+  return p;
+}
+
+// mass times the integral of p/rho^2 from rho0 to rho; the ideal gas keeps its energy elsewhere
+
+Vector System::elastic_energy(const std::string &eos) const
+{
+  const Vector rho = density();
+  Vector energy = Vector::Zero(N);
+  if (eos == "ideal") return energy;
+  for (int i = 0; i < N; i++) {
+    const Fluid &fluid = model.fluids[atoms.type[i] - 1];
+    const Real cc = fluid.c0 * fluid.c0, inverse = 1.0L / fluid.rho0 - 1.0L / rho(i);
+    Real e = fluid.pb * inverse;
+    if (eos == "linear") {
+      e += cc * (std::log(rho(i) / fluid.rho0) - fluid.rho0 * inverse);
+    } else {
+      const Real gamma = exponent(fluid, eos), B = fluid.rho0 * cc / gamma;
+      e += B / std::pow(fluid.rho0, gamma) / (gamma - 1.0L) *
+          (std::pow(rho(i), gamma - 1.0L) - std::pow(fluid.rho0, gamma - 1.0L));
+      e -= B * inverse;
+    }
+    energy(i) = atoms.mass[i] * e;
+  }
+  return energy;
+}
+
+Vector System::conservative_force(const std::string &eos) const
+{
+  // -dE/dr, E = sum m e(rho): the rows of cdot are also the gradients of the c_k
+  const Vector weight = -pressure(eos).cwiseProduct(V).cwiseProduct(V);
+  return density_rate_rows().transpose() * weight;
+}
+
+Vector System::compression_power(const std::string &eos) const
+{
+  return pressure(eos).cwiseProduct(V).cwiseProduct(V).cwiseProduct(cdot);
+}
+
+/* ---------------------------------------------------------------------- */
+
+Real System::mu(int itype, int jtype) const
+{
+  const auto found = model.mu_unlike.find(std::minmax(itype, jtype));
+  if (found != model.mu_unlike.end()) return found->second;
+  const Real mui = model.fluids[itype - 1].mu, muj = model.fluids[jtype - 1].mu;
+  return mui == 0.0L || muj == 0.0L ? 0.0L : 2.0L / (1.0L / mui + 1.0L / muj);
+}
+
+Real System::zeta(int type, const std::string &shear_form) const
+{
+  const Fluid &fluid = model.fluids[type - 1];
+  if (fluid.intrinsic) return 0.0L;
+  // second viscosity of the shear term alone: mu (lap u + 2 grad div u) for mg, mu lap u for morris
+  Real lambda = 0.0L;
+  if (shear_form == "mg" || shear_form == "mg/fr") lambda = fluid.mu;
+  if (shear_form == "morris") lambda = -fluid.mu;
+  if (shear_form == "espanol") lambda = -fluid.mu * (n + 1) / (n + 3);
+  const Real shear_kappa = shear_form == "none" ? 0.0L : lambda + 2.0L * fluid.mu / n;
+  return fluid.kappa - shear_kappa;
+}
+
+// force on i is minus this block times the velocity difference
+
+SmallMatrix System::shear_block(const Pair &p, const std::string &form) const
+{
+  if (form == "none") return SmallMatrix::Zero(n, n);
+  const Real viscosity = mu(atoms.type[p.i], atoms.type[p.j]);
+  const Real weight = viscosity * V(p.i) * V(p.j) * p.F;
+  const SmallMatrix dyad = p.r * p.r.transpose() / p.r.squaredNorm();
+  if (form == "mg") return 2.0L * (n + 2) * weight * dyad;
+  if (form == "mg/fr")    // P1 eqs. (15), (49)
+    return 2.0L * n * (n + 2) / ((n + 1) * mean_distance) * weight * p.dist * dyad;
+  if (form == "morris") return 2.0L * weight * SmallMatrix::Identity(n, n);
+  if (form == "espanol")
+    return 2.0L * (n + 2) / (n + 3) * weight * (SmallMatrix::Identity(n, n) + dyad);
+  throw std::invalid_argument("shear " + form);
+}
+
+Viscous System::shear(const std::string &form) const
+{
+  Viscous result;
+  result.R = Matrix::Zero(N * n, N * n);
+  result.heating = Vector::Zero(N);
+  for (const auto &p : pairs) {
+    const SmallMatrix block = shear_block(p, form);
+    result.R.block(n * p.i, n * p.i, n, n) += block;
+    result.R.block(n * p.i, n * p.j, n, n) -= block;
+    const SmallVector u = atoms.v.col(p.i) - atoms.v.col(p.j);
+    result.heating(p.i) += 0.5L * u.dot(block * u);
+  }
+  result.force = -(result.R * velocity());
+  return result;
+}
+
+// what particle k puts into the bulk forces of its pairs, divided by its cdot
+
+Real System::bulk_amplitude(int k, const std::string &form, const std::string &shear_form) const
+{
+  const Real z = zeta(atoms.type[k], shear_form);
+  if (form == "none") return 0.0L;
+  if (form == "density") return z * V(k) * V(k) * V(k);
+  if (form == "volume") return z * V(k);
+  throw std::invalid_argument("bulk " + form);
+}
+
+Viscous System::bulk(const std::string &form, const std::string &shear_form) const
+{
+  Vector amplitude(N);
+  for (int k = 0; k < N; k++) amplitude(k) = bulk_amplitude(k, form, shear_form);
+
+  // the dissipation of particle k is amplitude_k times its cdot (right) times another rate (left):
+  // cdot again for P1 eq. (18), the rate with each pair weighted by V_i V_j for P1 eq. (64)
+
+  const Sparse right = density_rate_rows();
+  Sparse left = right;
+  if (form == "volume") {
+    std::vector<Eigen::Triplet<Real>> entries;
+    for (const auto &p : pairs) {
+      for (int a = 0; a < n; a++) {
+        const Real entry = p.F * p.r(a) * V(p.i) * V(p.j);
+        entries.emplace_back(p.i, n * p.i + a, -entry);
+        entries.emplace_back(p.i, n * p.j + a, entry);
+      }
+    }
+    left.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  Viscous result;
+  const Sparse weighted = amplitude.asDiagonal() * right;
+  const Sparse product = Sparse(left.transpose()) * weighted;
+  result.R = Matrix(product);
+  result.force = -(result.R * velocity());
+  result.heating = amplitude.cwiseProduct(right * velocity()).cwiseProduct(left * velocity());
+  return result;
+}
+
+Matrix System::virial(const std::string &eos, const std::string &shear_form,
+                      const std::string &bulk_form) const
+{
+  static const int first[6] = {0, 1, 2, 0, 0, 1}, second[6] = {0, 1, 2, 1, 2, 2};
+  const Vector p = pressure(eos);
+  Matrix result = Matrix::Zero(6, N);
+  for (const auto &pair : pairs) {
+    const int i = pair.i, j = pair.j;
+    const Real weight = bulk_form == "volume" ? V(i) * V(j) : 1.0L;
+    Real central = p(i) * V(i) * V(i) + p(j) * V(j) * V(j);
+    central += weight * bulk_amplitude(i, bulk_form, shear_form) * cdot(i);
+    central += weight * bulk_amplitude(j, bulk_form, shear_form) * cdot(j);
+    const SmallVector f = central * pair.F * pair.r -
+        shear_block(pair, shear_form) * (atoms.v.col(i) - atoms.v.col(j));
+    for (int k = 0; k < 6; k++)
+      if (second[k] < n) result(k, i) += 0.5L * pair.r(first[k]) * f(second[k]);
+  }
+  return result;
+}

@@ -1,0 +1,226 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License,
+   version 2. See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_coeffs.h"
+
+#include "dense_reference.h"
+#include "quadrature.h"
+#include "sph_dissipation_kernel.h"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+using namespace LAMMPS_NS::SPHDissipation;
+
+static constexpr Shear SHEAR[] = {Shear::MG, Shear::MG_FR, Shear::MORRIS, Shear::ESPANOL};
+
+/* ---------------------------------------------------------------------- */
+
+TEST(Coeffs, names)
+{
+  EXPECT_STREQ(shear_name(Shear::MG), "mg");
+  EXPECT_STREQ(shear_name(Shear::MG_FR), "mg/fr");
+  EXPECT_STREQ(shear_name(Shear::MORRIS), "morris");
+  EXPECT_STREQ(shear_name(Shear::ESPANOL), "espanol");
+  EXPECT_STREQ(shear_name(Shear::NONE), "none");
+  EXPECT_STREQ(bulk_name(Bulk::DENSITY), "density");
+  EXPECT_STREQ(bulk_name(Bulk::VOLUME), "volume");
+  EXPECT_STREQ(bulk_name(Bulk::NONE), "none");
+}
+
+// Force per volume of the shear term, unit mu, in a continuum with the velocity u_a = x^2 along
+// direction a, at the origin. It must be 2 mu for a transverse direction (laplacian) and
+// 2 (lambda + 2 mu) for the longitudinal one.
+
+static long double continuum_force(Shear shear, Kernel kernel, int n, bool longitudinal)
+{
+  constexpr double R = 1.3;
+  constexpr int angles = 12;
+  const long double pi = std::acos(-1.0L);
+  const double factor = shear_factor(shear, n, kernel_mean_radius(kernel, n, R));
+
+  // mean over directions e of e_x^2 times the diagonal element a of the pair matrix
+  const auto integrand = [&](long double ex, long double ea) {
+    if (shear == Shear::MORRIS) return ex * ex;
+    if (shear == Shear::ESPANOL) return ex * ex * (1.0L + ea * ea);
+    return ex * ex * ea * ea;
+  };
+  long double mean = 0.0L;
+  if (n == 1) {
+    mean = integrand(1.0L, 1.0L);
+  } else if (n == 2) {
+    for (int k = 0; k < angles; k++) {
+      const long double phi = 2.0L * pi * k / angles;
+      mean += integrand(std::cos(phi), longitudinal ? std::cos(phi) : std::sin(phi)) / angles;
+    }
+  } else {
+    for (int k = 0; k < angles; k++) {
+      const long double phi = 2.0L * pi * k / angles;
+      const auto ring = [&](long double z) {
+        const long double ex = std::sqrt(1.0L - z * z) * std::cos(phi);
+        const long double ey = std::sqrt(1.0L - z * z) * std::sin(phi);
+        return 0.5L * integrand(ex, longitudinal ? ex : ey);
+      };
+      mean += quadrature(ring, -1.0L, 1.0L, 1) / angles;
+    }
+  }
+
+  const long double sphere[3] = {2.0L, 2.0L * pi, 4.0L * pi};
+  const auto radial = [&](long double r) {
+    const long double weighting = shear == Shear::MG_FR ? r : 1.0L;
+    return std::pow(r, n + 1.0L) * weighting * kernel_slope(kernel, n, r, R);
+  };
+  return factor * mean * sphere[n - 1] * quadrature(radial, 0.0L, R, 120);
+}
+
+TEST(Coeffs, shear_and_intrinsic_bulk_viscosity_of_the_continuum)
+{
+  for (const Kernel kernel : {Kernel::WENDLAND_C2, Kernel::CUBIC, Kernel::WENDLAND_C6}) {
+    for (const Shear shear : SHEAR) {
+      for (int n = 1; n <= 3; n++) {
+        SCOPED_TRACE(std::string(shear_name(shear)) + " n = " + std::to_string(n));
+        if (n > 1) { EXPECT_NEAR(continuum_force(shear, kernel, n, false), 2.0, 1e-13); }
+        const double longitudinal = 0.5 * continuum_force(shear, kernel, n, true);
+        EXPECT_NEAR(longitudinal - 2.0 * (1.0 - 1.0 / n), intrinsic_kappa(shear, n, 1.0), 1e-13);
+      }
+    }
+  }
+}
+
+TEST(Coeffs, factors_as_numbers)
+{
+  const double mg[3] = {6.0, 8.0, 10.0}, kappa[3] = {3.0, 2.0, 5.0 / 3.0};
+  const double morris_kappa[3] = {1.0, 0.0, -1.0 / 3.0};
+  const double espanol[3] = {1.5, 1.6, 5.0 / 3.0}, espanol_kappa[3] = {1.5, 0.4, 0.0};
+  for (int n = 1; n <= 3; n++) {
+    EXPECT_EQ(shear_factor(Shear::MG, n, 0.7), mg[n - 1]);
+    EXPECT_EQ(shear_factor(Shear::MORRIS, n, 0.7), 2.0);
+    EXPECT_NEAR(shear_factor(Shear::ESPANOL, n, 0.7), espanol[n - 1], 1e-15);
+    EXPECT_EQ(shear_factor(Shear::NONE, n, 0.7), 0.0);
+    EXPECT_NEAR(intrinsic_kappa(Shear::MG, n, 2.0), 2.0 * kappa[n - 1], 1e-15);
+    EXPECT_EQ(intrinsic_kappa(Shear::MG, n, 2.0), intrinsic_kappa(Shear::MG_FR, n, 2.0));
+    EXPECT_NEAR(intrinsic_kappa(Shear::MORRIS, n, 2.0), 2.0 * morris_kappa[n - 1], 1e-15);
+    EXPECT_NEAR(intrinsic_kappa(Shear::ESPANOL, n, 2.0), 2.0 * espanol_kappa[n - 1], 1e-15);
+    EXPECT_EQ(intrinsic_kappa(Shear::NONE, n, 2.0), 0.0);
+  }
+}
+
+TEST(Coeffs, bulk_coefficient_is_the_inverse)
+{
+  for (const Shear shear : {Shear::MG, Shear::MG_FR, Shear::MORRIS, Shear::ESPANOL, Shear::NONE}) {
+    for (int n = 1; n <= 3; n++) {
+      for (const double kappa : {0.0, 0.3, 4.0}) {
+        const double zeta = bulk_coefficient(shear, n, 0.8, kappa);
+        EXPECT_NEAR(intrinsic_kappa(shear, n, 0.8) + zeta, kappa, 1e-15);
+      }
+      EXPECT_EQ(bulk_coefficient(shear, n, 0.8, intrinsic_kappa(shear, n, 0.8)), 0.0);
+    }
+  }
+  // lower edge of the admissible range: zeta = -(1 + 2/n) mu
+  EXPECT_NEAR(bulk_coefficient(Shear::MG, 2, 0.8, 0.0), -1.6, 1e-15);
+}
+
+TEST(Coeffs, admissible_range)
+{
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(inadmissible(0.0, 0.0), nullptr);
+  EXPECT_EQ(inadmissible(1.0, 0.0), nullptr);
+  EXPECT_EQ(inadmissible(0.0, 1.0), nullptr);
+  EXPECT_STREQ(inadmissible(-tiny, 1.0), "mu must be >= 0");
+  EXPECT_STREQ(inadmissible(1.0, -tiny), "kappa must be >= 0");
+  EXPECT_STREQ(inadmissible(nan, 1.0), "mu must be >= 0");
+  EXPECT_STREQ(inadmissible(1.0, nan), "kappa must be >= 0");
+}
+
+/* ---------------------------------------------------------------------- */
+
+TEST(TimeStep, limits_as_numbers)
+{
+  // h = R/2 for the kernel whose stability length is the reference
+  for (int n = 2; n <= 3; n++)
+    EXPECT_NEAR(stability_length_squared(kernel_slope_integral(Kernel::WENDLAND_C2, n, 0.6)), 0.09,
+                1e-15);
+  EXPECT_NEAR(acoustic_step(0.2, 10.0), 0.005, 1e-17);
+  EXPECT_NEAR(shear_step(Shear::MG, 0.04, 0.5), 0.004, 1e-17);
+  EXPECT_NEAR(shear_step(Shear::MG_FR, 0.04, 0.5), 0.004, 1e-17);
+  EXPECT_NEAR(shear_step(Shear::MORRIS, 0.04, 0.5), 0.004 * 17.7 / 7.0, 1e-17);
+  EXPECT_NEAR(bulk_step(0.04, 0.5), 0.032, 1e-17);
+  EXPECT_NEAR(bulk_step(0.04, -0.5), 0.032, 1e-17);
+  EXPECT_EQ(shear_step(Shear::NONE, 0.04, 0.5), UNLIMITED_STEP);
+  EXPECT_EQ(shear_step(Shear::MG, 0.04, 0.0), UNLIMITED_STEP);
+  EXPECT_EQ(bulk_step(0.04, 0.0), UNLIMITED_STEP);
+}
+
+TEST(TimeStep, rates_of_viscous_terms_add)
+{
+  EXPECT_NEAR(combined_step(1.0, 0.3, 0.6), 0.2, 1e-16);
+  EXPECT_EQ(combined_step(0.1, 0.3, 0.6), 0.1);
+  EXPECT_EQ(combined_step(0.1, UNLIMITED_STEP, UNLIMITED_STEP), 0.1);
+  EXPECT_NEAR(combined_step(1.0, 0.3, UNLIMITED_STEP), 0.3, 1e-16);
+}
+
+// the largest damping rate of a periodic lattice, from the dense matrix, times the step is below
+// the bound 1 of forces that see the extrapolated velocity, and not needlessly far below
+
+TEST(TimeStep, viscous_limits_against_damping_rates_of_lattices)
+{
+  using namespace DenseReference;
+  const int cells[3] = {40, 12, 6};
+  const LAMMPS_NS::SPHDissipation::Kernel kernels[6] = {
+      LAMMPS_NS::SPHDissipation::Kernel::WENDLAND_C2,
+      LAMMPS_NS::SPHDissipation::Kernel::WENDLAND_C4,
+      LAMMPS_NS::SPHDissipation::Kernel::WENDLAND_C6,
+      LAMMPS_NS::SPHDissipation::Kernel::CUBIC,
+      LAMMPS_NS::SPHDissipation::Kernel::QUINTIC,
+      LAMMPS_NS::SPHDissipation::Kernel::LUCY};
+  for (int n = 1; n <= 3; n++) {
+    int count = 1;
+    for (int k = 0; k < n; k++) count *= cells[n - 1];
+    Particles particles;
+    particles.x.resize(n, count);
+    particles.v = Matrix::Zero(n, count);
+    for (int i = 0; i < count; i++) {
+      for (int k = 0, rest = i; k < n; k++, rest /= cells[n - 1])
+        particles.x(k, i) = rest % cells[n - 1];
+      particles.mass.push_back(1.0L);
+      particles.energy.push_back(0.0L);
+      particles.type.push_back(1);
+    }
+    const Box box{Matrix::Identity(n, n) * cells[n - 1], {true, true, true}};
+    for (const auto kernel : kernels) {
+      Model model;
+      model.kernel = kernel_name(kernel);
+      model.n = n;
+      model.support = n == 3 ? 3.0L : 4.0L;
+      model.fluids = {Fluid{1.0L, 1.0L, 1.0L, 1.0L}};
+      const System system(model, box, particles);
+      auto largest_rate = [](const Matrix &R) {
+        const Eigen::MatrixXd A = R.cast<double>();
+        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly)
+            .eigenvalues()
+            .maxCoeff();
+      };
+      const double hsq = stability_length_squared(kernel_slope_integral(kernel, n, model.support));
+      const double mg = largest_rate(system.shear("mg").R) * shear_step(Shear::MG, hsq, 1.0);
+      const double morris =
+          largest_rate(system.shear("morris").R) * shear_step(Shear::MORRIS, hsq, 1.0);
+      const double bulk = largest_rate(system.bulk("density", "none").R) * bulk_step(hsq, 1.0);
+      printf("%s n = %d: rate x step = %.3f (mg) %.3f (morris) %.3f (bulk)\n", kernel_name(kernel),
+             n, mg, morris, bulk);
+      for (const double product : {mg, morris, bulk}) {
+        EXPECT_LT(product, 1.0) << kernel_name(kernel) << " n = " << n;
+        EXPECT_GT(product, 0.1) << kernel_name(kernel) << " n = " << n;
+      }
+    }
+  }
+}

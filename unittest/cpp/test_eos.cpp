@@ -1,0 +1,103 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License,
+   version 2. See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_eos.h"
+
+#include "quadrature.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace LAMMPS_NS::SPHDissipation;
+
+static EosParams params(double gamma, double pb)
+{
+  EosParams par;
+  par.rho0 = 1.3;
+  par.c0 = 2.1;
+  par.pb = pb;
+  par.gamma = gamma;
+  return par;
+}
+
+/* ---------------------------------------------------------------------- */
+
+TEST(Eos, names_and_default_exponents)
+{
+  EXPECT_STREQ(eos_name(Eos::LINEAR), "linear");
+  EXPECT_STREQ(eos_name(Eos::TAIT), "tait");
+  EXPECT_STREQ(eos_name(Eos::IDEAL), "ideal");
+  EXPECT_EQ(default_gamma(Eos::TAIT), 7.0);
+  EXPECT_EQ(default_gamma(Eos::IDEAL), 1.4);
+}
+
+TEST(Eos, pressure_as_numbers)
+{
+  const EosParams par = params(7.0, 0.25);
+  EXPECT_NEAR(pressure(Eos::LINEAR, par, 1.5, 9.0), 4.41 * 0.2 + 0.25, 1e-14);
+  // 1.3 * 4.41 / 7 = 0.819; 2^7 - 1 = 127
+  EXPECT_NEAR(pressure(Eos::TAIT, par, 2.6, 9.0), 0.819 * 127.0 + 0.25, 1e-12);
+  EXPECT_NEAR(pressure(Eos::IDEAL, params(1.4, 0.25), 1.5, 9.0), 0.4 * 1.5 * 9.0 + 0.25, 1e-14);
+}
+
+TEST(Eos, background_pressure_at_the_reference_density)
+{
+  for (const double gamma : {1.4, 3.5, 7.0})
+    for (const Eos eos : {Eos::LINEAR, Eos::TAIT})
+      EXPECT_NEAR(pressure(eos, params(gamma, -0.6), 1.3, 5.0), -0.6, 1e-14);
+}
+
+TEST(Eos, sound_speed_at_the_reference_density)
+{
+  const double step = 1e-5;
+  for (const double gamma : {1.0, 1.4, 3.5, 7.0}) {
+    for (const Eos eos : {Eos::LINEAR, Eos::TAIT}) {
+      const EosParams par = params(gamma, 0.4);
+      const double slope =
+          (pressure(eos, par, 1.3 + step, 0.0) - pressure(eos, par, 1.3 - step, 0.0)) /
+          (2.0 * step);
+      EXPECT_NEAR(slope, 2.1 * 2.1, 1e-7);
+    }
+  }
+}
+
+// p = rho^2 de/drho in integral form, to round-off
+
+TEST(Eos, elastic_energy_is_the_work_of_the_pressure)
+{
+  for (const double gamma : {1.0, 1.4, 3.5, 7.0}) {
+    for (const double pb : {0.0, 0.7, -0.3}) {
+      for (const Eos eos : {Eos::LINEAR, Eos::TAIT}) {
+        const EosParams par = params(gamma, pb);
+        EXPECT_NEAR(elastic_energy(eos, par, par.rho0), 0.0, 1e-15);
+        for (const double rho : {0.5, 0.9, 1.2999, 1.3001, 1.7, 2.9}) {
+          const auto work = [&](long double s) {
+            return pressure(eos, par, s, 0.0) / (s * s);
+          };
+          const double expected = quadrature(work, 1.3L, rho, 400);
+          EXPECT_NEAR(elastic_energy(eos, par, rho), expected, 3e-15 + 1e-13 * std::fabs(expected))
+              << eos_name(eos) << " gamma = " << gamma << " rho = " << rho;
+        }
+      }
+    }
+  }
+}
+
+TEST(Eos, ideal_gas_has_no_elastic_energy)
+{
+  EXPECT_EQ(elastic_energy(Eos::IDEAL, params(1.4, 0.5), 1.9), 0.0);
+}
+
+TEST(Eos, shortcut_of_the_usual_exponent)
+{
+  for (const double x : {0.1, 0.99, 1.0, 1.01, 3.0})
+    EXPECT_NEAR(tait_power(x, 7.0), std::pow(x, 7.0), 1e-15 * std::pow(x, 7.0));
+  EXPECT_EQ(tait_power(1.7, 2.5), std::pow(1.7, 2.5));
+}
