@@ -14,7 +14,10 @@
 // The styles of SPH-DISSIPATION as a plugin. LAMMPS registers pair and fix styles from plugins, but no atom styles:
 // those are entered here into the map of the current Atom object, where "clear" and "replicate" lose them.
 
+// the one symbol that LAMMPS must find in this file, see CMakeLists.txt
+#pragma GCC visibility push(default)
 #include "lammpsplugin.h"
+#pragma GCC visibility pop
 
 #include "atom.h"
 #include "atom_vec_sph_bulk.h"
@@ -94,9 +97,6 @@ std::string mismatch(void *lmp)
 }
 }    // namespace
 
-#if defined(__GNUC__)
-__attribute__((visibility("default")))
-#endif
 extern "C" void lammpsplugin_init(void *ptr, void *handle, void *regfunc)
 {
   const std::string problem = mismatch(ptr);
