@@ -55,21 +55,25 @@ struct PairSPHBulk::TypeCoeff {
   double mu = 0.0;
   double kappa = 0.0;
   double rc = 0.0;
-  int intrinsic = 0;    // 1: kappa is what the shear term gives
-  double zeta = 0.0;    // coefficient of the bulk term
+  double gamma = 0.0;    // 0: default of the equation of state
+  int intrinsic = 0;     // 1: kappa is what the shear term gives
+  double zeta = 0.0;     // coefficient of the bulk term
 
   // the members that pair_coeff sets, as a restart file holds them
 
   static constexpr int NSTORED = 8;
   void store(double *buf) const
   {
-    const double stored[NSTORED] = {eos.rho0, eos.c0, eos.pb, eos.gamma,
+    const double stored[NSTORED] = {eos.rho0, eos.c0, eos.pb, gamma,
                                     mu,       kappa,  rc,     (double) intrinsic};
     std::copy(stored, stored + NSTORED, buf);
   }
   void restore(const double *buf)
   {
-    eos = {buf[0], buf[1], buf[2], buf[3]};
+    eos.rho0 = buf[0];
+    eos.c0 = buf[1];
+    eos.pb = buf[2];
+    gamma = buf[3];
     mu = buf[4];
     kappa = buf[5];
     rc = buf[6];
@@ -406,7 +410,6 @@ int PairSPHBulk::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int
   };
 
   TypeCoeff one;
-  one.eos.gamma = default_gamma(choice->eos);
   one.eos.rho0 = positive("rho0", arg[2]);
   one.eos.c0 = positive("c0", arg[3]);
   one.mu = utils::numeric(FLERR, arg[4], false, lmp);
@@ -422,15 +425,12 @@ int PairSPHBulk::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int
     if (keyword == "pb")
       one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     else
-      one.eos.gamma = positive("gamma", arg[iarg + 1]);
+      one.gamma = positive("gamma", arg[iarg + 1]);
   }
 
   const char *violated = inadmissible(one.mu, one.kappa);
   if (violated)
     error->all(FLERR, "Pair_coeff {}, not mu = {} kappa = {}", violated, arg[4], arg[5]);
-  if (choice->shear == Shear::NONE && one.mu != 0.0)
-    error->all(FLERR, "Pair_coeff mu must be 0 with shear none, not {}", arg[4]);
-
   int count = 0;
   for (int i = std::max(ilo, jlo); i <= std::min(ihi, jhi); i++) {
     coeffs[i] = one;
@@ -478,8 +478,6 @@ int PairSPHBulk::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, i
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff mu", error);
     value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     if (!(value >= 0.0)) error->all(FLERR, "Pair_coeff mu must be >= 0, not {}", arg[iarg + 1]);
-    if (choice->shear == Shear::NONE && value != 0.0)
-      error->all(FLERR, "Pair_coeff mu must be 0 with shear none, not {}", arg[iarg + 1]);
   }
 
   int count = 0;
@@ -619,11 +617,16 @@ void PairSPHBulk::derive_coeffs()
                      "Pair_coeff kappa {} of type {} is ignored with bulk none: the shear "
                      "term gives kappa {}",
                      type.kappa, i, intrinsic);
-    for (int j = 1; j < i; j++)
-      if (!mu_set[i][j]) {
+    type.eos.gamma = (type.gamma > 0.0) ? type.gamma : default_gamma(choice->eos);
+    for (int j = 1; j <= i; j++) {
+      if (j < i && !mu_set[i][j]) {
         const double sum = type.mu + coeffs[j].mu;
         mu[i][j] = mu[j][i] = (sum > 0.0) ? 2.0 * type.mu * coeffs[j].mu / sum : 0.0;
       }
+      if (choice->shear == Shear::NONE && mu[i][j] != 0.0)
+        error->all(FLERR, "Pair_coeff mu must be 0 with shear none, not {} for types {} {}",
+                   mu[i][j], j, i);
+    }
   }
 
   engine->setup(choice->kernel, dim, support, choice->shear, choice->bulk, mu, n);
@@ -796,9 +799,11 @@ void PairSPHBulk::write_data_all(FILE *fp)
 std::string PairSPHBulk::type_line(int i) const
 {
   const TypeCoeff &c = coeffs[i];
-  return fmt::format("{:.17g} {:.17g} {:.17g} {} {:.17g} pb {:.17g} gamma {:.17g}", c.eos.rho0,
-                     c.eos.c0, c.mu, c.intrinsic ? "intrinsic" : fmt::format("{:.17g}", c.kappa),
-                     c.rc, c.eos.pb, c.eos.gamma);
+  std::string line =
+      fmt::format("{:.17g} {:.17g} {:.17g} {} {:.17g} pb {:.17g}", c.eos.rho0, c.eos.c0, c.mu,
+                  c.intrinsic ? "intrinsic" : fmt::format("{:.17g}", c.kappa), c.rc, c.eos.pb);
+  if (c.gamma > 0.0) line += fmt::format(" gamma {:.17g}", c.gamma);
+  return line;
 }
 
 /* ----------------------------------------------------------------------
