@@ -63,6 +63,8 @@ namespace SPHDissipation {
         return 2.0 * n * (n + 2) / ((n + 1) * mean_radius);
       case Shear::MORRIS:
         return 2.0;
+      case Shear::ESPANOL:
+        return 2.0 * (n + 2) / (n + 3);
       default:
         return 0.0;
     }
@@ -88,6 +90,8 @@ namespace SPHDissipation {
         return (1.0 + 2.0 / n) * mu;
       case Shear::MORRIS:
         return (2.0 / n - 1.0) * mu;
+      case Shear::ESPANOL:
+        return (2.0 / n - (n + 1.0) / (n + 3.0)) * mu;
       default:
         return 0.0;
     }

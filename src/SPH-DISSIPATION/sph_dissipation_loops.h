@@ -279,6 +279,8 @@ namespace SPHDissipation {
           return force_loop<Shear::MG_FR, VOLUME>;
         case Shear::MORRIS:
           return force_loop<Shear::MORRIS, VOLUME>;
+        case Shear::ESPANOL:
+          return force_loop<Shear::ESPANOL, VOLUME>;
         default:
           return force_loop<Shear::NONE, VOLUME>;
       }
