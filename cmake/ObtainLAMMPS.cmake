@@ -185,3 +185,9 @@ function(obtain_lammps result)
           "Connect this machine to the network and try again, or download a LAMMPS source tree (4 Jul 2026 or "
           "4 Feb 2025) by other means, unpack it, and name its folder by LAMMPS_SOURCE_DIR.")
 endfunction()
+
+# cmake -D SPH_DISSIPATION_LAMMPS=25 -P ObtainLAMMPS.cmake: obtains LAMMPS and writes the name of its folder to stdout.
+if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
+  obtain_lammps(dir)
+  execute_process(COMMAND "${CMAKE_COMMAND}" -E echo "${dir}")
+endif()

@@ -1,13 +1,37 @@
 #!/usr/bin/env bash
 # ways.sh WAY LAMMPS TREE: builds LAMMPS with the package by one of the ways that README.md describes, in the folder
-# TREE, and runs the smoke input. LAMMPS is the source tree, which stays as it is. WAY is hook, make or plugin.
+# TREE, and runs the smoke input. WAY is hook, make or plugin; LAMMPS is a version to obtain, 26 or 25, or the folder of
+# a source tree. ways.sh mismatch TREE OTHER: the plugin of the folder OTHER must not load into the LAMMPS of TREE.
 # Environment: ROOT (the package's repository), PYTHON, REFERENCE (result of the smoke input to compare with), LAUNCHER
-# (compiler cache, may be empty), SPHD_JOBS.
+# (ccache, or empty), SPHD_JOBS, SPHD_CACHE.
 set -euo pipefail
+export CCACHE_DIR=$SPHD_CACHE/ccache
+
+here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
+jobs=${SPHD_JOBS:-$(nproc)}
+
+# expect_error TEXT COMMAND: LAMMPS must stop with an error message that has the text, not by a crash.
+expect_error() {
+  local text=$1 output code=0
+  shift
+  output=$("$@" -log none 2>&1 </dev/null) || code=$?
+  if [[ $code -eq 0 || $code -ge 128 || $output != *ERROR*"$text"* ]]; then
+    printf '%s\n' "$output"
+    echo "$* stopped with code $code; expected was an error message with: $text"
+    exit 1
+  fi
+}
+
+if [[ $1 == mismatch ]]; then
+  echo "plugin load $3/plugin/sphdissipationplugin.so" >"$2/in.mismatch"
+  expect_error "was compiled for LAMMPS version" "$2/build/lmp" -in "$2/in.mismatch"
+  exit
+fi
 
 way=$1 lammps=$2 tree=$3
-jobs=${SPHD_JOBS:-$(nproc)}
-here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
+if [[ $lammps == 26 || $lammps == 25 ]]; then
+  lammps=$(cmake -D SPH_DISSIPATION_LAMMPS="$lammps" -P "$ROOT/cmake/ObtainLAMMPS.cmake" | tee /dev/stderr | tail -n 1)
+fi
 mkdir -p "$tree"
 cd "$tree"
 # Package and LAMMPS under names that are the same in every build folder: so the compiler cache serves all of them.
@@ -36,18 +60,6 @@ smoke() {    # LMP RESULT [options]
   "$PYTHON" "$here/smoke.py" "$@" --reference "$REFERENCE"
 }
 
-# expect_error TEXT LMP ARGUMENTS: the run must stop with an error of LAMMPS that contains the text, not by a crash.
-expect_error() {
-  local text=$1 output code=0
-  shift
-  output=$("$@" -log none 2>&1 </dev/null) || code=$?
-  if [[ $code -eq 0 || $code -ge 128 || $output != *ERROR*"$text"* ]]; then
-    printf '%s\n' "$output"
-    echo "$* stopped with code $code; expected was a LAMMPS error with: $text"
-    exit 1
-  fi
-}
-
 case $way in
   hook)
     lammps_by_cmake build -D PKG_SPH-DISSIPATION=on -D CMAKE_PROJECT_lammps_INCLUDE="$tree/package/cmake/SPH-DISSIPATION.cmake"
@@ -63,7 +75,7 @@ case $way in
     cp -r "$ROOT/src/SPH-DISSIPATION" lammps/src
     {
       make -C lammps/src yes-sph-dissipation
-      make -C lammps/src -j "$jobs" mpi CC="${LAUNCHER//;/ } mpicxx"
+      make -C lammps/src -j "$jobs" mpi CC="$LAUNCHER mpicxx"
     } >make.log 2>&1 || { tail -n 30 make.log; exit 1; }
     smoke lammps/src/lmp_mpi smoke
     ;;
@@ -75,9 +87,25 @@ case $way in
     ninja -C plugin -j "$jobs" >>plugin.log 2>&1 || { tail -n 30 plugin.log; exit 1; }
     plugin=$tree/plugin/sphdissipationplugin.so
     smoke build/lmp smoke --plugin "$plugin"
-    # the same after "clear", which takes the atom style away until the plugin is loaded again
-    printf '%s\n' "plugin load $plugin" "clear" "include $here/in.smoke" >in.clear
-    expect_error "Unrecognized atom style 'sph/bulk'" build/lmp -in in.clear -var result none
+
+    # "clear" takes the atom style away until the plugin is loaded again
+    printf '%s\n' "plugin load $plugin" "clear" "include $here/in.smoke" >clear.in
+    expect_error "Unrecognized atom style 'sph/bulk'" build/lmp -in clear.in -var result none
+    printf '%s\n' "plugin load $plugin" "clear" "plugin load $plugin" "include $here/in.smoke" \
+      "clear" "plugin load $plugin" "include $here/in.smoke" >again.in
+    build/lmp -in again.in -log none -var result again >again.out || { tail -n 5 again.out; exit 1; }
+
+    # replicate would need the atom style in a new Atom object; for other atom styles it works as ever
+    printf '%s\n' "plugin load $plugin" "region box block 0 1 0 1 0 1" "create_box 1 box" "create_atoms 1 single 0 0 0" \
+      "replicate 2 2 2" >replicate.in
+    build/lmp -in replicate.in -log none | grep -q " 8 atoms" || { echo "replicate is broken for other atom styles"; exit 1; }
+    printf '%s\n' "plugin load $plugin" "include $here/in.smoke" "replicate 2 2 2" >replicate.in
+    expect_error "Cannot replicate atom style sph/bulk loaded from a plugin" build/lmp -in replicate.in -var result none
+
+    # unloading the pair and fix style leaves an atom style in use that must stay alive
+    printf '%s\n' "plugin load $plugin" "include $here/in.smoke" "plugin clear" "group half id 1:100" \
+      "delete_atoms group half" "write_data unload.data" >unload.in
+    build/lmp -in unload.in -log none -var result unload >unload.out || { tail -n 5 unload.out; exit 1; }
     ;;
 
   *)
