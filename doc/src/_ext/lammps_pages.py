@@ -13,7 +13,7 @@ MANUAL = "https://docs.lammps.org/"
 # the pages of the LAMMPS manual that may be linked to: a misspelled name stays a warning
 MANUAL_PAGES = frozenset("""
     Build_package Howto_2d Howto_output Howto_triclinic Howto_viscosity Modify_style
-    atom_modify atom_style balance boundary comm_modify comm_style compute_pe_atom
+    atom_modify atom_style balance boundary comm_modify comm_style compute compute_ke compute_pair compute_pe_atom
     compute_pressure compute_property_atom compute_stress_atom create_atoms dimension dump
     fix fix_deform fix_modify fix_move fix_nve fix_setforce fix_sph fix_sph_stationary lattice mass
     minimize neigh_modify newton pair_coeff pair_hybrid pair_modify pair_sph_idealgas
