@@ -618,6 +618,9 @@ void PairSPHBulk::derive_coeffs()
                      "term gives kappa {}",
                      type.kappa, i, intrinsic);
     type.eos.gamma = (type.gamma > 0.0) ? type.gamma : default_gamma(choice->eos);
+    if (choice->eos == Eos::IDEAL && !(type.eos.gamma > 1.0))
+      error->all(FLERR, "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}",
+                 type.eos.gamma, i);
     for (int j = 1; j <= i; j++) {
       if (j < i && !mu_set[i][j]) {
         const double sum = type.mu + coeffs[j].mu;
