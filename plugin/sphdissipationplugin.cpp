@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The styles of SPH-DISSIPATION as a plugin. LAMMPS registers pair and fix styles from plugins, but no atom styles:
-// those are entered here into the map of the current Atom object, where "clear" and "replicate" lose them.
+// The styles of SPH-DISSIPATION as a plugin. LAMMPS registers pair, fix and compute styles from plugins, but no atom
+// styles: those are entered here into the map of the current Atom object, which "clear" and "replicate" replace.
 
 // the one symbol that LAMMPS must find in this file, see CMakeLists.txt
 #pragma GCC visibility push(default)
@@ -20,42 +20,60 @@
 #pragma GCC visibility pop
 
 #include "atom.h"
-#include "atom_vec_sph_bulk.h"
-#include "command.h"
 #include "comm.h"
+#include "command.h"
 #include "error.h"
-#include "fix_sph_bulk.h"
 #include "input.h"
 #include "library.h"
-#include "pair_sph_bulk.h"
 #include "version.h"
 
-#include <cstring>
+#include "style_atom.h"
+#include "style_compute.h"
+#include "style_fix.h"
+#include "style_pair.h"
+
+#include <map>
 #include <string>
 
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr char AUTHOR[] = "The SPH-DISSIPATION developers";
-
-AtomVec *atom_vec_sph_bulk(LAMMPS *lmp)
+template <class T> AtomVec *atom_creator(LAMMPS *lmp)
 {
-  return new AtomVecSPHBulk(lmp);
+  return new T(lmp);
 }
 
-Pair *pair_sph_bulk(LAMMPS *lmp)
+template <class T> Pair *pair_creator(LAMMPS *lmp)
 {
-  return new PairSPHBulk(lmp);
+  return new T(lmp);
 }
 
-Fix *fix_sph_bulk(LAMMPS *lmp, int narg, char **arg)
+template <class T> Fix *fix_creator(LAMMPS *lmp, int narg, char **arg)
 {
-  return new FixSPHBulk(lmp, narg, arg);
+  return new T(lmp, narg, arg);
 }
+
+template <class T> Compute *compute_creator(LAMMPS *lmp, int narg, char **arg)
+{
+  return new T(lmp, narg, arg);
+}
+
+std::map<std::string, Atom::AtomVecCreator> all_atom_styles()
+{
+  std::map<std::string, Atom::AtomVecCreator> styles;
+#define ATOM_CLASS
+#define AtomStyle(key, Class) styles[#key] = &atom_creator<Class>
+#include "style_atom.h"
+#undef AtomStyle
+#undef ATOM_CLASS
+  return styles;
+}
+
+const std::map<std::string, Atom::AtomVecCreator> ATOM_STYLES = all_atom_styles();
 
 /* ----------------------------------------------------------------------
    replicate copies the system into a new Atom object, which does not know
-   atom styles from plugins: say so instead of "unknown atom style"
+   atom styles from plugins: say so instead of "unrecognized atom style"
 ------------------------------------------------------------------------- */
 
 Input::CommandCreator lammps_replicate = nullptr;
@@ -66,16 +84,17 @@ class PluginReplicate : public Command {
 
   void command(int narg, char **arg) override
   {
-    if (dynamic_cast<AtomVecSPHBulk *>(atom->style_match("sph/bulk")))
-      error->all(FLERR, "Cannot replicate atom style sph/bulk loaded from a plugin: "
-                        "build LAMMPS with the SPH-DISSIPATION package, or create all particles at once");
+    for (const auto &style : ATOM_STYLES)
+      if (atom->style_match(style.first.c_str()))
+        error->all(FLERR, "Cannot replicate atom style {} loaded from a plugin: build LAMMPS with the "
+                   "SPH-DISSIPATION package, or create all particles at once", style.first);
     Command *original = lammps_replicate(lmp);
     original->command(narg, arg);
     delete original;
   }
 };
 
-Command *plugin_replicate(LAMMPS *lmp)
+Command *replicate_creator(LAMMPS *lmp)
 {
   return new PluginReplicate(lmp);
 }
@@ -108,34 +127,58 @@ extern "C" void lammpsplugin_init(void *ptr, void *handle, void *regfunc)
 
   auto *lmp = (LAMMPS *) ptr;
   auto &atom_styles = *lmp->atom->avec_map;
-  const auto known = atom_styles.find("sph/bulk");
-  if ((known != atom_styles.end()) && (known->second != &atom_vec_sph_bulk)) {
-    if (lmp->comm->me == 0)
-      lmp->error->warning(FLERR, "This LAMMPS has the SPH-DISSIPATION package: its plugin is not loaded");
-    return;
+  for (const auto &style : ATOM_STYLES) {
+    const auto known = atom_styles.find(style.first);
+    if ((known != atom_styles.end()) && (known->second != style.second)) {
+      if (lmp->comm->me == 0)
+        lmp->error->warning(FLERR, "This LAMMPS has the SPH-DISSIPATION package: its plugin is not loaded");
+      return;
+    }
+    atom_styles[style.first] = style.second;
   }
-  atom_styles["sph/bulk"] = &atom_vec_sph_bulk;
 
   auto &commands = *lmp->input->command_map;
-  if (commands["replicate"] != &plugin_replicate) {
+  if (commands["replicate"] != &replicate_creator) {
     lammps_replicate = commands["replicate"];
-    commands["replicate"] = &plugin_replicate;
+    commands["replicate"] = &replicate_creator;
   }
 
   auto register_plugin = (lammpsplugin_regfunc) regfunc;
   lammpsplugin_t plugin;
   plugin.version = LAMMPS_VERSION;
-  plugin.author = AUTHOR;
+  plugin.author = "the SPH-DISSIPATION authors";
   plugin.handle = handle;
 
-  plugin.style = "pair";
-  plugin.name = "sph/bulk";
-  plugin.info = "SPH-DISSIPATION pair style sph/bulk";
-  plugin.creator.v1 = (lammpsplugin_factory1 *) &pair_sph_bulk;
-  (*register_plugin)(&plugin, lmp);
+#define PAIR_CLASS
+#define PairStyle(key, Class)                                          \
+  plugin.style = "pair";                                               \
+  plugin.name = #key;                                                  \
+  plugin.info = "SPH-DISSIPATION pair style " #key;                    \
+  plugin.creator.v1 = (lammpsplugin_factory1 *) &pair_creator<Class>;  \
+  (*register_plugin)(&plugin, lmp)
+#include "style_pair.h"
+#undef PairStyle
+#undef PAIR_CLASS
 
-  plugin.style = "fix";
-  plugin.info = "SPH-DISSIPATION fix style sph/bulk";
-  plugin.creator.v2 = (lammpsplugin_factory2 *) &fix_sph_bulk;
-  (*register_plugin)(&plugin, lmp);
+#define FIX_CLASS
+#define FixStyle(key, Class)                                          \
+  plugin.style = "fix";                                               \
+  plugin.name = #key;                                                 \
+  plugin.info = "SPH-DISSIPATION fix style " #key;                    \
+  plugin.creator.v2 = (lammpsplugin_factory2 *) &fix_creator<Class>;  \
+  (*register_plugin)(&plugin, lmp)
+#include "style_fix.h"
+#undef FixStyle
+#undef FIX_CLASS
+
+#define COMPUTE_CLASS
+#define ComputeStyle(key, Class)                                          \
+  plugin.style = "compute";                                               \
+  plugin.name = #key;                                                     \
+  plugin.info = "SPH-DISSIPATION compute style " #key;                    \
+  plugin.creator.v2 = (lammpsplugin_factory2 *) &compute_creator<Class>;  \
+  (*register_plugin)(&plugin, lmp)
+#include "style_compute.h"
+#undef ComputeStyle
+#undef COMPUTE_CLASS
 }

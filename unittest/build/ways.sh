@@ -38,6 +38,7 @@ cd "$tree"
 mkdir -p package
 ln -sfn "$ROOT/cmake" package/cmake
 ln -sfn "$ROOT/src" package/src
+ln -sfn "$ROOT/plugin" package/plugin
 
 configure() {    # SOURCE BUILD [options]
   local source=$1 build=$2
@@ -83,7 +84,7 @@ case $way in
   plugin)
     lammps_by_cmake build
     expect_error "Unrecognized atom style 'sph/bulk'" build/lmp -in "$here/in.smoke" -var result none
-    configure "$ROOT/plugin" plugin -D LAMMPS_SOURCE_DIR="$lammps"
+    configure "$tree/package/plugin" plugin -D LAMMPS_SOURCE_DIR="$lammps"
     ninja -C plugin -j "$jobs" >>plugin.log 2>&1 || { tail -n 30 plugin.log; exit 1; }
     plugin=$tree/plugin/sphdissipationplugin.so
     smoke build/lmp smoke --plugin "$plugin"
