@@ -22,6 +22,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 using namespace LAMMPS_NS;
@@ -185,10 +186,10 @@ void LammpsDriver::pair_style(const DenseReference::Model &model, const std::str
     if (fluid.gamma != 0.0L) line += " gamma " + exact(fluid.gamma);
     command(line);
   }
-  if (shear == "none") return;
   for (const auto &entry : model.mu_unlike)
     command("pair_coeff " + std::to_string(entry.first.first) + " " +
-            std::to_string(entry.first.second) + " mu " + exact(entry.second));
+            std::to_string(entry.first.second) + " mu " +
+            exact(shear == "none" ? 0.0 : entry.second));
 }
 
 std::vector<double> LammpsDriver::gather(int width,
@@ -208,7 +209,10 @@ Computed LammpsDriver::run0(bool with_virial)
   if (ours)
     command(with_virial ? "thermo_style custom step pe press c_sum[1] c_sum[2]"
                         : "thermo_style custom step");
-  if (!command("run 0 post no")) return result;
+  if (!command("run 0 post no")) {
+    result.force.assign(3 * natoms, std::nan(""));
+    return result;
+  }
 
   const Atom *atom = lmp->atom;
   result.force = gather(3, [=](int i, int k) {

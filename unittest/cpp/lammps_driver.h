@@ -30,7 +30,7 @@ struct Computed {
   std::vector<double> force;    // 3 per particle
   std::vector<double> desph, numden, dnumden, volume, density, energy;
   std::vector<double> atom_energy, atom_virial;    // virial: 6 per particle
-  double total_energy, total_virial[6];
+  double total_energy = 0.0, total_virial[6] = {};
 };
 
 // how the particles are spread over the ranks

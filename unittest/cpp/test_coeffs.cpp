@@ -8,6 +8,7 @@
 
 #include "sph_dissipation_coeffs.h"
 
+#include "configuration.h"
 #include "dense_reference.h"
 #include "quadrature.h"
 #include "sph_dissipation_kernel.h"
@@ -15,9 +16,12 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
+#include <vector>
 
 using namespace LAMMPS_NS::SPHDissipation;
 
@@ -151,9 +155,10 @@ TEST(TimeStep, limits_as_numbers)
     EXPECT_NEAR(stability_length_squared(kernel_slope_integral(Kernel::WENDLAND_C2, n, 0.6)), 0.09,
                 1e-15);
   EXPECT_NEAR(acoustic_step(0.2, 10.0), 0.005, 1e-17);
-  EXPECT_NEAR(shear_step(Shear::MG, 0.04, 0.5), 0.004, 1e-17);
+  EXPECT_NEAR(shear_step(Shear::MG, 0.04, 0.5), 0.0036, 1e-17);
   EXPECT_NEAR(shear_step(Shear::MG_FR, 0.04, 0.5), 0.004, 1e-17);
-  EXPECT_NEAR(shear_step(Shear::MORRIS, 0.04, 0.5), 0.004 * 17.7 / 7.0, 1e-17);
+  EXPECT_NEAR(shear_step(Shear::MORRIS, 0.04, 0.5), 0.01008, 1e-17);
+  EXPECT_NEAR(shear_step(Shear::ESPANOL, 0.04, 0.5), 0.00728, 1e-17);
   EXPECT_NEAR(bulk_step(0.04, 0.5), 0.032, 1e-17);
   EXPECT_NEAR(bulk_step(0.04, -0.5), 0.032, 1e-17);
   EXPECT_EQ(shear_step(Shear::NONE, 0.04, 0.5), UNLIMITED_STEP);
@@ -169,58 +174,69 @@ TEST(TimeStep, rates_of_viscous_terms_add)
   EXPECT_NEAR(combined_step(1.0, 0.3, UNLIMITED_STEP), 0.3, 1e-16);
 }
 
-// the largest damping rate of a periodic lattice, from the dense matrix, times the step is below
-// the bound 1 of forces that see the extrapolated velocity, and not needlessly far below
+// the largest damping rate of a periodic lattice, exact and jittered, from the dense matrix, times
+// the step is below the bound 1 of forces that see the extrapolated velocity, and not needlessly
+// far below
 
-TEST(TimeStep, viscous_limits_against_damping_rates_of_lattices)
+static double largest_rate(const DenseReference::Matrix &R)
 {
-  using namespace DenseReference;
+  const Eigen::MatrixXd A = R.cast<double>();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
+static DenseReference::Particles lattice(int n, int cells, double jitter)
+{
+  int count = 1;
+  for (int k = 0; k < n; k++) count *= cells;
+  DenseReference::Particles particles;
+  particles.x.resize(n, count);
+  particles.v = DenseReference::Matrix::Zero(n, count);
+  particles.mass.assign(count, 1.0L);
+  particles.energy.assign(count, 0.0L);
+  particles.type.assign(count, 1);
+  Random random(17);
+  for (int i = 0; i < count; i++)
+    for (int k = 0, rest = i; k < n; k++, rest /= cells)
+      particles.x(k, i) = 0.5 + rest % cells + jitter * random();
+  return particles;
+}
+
+TEST(TimeStep, viscous_limits_against_damping_rates)
+{
   const int cells[3] = {40, 12, 6};
-  const LAMMPS_NS::SPHDissipation::Kernel kernels[6] = {
-      LAMMPS_NS::SPHDissipation::Kernel::WENDLAND_C2,
-      LAMMPS_NS::SPHDissipation::Kernel::WENDLAND_C4,
-      LAMMPS_NS::SPHDissipation::Kernel::WENDLAND_C6,
-      LAMMPS_NS::SPHDissipation::Kernel::CUBIC,
-      LAMMPS_NS::SPHDissipation::Kernel::QUINTIC,
-      LAMMPS_NS::SPHDissipation::Kernel::LUCY};
+  const Kernel kernels[6] = {Kernel::WENDLAND_C2, Kernel::WENDLAND_C4, Kernel::WENDLAND_C6,
+                             Kernel::CUBIC,       Kernel::QUINTIC,     Kernel::LUCY};
+  double smallest = 1.0, largest = 0.0;
   for (int n = 1; n <= 3; n++) {
-    int count = 1;
-    for (int k = 0; k < n; k++) count *= cells[n - 1];
-    Particles particles;
-    particles.x.resize(n, count);
-    particles.v = Matrix::Zero(n, count);
-    for (int i = 0; i < count; i++) {
-      for (int k = 0, rest = i; k < n; k++, rest /= cells[n - 1])
-        particles.x(k, i) = rest % cells[n - 1];
-      particles.mass.push_back(1.0L);
-      particles.energy.push_back(0.0L);
-      particles.type.push_back(1);
-    }
-    const Box box{Matrix::Identity(n, n) * cells[n - 1], {true, true, true}};
-    for (const auto kernel : kernels) {
-      Model model;
-      model.kernel = kernel_name(kernel);
-      model.n = n;
-      model.support = n == 3 ? 3.0L : 4.0L;
-      model.fluids = {Fluid{1.0L, 1.0L, 1.0L, 1.0L}};
-      const System system(model, box, particles);
-      auto largest_rate = [](const Matrix &R) {
-        const Eigen::MatrixXd A = R.cast<double>();
-        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly)
-            .eigenvalues()
-            .maxCoeff();
-      };
-      const double hsq = stability_length_squared(kernel_slope_integral(kernel, n, model.support));
-      const double mg = largest_rate(system.shear("mg").R) * shear_step(Shear::MG, hsq, 1.0);
-      const double morris =
-          largest_rate(system.shear("morris").R) * shear_step(Shear::MORRIS, hsq, 1.0);
-      const double bulk = largest_rate(system.bulk("density", "none").R) * bulk_step(hsq, 1.0);
-      printf("%s n = %d: rate x step = %.3f (mg) %.3f (morris) %.3f (bulk)\n", kernel_name(kernel),
-             n, mg, morris, bulk);
-      for (const double product : {mg, morris, bulk}) {
-        EXPECT_LT(product, 1.0) << kernel_name(kernel) << " n = " << n;
-        EXPECT_GT(product, 0.1) << kernel_name(kernel) << " n = " << n;
+    const DenseReference::Matrix cell = DenseReference::Matrix::Identity(n, n) * cells[n - 1];
+    for (const double jitter : {0.0, 0.25}) {
+      const auto particles = lattice(n, cells[n - 1], jitter);
+      for (const Kernel kernel : kernels) {
+        DenseReference::Model model;
+        model.kernel = kernel_name(kernel);
+        model.n = n;
+        model.support = n == 1 ? 8.0L : n == 2 ? 4.0L : 3.0L;
+        model.fluids = {DenseReference::Fluid{1.0L, 1.0L, 1.0L, 1.0L}};
+        const DenseReference::System system(model, {cell, {true, true, true}}, particles);
+        const double hsq =
+            stability_length_squared(kernel_slope_integral(kernel, n, model.support));
+
+        std::vector<double> products;
+        for (const Shear shear : SHEAR)
+          products.push_back(largest_rate(system.shear(shear_name(shear)).R) *
+                             shear_step(shear, hsq, 1.0));
+        products.push_back(largest_rate(system.bulk("density", "none").R) * bulk_step(hsq, 1.0));
+        for (std::size_t k = 0; k < products.size(); k++) {
+          SCOPED_TRACE(model.kernel + " n = " + std::to_string(n) + " term " + std::to_string(k));
+          EXPECT_LT(products[k], 1.0);
+          EXPECT_GT(products[k], 0.4);
+          smallest = std::min(smallest, products[k]);
+          largest = std::max(largest, products[k]);
+        }
       }
     }
   }
+  printf("damping rate times recommended step: %.3f to %.3f\n", smallest, largest);
 }
