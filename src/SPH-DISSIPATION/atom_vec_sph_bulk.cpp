@@ -30,7 +30,7 @@ enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, VESTX, VESTY, VESTZ, NPROPERTY };
 
 AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) :
     AtomVec(lmp), rmass(nullptr), rho(nullptr), drho(nullptr), vfrac(nullptr), esph(nullptr),
-    desph(nullptr), vest(nullptr)
+    desph(nullptr), heatflow(nullptr), vest(nullptr)
 {
   molecular = Atom::ATOMIC;
   mass_type = PER_ATOM;
@@ -45,19 +45,20 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) :
   // strings cannot contain fields in corresponding AtomVec default strings
   // order of fields in a string does not matter
   // except: fields_data_atom & fields_data_vel must match data file
+  // heatflow holds desph of the previous step for the integrator
   // rho, drho, vfrac are computed anew in every step, for owned and ghost atoms, by the
   // pair style; vest is set from the velocity at the start of every run
 
-  fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
-  fields_copy = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
+  fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "heatflow", "vest"};
+  fields_copy = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "heatflow", "vest"};
   fields_comm = {"vest"};
   fields_comm_vel = {"vest"};
   fields_reverse = {"desph"};
   fields_border = {"rmass", "esph", "vest"};
   fields_border_vel = {"rmass", "esph", "vest"};
-  fields_exchange = {"rmass", "rho", "drho", "vfrac", "esph", "vest"};
+  fields_exchange = {"rmass", "rho", "drho", "vfrac", "esph", "heatflow", "vest"};
   fields_restart = {"rmass", "esph"};
-  fields_create = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
+  fields_create = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "heatflow", "vest"};
   fields_data_atom = {"id", "type", "rmass", "esph", "x"};
   fields_data_vel = {"id", "v"};
 
@@ -77,6 +78,7 @@ void AtomVecSPHBulk::grow_pointers()
   vfrac = atom->vfrac;
   esph = atom->esph;
   desph = atom->desph;
+  heatflow = atom->heatflow;
   vest = atom->vest;
 }
 
@@ -118,7 +120,7 @@ void AtomVecSPHBulk::unpack_restart_init(int ilocal)
 
 void AtomVecSPHBulk::clear_derived(int ilocal)
 {
-  rho[ilocal] = drho[ilocal] = vfrac[ilocal] = desph[ilocal] = 0.0;
+  rho[ilocal] = drho[ilocal] = vfrac[ilocal] = desph[ilocal] = heatflow[ilocal] = 0.0;
   vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
 }
 

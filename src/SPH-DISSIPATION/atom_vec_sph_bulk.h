@@ -24,9 +24,9 @@ AtomStyle(sph/bulk,AtomVecSPHBulk);
 
 namespace LAMMPS_NS {
 
-// Per-atom arrays of a particle fluid.  Stored: mass (rmass), internal energy (esph), its rate
-// (desph), velocity extrapolated to the end of the step (vest); and, from the last force
-// computation, density rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.
+// Per-atom arrays of a particle fluid: mass (rmass), internal energy (esph), its rate (desph) and
+// that of the previous step (heatflow), velocity extrapolated to the end of the step (vest); from
+// the last force computation, density rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.
 
 class AtomVecSPHBulk : public AtomVec {
  public:
@@ -40,7 +40,7 @@ class AtomVecSPHBulk : public AtomVec {
   void pack_property_atom(int, double *, int, int) override;
 
  private:
-  double *rmass, *rho, *drho, *vfrac, *esph, *desph;
+  double *rmass, *rho, *drho, *vfrac, *esph, *desph, *heatflow;
   double **vest;
 
   void clear_derived(int);

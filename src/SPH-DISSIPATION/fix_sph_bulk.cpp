@@ -88,7 +88,11 @@ void FixSPHBulk::setup_pre_force(int vflag)
   pre_force(vflag);
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   the internal energy, too, is extrapolated to the end of the step, so that the
+   pressure of an ideal gas is accurate to second order in the time step;
+   final_integrate() corrects it with the new rate
+------------------------------------------------------------------------- */
 
 void FixSPHBulk::initial_integrate(int /*vflag*/)
 {
@@ -99,6 +103,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
   double *rmass = atom->rmass;
   double *esph = atom->esph;
   double *desph = atom->desph;
+  double *heatflow = atom->heatflow;
   int *mask = atom->mask;
   const int nlocal = nlocal_group();
   const double keep = remap_v_flag ? 0.0 : 1.0;
@@ -106,7 +111,8 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
-    esph[i] += 0.5 * dtv * desph[i];
+    heatflow[i] = desph[i];
+    esph[i] += dtv * desph[i];
     for (int d = 0; d < 3; d++) {
       const double dv = dtfm * f[i][d];
       v[i][d] += dv;
@@ -159,13 +165,14 @@ void FixSPHBulk::final_integrate()
   double *rmass = atom->rmass;
   double *esph = atom->esph;
   double *desph = atom->desph;
+  double *heatflow = atom->heatflow;
   int *mask = atom->mask;
   const int nlocal = nlocal_group();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
-    esph[i] += 0.5 * dtv * desph[i];
+    esph[i] += 0.5 * dtv * (desph[i] - heatflow[i]);
     for (int d = 0; d < 3; d++) v[i][d] += dtfm * f[i][d];
   }
 }
