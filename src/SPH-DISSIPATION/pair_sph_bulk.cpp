@@ -142,6 +142,8 @@ void PairSPHBulk::compute(int eflag, int vflag)
   const int nlocal = atom->nlocal;
   const int newton_pair = force->newton_pair;
 
+  if (neighbor->ago == 0) check_masses();
+
   engine->accumulate_density(list);
   if (newton_pair) comm->reverse_comm(this);
   comm->forward_comm(this);
@@ -554,7 +556,14 @@ void PairSPHBulk::check_setup()
                "pair style sph/bulk",
                comm->cutghostuser, support);
   if (dim == 1) check_line_of_particles();
+}
 
+/* ----------------------------------------------------------------------
+   also during a run, for fixes that insert particles, whose mass is zero at first
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::check_masses()
+{
   double lightest = 1.0;
   tagint id = 0;
   for (int i = 0; i < atom->nlocal; i++)

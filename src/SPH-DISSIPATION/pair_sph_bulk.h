@@ -79,6 +79,7 @@ class PairSPHBulk : public Pair {
   int fluid_coeff(int, char **, int, int, int, int);
   int unlike_coeff(int, char **, int, int, int, int);
   void check_setup();
+  void check_masses();
   void check_line_of_particles();
   void derive_coeffs();
   void announce();
