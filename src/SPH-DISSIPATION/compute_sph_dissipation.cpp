@@ -89,7 +89,10 @@ double ComputeSPHDissipation::compute_scalar()
 void ComputeSPHDissipation::compute_vector()
 {
   invoked_vector = update->ntimestep;
-  heating();
+
+  // compute_peratom() of this step has filled vector, too, and its heat must stay as it is
+
+  if (invoked_peratom != update->ntimestep) heating();
 }
 
 /* ---------------------------------------------------------------------- */
