@@ -206,6 +206,59 @@ def test_a_pair_style_given_again_starts_from_the_defaults(lammps, particles):
     assert_same(evaluate(lammps, particles, "again", model=again), reference)
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("eos", ["linear", "tait"])
+def test_minimize_relaxes_a_set(lammps, eos, ranks):
+    """The forces of a fluid at rest are the gradient of the potential energy."""
+    disordered(2, 12, speed=0.0).write(lammps.path("box.data"))
+    result = lammps(header(2) + "read_data box.data\n" + fluid(2, f"eos {eos}", keywords="pb 5") + INTEGRATE
+                    + dump("out.dump", 5000) + "minimize 0 1e-8 5000 50000\n", ranks=ranks)
+    first, last = lammps.frames("out.dump")
+    assert np.abs(last["f"]).max() < 1e-7 * np.abs(first["f"]).max()
+    (table,) = result.thermo()
+    assert table["E_pair"][-1] < 0.5 * table["E_pair"][0]
+
+
+def test_rerun(lammps):
+    """Forces of stored positions and velocities are those of the run's first step."""
+    disordered(2, 12).write(lammps.path("box.data"))
+    text = header(2) + "read_data box.data\n" + fluid(2) + INTEGRATE
+    lammps(text + dump("run.dump", 10) + "run 10\n")
+    lammps(text + dump("again.dump", 10) + "rerun run.dump dump x y vx vy\n")
+    start, later = zip(lammps.frames("run.dump"), lammps.frames("again.dump"))
+    assert_same(start[1], start[0])
+    assert relative(later[1]["f"] - later[0]["f"], later[0]["f"]) < 1e-3  # velocity there, extrapolated velocity here
+
+
+@pytest.mark.parametrize("units", ["si", "cgs", "micro", "nano"])
+def test_units(lammps, particles, units):
+    """The same numbers in all systems of units that need no conversion factor."""
+    reference = evaluate(lammps, particles, "reference", steps=50)
+    head = header(2).replace("units lj", f"units {units}") + "neighbor 0.3 bin\n"
+    frame = evaluate(lammps, particles, "units", steps=50, head=head)
+    for key in ("x", "v", "f", "esph"):
+        assert relative(frame[key] - reference[key], reference[key]) < SAME, key
+
+
+def test_line_along_the_other_direction(lammps):
+    """dim 1 does not care whether the line lies along x or y."""
+    particles = disordered(1, 40)
+    along_x = evaluate(lammps, particles, "x", model=fluid(1), steps=50)
+    swap = [1, 0, 2]
+    for name in ("x", "v"):
+        setattr(particles, name, getattr(particles, name)[:, swap])
+    particles.lo, particles.hi = particles.lo[swap], particles.hi[swap]
+    along_y = evaluate(lammps, particles, "y", model=fluid(1), steps=50)
+    for key in ("x", "f"):
+        assert np.abs(along_y[key][:, swap] - along_x[key]).max() < 1e-10, key
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_no_particles(lammps, particles, ranks):
+    particles.write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\ndelete_atoms group all\n" + MODEL + INTEGRATE + "run 5\n", ranks=ranks)
+
+
 @pytest.mark.parametrize("dim, cells", [(1, 60), (2, 12), (3, 6)])
 @pytest.mark.parametrize("newton, ranks", [("on", 1), ("off", 2)])
 def test_dumped_fields(lammps, dim, cells, newton, ranks):

@@ -8,7 +8,7 @@ import pytest
 from helpers import INTEGRATE, Lammps, disordered, dump, fluid, header, relative, undump
 
 EOS = ("linear", "tait", "ideal")
-SHEAR = ("mg", "mg/fr", "morris", "none")
+SHEAR = ("mg", "mg/fr", "morris", "espanol", "none")
 BULK = ("density", "volume", "none")
 KERNELS = ("wendland/c2", "wendland/c4", "wendland/c6", "cubic", "quintic", "lucy")
 CELLS = {1: 60, 2: 12, 3: 6}
@@ -50,8 +50,9 @@ def test_kinetic_plus_internal_energy_is_stationary(balance, dim, key):
 
 
 @pytest.mark.parametrize("dim", [1, 2, 3])
-@pytest.mark.parametrize("shear, bulk", [("mg", "none"), ("mg/fr", "none"), ("morris", "none"), ("none", "density"),
-                                         ("mg", "density"), ("morris", "density")])
+@pytest.mark.parametrize("shear, bulk", [("mg", "none"), ("mg/fr", "none"), ("morris", "none"), ("espanol", "none"),
+                                         ("none", "density"), ("mg", "density"),
+                                         ("morris", "density")])
 def test_no_particle_is_cooled_by_viscosity(balance, dim, shear, bulk):
     """desph less that of the inviscid fluid is the heating; it is the same for every equation of state."""
     heat = [balance(dim)[eos, shear, bulk]["desph"] - balance(dim)[eos, "none", "none"]["desph"] for eos in EOS]
@@ -84,6 +85,38 @@ def test_kappa_below_the_intrinsic_one_still_dissipates(lammps):
     lammps(text)
     cold, heat, plain = (lammps.frame(f"{name}.dump")["desph"].sum() for name in ("none", "zero", "plain"))
     assert 0.0 < heat - cold < plain - cold
+
+
+@pytest.fixture
+def random_line(lammps):
+    """Random points on a line, the only sets found so far that violate the bound on a negative bulk coefficient."""
+    particles = disordered(1, 80)
+    particles.x[:, 0] = np.random.default_rng(5).uniform(0.0, 80.0, 80)
+    particles.write(lammps.path("box.data"))
+    return particles
+
+
+def limited(lammps, limit, ranks=1, newton="on"):
+    """Heating of the random line with the lowest admissible bulk viscosity, and what the pair style counts."""
+    name = f"{limit}{ranks}{newton}.dump"
+    result = lammps(header(1, newton=newton) + "read_data box.data\n" + INTEGRATE
+                    + fluid(1, f"limit {limit}", kappa=0.0) + dump(name) + "compute N all pair sph/bulk\n"
+                    "thermo_style custom step c_N[1]\nrun 0\n", ranks=ranks)
+    return lammps.frame(name), result.thermo()[0]["c_N[1]"][0]
+
+
+def test_limit_on_a_negative_bulk_coefficient(lammps, random_line):
+    """`count` counts and changes nothing; `yes` changes the particles counted, and energy balances as before."""
+    (free, none), (counted, beyond), (held, beyond_held) = (limited(lammps, word) for word in ("no", "count", "yes"))
+    assert none == 0 and 0 < beyond < len(random_line) and beyond_held == beyond
+    assert (counted["f"] == free["f"]).all() and (counted["desph"] == free["desph"]).all()
+    assert relative(held["f"] - free["f"], free["f"]) > 1e-6
+    power = held["f"] * held["v"]
+    assert abs(power.sum() + held["desph"].sum()) < 1e-13 * np.abs(power).sum()
+    for ranks, newton in ((2, "on"), (4, "off")):
+        frame, number = limited(lammps, "yes", ranks, newton)
+        assert number == beyond
+        assert relative(frame["f"] - held["f"], held["f"]) < 1e-12
 
 
 def largest_energy_error(lammps, model, dt, column, dim=2):

@@ -76,6 +76,9 @@ PAIR_STYLE = [
     style("dim 1 requires a 2d box", "dim 1", **IN_3D),
     style("dim.* 0", "dim 0"),
     style("dim.* 4", "dim 4"),
+    style("limit", "limit"),
+    style("Unknown limit maybe", "limit maybe"),
+    style(["limit", "bulk density"], "limit yes bulk volume"),
     style("-1", "dim -1"),
     style("2.5", "dim 2.5"),
     style("two", "dim two"),
@@ -152,12 +155,45 @@ PARTICLES = [
     case("units", units="units metal"),
     case("comm_modify vel yes", box="read_data tilted.data", extra="fix 2 all deform 1 xy erate 0.1 remap v"),
     case("comm_modify vel yes", extra="fix 2 all deform 1 x erate 0.1 remap v", newton="newton off"),
+    case("mass must be > 0", extra="region R block 2 8 2 8 -0.5 0.5\n"
+         "fix D all deposit 5 1 1 4711 region R near 0.1", run="run 10"),
+    case("sph/heatconduction", pair_style="pair_style hybrid/overlay sph/bulk sph/heatconduction",
+         pair_coeff="pair_coeff * * sph/bulk 1.0 10.0 0.5 2.0 3.0\npair_coeff * * sph/heatconduction 1.0 3.0"),
     case(["ghost cutoff", "2.5"], extra="comm_modify cutoff 2.5"),
     case("pair_write", extra="pair_write 1 1 100 r 0.5 3.0 table.txt FLUID"),
     case("group/group", extra="compute G all group/group all"),
     case("respa", extra="run_style respa 2 2 pair 1"),
     case("respa|rRESPA", extra="run_style respa 2 2 inner 1 2.0 2.5 outer 2"),
 ]
+
+FLUIDS = """# UNITS: lj
+water 20 1.0 10.0 0.5 2.0
+ice 0 1.0 10.0 0.5 {}
+"""
+FILES = [
+    coeff("nowhere.sph", "* * nowhere.sph water 3.0"),
+    coeff("wine.*good.sph|good.sph.*wine", "* * good.sph wine 3.0"),
+    coeff("solid", "* * word.sph water 3.0"),
+    coeff("kappa must be >= 0", "* * negative.sph water 3.0"),
+    coeff("columns", "* * short.sph water 3.0"),
+    coeff("water", "* * twice.sph water 3.0"),
+    coeff("units", "* * metal.sph water 3.0"),
+    coeff("rc must be > 0", "* * good.sph water 0.0"),
+    coeff("three", "* * good.sph water three"),
+    coeff("[Mm]issing|good.sph", "* * good.sph water"),
+    coeff("[Mm]issing|good.sph", "* * good.sph"),
+]
+COMPUTES = [
+    case("keyword.*verbose|verbose", extra="compute Q all sph/dissipation verbose"),
+    case("verbose", extra="compute E all sph/energy verbose"),
+    case("group all", extra="group A type 1\ncompute Q A sph/dissipation"),
+    case("sph/bulk", pair_style=LJ, pair_coeff=LJ_COEFF, extra="compute Q all sph/dissipation\nthermo_style custom "
+         "step c_Q"),
+    case("sph/bulk", atom_style="atom_style atomic", pair_style=LJ, pair_coeff=LJ_COEFF, fix="fix 1 all nve",
+         box="region B block 0 9 0 9 -.5 .5\ncreate_box 2 B\ncreate_atoms 1 random 50 1 B\nmass * 1.0",
+         extra="compute E all sph/energy"),
+]
+
 
 def damaged(lammps):
     """Data files with one wrong line each."""
@@ -167,6 +203,11 @@ def damaged(lammps):
     for name, changed in {"zero": [*words[:2], "0.0", *words[3:]], "negative": [*words[:2], "-1.0", *words[3:]],
                           "word": [*words[:2], "heavy", *words[3:]], "short": words[:-2]}.items():
         lammps.path(f"{name}.data").write_text(text.replace(atom, " ".join(changed)))
+    fluids = {"good": FLUIDS.format("2.0"), "word": FLUIDS.format("solid"), "negative": FLUIDS.format("-2.0"),
+              "short": FLUIDS.format(""), "metal": FLUIDS.replace("lj", "metal").format("2.0"),
+              "twice": FLUIDS.format("2.0").replace("ice", "water")}
+    for name, content in fluids.items():
+        lammps.path(f"{name}.sph").write_text(content)
     narrow = lattice(1, 60)
     narrow.type[::2] = 2
     narrow.lo[1], narrow.hi[1] = -1.5, 1.5
@@ -183,7 +224,7 @@ def assert_refused(result, words):
         assert re.search(word, result.error), f"the message lacks '{word}':\n{result.error}"
 
 
-CASES = [*PAIR_STYLE, *PAIR_COEFF, *FIX, *PARTICLES]
+CASES = [*PAIR_STYLE, *PAIR_COEFF, *FIX, *PARTICLES, *FILES, *COMPUTES]
 
 
 @pytest.mark.parametrize("changes, words", CASES)
@@ -192,7 +233,7 @@ def test_refused(box, changes, words):
     assert_refused(box(deck(**changes), check=False, timeout=60), words)
 
 
-@pytest.mark.parametrize("changes, words", PAIR_STYLE[::6] + PAIR_COEFF[::6] + FIX + PARTICLES)
+@pytest.mark.parametrize("changes, words", PAIR_STYLE[::6] + PAIR_COEFF[::6] + FIX + PARTICLES + FILES[:3] + COMPUTES[::2])
 def test_refused_on_two_ranks(box, changes, words):
     damaged(box)
     assert_refused(box(deck(**changes), ranks=2, check=False, timeout=60), words)

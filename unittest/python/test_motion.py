@@ -144,7 +144,7 @@ def test_box_that_deforms_without_remapping_velocities(lammps):
 
 
 def test_a_run_in_two_pieces(lammps):
-    """A new run restarts the extrapolated velocity; what that changes vanishes with the square of the time step or faster."""
+    """A new run restarts the extrapolated velocity, which changes one force by O(dt^2), the positions by O(dt^3)."""
     disordered(2, 12).write(lammps.path("box.data"))
     changes = []
     for dt in (0.005, 0.0025):
@@ -156,8 +156,8 @@ def test_a_run_in_two_pieces(lammps):
             places.append(lammps.frame("out.dump")["x"])
         changes.append(np.abs(places[1] - places[0]).max())
     print(f"change of positions {changes}")
-    assert 0.0 < changes[0] < 1e-5
-    assert changes[0] / changes[1] > 3.5
+    assert 0.0 < changes[0] < 1e-6
+    assert changes[0] / changes[1] > 7.0
 
 
 KERNELS = ("wendland/c2", "wendland/c4", "wendland/c6", "cubic", "quintic", "lucy")
@@ -183,9 +183,9 @@ def test_two_particles_at_the_same_point(lammps, dim, cells, kernel, newton):
     assert "nan" not in result.log.lower().split()
 
 
-@pytest.mark.parametrize("shear", ["mg", "mg/fr", "morris"])
+@pytest.mark.parametrize("shear", ["mg", "mg/fr", "morris", "espanol"])
 def test_two_particles_alone_at_the_same_point(lammps, shear):
-    """Viscosity acts on the relative velocity along r only where there is an r; Morris's term has none either."""
+    """No force although their velocities differ."""
     particles = lattice(2, 10).where(np.arange(100) < 2)
     particles.x[:] = 5.0, 5.0, 0.0
     particles.v[1, 0] = 0.5

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from helpers import INTEGRATE, Lammps, disordered, dump, fluid, header
+from helpers import INTEGRATE, SUPPORT, Lammps, disordered, drop, dump, fluid, header
 
 STEPS = 200
-BOUND = 1e-9  # of a spacing
+BOUND = 1e-12  # of a spacing
 
 SYSTEMS = {
     "line": disordered(1, 100, ntypes=2),
@@ -29,6 +29,8 @@ ONCE = [
     ("2d", 1, "neighbor 1.1 nsq", ""),
     ("2d", 1, "comm_modify cutoff 7.0\natom_modify sort 0 0.0", ""),
     ("2d", 2, "newton off\ncomm_style tiled", "balance 1.0 rcb"),
+    ("2d", 2, "neighbor 0.3 multi\ncomm_modify mode multi", ""),
+    ("2d", 2, "", "group A type 1\natom_modify first A"),
     ("2d", 4, "processors 1 4 1", ""),
     ("2d", 4, "", "balance 1.0 shift xy 10 1.05"),
     ("2d", 4, "", "fix B all balance 50 1.0 shift xy 10 1.05"),
@@ -44,7 +46,7 @@ def trajectory(lammps, particles, ranks=1, before="", after="", options="eos tai
     """Positions before and after; type 1 and 2 differ in every property."""
     dim = particles.dim
     particles.write(lammps.path("box.data"))
-    support = {1: 4.0, 2: 3.0, 3: 2.5}[dim]
+    support = SUPPORT[dim]
     coeff = (f"pair_coeff 1 1 1.0 10.0 0.5 2.0 {support} gamma 5\n"
              f"pair_coeff 2 2 1.1 12.0 0.2 0.8 {support} pb 2\n"
              "pair_coeff 1 2 mu 0.3\n")
@@ -77,6 +79,17 @@ def test_same_trajectory(lammps, serial, name, ranks, before, after):
     difference = np.abs(last - serial(name)).max()
     print(f"largest difference {difference:.2e}")
     assert difference < BOUND
+
+
+@pytest.mark.parametrize("newton", ["", "newton off"])
+def test_ranks_without_particles(lammps, newton):
+    """A small set in the corner of a large box leaves most ranks empty."""
+    corner = drop(2, 4.0)
+    corner.x -= [11.0, 11.0, 0.0]
+    corner.type[::2] = 2
+    places = [trajectory(lammps, corner, ranks, before)[1]
+              for ranks, before in ((1, ""), (4, f"processors 4 1 1\n{newton}"))]
+    assert np.abs(places[1] - places[0]).max() < BOUND
 
 
 def test_a_tilt_by_one_box_length_is_the_same_crystal(lammps):
