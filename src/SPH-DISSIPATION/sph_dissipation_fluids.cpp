@@ -20,6 +20,9 @@
 #include "tokenizer.h"
 #include "utils.h"
 
+#include <cmath>
+#include <cstdlib>
+#include <map>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -42,8 +45,8 @@ static Fluid fluid_of_line(LAMMPS *lmp, const std::string &where,
 
   double value[NCOLUMN];
   for (int k = 1; k < NCOLUMN; k++) {
-    if (!utils::is_double(words[k])) error->one(FLERR, "{}: '{}' is not a number", where, words[k]);
-    value[k] = std::stod(words[k]);
+    value[k] = utils::is_double(words[k]) ? strtod(words[k].c_str(), nullptr) : NAN;
+    if (!std::isfinite(value[k])) error->one(FLERR, "{}: '{}' is not a number", where, words[k]);
   }
   const Fluid fluid = {value[1], value[2], value[3], value[4], value[5]};
 
@@ -66,22 +69,24 @@ Fluid SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const std
     if (!fp) error->one(FLERR, "Cannot open file of fluids {}: {}", file, utils::getsyserror());
 
     char line[MAXLINE];
-    int number = 0, found = 0;
+    int number = 0;
+    std::map<std::string, int> line_of;
     std::string known;
     while (fgets(line, MAXLINE, fp)) {
       number++;
       const auto words = Tokenizer(utils::trim_comment(line)).as_vector();
       if (words.empty()) continue;
       const Fluid one = fluid_of_line(lmp, fmt::format("{}:{}", file, number), words);
+      if (line_of.count(words[0]))
+        error->one(FLERR, "{}:{}: fluid {} stands already in line {}", file, number, words[0],
+                   line_of[words[0]]);
+      line_of[words[0]] = number;
       known += " " + words[0];
-      if (words[0] != name) continue;
-      if (found)
-        error->one(FLERR, "{}:{}: fluid {} stands already in line {}", file, number, name, found);
-      found = number;
-      fluid = one;
+      if (words[0] == name) fluid = one;
     }
     fclose(fp);
-    if (!found) error->one(FLERR, "No fluid {} in file {}, which has:{}", name, file, known);
+    if (!line_of.count(name))
+      error->one(FLERR, "No fluid {} in file {}, which has:{}", name, file, known);
   }
 
   MPI_Bcast(&fluid, sizeof(Fluid), MPI_BYTE, 0, lmp->world);
