@@ -20,18 +20,29 @@
 // mu = shear viscosity, kappa = bulk viscosity, stress = 2 mu dev(E) + kappa tr(E), both in
 // pressure * time (in dimension n = 1 kappa is the longitudinal viscosity).
 //
+// Micropolar fluid: mu_r = vortex (microrotation) viscosity in the units of mu, gamma1 and gamma2 =
+// spin viscosities in units of mu * length^2,
+//   rho du/dt = ... + (mu + mu_r) lap u + (mu + lambda - mu_r) grad div u + 2 mu_r curl Omega,
+//   rho I dOmega/dt = -2 mu_r (2 Omega - curl u) + gamma1 lap Omega + (gamma1 + gamma2) grad div Omega.
+//
 // P1 = Bonet Avalos, Antuono, Colagrossi, Souto-Iglesias, Phys. Rev. E 101, 013302 (2020)
+// P2 = Colagrossi, Durante, Souto-Iglesias, Bonet Avalos, constitutive properties of the SPH bulk
+//      viscosity
+// P3 = Souto-Iglesias, Bonet Avalos, Antuono, Colagrossi, SPHERIC 2022; Phys. Rev. E 104, 015315
+//      (2021)
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // mg:      f_i = -2 (n+2) mu sum_j F (u.e) e V_i V_j        P1 (12)
+  // mg:      f_i = -2 (n+2) mu sum_j F (u.e) e V_i V_j        P2 (41)
   // mg/fr:   f_i = -eta sum_j F r (u.e) e V_i V_j             P1 (15), (49)
   // morris:  f_i = -2 mu sum_j F u V_i V_j                    Laplacian of the velocity
   // espanol: f_i = -a sum_j F [u + (u.e) e] V_i V_j           P. Espanol, M. Revenga, Phys. Rev. E 67,
   //                                                           026705 (2003), with bulk term zero
 
-  enum class Shear { NONE, MG, MG_FR, MORRIS, ESPANOL };
+  // micropolar: f_i = -sum_j F V_i V_j [zeta1 (e.u*) e + zeta2 u*], u* = u - Omega_mean x r   P3 (12)
+
+  enum class Shear { NONE, MG, MG_FR, MORRIS, ESPANOL, MICROPOLAR };
 
   // density: f_i = zeta sum_j (V_i^3 cdot_i + V_j^3 cdot_j) F r_ij             P1 (18)
   // volume:  f_i = zeta sum_j (V_i cdot_i + V_j cdot_j) F r_ij V_i V_j         P1 (64)
@@ -40,11 +51,12 @@ namespace SPHDissipation {
 
   inline const char *shear_name(Shear shear)
   {
-    return (shear == Shear::MG)     ? "mg"
-        : (shear == Shear::MG_FR)   ? "mg/fr"
-        : (shear == Shear::MORRIS)  ? "morris"
-        : (shear == Shear::ESPANOL) ? "espanol"
-                                    : "none";
+    return (shear == Shear::MG)        ? "mg"
+        : (shear == Shear::MG_FR)      ? "mg/fr"
+        : (shear == Shear::MORRIS)     ? "morris"
+        : (shear == Shear::ESPANOL)    ? "espanol"
+        : (shear == Shear::MICROPOLAR) ? "micropolar"
+                                       : "none";
   }
 
   inline const char *bulk_name(Bulk bulk)
@@ -70,12 +82,47 @@ namespace SPHDissipation {
     }
   }
 
-  // what the shear term puts before (u.e)^2 in the dissipation of a pair at distance r, in units of
-  // shear_factor mu F V_i V_j
+  // coefficients of the pair terms of two types:
+  //   f_i = -sum_j F V_i V_j [along_r (e.u*) e + along_u u*]
+  //   tau_i = 1/2 sum_j F V_i V_j along_u r x u* - sum_j F V_i V_j [xi1 (e.dOmega) e + xi2 dOmega]
+  // with F r instead of F for mg/fr
 
-  inline double central_weight(Shear shear, double r)
+  struct PairCoeff {
+    double along_r = 0.0;
+    double along_u = 0.0;
+    double xi1 = 0.0;
+    double xi2 = 0.0;
+  };
+
+  inline PairCoeff shear_coefficients(Shear shear, int n, double mu, double mean_radius)
   {
-    return (shear == Shear::MG_FR) ? r : (shear == Shear::ESPANOL) ? 2.0 : 1.0;
+    const double coefficient = shear_factor(shear, n, mean_radius) * mu;
+    PairCoeff coeff;
+    if (shear != Shear::MORRIS) coeff.along_r = coefficient;
+    if (shear == Shear::MORRIS || shear == Shear::ESPANOL) coeff.along_u = coefficient;
+    return coeff;
+  }
+
+  // inverse of mu = zeta1/(2(n+2)) + zeta2/4, mu_r = zeta2/4 (P3 (29)-(32) with the bulk term) and of
+  // gamma1 = xi1/10 + xi2/2, gamma2 = xi1/10 - xi2/2 (n = 3), gamma1 = -gamma2 = xi2/2 (n = 2)
+
+  inline PairCoeff micropolar_coefficients(int n, double mu, double mu_r, double gamma1,
+                                           double gamma2)
+  {
+    PairCoeff coeff;
+    coeff.along_r = 2.0 * (n + 2) * (mu - mu_r);
+    coeff.along_u = 4.0 * mu_r;
+    coeff.xi1 = (n == 3) ? 5.0 * (gamma1 + gamma2) : 0.0;
+    coeff.xi2 = gamma1 - gamma2;
+    return coeff;
+  }
+
+  // what the shear term puts before (u.e)^2 in the dissipation of a pair at distance r, in units of
+  // F V_i V_j
+
+  inline double central_weight(Shear shear, const PairCoeff &coeff, double r)
+  {
+    return (shear == Shear::MG_FR) ? coeff.along_r * r : coeff.along_r + coeff.along_u;
   }
 
   // bulk viscosity that the shear term brings with it: lambda = mu for mg and
@@ -97,6 +144,13 @@ namespace SPHDissipation {
     }
   }
 
+  // the same for the micropolar pair terms: lambda = mu - mu_r
+
+  inline double intrinsic_kappa_micropolar(int n, double mu, double mu_r)
+  {
+    return (1.0 + 2.0 / n) * mu - mu_r;
+  }
+
   // coefficient of the bulk term; P1 (67)
 
   inline double bulk_coefficient(Shear shear, int n, double mu, double kappa)
@@ -111,6 +165,21 @@ namespace SPHDissipation {
   {
     if (!(mu >= 0.0)) return "mu must be >= 0";
     if (!(kappa >= 0.0)) return "kappa must be >= 0";
+    return nullptr;
+  }
+
+  // the same for a micropolar fluid; the particle model needs along_r + along_u >= 0 and
+  // xi1 + xi2 >= 0, too, and has one spin viscosity in two dimensions
+
+  inline const char *inadmissible(int n, double mu, double kappa, double mu_r, double gamma1,
+                                  double gamma2)
+  {
+    if (const char *violated = inadmissible(mu, kappa)) return violated;
+    if (!(mu_r >= 0.0)) return "mu_r must be >= 0";
+    if (!(n * mu_r <= (n + 2) * mu * (1.0 + 1.0e-14))) return "mu_r must be <= mu (1 + 2/n)";
+    if (n == 2 && gamma2 != -gamma1) return "gamma2 must be -gamma1 in 2d";
+    if (!(gamma1 - gamma2 >= 0.0)) return "gamma1 - gamma2 must be >= 0";
+    if (!(n == 2 || 6.0 * gamma1 + 4.0 * gamma2 >= 0.0)) return "6 gamma1 + 4 gamma2 must be >= 0";
     return nullptr;
   }
 

@@ -50,10 +50,10 @@ static const LoopSet *choose_loops()
 /* ---------------------------------------------------------------------- */
 
 Engine::Engine(LAMMPS *lmp) :
-    Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
-    divergence(nullptr), bound(nullptr), loops(choose_loops()), density_loop(nullptr),
-    force_loop(nullptr), data(), shear(Shear::NONE), bulk(Bulk::NONE), self_weight(0.0), nmax(0),
-    imax(0), stride_max(0), pair_max(0), first(nullptr)
+    Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
+    zeta_term(nullptr), divergence(nullptr), bound(nullptr), loops(choose_loops()),
+    density_loop(nullptr), force_loop(nullptr), data(), spin(nullptr), shear(Shear::NONE),
+    bulk(Bulk::NONE), self_weight(0.0), nmax(0), imax(0), stride_max(0), pair_max(0), first(nullptr)
 {
 }
 
@@ -64,6 +64,8 @@ Engine::~Engine()
   memory->sfree(particle);
   memory->sfree(density);
   memory->sfree(force);
+  memory->sfree(spin);
+  memory->sfree(torque);
   memory->sfree(zeta_term);
   memory->sfree(divergence);
   memory->sfree(bound);
@@ -78,21 +80,27 @@ Engine::~Engine()
 /* ---------------------------------------------------------------------- */
 
 void Engine::setup(Kernel kernel, int n, double support, Shear shear_in, Bulk bulk_in,
-                   const double *const *mu, int ntypes)
+                   const std::vector<PairCoeff> &coeff_in, int ntypes)
 {
   bulk = bulk_in;
   shear = shear_in;
+  coeff = coeff_in;
   density_loop = loops->density(kernel);
 
-  data.mu = mu;
-  data.one_mu = true;
+  data.coeff = coeff.data();
+  data.ntypes_1 = ntypes + 1;
+  data.uniform = true;
   bool inviscid = true;
+  const PairCoeff &one = coeff[ntypes + 2];
   for (int i = 1; i <= ntypes; i++)
     for (int j = 1; j <= ntypes; j++) {
-      if (mu[i][j] != mu[1][1]) data.one_mu = false;
-      if (mu[i][j] != 0.0) inviscid = false;
+      const PairCoeff &c = coeff[i * (ntypes + 1) + j];
+      if (c.along_r != one.along_r || c.along_u != one.along_u || c.xi1 != one.xi1 ||
+          c.xi2 != one.xi2)
+        data.uniform = false;
+      if (c.along_r != 0.0 || c.along_u != 0.0 || c.xi1 != 0.0 || c.xi2 != 0.0) inviscid = false;
     }
-  force_loop = loops->forces(inviscid ? Shear::NONE : shear, bulk);
+  force_loop = loops->forces((inviscid && shear != Shear::MICROPOLAR) ? Shear::NONE : shear, bulk);
 
   data.support = support;
   self_weight = kernel_weight(kernel, n, 0.0, support);
@@ -100,8 +108,6 @@ void Engine::setup(Kernel kernel, int n, double support, Shear shear_in, Bulk bu
                        return k.shape(0.0);
                      });
   data.slope_norm = data.weight_norm / (support * support);
-  data.shear_factor =
-      SPHDissipation::shear_factor(shear, n, kernel_mean_radius(kernel, n, support));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -116,6 +122,12 @@ void Engine::grow_atoms()
   particle = (Particle *) memory->smalloc(nmax * sizeof(Particle), "sph:particle");
   density = (DensitySum *) memory->smalloc(nmax * sizeof(DensitySum), "sph:density");
   force = (ForceSum *) memory->smalloc(nmax * sizeof(ForceSum), "sph:force");
+  if (shear == Shear::MICROPOLAR) {
+    memory->sfree(spin);
+    memory->sfree(torque);
+    spin = (Spin *) memory->smalloc(nmax * sizeof(Spin), "sph:spin");
+    torque = (TorqueSum *) memory->smalloc(nmax * sizeof(TorqueSum), "sph:torque");
+  }
   memory->sfree(zeta_term);
   zeta_term = (double *) memory->smalloc(nmax * sizeof(double), "sph:zeta_term");
   memory->sfree(divergence);
@@ -170,7 +182,7 @@ void Engine::grow_pairs(NeighList *list)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_density(NeighList *list)
+void Engine::accumulate_density(NeighList *list, double **omegaest)
 {
   grow_atoms();
   grow_pairs(list);
@@ -188,6 +200,10 @@ void Engine::accumulate_density(NeighList *list)
     density[i].c = (i < nlocal) ? self_weight : 0.0;
     density[i].cdot = 0.0;
   }
+
+  if (omegaest)
+    for (int i = 0; i < nall; i++)
+      for (int d = 0; d < 3; d++) spin[i].w[d] = omegaest[i][d];
 
   data.inum = list->inum;
   data.ilist = list->ilist;
@@ -214,8 +230,8 @@ void Engine::accumulate_bound(NeighList *list)
         const double del = particle[i].x[d] - particle[j].x[d];
         rsq += del * del;
       }
-      const double weight =
-          data.shear_factor * data.mu[type[i]][type[j]] * central_weight(shear, sqrt(rsq));
+      const PairCoeff &c = coeff[type[i] * data.ntypes_1 + type[j]];
+      const double weight = central_weight(shear, c, sqrt(rsq));
       if (rsq == 0.0) continue;
       const double pair = data.slope[first[ii] + k] * rsq / weight;
       bound[i] += particle[i].vol * particle[i].vol / particle[j].vol * pair;
@@ -231,12 +247,15 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
   const int nall = atom->nlocal + atom->nghost;
   memset(force, 0, nall * sizeof(ForceSum));
   if (bulk == Bulk::VOLUME) memset(divergence, 0, nall * sizeof(double));
+  if (shear == Shear::MICROPOLAR) memset(torque, 0, nall * sizeof(TorqueSum));
 
   data.inum = list->inum;
   data.type = atom->type;
   data.zeta_term = zeta_term;
   data.divergence = divergence;
   data.force = force;
+  data.spin = spin;
+  data.torque = torque;
   data.tally = tally;
   force_loop(data);
 }

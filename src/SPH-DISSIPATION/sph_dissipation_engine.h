@@ -18,6 +18,8 @@
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_kernel.h"
 
+#include <vector>
+
 // GCC can compile single functions for other instruction sets than the rest of LAMMPS
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__INTEL_COMPILER)
@@ -61,6 +63,19 @@ namespace SPHDissipation {
     double heat;
   };
 
+  // spin, extrapolated to the end of the step
+
+  struct Spin {
+    double w[3];
+  };
+
+  // torque and heat of the vortex and of the spin diffusion term: what pass 2 accumulates
+
+  struct TorqueSum {
+    double t[3];
+    double heat_vortex, heat_spin;
+  };
+
   // receives the force on i from j of each pair, for virials that are summed by pair
 
   class PairTally {
@@ -86,18 +101,20 @@ namespace SPHDissipation {
     const int *const *firstneigh;
 
     const Particle *particle;    // owned and ghost
-    const int *type;             // read if mu differs between types
+    const Spin *spin;            // owned and ghost (micropolar)
+    const int *type;             // read if the coefficients differ between types
     const double *zeta_term;     // zeta V cdot of each particle (bulk volume)
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
     DensitySum *density;         // owned and ghost, accumulated by pass 1
     ForceSum *force;             // owned and ghost, accumulated by pass 2
+    TorqueSum *torque;           // owned and ghost, accumulated by pass 2 (micropolar)
 
-    double support;             // R
-    double weight_norm;         // W = weight_norm * shape(r/R)
-    double slope_norm;          // F = slope_norm * slope(r/R)
-    double shear_factor;        // of the shear form, per unit mu
-    const double *const *mu;    // by type of i and j
-    bool one_mu;                // mu[1][1] holds for all pairs
+    double support;            // R
+    double weight_norm;        // W = weight_norm * shape(r/R)
+    double slope_norm;         // F = slope_norm * slope(r/R)
+    const PairCoeff *coeff;    // by types of i and j: coeff[type[i] * ntypes_1 + type[j]]
+    int ntypes_1;              // number of types + 1
+    bool uniform;              // the coefficients of type 1 hold for all pairs
 
     // pairs of the ii-th atom: entries first[ii] ... first[ii] + count[ii] - 1
 
@@ -115,7 +132,7 @@ namespace SPHDissipation {
     PairTally *tally;    // nullptr if nobody asks
   };
 
-  constexpr int NSCRATCH = 16;
+  constexpr int NSCRATCH = 30;
 
   typedef void (*Loop)(LoopData &);
 
@@ -138,19 +155,21 @@ namespace SPHDissipation {
     ~Engine() override;
 
     // choose the loops; n = dimension of the kernel
-    // mu = by type pair, owned by the caller; ntypes = number of its types
-    void setup(Kernel, int n, double support, Shear, Bulk, const double *const *mu, int ntypes);
+    // coeff = of the pair terms, for types 0 to ntypes of i, of j within
+    void setup(Kernel, int n, double support, Shear, Bulk, const std::vector<PairCoeff> &coeff,
+               int ntypes);
 
-    // pass 1: particle[] from atom->x and atom->vest; density[] of owned atoms (with the particle
+    // pass 1: particle[] from atom->x and atom->vest, spin[] from omegaest (nullptr without spin);
+    // density[] of owned atoms (with the particle
     // itself) and the contributions to ghost atoms
-    void accumulate_density(NeighList *);
+    void accumulate_density(NeighList *, double **omegaest);
 
     // between the passes, with particle[].vol set: bound[] = V_i^2 sum_j F r^2 / (V_j a_ij), where
     // a_ij F V_i V_j is what the shear term puts before (u.e)^2.  The total dissipation is
     // non-negative for any velocities if zeta_i bound_i >= -1/2 for all particles.
     void accumulate_bound(NeighList *);
 
-    // pass 2: force[] from particle[] with vol and g set by the caller on owned and ghost atoms
+    // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller on owned and ghost atoms
     void accumulate_forces(NeighList *, PairTally *);
 
     double memory_usage() const;
@@ -159,6 +178,7 @@ namespace SPHDissipation {
     Particle *particle;
     DensitySum *density;
     ForceSum *force;
+    TorqueSum *torque;     // micropolar only
     double *zeta_term;     // zeta V cdot, set by the caller on owned and ghost atoms
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     double *bound;         // of accumulate_bound()
@@ -167,6 +187,8 @@ namespace SPHDissipation {
     const LoopSet *loops;
     Loop density_loop, force_loop;
     LoopData data;
+    std::vector<PairCoeff> coeff;
+    Spin *spin;
     Shear shear;
     Bulk bulk;
     double self_weight;    // W(0)

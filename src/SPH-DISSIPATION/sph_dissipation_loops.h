@@ -122,12 +122,14 @@ namespace SPHDissipation {
     // pass 2: pressure, shear and bulk forces and the heating of shear (half to each partner)
     // VOLUME: the bulk form P1 (64) with its own pair weights, and D_i = -sum_j V_j F r_ij.u_ij, by
     // which it heats; the form P1 (18) acts through g and heats by cdot
+    // MICROPOLAR: torques, too; half of the torque of a pair force to each partner, P3 (12), (18)
 
     template <Shear SHEAR, bool VOLUME> void force_loop(LoopData &data)
     {
+      constexpr bool SPIN = (SHEAR == Shear::MICROPOLAR);
       constexpr bool ALONG_R =
-          (SHEAR == Shear::MG || SHEAR == Shear::MG_FR || SHEAR == Shear::ESPANOL);
-      constexpr bool ALONG_U = (SHEAR == Shear::MORRIS || SHEAR == Shear::ESPANOL);
+          (SHEAR == Shear::MG || SHEAR == Shear::MG_FR || SHEAR == Shear::ESPANOL || SPIN);
+      constexpr bool ALONG_U = (SHEAR == Shear::MORRIS || SHEAR == Shear::ESPANOL || SPIN);
 
       const Particle *const particle = data.particle;
       ForceSum *const force = data.force;
@@ -145,16 +147,36 @@ namespace SPHDissipation {
       double *const fz = column[8];
       double *const vol = column[9];
       double *const g = column[10];
-      double *const factor = column[11];
+      double *const along_r = column[11];
       double *const metric = column[12];
       double *const zeta_term = column[13];
       double *const heat = column[14];
       double *const flux = column[15];
+      double *const along_u = column[16];
+      double *const xi1 = column[17];
+      double *const xi2 = column[18];
+      double *const wx = column[19];
+      double *const wy = column[20];
+      double *const wz = column[21];
+      double *const tx = column[22];
+      double *const ty = column[23];
+      double *const tz = column[24];
+      double *const sx = column[25];
+      double *const sy = column[26];
+      double *const sz = column[27];
+      double *const heat_vortex = column[28];
+      double *const heat_spin = column[29];
 
-      if (data.one_mu) {
-        const double factor_one = data.shear_factor * data.mu[1][1];
-        for (int k = 0; k < data.stride; k++) factor[k] = factor_one;
-      }
+      auto set_coeff = [=](int k, const PairCoeff &coeff) {
+        if (ALONG_R) along_r[k] = coeff.along_r;
+        if (ALONG_U) along_u[k] = coeff.along_u;
+        if (SPIN) {
+          xi1[k] = coeff.xi1;
+          xi2[k] = coeff.xi2;
+        }
+      };
+      if (data.uniform)
+        for (int k = 0; k < data.stride; k++) set_coeff(k, data.coeff[data.ntypes_1 + 1]);
 
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
@@ -165,6 +187,7 @@ namespace SPHDissipation {
         const double *const slope = data.slope + data.first[ii];
         const double *const approach = data.approach + data.first[ii];
         const double zeta_term_i = VOLUME ? data.zeta_term[i] : 0.0;
+        const Spin spin_i = SPIN ? data.spin[i] : Spin();
 
         for (int k = 0; k < n; k++) {
           const Particle &pj = particle[neighbor[k]];
@@ -178,17 +201,24 @@ namespace SPHDissipation {
             uy[k] = pi.u[1] - pj.u[1];
             uz[k] = pi.u[2] - pj.u[2];
           }
+          if (SPIN) {
+            const Spin &spin_j = data.spin[neighbor[k]];
+            wx[k] = spin_j.w[0];
+            wy[k] = spin_j.w[1];
+            wz[k] = spin_j.w[2];
+          }
           if (VOLUME) zeta_term[k] = data.zeta_term[neighbor[k]];
         }
         for (int k = n; k < nblock; k++) {
           dx[k] = dy[k] = dz[k] = vol[k] = g[k] = 0.0;
           if (ALONG_U) ux[k] = uy[k] = uz[k] = 0.0;
+          if (SPIN) wx[k] = wy[k] = wz[k] = 0.0;
           if (VOLUME) zeta_term[k] = 0.0;
         }
-        if ((ALONG_R || ALONG_U) && !data.one_mu) {
-          const double *const mu = data.mu[data.type[i]];
-          for (int k = 0; k < n; k++) factor[k] = data.shear_factor * mu[data.type[neighbor[k]]];
-          for (int k = n; k < nblock; k++) factor[k] = 0.0;
+        if ((ALONG_R || ALONG_U) && !data.uniform) {
+          const PairCoeff *const coeff = data.coeff + data.type[i] * data.ntypes_1;
+          for (int k = 0; k < n; k++) set_coeff(k, coeff[data.type[neighbor[k]]]);
+          for (int k = n; k < nblock; k++) set_coeff(k, PairCoeff());
         }
         if (ALONG_R || ALONG_U)
           for (int k = 0; k < nblock; k++)
@@ -202,7 +232,7 @@ namespace SPHDissipation {
           double heat_shear = 0.0;
 
           if (ALONG_R) {
-            const double drag = factor[k] * vv_slope * approach[k] / (metric[k] + TINY);
+            const double drag = along_r[k] * vv_slope * approach[k] / (metric[k] + TINY);
             central -= drag;
             heat_shear = 0.5 * drag * approach[k];
           }
@@ -214,11 +244,39 @@ namespace SPHDissipation {
           double fyk = central * dy[k];
           double fzk = central * dz[k];
           if (ALONG_U) {
-            const double drag = (metric[k] > 0.0) ? factor[k] * vv_slope : 0.0;
-            fxk -= drag * ux[k];
-            fyk -= drag * uy[k];
-            fzk -= drag * uz[k];
-            heat_shear += 0.5 * drag * (ux[k] * ux[k] + uy[k] * uy[k] + uz[k] * uz[k]);
+            double uxk = ux[k], uyk = uy[k], uzk = uz[k];
+            if (SPIN) {
+              const double mx = 0.5 * (spin_i.w[0] + wx[k]);
+              const double my = 0.5 * (spin_i.w[1] + wy[k]);
+              const double mz = 0.5 * (spin_i.w[2] + wz[k]);
+              uxk -= my * dz[k] - mz * dy[k];
+              uyk -= mz * dx[k] - mx * dz[k];
+              uzk -= mx * dy[k] - my * dx[k];
+            }
+            const double drag = (metric[k] > 0.0) ? along_u[k] * vv_slope : 0.0;
+            fxk -= drag * uxk;
+            fyk -= drag * uyk;
+            fzk -= drag * uzk;
+            const double heat_u = 0.5 * drag * (uxk * uxk + uyk * uyk + uzk * uzk);
+            if (SPIN) {
+              heat_vortex[k] = heat_u;
+              tx[k] = 0.5 * drag * (dy[k] * uzk - dz[k] * uyk);
+              ty[k] = 0.5 * drag * (dz[k] * uxk - dx[k] * uzk);
+              tz[k] = 0.5 * drag * (dx[k] * uyk - dy[k] * uxk);
+            } else
+              heat_shear += heat_u;
+          }
+          if (SPIN) {
+            const double sxk = spin_i.w[0] - wx[k];
+            const double syk = spin_i.w[1] - wy[k];
+            const double szk = spin_i.w[2] - wz[k];
+            const double along = dx[k] * sxk + dy[k] * syk + dz[k] * szk;
+            const double drag1 = xi1[k] * vv_slope * along / (metric[k] + TINY);
+            const double drag2 = (metric[k] > 0.0) ? xi2[k] * vv_slope : 0.0;
+            sx[k] = drag1 * dx[k] + drag2 * sxk;
+            sy[k] = drag1 * dy[k] + drag2 * syk;
+            sz[k] = drag1 * dz[k] + drag2 * szk;
+            heat_spin[k] = 0.5 * (drag1 * along + drag2 * (sxk * sxk + syk * syk + szk * szk));
           }
           fx[k] = fxk;
           fy[k] = fyk;
@@ -233,11 +291,27 @@ namespace SPHDissipation {
           fj.f[2] -= fz[k];
           fj.heat += heat[k];
           if (VOLUME) data.divergence[neighbor[k]] -= pi.vol * flux[k];
+          if (SPIN) {
+            TorqueSum &tj = data.torque[neighbor[k]];
+            tj.t[0] += tx[k] + sx[k];
+            tj.t[1] += ty[k] + sy[k];
+            tj.t[2] += tz[k] + sz[k];
+            tj.heat_vortex += heat_vortex[k];
+            tj.heat_spin += heat_spin[k];
+          }
         }
         force[i].f[0] += sum(fx, nblock);
         force[i].f[1] += sum(fy, nblock);
         force[i].f[2] += sum(fz, nblock);
         force[i].heat += sum(heat, nblock);
+        if (SPIN) {
+          TorqueSum &ti = data.torque[i];
+          ti.t[0] += sum(tx, nblock) - sum(sx, nblock);
+          ti.t[1] += sum(ty, nblock) - sum(sy, nblock);
+          ti.t[2] += sum(tz, nblock) - sum(sz, nblock);
+          ti.heat_vortex += sum(heat_vortex, nblock);
+          ti.heat_spin += sum(heat_spin, nblock);
+        }
         if (VOLUME) {
           for (int k = 0; k < nblock; k++) flux[k] *= vol[k];
           data.divergence[i] -= sum(flux, nblock);
@@ -281,6 +355,8 @@ namespace SPHDissipation {
           return force_loop<Shear::MORRIS, VOLUME>;
         case Shear::ESPANOL:
           return force_loop<Shear::ESPANOL, VOLUME>;
+        case Shear::MICROPOLAR:
+          return force_loop<Shear::MICROPOLAR, VOLUME>;
         default:
           return force_loop<Shear::NONE, VOLUME>;
       }
