@@ -28,7 +28,11 @@ enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, VESTX, VESTY, VESTZ, NPROPERTY };
 
 /* ---------------------------------------------------------------------- */
 
-AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) :
+AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) : AtomVecSPHBulk(lmp, COMPLETE) {}
+
+/* ---------------------------------------------------------------------- */
+
+AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
     AtomVec(lmp), rmass(nullptr), rho(nullptr), drho(nullptr), vfrac(nullptr), esph(nullptr),
     desph(nullptr), heatflow(nullptr), vest(nullptr)
 {
@@ -62,7 +66,7 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) :
   fields_data_atom = {"id", "type", "rmass", "esph", "x"};
   fields_data_vel = {"id", "v"};
 
-  setup_fields();
+  if (complete == COMPLETE) setup_fields();
 }
 
 /* ----------------------------------------------------------------------

@@ -32,6 +32,9 @@ class AtomVecSPHBulk : public AtomVec {
  public:
   AtomVecSPHBulk(class LAMMPS *);
 
+  enum Complete { COMPLETE, TO_BE_EXTENDED };    // by a derived class, which calls setup_fields()
+  AtomVecSPHBulk(class LAMMPS *, Complete);
+
   void grow_pointers() override;
   void force_clear(int, size_t) override;
   void data_atom_post(int) override;
@@ -39,11 +42,12 @@ class AtomVecSPHBulk : public AtomVec {
   int property_atom(const std::string &) override;
   void pack_property_atom(int, double *, int, int) override;
 
+ protected:
+  virtual void clear_derived(int);
+
  private:
   double *rmass, *rho, *drho, *vfrac, *esph, *desph, *heatflow;
   double **vest;
-
-  void clear_derived(int);
 };
 
 }    // namespace LAMMPS_NS

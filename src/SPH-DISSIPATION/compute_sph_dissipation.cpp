@@ -52,25 +52,8 @@ ComputeSPHDissipation::~ComputeSPHDissipation()
 void ComputeSPHDissipation::init()
 {
   pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/bulk", 1));
-  if (!pair) error->all(FLERR, "Compute {} requires pair style sph/bulk", style);
-}
-
-/* ----------------------------------------------------------------------
-   heat of owned and ghost atoms, and vector = power by channel
-------------------------------------------------------------------------- */
-
-void ComputeSPHDissipation::heating()
-{
-  if (atom->nmax > nmax) {
-    nmax = atom->nmax;
-    memory->destroy(heat);
-    memory->create(heat, nmax, "sph/dissipation:heat");
-    vector_atom = heat;
-  }
-
-  double power[PairSPHBulk::NCHANNEL];
-  pair->heating(heat, power);
-  MPI_Allreduce(power, vector, PairSPHBulk::NCHANNEL, MPI_DOUBLE, MPI_SUM, world);
+  if (!pair) pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/micropolar", 1));
+  if (!pair) error->all(FLERR, "Compute {} requires pair style sph/bulk or sph/micropolar", style);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -89,10 +72,9 @@ double ComputeSPHDissipation::compute_scalar()
 void ComputeSPHDissipation::compute_vector()
 {
   invoked_vector = update->ntimestep;
-
-  // compute_peratom() of this step has filled vector, too, and its heat must stay as it is
-
-  if (invoked_peratom != update->ntimestep) heating();
+  double power[PairSPHBulk::NCHANNEL];
+  pair->heating(nullptr, power);
+  MPI_Allreduce(power, vector, PairSPHBulk::NCHANNEL, MPI_DOUBLE, MPI_SUM, world);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -100,7 +82,15 @@ void ComputeSPHDissipation::compute_vector()
 void ComputeSPHDissipation::compute_peratom()
 {
   invoked_peratom = update->ntimestep;
-  heating();
+  if (atom->nmax > nmax) {
+    nmax = atom->nmax;
+    memory->destroy(heat);
+    memory->create(heat, nmax, "sph/dissipation:heat");
+    vector_atom = heat;
+  }
+
+  double power[PairSPHBulk::NCHANNEL];
+  pair->heating(heat, power);
   if (force->newton_pair) comm->reverse_comm(this);
 }
 

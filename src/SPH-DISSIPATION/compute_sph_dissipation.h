@@ -43,8 +43,6 @@ class ComputeSPHDissipation : public Compute {
   class PairSPHBulk *pair;
   int nmax;
   double *heat;
-
-  void heating();
 };
 
 }    // namespace LAMMPS_NS

@@ -14,13 +14,14 @@
 #include "compute_sph_energy.h"
 
 #include "atom.h"
+#include "atom_vec_sph_micropolar.h"
 #include "error.h"
 #include "force.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
 
-enum { KINETIC, INTERNAL, NENERGY };
+enum { KINETIC, INTERNAL, ROTATIONAL, NENERGY };
 
 /* ---------------------------------------------------------------------- */
 
@@ -28,7 +29,7 @@ ComputeSPHEnergy::ComputeSPHEnergy(LAMMPS *lmp, int narg, char **arg) : Compute(
 {
   if (narg > 3) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
   if (!atom->esph_flag || !atom->rmass_flag)
-    error->all(FLERR, "Compute {} requires atom style sph/bulk", style);
+    error->all(FLERR, "Compute {} requires atom style sph/bulk or sph/micropolar", style);
 
   scalar_flag = vector_flag = 1;
   size_vector = NENERGY;
@@ -49,7 +50,7 @@ double ComputeSPHEnergy::compute_scalar()
 {
   if (invoked_vector != update->ntimestep) compute_vector();
   invoked_scalar = update->ntimestep;
-  scalar = vector[KINETIC] + vector[INTERNAL];
+  scalar = vector[KINETIC] + vector[INTERNAL] + vector[ROTATIONAL];
   return scalar;
 }
 
@@ -70,5 +71,15 @@ void ComputeSPHEnergy::compute_vector()
     energy[INTERNAL] += esph[i];
   }
   energy[KINETIC] *= 0.5 * force->mvv2e;
+
+  if (auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"))) {
+    double **omega = atom->omega;
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (!(mask[i] & groupbit)) continue;
+      const double *const w = omega[i];
+      energy[ROTATIONAL] += rmass[i] * avec->inertia[i] * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    }
+    energy[ROTATIONAL] *= 0.5 * force->mvv2e;
+  }
   MPI_Allreduce(energy, vector, NENERGY, MPI_DOUBLE, MPI_SUM, world);
 }

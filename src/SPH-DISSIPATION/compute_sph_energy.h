@@ -24,8 +24,7 @@ ComputeStyle(sph/energy,ComputeSPHEnergy);
 
 namespace LAMMPS_NS {
 
-// Kinetic energy, internal energy and their sum for a particle fluid; not normalized by the
-// number of atoms.
+// Kinetic, internal and rotational energy and their sum for a particle fluid.
 
 class ComputeSPHEnergy : public Compute {
  public:

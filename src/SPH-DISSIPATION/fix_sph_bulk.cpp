@@ -30,8 +30,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), remap_v_flag(0), integrated_groups(0),
     first_instance(false)
 {
-  if (!atom->style_match("sph/bulk"))
-    error->all(FLERR, "Fix {} requires atom style sph/bulk", style);
+  if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   if (narg > 3) error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[3]);
 
   time_integrate = 1;
@@ -53,7 +52,7 @@ void FixSPHBulk::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix {} does not support run_style respa", style);
 
-  const auto &integrators = modify->get_fix_by_style("^sph/bulk$");
+  const auto &integrators = modify->get_fix_by_style("^" + std::string(style) + "$");
   integrated_groups = 0;
   for (const auto &ifix : integrators) integrated_groups |= ifix->groupbit;
   first_instance = (integrators.front() == this);
@@ -73,12 +72,14 @@ void FixSPHBulk::init()
 void FixSPHBulk::setup_pre_exchange()
 {
   if (!first_instance) return;
+  for (int i = 0; i < atom->nlocal; i++) reset_extrapolation(i);
+}
 
-  double **v = atom->v;
-  double **vest = atom->vest;
-  const double start = remap_v_flag ? 0.0 : 1.0;
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int d = 0; d < 3; d++) vest[i][d] = start * v[i][d];
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::reset_extrapolation(int i)
+{
+  for (int d = 0; d < 3; d++) atom->vest[i][d] = remap_v_flag ? 0.0 : atom->v[i][d];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -131,13 +132,9 @@ void FixSPHBulk::post_integrate()
 {
   if (!first_instance || (integrated_groups & 1)) return;
 
-  double **v = atom->v;
-  double **vest = atom->vest;
   int *mask = atom->mask;
-  const double start = remap_v_flag ? 0.0 : 1.0;
   for (int i = 0; i < atom->nlocal; i++)
-    if (!(mask[i] & integrated_groups))
-      for (int d = 0; d < 3; d++) vest[i][d] = start * v[i][d];
+    if (!(mask[i] & integrated_groups)) reset_extrapolation(i);
 }
 
 /* ----------------------------------------------------------------------

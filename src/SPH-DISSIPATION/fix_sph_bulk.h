@@ -40,13 +40,17 @@ class FixSPHBulk : public Fix {
   void final_integrate() override;
   void reset_dt() override;
 
- private:
+ protected:
   double dtv, dtf;
+  int nlocal_group() const;
+
+  // extrapolated quantities of a particle at the start of a run, or if no such fix integrates it
+  virtual void reset_extrapolation(int);
+
+ private:
   int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
   int integrated_groups;    // bits of all groups with an integrator of this kind
   bool first_instance;      // acts for the particles outside all these groups
-
-  int nlocal_group() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -52,7 +52,7 @@ struct PairSPHBulk::Settings {
 
 struct PairSPHBulk::TypeCoeff {
   EosParams eos;
-  double mu = 0.0;
+  double viscosity[MAXVISCOSITY] = {};    // mu, and what a derived style adds
   double kappa = 0.0;
   double rc = 0.0;
   double gamma = 0.0;    // 0: default of the equation of state
@@ -61,12 +61,12 @@ struct PairSPHBulk::TypeCoeff {
 
   // the members that pair_coeff sets, as a restart file holds them
 
-  static constexpr int NSTORED = 8;
+  static constexpr int NSTORED = 7 + MAXVISCOSITY;
   void store(double *buf) const
   {
-    const double stored[NSTORED] = {eos.rho0, eos.c0, eos.pb, gamma,
-                                    mu,       kappa,  rc,     (double) intrinsic};
-    std::copy(stored, stored + NSTORED, buf);
+    const double stored[] = {eos.rho0, eos.c0, eos.pb, gamma, kappa, rc, (double) intrinsic};
+    std::copy(stored, stored + 7, buf);
+    std::copy(viscosity, viscosity + MAXVISCOSITY, buf + 7);
   }
   void restore(const double *buf)
   {
@@ -74,10 +74,10 @@ struct PairSPHBulk::TypeCoeff {
     eos.c0 = buf[1];
     eos.pb = buf[2];
     gamma = buf[3];
-    mu = buf[4];
-    kappa = buf[5];
-    rc = buf[6];
-    intrinsic = static_cast<int>(buf[7]);
+    kappa = buf[4];
+    rc = buf[5];
+    intrinsic = static_cast<int>(buf[6]);
+    std::copy(buf + 7, buf + NSTORED, viscosity);
   }
 };
 
@@ -101,9 +101,18 @@ class PairSPHBulk::StressTally : public PairTally {
 
 /* ---------------------------------------------------------------------- */
 
-PairSPHBulk::PairSPHBulk(LAMMPS *lmp) :
-    Pair(lmp), choice(new Settings), coeffs(nullptr), mu(nullptr), mu_set(nullptr), dim(0),
-    support(0.0), announced(false), warned_step(false), engine(new Engine(lmp)), comm_bound(false)
+PairSPHBulk::PairSPHBulk(LAMMPS *lmp) : PairSPHBulk(lmp, "sph/bulk", {"mu"}) {}
+
+/* ----------------------------------------------------------------------
+   for derived styles: name of the style and of its viscosities by type pair
+------------------------------------------------------------------------- */
+
+PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
+                         const std::vector<std::string> &viscosities) :
+    Pair(lmp),
+    fluid_style(name), viscosity_names(viscosities), choice(new Settings), coeffs(nullptr),
+    viscosity(nullptr), viscosity_set(nullptr), dim(0), support(0.0), announced(false),
+    warned_step(false), engine(new Engine(lmp)), comm_bound(false)
 {
   restartinfo = 1;
   writedata = 1;
@@ -124,8 +133,8 @@ PairSPHBulk::~PairSPHBulk()
   if (allocated) {
     memory->destroy(setflag);
     memory->destroy(cutsq);
-    memory->destroy(mu);
-    memory->destroy(mu_set);
+    memory->destroy(viscosity);
+    memory->destroy(viscosity_set);
   }
   delete[] pvector;
   delete[] coeffs;
@@ -144,7 +153,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
 
   if (neighbor->ago == 0) check_masses();
 
-  engine->accumulate_density(list);
+  engine->accumulate_density(list, extrapolated_spin());
   if (newton_pair) comm->reverse_comm(this);
   comm->forward_comm(this);
 
@@ -169,6 +178,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
     for (int d = 0; d < 3; d++) f[i][d] += total[i].f[d];
     desph[i] += total[i].heat + bulk_heat(i);
   }
+  add_torques(nforce);
 
   if (vflag_fdotr) virial_fdotr_compute();
 }
@@ -257,13 +267,15 @@ void PairSPHBulk::heating(double *heat, double *power) const
 {
   const int nlocal = atom->nlocal;
   const int nforce = force->newton_pair ? nlocal + atom->nghost : nlocal;
-  power[SHEAR_CHANNEL] = power[BULK_CHANNEL] = 0.0;
+  std::fill(power, power + NCHANNEL, 0.0);
   for (int i = 0; i < nforce; i++) {
-    const double shear = engine->force[i].heat;
-    const double bulk = bulk_heat(i);
-    heat[i] = shear + bulk;
-    power[SHEAR_CHANNEL] += shear;
-    power[BULK_CHANNEL] += bulk;
+    double channel[NCHANNEL] = {engine->force[i].heat, bulk_heat(i)};
+    spin_heat(i, channel);
+    if (heat) heat[i] = 0.0;
+    for (int k = 0; k < NCHANNEL; k++) {
+      if (heat) heat[i] += channel[k];
+      power[k] += channel[k];
+    }
   }
 }
 
@@ -276,28 +288,34 @@ void PairSPHBulk::allocate()
 
   memory->create(setflag, n, n, "pair:setflag");
   memory->create(cutsq, n, n, "pair:cutsq");
-  memory->create(mu, n, n, "pair:mu");
-  memory->create(mu_set, n, n, "pair:mu_set");
+  memory->create(viscosity, nviscosity(), n, n, "pair:viscosity");
+  memory->create(viscosity_set, nviscosity(), n, n, "pair:viscosity_set");
   coeffs = new TypeCoeff[n];
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++) {
-      setflag[i][j] = mu_set[i][j] = 0;
-      cutsq[i][j] = mu[i][j] = 0.0;
+      setflag[i][j] = 0;
+      cutsq[i][j] = 0.0;
+      for (int k = 0; k < nviscosity(); k++) {
+        viscosity_set[k][i][j] = 0;
+        viscosity[k][i][j] = 0.0;
+      }
     }
 }
 
 /* ----------------------------------------------------------------------
-   the choice that has this name
+   set choice to the entry of table that has this name; false if there is none
 ------------------------------------------------------------------------- */
 
 template <class Choice>
-static Choice choice_of(const std::vector<std::pair<std::string, Choice>> &table, const char *what,
-                        const std::string &word, Error *error)
+static bool choose(Choice &choice, const std::string &word,
+                   const std::vector<std::pair<std::string, Choice>> &table)
 {
   for (const auto &entry : table)
-    if (entry.first == word) return entry.second;
-  error->all(FLERR, "Unknown {} {} for pair_style sph/bulk", what, word);
-  return table.front().second;
+    if (entry.first == word) {
+      choice = entry.second;
+      return true;
+    }
+  return false;
 }
 
 /* ----------------------------------------------------------------------
@@ -307,58 +325,65 @@ static Choice choice_of(const std::vector<std::pair<std::string, Choice>> &table
 void PairSPHBulk::settings(int narg, char **arg)
 {
   *choice = Settings();
+  choice->shear = default_shear();
   announced = false;
 
   for (int iarg = 0; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
-    if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "shear" &&
-        keyword != "bulk" && keyword != "limit")
-      error->all(FLERR, "Unknown pair_style sph/bulk keyword: {}", keyword);
-    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_style sph/bulk " + keyword, error);
+    if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "bulk" &&
+        keyword != "limit" && (keyword != "shear" || default_shear() != Shear::MG))
+      error->all(FLERR, "Unknown pair_style {} keyword: {}", fluid_style, keyword);
+    if (iarg + 2 > narg)
+      utils::missing_cmd_args(FLERR, "pair_style " + fluid_style + " " + keyword, error);
     const std::string word = arg[iarg + 1];
+    auto unknown = [&](const char *what) {
+      error->all(FLERR, "Unknown {} {} for pair_style {}", what, word, fluid_style);
+    };
 
     if (keyword == "kernel") {
       std::vector<std::pair<std::string, Kernel>> kernels;
       for (auto k : {Kernel::WENDLAND_C2, Kernel::WENDLAND_C4, Kernel::WENDLAND_C6, Kernel::CUBIC,
                      Kernel::QUINTIC, Kernel::LUCY})
         kernels.emplace_back(kernel_name(k), k);
-      choice->kernel = choice_of(kernels, "kernel", word, error);
+      if (!choose(choice->kernel, word, kernels)) unknown("kernel");
     } else if (keyword == "eos") {
-      choice->eos =
-          choice_of<Eos>({{"linear", Eos::LINEAR}, {"tait", Eos::TAIT}, {"ideal", Eos::IDEAL}},
-                         "eos", word, error);
+      if (!choose(choice->eos, word,
+                  {{"linear", Eos::LINEAR}, {"tait", Eos::TAIT}, {"ideal", Eos::IDEAL}}))
+        unknown("eos");
     } else if (keyword == "shear") {
-      choice->shear = choice_of<Shear>({{"mg", Shear::MG},
-                                        {"mg/fr", Shear::MG_FR},
-                                        {"morris", Shear::MORRIS},
-                                        {"espanol", Shear::ESPANOL},
-                                        {"none", Shear::NONE}},
-                                       "shear form", word, error);
+      if (!choose(choice->shear, word,
+                  {{"mg", Shear::MG},
+                   {"mg/fr", Shear::MG_FR},
+                   {"morris", Shear::MORRIS},
+                   {"espanol", Shear::ESPANOL},
+                   {"none", Shear::NONE}}))
+        unknown("shear form");
     } else if (keyword == "bulk") {
-      choice->bulk = choice_of<Bulk>(
-          {{"density", Bulk::DENSITY}, {"volume", Bulk::VOLUME}, {"none", Bulk::NONE}}, "bulk form",
-          word, error);
+      if (!choose(choice->bulk, word,
+                  {{"density", Bulk::DENSITY}, {"volume", Bulk::VOLUME}, {"none", Bulk::NONE}}))
+        unknown("bulk form");
     } else if (keyword == "limit") {
-      choice->limit = choice_of<Limit>(
-          {{"no", Limit::NO}, {"count", Limit::COUNT}, {"yes", Limit::YES}}, "limit", word, error);
+      if (!choose(choice->limit, word,
+                  {{"no", Limit::NO}, {"count", Limit::COUNT}, {"yes", Limit::YES}}))
+        unknown("limit");
     } else {
       choice->dim = utils::inumeric(FLERR, word, false, lmp);
       if (choice->dim < 1 || choice->dim > 3)
-        error->all(FLERR, "Pair_style sph/bulk dim must be 1, 2, or 3, not {}", word);
+        error->all(FLERR, "Pair_style {} dim must be 1, 2, or 3, not {}", fluid_style, word);
     }
   }
   if (choice->limit != Limit::NO && choice->bulk != Bulk::DENSITY)
-    error->all(FLERR, "Pair_style sph/bulk limit requires bulk density");
+    error->all(FLERR, "Pair_style {} limit requires bulk density", fluid_style);
   comm_forward = (choice->eos == Eos::IDEAL) ? 3 : 2;
 }
 
 /* ----------------------------------------------------------------------
-   words that pair_coeff I J may start with, though all but mu belong to a type
+   words of pair_coeff that belong to a type
 ------------------------------------------------------------------------- */
 
-static bool is_coeff_keyword(const std::string &word)
+static bool is_type_keyword(const std::string &word)
 {
-  for (const auto &keyword : {"mu", "rho0", "c0", "kappa", "rc", "pb", "gamma"})
+  for (const auto &keyword : {"rho0", "c0", "kappa", "rc", "pb", "gamma"})
     if (word == keyword) return true;
   return false;
 }
@@ -368,6 +393,7 @@ static bool is_coeff_keyword(const std::string &word)
    I J rho0 c0 mu kappa rc [pb p] [gamma g]: the types I = J of both ranges
    I J FILE NAME rc [pb p] [gamma g]: the same, from a file of fluids
    I J mu VALUE: the unlike pairs of both ranges
+   derived styles have more viscosities, which follow kappa
 ------------------------------------------------------------------------- */
 
 void PairSPHBulk::coeff(int narg, char **arg)
@@ -383,17 +409,29 @@ void PairSPHBulk::coeff(int narg, char **arg)
   int count;
   if (utils::is_double(word))
     count = type_coeff(narg, arg, ilo, ihi, jlo, jhi);
-  else if (narg < 5 || is_coeff_keyword(word))
+  else if (narg < 5 || nviscosity() > 1 || is_viscosity(word) >= 0 || is_type_keyword(word))
     count = unlike_coeff(narg, arg, ilo, ihi, jlo, jhi);
   else
     count = fluid_coeff(narg, arg, ilo, ihi, jlo, jhi);
 
   if (count == 0)
-    error->all(FLERR,
-               "Pair_coeff {} {} {}: rho0 c0 mu kappa rc are for a type, I = J; the keyword mu is "
-               "for unlike types",
-               arg[0], arg[1], arg[2]);
+    error->all(
+        FLERR,
+        "Pair_coeff {} {} {}: the coefficients rho0 c0 mu kappa ... rc are for a type, I = J; "
+        "viscosities by keyword are for unlike types",
+        arg[0], arg[1], arg[2]);
   announced = false;
+}
+
+/* ----------------------------------------------------------------------
+   index of a viscosity that unlike types may have of their own, or -1
+------------------------------------------------------------------------- */
+
+int PairSPHBulk::is_viscosity(const std::string &word) const
+{
+  for (int k = 0; k < nviscosity(); k++)
+    if (word == viscosity_names[k]) return k;
+  return -1;
 }
 
 /* ----------------------------------------------------------------------
@@ -402,7 +440,8 @@ void PairSPHBulk::coeff(int narg, char **arg)
 
 int PairSPHBulk::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi)
 {
-  if (narg < 7) utils::missing_cmd_args(FLERR, "pair_coeff", error);
+  const int nvalues = 6 + nviscosity();
+  if (narg < nvalues) utils::missing_cmd_args(FLERR, "pair_coeff", error);
 
   auto positive = [&](const char *what, const char *word) {
     const double value = utils::numeric(FLERR, word, false, lmp);
@@ -414,15 +453,17 @@ int PairSPHBulk::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int
   TypeCoeff one;
   one.eos.rho0 = positive("rho0", arg[2]);
   one.eos.c0 = positive("c0", arg[3]);
-  one.mu = utils::numeric(FLERR, arg[4], false, lmp);
+  one.viscosity[0] = utils::numeric(FLERR, arg[4], false, lmp);
   one.intrinsic = (strcmp(arg[5], "intrinsic") == 0) ? 1 : 0;
   if (!one.intrinsic) one.kappa = utils::numeric(FLERR, arg[5], false, lmp);
-  one.rc = positive("rc", arg[6]);
+  for (int k = 1; k < nviscosity(); k++)
+    one.viscosity[k] = utils::numeric(FLERR, arg[5 + k], false, lmp);
+  one.rc = positive("rc", arg[nvalues - 1]);
 
-  for (int iarg = 7; iarg < narg; iarg += 2) {
+  for (int iarg = nvalues; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
     if (keyword != "pb" && keyword != "gamma")
-      error->all(FLERR, "Unknown pair_coeff keyword for pair_style sph/bulk: {}", keyword);
+      error->all(FLERR, "Unknown pair_coeff keyword for pair_style {}: {}", fluid_style, keyword);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
     if (keyword == "pb")
       one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
@@ -430,9 +471,9 @@ int PairSPHBulk::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int
       one.gamma = positive("gamma", arg[iarg + 1]);
   }
 
-  const char *violated = inadmissible(one.mu, one.kappa);
-  if (violated)
+  if (const char *violated = inadmissible(one.viscosity[0], one.kappa))
     error->all(FLERR, "Pair_coeff {}, not mu = {} kappa = {}", violated, arg[4], arg[5]);
+
   int count = 0;
   for (int i = std::max(ilo, jlo); i <= std::min(ihi, jhi); i++) {
     coeffs[i] = one;
@@ -470,24 +511,29 @@ int PairSPHBulk::fluid_coeff(int narg, char **arg, int ilo, int ihi, int jlo, in
 
 int PairSPHBulk::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi)
 {
-  double value = 0.0;
+  std::vector<std::pair<int, double>> given;
   for (int iarg = 2; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
-    if (keyword != "mu" && is_coeff_keyword(keyword))
+    if (is_type_keyword(keyword))
       error->all(FLERR, "Pair_coeff keyword {} belongs to a type, not to a pair of types", keyword);
-    if (keyword != "mu")
-      error->all(FLERR, "Unknown pair_coeff keyword for pair_style sph/bulk: {}", keyword);
-    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff mu", error);
-    value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    if (!(value >= 0.0)) error->all(FLERR, "Pair_coeff mu must be >= 0, not {}", arg[iarg + 1]);
+    const int k = is_viscosity(keyword);
+    if (k < 0)
+      error->all(FLERR, "Unknown pair_coeff keyword for pair_style {}: {}", fluid_style, keyword);
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
+    const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    if (k == 0 && !(value >= 0.0))
+      error->all(FLERR, "Pair_coeff mu must be >= 0, not {}", arg[iarg + 1]);
+    given.emplace_back(k, value);
   }
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
     for (int j = jlo; j <= jhi; j++) {
       if (i == j) continue;
-      mu[i][j] = mu[j][i] = value;
-      mu_set[i][j] = mu_set[j][i] = 1;
+      for (const auto &one : given) {
+        viscosity[one.first][i][j] = viscosity[one.first][j][i] = one.second;
+        viscosity_set[one.first][i][j] = viscosity_set[one.first][j][i] = 1;
+      }
       setflag[std::min(i, j)][std::max(i, j)] = 1;
       count++;
     }
@@ -512,15 +558,14 @@ void PairSPHBulk::init_style()
 
 void PairSPHBulk::check_setup()
 {
-  if (!atom->style_match("sph/bulk"))
-    error->all(FLERR, "Pair style sph/bulk requires atom style sph/bulk");
-  if (modify->get_fix_by_style("^sph/bulk$").empty())
-    error->all(FLERR, "Pair style sph/bulk requires fix sph/bulk");
+  if (!atom->style_match(fluid_style.c_str()))
+    error->all(FLERR, "Pair style {} requires atom style {}", fluid_style, fluid_style);
+  if (modify->get_fix_by_style("^" + fluid_style + "$").empty())
+    error->all(FLERR, "Pair style {} requires fix {}", fluid_style, fluid_style);
   if (force->mvv2e != 1.0)
     error->all(FLERR,
-               "Pair style sph/bulk requires units in which mass * velocity^2 is an energy, "
-               "not units {}",
-               update->unit_style);
+               "Pair style {} requires units in which mass * velocity^2 is an energy, not units {}",
+               fluid_style, update->unit_style);
 
   // LAMMPS's own particle fluids read the masses of types, which do not exist here
 
@@ -528,16 +573,15 @@ void PairSPHBulk::check_setup()
                             "sph/taitwater", "sph/taitwater/morris", "sdpd/taitwater/isothermal"})
     if (force->pair_match(other, 1))
       error->all(FLERR,
-                 "Pair style sph/bulk cannot be combined with pair style {}, which needs "
-                 "masses by type",
-                 other);
+                 "Pair style {} cannot be combined with pair style {}, which needs masses by type",
+                 fluid_style, other);
 
   dim = choice->dim ? choice->dim : domain->dimension;
   if (dim == 1 && domain->dimension == 3)
-    error->all(FLERR, "Pair_style sph/bulk dim 1 requires a 2d box");
+    error->all(FLERR, "Pair_style {} dim 1 requires a 2d box", fluid_style);
   if (dim != 1 && dim != domain->dimension)
-    error->all(FLERR, "Pair_style sph/bulk dim {} does not match the {}-d simulation box", dim,
-               domain->dimension);
+    error->all(FLERR, "Pair_style {} dim {} does not match the {}-d simulation box", fluid_style,
+               dim, domain->dimension);
 
   support = 0.0;
   for (int i = 1; i <= atom->ntypes; i++) {
@@ -545,16 +589,15 @@ void PairSPHBulk::check_setup()
     if (support == 0.0) support = coeffs[i].rc;
     if (coeffs[i].rc != support)
       error->all(FLERR,
-                 "Pair style sph/bulk rc must be the same for all types: {} of type {} "
-                 "differs from {}",
-                 coeffs[i].rc, i, support);
+                 "Pair style {} rc must be the same for all types: {} of type {} differs from {}",
+                 fluid_style, coeffs[i].rc, i, support);
   }
 
   if (comm->cutghostuser > 0.0 && comm->cutghostuser < support)
     error->all(FLERR,
                "The ghost cutoff {} of comm_modify is smaller than the support radius {} of "
-               "pair style sph/bulk",
-               comm->cutghostuser, support);
+               "pair style {}",
+               comm->cutghostuser, support, fluid_style);
   if (dim == 1) check_line_of_particles();
 }
 
@@ -577,9 +620,9 @@ void PairSPHBulk::check_masses()
   MPI_Allreduce(&id, &id_all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   if (lightest_all <= 0.0)
     error->all(FLERR,
-               "Pair style sph/bulk: mass must be > 0, which that of particle {} is not; "
+               "Pair style {}: mass must be > 0, which that of particle {} is not; "
                "use the set command",
-               id_all);
+               fluid_style, id_all);
 }
 
 /* ----------------------------------------------------------------------
@@ -601,9 +644,9 @@ void PairSPHBulk::check_line_of_particles()
   const double *const prd = domain->prd;
   if (domain->periodicity[across] && prd[across] <= support)
     error->all(FLERR,
-               "Pair_style sph/bulk: box too narrow for dim 1: its {} extent {} must be "
+               "Pair_style {}: box too narrow for dim 1: its {} extent {} must be "
                "larger than the support radius {}",
-               "xy"[across], prd[across], support);
+               fluid_style, "xy"[across], prd[across], support);
 }
 
 /* ----------------------------------------------------------------------
@@ -613,35 +656,85 @@ void PairSPHBulk::check_line_of_particles()
 void PairSPHBulk::derive_coeffs()
 {
   const int n = atom->ntypes;
+  std::vector<PairCoeff> pair_coeffs((n + 1) * (n + 1));
+
   for (int i = 1; i <= n; i++) {
     TypeCoeff &type = coeffs[i];
-    mu[i][i] = type.mu;
-    const double intrinsic = intrinsic_kappa(choice->shear, dim, type.mu);
-    type.zeta = (type.intrinsic || choice->bulk == Bulk::NONE)
-        ? 0.0
-        : bulk_coefficient(choice->shear, dim, type.mu, type.kappa);
+    type.eos.gamma = (type.gamma > 0.0) ? type.gamma : default_gamma(choice->eos);
+    if (choice->eos == Eos::IDEAL && !(type.eos.gamma > 1.0))
+      error->all(FLERR, "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}",
+                 type.eos.gamma, i);
+
+    for (int k = 0; k < nviscosity(); k++) {
+      viscosity[k][i][i] = type.viscosity[k];
+      for (int j = 1; j < i; j++)
+        if (!viscosity_set[k][i][j]) {
+          const double a = type.viscosity[k], b = coeffs[j].viscosity[k];
+          viscosity[k][i][j] = viscosity[k][j][i] = (a + b != 0.0) ? 2.0 * a * b / (a + b) : 0.0;
+        }
+    }
+    for (int j = 1; j <= i; j++) {
+      if (setflag[i][i] && setflag[j][j]) check_pair(i, j);
+      pair_coeffs[i * (n + 1) + j] = pair_coeffs[j * (n + 1) + i] = pair_coefficients(i, j);
+    }
+
+    const double intrinsic = intrinsic_kappa_of(i, i);
+    type.zeta = (type.intrinsic || choice->bulk == Bulk::NONE) ? 0.0 : type.kappa - intrinsic;
     if (!announced && choice->bulk == Bulk::NONE && !type.intrinsic && setflag[i][i] &&
         type.kappa != intrinsic && comm->me == 0)
       error->warning(FLERR,
                      "Pair_coeff kappa {} of type {} is ignored with bulk none: the shear "
                      "term gives kappa {}",
                      type.kappa, i, intrinsic);
-    type.eos.gamma = (type.gamma > 0.0) ? type.gamma : default_gamma(choice->eos);
-    if (choice->eos == Eos::IDEAL && !(type.eos.gamma > 1.0))
-      error->all(FLERR, "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}",
-                 type.eos.gamma, i);
-    for (int j = 1; j <= i; j++) {
-      if (j < i && !mu_set[i][j]) {
-        const double sum = type.mu + coeffs[j].mu;
-        mu[i][j] = mu[j][i] = (sum > 0.0) ? 2.0 * type.mu * coeffs[j].mu / sum : 0.0;
-      }
-      if (choice->shear == Shear::NONE && mu[i][j] != 0.0)
-        error->all(FLERR, "Pair_coeff mu must be 0 with shear none, not {} for types {} {}",
-                   mu[i][j], j, i);
-    }
   }
 
-  engine->setup(choice->kernel, dim, support, choice->shear, choice->bulk, mu, n);
+  engine->setup(choice->kernel, dim, support, choice->shear, choice->bulk, pair_coeffs, n);
+}
+
+/* ----------------------------------------------------------------------
+   what a derived style does in its own way
+------------------------------------------------------------------------- */
+
+Shear PairSPHBulk::default_shear() const
+{
+  return Shear::MG;
+}
+
+PairCoeff PairSPHBulk::pair_coefficients(int i, int j) const
+{
+  return shear_coefficients(choice->shear, dim, viscosity[0][i][j],
+                            kernel_mean_radius(choice->kernel, dim, support));
+}
+
+double PairSPHBulk::intrinsic_kappa_of(int i, int j) const
+{
+  return intrinsic_kappa(choice->shear, dim, viscosity[0][i][j]);
+}
+
+double PairSPHBulk::reference_density(int type) const
+{
+  return coeffs[type].eos.rho0;
+}
+
+void PairSPHBulk::check_pair(int i, int j)
+{
+  if (choice->shear == Shear::NONE && viscosity[0][i][j] != 0.0)
+    error->all(FLERR, "Pair_coeff mu must be 0 with shear none, not {} for types {} {}",
+               viscosity[0][i][j], j, i);
+}
+
+PairSPHBulk::Columns PairSPHBulk::table_columns(int i, int j, double kappa, double zeta) const
+{
+  const PairCoeff coeff = pair_coefficients(i, j);
+  return {{"mu", viscosity[0][i][j]},
+          {"kappa", kappa},
+          {"zeta", zeta},
+          {"shear_coeff", std::max(coeff.along_r, coeff.along_u)}};
+}
+
+PairSPHBulk::Columns PairSPHBulk::viscous_steps(int i, int j, double hsq, double rho) const
+{
+  return {{"shear", shear_step(choice->shear, hsq, viscosity[0][i][j] / rho)}};
 }
 
 /* ----------------------------------------------------------------------
@@ -660,16 +753,7 @@ void PairSPHBulk::announce()
   fastest = sqrt(fastest);
 
   const double hsq = stability_length_squared(kernel_slope_integral(choice->kernel, dim, support));
-  const double factor =
-      shear_factor(choice->shear, dim, kernel_mean_radius(choice->kernel, dim, support));
-
-  std::string table = fmt::format(
-      "Pair style sph/bulk: kernel {}, dim {}, eos {}, shear {}, bulk {}, "
-      "support radius {:g}, {} loops\n"
-      "  types      mu         kappa      zeta       shear coeff  largest stable time "
-      "step: acoustic  shear      bulk       all\n",
-      kernel_name(choice->kernel), dim, eos_name(choice->eos), shear_name(choice->shear),
-      bulk_name(choice->bulk), support, engine->instruction_set());
+  std::string table;
   double smallest = UNLIMITED_STEP;
 
   for (int i = 1; i <= atom->ntypes; i++)
@@ -678,22 +762,39 @@ void PairSPHBulk::announce()
       const TypeCoeff &a = coeffs[i], &b = coeffs[j];
       const double zeta = 0.5 * (a.zeta + b.zeta);
       const double rho = std::min(a.eos.rho0, b.eos.rho0);
-      const double acoustic = acoustic_step(sqrt(hsq), std::max(a.eos.c0, b.eos.c0) + fastest);
-      const double shear = shear_step(choice->shear, hsq, mu[i][j] / rho);
-      const double bulk = bulk_step(hsq, zeta / rho);
-      const double all = combined_step(acoustic, shear, bulk);
-      smallest = std::min(smallest, all);
 
-      auto step = [](double value) {
-        return (value < UNLIMITED_STEP) ? fmt::format("{:<10.4g}", value)
-                                        : fmt::format("{:<10}", "-");
-      };
-      table += fmt::format("  {:<10} {:<10.4g} {:<10.4g} {:<10.4g} {:<12.4g} {:>35} {} {} {}\n",
-                           fmt::format("{}-{}", i, j), mu[i][j],
-                           zeta + intrinsic_kappa(choice->shear, dim, mu[i][j]), zeta,
-                           factor * mu[i][j], step(acoustic), step(shear), step(bulk), step(all));
+      const Columns values = table_columns(i, j, zeta + intrinsic_kappa_of(i, j), zeta);
+      const double acoustic = acoustic_step(sqrt(hsq), std::max(a.eos.c0, b.eos.c0) + fastest);
+      Columns steps = viscous_steps(i, j, hsq, rho);
+      steps.insert(steps.begin() + 1, {"bulk", bulk_step(hsq, zeta / rho)});
+      double viscous_rate = 0.0;
+      for (const auto &step : steps) viscous_rate += 1.0 / step.second;
+      steps.insert(steps.begin(), {"acoustic", acoustic});
+      steps.push_back({"all", std::min(acoustic, 1.0 / viscous_rate)});
+      smallest = std::min(smallest, steps.back().second);
+
+      if (table.empty()) {
+        table = "  types   ";
+        for (const auto &value : values) table += fmt::format(" {:<11}", value.first);
+        table += " | largest stable time step:";
+        for (const auto &step : steps) table += fmt::format(" {:<10}", step.first);
+        table += "\n";
+      }
+      table += fmt::format("  {:<8}", fmt::format("{}-{}", i, j));
+      for (const auto &value : values) table += fmt::format(" {:<11.4g}", value.second);
+      table += " |                          ";
+      for (const auto &step : steps)
+        table += (step.second < UNLIMITED_STEP) ? fmt::format(" {:<10.4g}", step.second)
+                                                : fmt::format(" {:<10}", "-");
+      table += "\n";
     }
 
+  table = fmt::format("Pair style {}: kernel {}, dim {}, eos {}, shear {}, bulk {}, support radius "
+                      "{:g}, {} loops\n",
+                      fluid_style, kernel_name(choice->kernel), dim, eos_name(choice->eos),
+                      shear_name(choice->shear), bulk_name(choice->bulk), support,
+                      engine->instruction_set()) +
+      table;
   if (!announced && comm->me == 0) utils::logmesg(lmp, table);
   announced = true;
 
@@ -702,8 +803,8 @@ void PairSPHBulk::announce()
     if (comm->me == 0)
       error->warning(FLERR,
                      "The time step {:g} exceeds the largest stable time step {:g} of pair "
-                     "style sph/bulk",
-                     update->dt, smallest);
+                     "style {}",
+                     update->dt, smallest, fluid_style);
   }
 }
 
@@ -713,7 +814,7 @@ void PairSPHBulk::announce()
 
 double PairSPHBulk::init_one(int i, int j)
 {
-  if (i != j && !mu_set[i][j]) did_mix = true;
+  if (i != j && !viscosity_set[0][i][j]) did_mix = true;
   return support;
 }
 
@@ -729,8 +830,10 @@ void PairSPHBulk::write_restart(FILE *fp)
     double stored[TypeCoeff::NSTORED];
     coeffs[i].store(stored);
     fwrite(stored, sizeof(double), TypeCoeff::NSTORED, fp);
-    fwrite(mu_set[i], sizeof(int), atom->ntypes + 1, fp);
-    fwrite(mu[i], sizeof(double), atom->ntypes + 1, fp);
+    for (int k = 0; k < nviscosity(); k++) {
+      fwrite(viscosity_set[k][i], sizeof(int), atom->ntypes + 1, fp);
+      fwrite(viscosity[k][i], sizeof(double), atom->ntypes + 1, fp);
+    }
   }
 }
 
@@ -749,17 +852,21 @@ void PairSPHBulk::read_restart(FILE *fp)
     if (comm->me == 0) {
       utils::sfread(FLERR, &setflag[i][i], sizeof(int), 1, fp, nullptr, error);
       utils::sfread(FLERR, stored, sizeof(double), TypeCoeff::NSTORED, fp, nullptr, error);
-      utils::sfread(FLERR, mu_set[i], sizeof(int), n, fp, nullptr, error);
-      utils::sfread(FLERR, mu[i], sizeof(double), n, fp, nullptr, error);
     }
     MPI_Bcast(&setflag[i][i], 1, MPI_INT, 0, world);
     MPI_Bcast(stored, TypeCoeff::NSTORED, MPI_DOUBLE, 0, world);
     coeffs[i].restore(stored);
-    MPI_Bcast(mu_set[i], n, MPI_INT, 0, world);
-    MPI_Bcast(mu[i], n, MPI_DOUBLE, 0, world);
+    for (int k = 0; k < nviscosity(); k++) {
+      if (comm->me == 0) {
+        utils::sfread(FLERR, viscosity_set[k][i], sizeof(int), n, fp, nullptr, error);
+        utils::sfread(FLERR, viscosity[k][i], sizeof(double), n, fp, nullptr, error);
+      }
+      MPI_Bcast(viscosity_set[k][i], n, MPI_INT, 0, world);
+      MPI_Bcast(viscosity[k][i], n, MPI_DOUBLE, 0, world);
+      for (int j = i + 1; j < n; j++)
+        if (viscosity_set[k][i][j]) setflag[i][j] = 1;
+    }
   }
-  for (int i = 1; i < n; i++)
-    for (int j = i + 1; j < n; j++) setflag[i][j] = mu_set[i][j];
 }
 
 /* ----------------------------------------------------------------------
@@ -799,8 +906,12 @@ void PairSPHBulk::write_data_all(FILE *fp)
 {
   for (int i = 1; i <= atom->ntypes; i++) {
     utils::print(fp, "{} {} {}\n", i, i, type_line(i));
-    for (int j = i + 1; j <= atom->ntypes; j++)
-      utils::print(fp, "{} {} mu {:.17g}\n", i, j, mu[i][j]);
+    for (int j = i + 1; j <= atom->ntypes; j++) {
+      utils::print(fp, "{} {}", i, j);
+      for (int k = 0; k < nviscosity(); k++)
+        utils::print(fp, " {} {:.17g}", viscosity_names[k], viscosity[k][i][j]);
+      utils::print(fp, "\n");
+    }
   }
 }
 
@@ -811,9 +922,10 @@ void PairSPHBulk::write_data_all(FILE *fp)
 std::string PairSPHBulk::type_line(int i) const
 {
   const TypeCoeff &c = coeffs[i];
-  std::string line =
-      fmt::format("{:.17g} {:.17g} {:.17g} {} {:.17g} pb {:.17g}", c.eos.rho0, c.eos.c0, c.mu,
-                  c.intrinsic ? "intrinsic" : fmt::format("{:.17g}", c.kappa), c.rc, c.eos.pb);
+  std::string line = fmt::format("{:.17g} {:.17g} {:.17g} {}", c.eos.rho0, c.eos.c0, c.viscosity[0],
+                                 c.intrinsic ? "intrinsic" : fmt::format("{:.17g}", c.kappa));
+  for (int k = 1; k < nviscosity(); k++) line += fmt::format(" {:.17g}", c.viscosity[k]);
+  line += fmt::format(" {:.17g} pb {:.17g}", c.rc, c.eos.pb);
   if (c.gamma > 0.0) line += fmt::format(" gamma {:.17g}", c.gamma);
   return line;
 }

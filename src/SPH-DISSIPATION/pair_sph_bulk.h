@@ -22,10 +22,15 @@ PairStyle(sph/bulk,PairSPHBulk);
 
 #include "pair.h"
 
+#include <utility>
+#include <vector>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Engine;
-}
+  enum class Shear;
+  struct PairCoeff;
+}    // namespace SPHDissipation
 
 // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
 // shear force by pairs, bulk force through the rate of change of the particle volume.
@@ -54,8 +59,8 @@ class PairSPHBulk : public Pair {
 
   // heat of the dissipative forces of the last step, per owned and ghost atom as this rank summed
   // it (with newton on, the sums of the ghosts belong to their owners), and its sum on this rank
-  // by channel; energy per time
-  enum Channel { SHEAR_CHANNEL, BULK_CHANNEL, NCHANNEL };
+  // by channel; energy per time; heat may be nullptr
+  enum Channel { SHEAR, BULK, VORTEX, SPIN, NCHANNEL };
   void heating(double *heat, double *power) const;
 
  protected:
@@ -63,10 +68,15 @@ class PairSPHBulk : public Pair {
   struct TypeCoeff;    // what pair_coeff I I sets and what follows from it
   class StressTally;
 
+  static constexpr int MAXVISCOSITY = 4;
+  const std::string fluid_style;                     // also of the atom style and the integrator
+  const std::vector<std::string> viscosity_names;    // by type pair
+  int nviscosity() const { return static_cast<int>(viscosity_names.size()); }
+
   Settings *choice;
   TypeCoeff *coeffs;                 // by type, from 1
-  double **mu;                       // shear viscosity by type pair
-  int **mu_set;                      // 1 if set by pair_coeff, 0 if mixed from the types
+  double ***viscosity;               // by viscosity and type pair
+  int ***viscosity_set;              // 1 if set by pair_coeff, 0 if mixed from the types
   int dim;                           // dimension of the kernel
   double support;                    // support radius rc
   bool announced;                    // the table of coefficients is up to date
@@ -74,11 +84,29 @@ class PairSPHBulk : public Pair {
   SPHDissipation::Engine *engine;    // the two pair loops
   bool comm_bound;                   // communicate the bound on zeta, not the density
 
+  PairSPHBulk(class LAMMPS *, const std::string &, const std::vector<std::string> &);
+
   virtual void allocate();
+
+  // what depends on the viscosities that a style has
+
+  using Columns = std::vector<std::pair<std::string, double>>;
+  virtual SPHDissipation::Shear default_shear() const;
+  virtual SPHDissipation::PairCoeff pair_coefficients(int, int) const;
+  virtual double intrinsic_kappa_of(int, int) const;
+  virtual void check_pair(int, int);
+  virtual Columns table_columns(int, int, double, double) const;
+  virtual Columns viscous_steps(int, int, double, double) const;
+  virtual double **extrapolated_spin() { return nullptr; }
+  virtual void add_torques(int) {}
+  virtual void spin_heat(int, double *) const {}
+
+  double reference_density(int) const;
+  int is_viscosity(const std::string &) const;
   int type_coeff(int, char **, int, int, int, int);
   int fluid_coeff(int, char **, int, int, int, int);
   int unlike_coeff(int, char **, int, int, int, int);
-  void check_setup();
+  virtual void check_setup();
   void check_masses();
   void check_line_of_particles();
   void derive_coeffs();

@@ -220,6 +220,23 @@ namespace SPHDissipation {
     return 0.4 * hsq / (zeta_over_rho > 0.0 ? zeta_over_rho : -zeta_over_rho);
   }
 
+  // relaxation of the spin to the vorticity, rate zeta2/(rho I), and spin diffusion, whose pair terms
+  // are those of Morris (xi2) and mg (xi1) with rho I in place of rho
+
+  inline double vortex_step(double rho_inertia, double zeta2)
+  {
+    return (zeta2 == 0.0) ? UNLIMITED_STEP : 0.25 * rho_inertia / zeta2;
+  }
+
+  inline double spin_step(int n, double hsq, double rho_inertia, const PairCoeff &coeff)
+  {
+    const double laplacian = coeff.xi2 / shear_factor(Shear::MORRIS, n, 1.0);
+    const double central = (coeff.xi1 > 0.0) ? coeff.xi1 / shear_factor(Shear::MG, n, 1.0) : 0.0;
+    return 1.0 /
+        (1.0 / shear_step(Shear::MORRIS, hsq, laplacian / rho_inertia) +
+         1.0 / shear_step(Shear::MG, hsq, central / rho_inertia));
+  }
+
   // all limits together: the rates of the viscous terms add
 
   inline double combined_step(double acoustic, double shear, double bulk)

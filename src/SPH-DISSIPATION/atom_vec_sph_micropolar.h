@@ -1,0 +1,57 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef ATOM_CLASS
+// clang-format off
+AtomStyle(sph/micropolar,AtomVecSPHMicropolar);
+// clang-format on
+#else
+
+#ifndef LMP_ATOM_VEC_SPH_MICROPOLAR_H
+#define LMP_ATOM_VEC_SPH_MICROPOLAR_H
+
+#include "atom_vec_sph_bulk.h"
+
+namespace LAMMPS_NS {
+
+// Per-atom arrays of a fluid whose particles spin: those of sph/bulk, spin (omega, angular
+// velocity), torque, moment of inertia per mass (distance^2), and the spin extrapolated to the end
+// of the step (omegaest).
+
+class AtomVecSPHMicropolar : public AtomVecSPHBulk {
+ public:
+  AtomVecSPHMicropolar(class LAMMPS *);
+
+  void grow_pointers() override;
+  void data_atom_post(int) override;
+  int property_atom(const std::string &) override;
+  void pack_property_atom(int, double *, int, int) override;
+
+  double *inertia;
+  double **omegaest;
+
+ protected:
+  void clear_derived(int) override;
+
+ private:
+  struct Arrays {
+    double *inertia = nullptr;
+    double **omegaest = nullptr;
+  };
+  Arrays *arrays;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,85 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "compute_sph_angmom.h"
+
+#include "atom.h"
+#include "atom_vec_sph_micropolar.h"
+#include "domain.h"
+#include "error.h"
+#include "group.h"
+#include "update.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+enum { TOTAL = 0, ORBITAL = 3, SPIN = 6, NVALUE = 9 };
+
+/* ---------------------------------------------------------------------- */
+
+ComputeSPHAngmom::ComputeSPHAngmom(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), fixed_point(0), point{0.0, 0.0, 0.0}
+{
+  if (!atom->style_match("sph/micropolar"))
+    error->all(FLERR, "Compute {} requires atom style sph/micropolar", style);
+
+  if (narg > 3) {
+    if (strcmp(arg[3], "point") != 0)
+      error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
+    if (narg < 7) utils::missing_cmd_args(FLERR, fmt::format("compute {} point", style), error);
+    if (narg > 7) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[7]);
+    fixed_point = 1;
+    for (int d = 0; d < 3; d++) point[d] = utils::numeric(FLERR, arg[4 + d], false, lmp);
+  }
+
+  vector_flag = 1;
+  size_vector = NVALUE;
+  extvector = 1;
+  vector = new double[size_vector];
+}
+
+/* ---------------------------------------------------------------------- */
+
+ComputeSPHAngmom::~ComputeSPHAngmom()
+{
+  delete[] vector;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeSPHAngmom::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  if (!fixed_point) group->xcm(igroup, group->mass(igroup), point);
+
+  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  double **v = atom->v;
+  double **omega = atom->omega;
+  const double *const rmass = atom->rmass;
+  const int *const mask = atom->mask;
+  double sum[NVALUE] = {};
+
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    double x[3];
+    domain->unmap(atom->x[i], atom->image[i], x);
+    for (int d = 0; d < 3; d++) x[d] -= point[d];
+    sum[ORBITAL] += rmass[i] * (x[1] * v[i][2] - x[2] * v[i][1]);
+    sum[ORBITAL + 1] += rmass[i] * (x[2] * v[i][0] - x[0] * v[i][2]);
+    sum[ORBITAL + 2] += rmass[i] * (x[0] * v[i][1] - x[1] * v[i][0]);
+    for (int d = 0; d < 3; d++) sum[SPIN + d] += rmass[i] * avec->inertia[i] * omega[i][d];
+  }
+  for (int d = 0; d < 3; d++) sum[TOTAL + d] = sum[ORBITAL + d] + sum[SPIN + d];
+  MPI_Allreduce(sum, vector, NVALUE, MPI_DOUBLE, MPI_SUM, world);
+}

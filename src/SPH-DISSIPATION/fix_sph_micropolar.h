@@ -1,0 +1,56 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(sph/micropolar,FixSPHMicropolar);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_SPH_MICROPOLAR_H
+#define LMP_FIX_SPH_MICROPOLAR_H
+
+#include "fix_sph_bulk.h"
+
+namespace LAMMPS_NS {
+
+// The integrator of sph/bulk, and the spin of the particles: m I d(omega)/dt = torque with a moment
+// of inertia that stays constant, so that angular momentum is conserved exactly.
+
+class FixSPHMicropolar : public FixSPHBulk {
+ public:
+  FixSPHMicropolar(class LAMMPS *, int, char **);
+  void init() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+  // inertia per mass that an owned particle will have once setup() has set it
+  double planned_inertia(int, double) const;
+
+ protected:
+  void reset_extrapolation(int) override;
+
+ private:
+  class AtomVecSPHMicropolar *avec;
+  int inertia_flag;    // 1: set I = factor V^(2/n) + offset in the first setup
+  double factor, offset;
+  int inertia_done;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

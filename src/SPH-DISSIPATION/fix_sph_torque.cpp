@@ -1,0 +1,161 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "fix_sph_torque.h"
+
+#include "atom.h"
+#include "atom_vec_sph_micropolar.h"
+#include "error.h"
+#include "input.h"
+#include "memory.h"
+#include "modify.h"
+#include "update.h"
+#include "variable.h"
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), name{nullptr, nullptr, nullptr}, variable{-1, -1, -1},
+    per_atom{false, false, false}, value{0.0, 0.0, 0.0}, nmax(0),
+    field(nullptr), total{0.0, 0.0, 0.0}, power(0.0), work(0.0)
+{
+  if (!atom->style_match("sph/micropolar"))
+    error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);
+  if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
+  if (narg > 6) error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[6]);
+
+  for (int d = 0; d < 3; d++) {
+    if (utils::strmatch(arg[3 + d], "^v_"))
+      name[d] = utils::strdup(arg[3 + d] + 2);
+    else
+      value[d] = utils::numeric(FLERR, arg[3 + d], false, lmp);
+  }
+
+  scalar_flag = vector_flag = 1;
+  size_vector = 3;
+  global_freq = 1;
+  extscalar = extvector = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHTorque::~FixSPHTorque()
+{
+  for (auto &one : name) delete[] one;
+  memory->destroy(field);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHTorque::setmask()
+{
+  return POST_FORCE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHTorque::init()
+{
+  for (int d = 0; d < 3; d++) {
+    if (!name[d]) continue;
+    variable[d] = input->variable->find(name[d]);
+    if (variable[d] < 0) error->all(FLERR, "Variable {} for fix {} does not exist", name[d], style);
+    per_atom[d] = input->variable->atomstyle(variable[d]);
+    if (!per_atom[d] && !input->variable->equalstyle(variable[d]))
+      error->all(FLERR, "Variable {} for fix {} is of invalid style", name[d], style);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHTorque::setup(int vflag)
+{
+  const double before = work;
+  post_force(vflag);
+  work = before;
+}
+
+/* ----------------------------------------------------------------------
+   the work of a step is that of the mean power at its ends; spins are those
+   extrapolated to the end of the step, where the torque acts
+------------------------------------------------------------------------- */
+
+void FixSPHTorque::post_force(int /*vflag*/)
+{
+  bool any_per_atom = false, any_variable = false;
+  for (int d = 0; d < 3; d++) {
+    any_per_atom = any_per_atom || per_atom[d];
+    any_variable = any_variable || name[d];
+  }
+  if (any_per_atom && atom->nmax > nmax) {
+    nmax = atom->nmax;
+    memory->destroy(field);
+    memory->create(field, nmax, 3, "sph/torque:field");
+  }
+  if (any_variable) modify->clearstep_compute();
+  for (int d = 0; d < 3; d++) {
+    if (!name[d]) continue;
+    if (per_atom[d])
+      input->variable->compute_atom(variable[d], igroup, &field[0][d], 3, 0);
+    else
+      value[d] = input->variable->compute_equal(variable[d]);
+  }
+  if (any_variable) modify->addstep_compute(update->ntimestep + 1);
+
+  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  const int *const mask = atom->mask;
+  const double power_before = power;
+  power = total[0] = total[1] = total[2] = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    for (int d = 0; d < 3; d++) {
+      const double torque = per_atom[d] ? field[i][d] : value[d];
+      atom->torque[i][d] += torque;
+      total[d] += torque;
+      power += torque * avec->omegaest[i][d];
+    }
+  }
+  work += 0.5 * update->dt * (power_before + power);
+}
+
+/* ----------------------------------------------------------------------
+   work of the torque since the fix was defined
+------------------------------------------------------------------------- */
+
+double FixSPHTorque::compute_scalar()
+{
+  double all;
+  MPI_Allreduce(&work, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   torque on all particles of the group in the last step
+------------------------------------------------------------------------- */
+
+double FixSPHTorque::compute_vector(int d)
+{
+  double all;
+  MPI_Allreduce(&total[d], &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixSPHTorque::memory_usage()
+{
+  return 3.0 * nmax * sizeof(double);
+}

@@ -1,0 +1,57 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(sph/torque,FixSPHTorque);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_SPH_TORQUE_H
+#define LMP_FIX_SPH_TORQUE_H
+
+#include "fix.h"
+
+namespace LAMMPS_NS {
+
+// Torque on every particle of a group from numbers or variables, and its work: the body torque m G
+// of a micropolar fluid, P3 (15).
+
+class FixSPHTorque : public Fix {
+ public:
+  FixSPHTorque(class LAMMPS *, int, char **);
+  ~FixSPHTorque() override;
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void post_force(int) override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  double memory_usage() override;
+
+ private:
+  char *name[3];       // of the variable, nullptr for a number
+  int variable[3];     // its index
+  bool per_atom[3];    // atom-style variable
+  double value[3];     // number, or value of an equal-style variable
+  int nmax;
+  double **field;     // values of atom-style variables
+  double total[3];    // torque on all particles in the last step, of this rank
+  double power;       // of the last step, of this rank
+  double work;        // since the fix was defined, of this rank
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

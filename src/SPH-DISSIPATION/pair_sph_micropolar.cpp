@@ -1,0 +1,171 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "pair_sph_micropolar.h"
+
+#include "atom.h"
+#include "atom_vec_sph_micropolar.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_sph_micropolar.h"
+#include "modify.h"
+#include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_engine.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+enum { MU, MU_R, GAMMA1, GAMMA2 };
+
+/* ---------------------------------------------------------------------- */
+
+PairSPHMicropolar::PairSPHMicropolar(LAMMPS *lmp) :
+    PairSPHBulk(lmp, "sph/micropolar", {"mu", "mu_r", "gamma1", "gamma2"}), smallest_inertia(0.0)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+Shear PairSPHMicropolar::default_shear() const
+{
+  return Shear::MICROPOLAR;
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairCoeff PairSPHMicropolar::pair_coefficients(int i, int j) const
+{
+  return micropolar_coefficients(dim, viscosity[MU][i][j], viscosity[MU_R][i][j],
+                                 viscosity[GAMMA1][i][j], viscosity[GAMMA2][i][j]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairSPHMicropolar::intrinsic_kappa_of(int i, int j) const
+{
+  return intrinsic_kappa_micropolar(dim, viscosity[MU][i][j], viscosity[MU_R][i][j]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool PairSPHMicropolar::has_torques() const
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = 1; j <= atom->ntypes; j++)
+      for (int k : {MU_R, GAMMA1, GAMMA2})
+        if (viscosity[k][i][j] != 0.0) return true;
+  return false;
+}
+
+/* ----------------------------------------------------------------------
+   also finds the smallest moment of inertia, which limits the time step
+------------------------------------------------------------------------- */
+
+void PairSPHMicropolar::check_setup()
+{
+  PairSPHBulk::check_setup();
+  if (dim == 1) error->all(FLERR, "Pair_style {} needs dim 2 or 3: no spin in dim 1", fluid_style);
+
+  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(fluid_style.c_str()));
+  const auto &fixes = modify->get_fix_by_style("^" + fluid_style + "$");
+  double smallest = UNLIMITED_STEP;
+  tagint id = 0, id_all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    double inertia = avec->inertia[i];
+    for (const auto &ifix : fixes)
+      if (atom->mask[i] & ifix->groupbit)
+        inertia = dynamic_cast<FixSPHMicropolar *>(ifix)->planned_inertia(
+            i, reference_density(atom->type[i]));
+    if (inertia > 0.0) smallest = std::min(smallest, inertia);
+    if (atom->omega[i][0] != 0.0 || atom->omega[i][1] != 0.0) id = atom->tag[i];
+  }
+  MPI_Allreduce(&smallest, &smallest_inertia, 1, MPI_DOUBLE, MPI_MIN, world);
+  MPI_Allreduce(&id, &id_all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (domain->dimension == 2 && id_all)
+    error->all(FLERR, "Pair style {}: spin must be along z in 2d, which that of particle {} is not",
+               fluid_style, id_all);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHMicropolar::check_pair(int i, int j)
+{
+  const double mu = viscosity[MU][i][j], mu_r = viscosity[MU_R][i][j];
+  const double gamma1 = viscosity[GAMMA1][i][j], gamma2 = viscosity[GAMMA2][i][j];
+  if (const char *violated = inadmissible(dim, mu, 0.0, mu_r, gamma1, gamma2))
+    error->all(FLERR, "Pair_coeff {}, not mu = {} mu_r = {} gamma1 = {} gamma2 = {} of types {} {}",
+               violated, mu, mu_r, gamma1, gamma2, j, i);
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairSPHBulk::Columns PairSPHMicropolar::table_columns(int i, int j, double kappa, double zeta) const
+{
+  const PairCoeff coeff = pair_coefficients(i, j);
+  return {{"mu", viscosity[MU][i][j]},
+          {"kappa", kappa},
+          {"mu_r", viscosity[MU_R][i][j]},
+          {"gamma1", viscosity[GAMMA1][i][j]},
+          {"gamma2", viscosity[GAMMA2][i][j]},
+          {"zeta", zeta},
+          {"zeta1", coeff.along_r},
+          {"zeta2", coeff.along_u},
+          {"xi1", coeff.xi1},
+          {"xi2", coeff.xi2}};
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairSPHBulk::Columns PairSPHMicropolar::viscous_steps(int i, int j, double hsq, double rho) const
+{
+  const PairCoeff coeff = pair_coefficients(i, j);
+  const double central = std::max(coeff.along_r, 0.0) / shear_factor(Shear::MG, dim, 1.0);
+  const double laplacian = coeff.along_u / shear_factor(Shear::MORRIS, dim, 1.0);
+  const double shear = 1.0 /
+      (1.0 / shear_step(Shear::MG, hsq, central / rho) +
+       1.0 / shear_step(Shear::MORRIS, hsq, laplacian / rho));
+  const double rho_inertia = rho * smallest_inertia;
+  return {{"shear", shear},
+          {"vortex", vortex_step(rho_inertia, coeff.along_u)},
+          {"spin", spin_step(dim, hsq, rho_inertia, coeff)}};
+}
+
+/* ---------------------------------------------------------------------- */
+
+double **PairSPHMicropolar::extrapolated_spin()
+{
+  return dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(fluid_style.c_str()))->omegaest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHMicropolar::add_torques(int nforce)
+{
+  double **torque = atom->torque;
+  double *desph = atom->desph;
+  for (int i = 0; i < nforce; i++) {
+    const TorqueSum &total = engine->torque[i];
+    for (int d = 0; d < 3; d++) torque[i][d] += total.t[d];
+    desph[i] += total.heat_vortex + total.heat_spin;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHMicropolar::spin_heat(int i, double *channel) const
+{
+  channel[VORTEX] = engine->torque[i].heat_vortex;
+  channel[SPIN] = engine->torque[i].heat_spin;
+}

@@ -1,0 +1,55 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef PAIR_CLASS
+// clang-format off
+PairStyle(sph/micropolar,PairSPHMicropolar);
+// clang-format on
+#else
+
+#ifndef LMP_PAIR_SPH_MICROPOLAR_H
+#define LMP_PAIR_SPH_MICROPOLAR_H
+
+#include "pair_sph_bulk.h"
+
+namespace LAMMPS_NS {
+
+// The fluid of sph/bulk with particles that spin: vortex viscosity mu_r between spin and flow, spin
+// viscosities gamma1, gamma2 between the spins.
+
+class PairSPHMicropolar : public PairSPHBulk {
+ public:
+  PairSPHMicropolar(class LAMMPS *);
+
+  bool has_torques() const;    // any vortex or spin viscosity
+
+ protected:
+  SPHDissipation::Shear default_shear() const override;
+  SPHDissipation::PairCoeff pair_coefficients(int, int) const override;
+  double intrinsic_kappa_of(int, int) const override;
+  void check_setup() override;
+  void check_pair(int, int) override;
+  Columns table_columns(int, int, double, double) const override;
+  Columns viscous_steps(int, int, double, double) const override;
+  double **extrapolated_spin() override;
+  void add_torques(int) override;
+  void spin_heat(int, double *) const override;
+
+ private:
+  double smallest_inertia;    // per mass, of all particles
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
