@@ -42,7 +42,16 @@ function(sph_dissipation_add_sources)
   target_include_directories(lammps PRIVATE "${SPH_DISSIPATION_SOURCE_DIR}")
 endfunction()
 
+# LAMMPS lists only packages of its own as installed ("lmp -h", lammps_config_has_package()).
+function(sph_dissipation_add_to_installed_packages)
+  set(header "${LAMMPS_STYLE_HEADERS_DIR}/lmpinstalledpkgs.h")
+  file(READ "${header}" text)
+  string(REPLACE "  NULL\n" "  \"SPH-DISSIPATION\",\n  NULL\n" text "${text}")
+  file(WRITE "${header}" "${text}")
+endfunction()
+
 sph_dissipation_check_lammps_version()
 include("${CMAKE_CURRENT_SOURCE_DIR}/Modules/StyleHeaderUtils.cmake")
 RegisterStyles("${SPH_DISSIPATION_SOURCE_DIR}")
 cmake_language(DEFER CALL sph_dissipation_add_sources)
+cmake_language(DEFER CALL sph_dissipation_add_to_installed_packages)

@@ -395,10 +395,40 @@ Real System::bulk_amplitude(int k, const std::string &form, const std::string &s
   throw std::invalid_argument("bulk " + form);
 }
 
-Viscous System::bulk(const std::string &form, const std::string &shear_form) const
+// With w = F V_i V_j a (u.e)^2 the shear dissipation of a pair, the Cauchy-Schwarz inequality says
+// V^3 cdot^2 <= (sum of w) (sum of V^3 F^2 r^2 / (F V_i V_j a)): each pair can make up for both of
+// its particles if the zeta of each is above minus half of the inverse of the last sum.
+
+Vector System::zeta_limit(const std::string &shear_form) const
+{
+  Vector sum = Vector::Zero(N);
+  for (const auto &p : pairs) {
+    const Real along = p.r.dot(shear_block(p, shear_form) * p.r) / p.r.squaredNorm();
+    sum(p.i) += V(p.i) * V(p.i) * V(p.i) * p.F * p.F * p.r.squaredNorm() / along;
+  }
+  return -0.5L * sum.cwiseInverse();
+}
+
+int System::beyond_limit(const std::string &shear_form) const
+{
+  const Vector limit = zeta_limit(shear_form);
+  int count = 0;
+  for (int k = 0; k < N; k++)
+    if (zeta(atoms.type[k], shear_form) < limit(k)) count++;
+  return count;
+}
+
+Viscous System::bulk(const std::string &form, const std::string &shear_form, bool limited) const
 {
   Vector amplitude(N);
   for (int k = 0; k < N; k++) amplitude(k) = bulk_amplitude(k, form, shear_form);
+  if (limited) {
+    const Vector limit = zeta_limit(shear_form);
+    for (int k = 0; k < N; k++) {
+      const Real z = zeta(atoms.type[k], shear_form);
+      if (z < limit(k)) amplitude(k) *= limit(k) / z;
+    }
+  }
 
   // the dissipation of particle k is amplitude_k times its cdot (right) times another rate (left):
   // cdot again for P1 eq. (18), the rate with each pair weighted by V_i V_j for P1 eq. (64)
@@ -417,10 +447,14 @@ Viscous System::bulk(const std::string &form, const std::string &shear_form) con
     left.setFromTriplets(entries.begin(), entries.end());
   }
 
+  // sum over particles of amplitude times the outer product of both rows
+
   Viscous result;
-  const Sparse weighted = amplitude.asDiagonal() * right;
-  const Sparse product = Sparse(left.transpose()) * weighted;
-  result.R = Matrix(product);
+  result.R = Matrix::Zero(N * n, N * n);
+  for (int k = 0; k < N; k++)
+    for (Sparse::InnerIterator b(right, k); b; ++b)
+      for (Sparse::InnerIterator a(left, k); a; ++a)
+        result.R(a.col(), b.col()) += amplitude(k) * a.value() * b.value();
   result.force = -(result.R * velocity());
   result.heating = amplitude.cwiseProduct(right * velocity()).cwiseProduct(left * velocity());
   return result;

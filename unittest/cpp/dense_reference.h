@@ -137,13 +137,16 @@ class System {
   Vector compression_power(const std::string &eos) const;    // p V^2 cdot, per particle
 
   Viscous shear(const std::string &form) const;
-  Viscous bulk(const std::string &form, const std::string &shear_form) const;
+  Viscous bulk(const std::string &form, const std::string &shear_form, bool limited = false) const;
 
   // half of r_ij (x) f_ij of every pair to each partner: 6 rows xx yy zz xy xz yz (rows of absent
   // directions are zero), one column per particle
 
   Matrix virial(const std::string &eos, const std::string &shear_form,
                 const std::string &bulk_form) const;
+
+  // particles whose zeta < 0 is beyond what their pairs' shear terms make up for
+  int beyond_limit(const std::string &shear_form) const;
 
   // bulk coefficient of a type that complements the shear term to the wanted kappa
 
@@ -161,7 +164,8 @@ class System {
 
   SmallMatrix shear_block(const Pair &pair, const std::string &form) const;
   Real bulk_amplitude(int k, const std::string &form, const std::string &shear_form) const;
-  Sparse density_rate_rows() const;    // cdot = rows * u
+  Vector zeta_limit(const std::string &shear_form) const;    // per particle, negative
+  Sparse density_rate_rows() const;                          // cdot = rows * u
 
   Model model;
   Particles atoms;

@@ -50,8 +50,14 @@ double deviation(const std::vector<double> &computed, const Vector &expected)
 /* ---------------------------------------------------------------------- */
 
 Expected::Expected(const Configuration &config, const DenseReference::Model &model) :
-    dense(model, config.reference_box(), config.reference_particles()), dim(config.dim)
+    dense(model, config.reference_box(), config.reference_particles()), dim(config.dim),
+    limited(false)
 {
+}
+
+void Expected::set_limited(bool on)
+{
+  limited = on;
 }
 
 Vector Expected::three_components(const Vector &v) const
@@ -81,9 +87,9 @@ const Expected::Term &Expected::shear(const std::string &form)
 
 const Expected::Term &Expected::bulk(const std::string &form, const std::string &shear_form)
 {
-  const std::string key = "bulk " + form + " with " + shear_form;
+  const std::string key = (limited ? "limited bulk " : "bulk ") + form + " with " + shear_form;
   if (terms.count(key) == 0) {
-    const auto viscous = dense.bulk(form, shear_form);
+    const auto viscous = dense.bulk(form, shear_form, limited);
     terms[key] = {viscous.force, viscous.heating};
   }
   return terms[key];

@@ -43,6 +43,9 @@ class Expected {
                                const std::string &bulk);
   const DenseReference::System &system() const { return dense; }
 
+  // for all further calls: the bulk coefficients are limited to what is surely dissipative
+  void set_limited(bool on);
+
  private:
   struct Term {
     DenseReference::Vector force, heating;
@@ -54,6 +57,7 @@ class Expected {
 
   DenseReference::System dense;
   int dim;
+  bool limited;
   std::map<std::string, Term> terms;
 };
 

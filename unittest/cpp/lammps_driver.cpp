@@ -172,10 +172,11 @@ void LammpsDriver::create_lammps_sph(const Configuration &config,
 /* ---------------------------------------------------------------------- */
 
 void LammpsDriver::pair_style(const DenseReference::Model &model, const std::string &eos,
-                              const std::string &shear, const std::string &bulk)
+                              const std::string &shear, const std::string &bulk,
+                              const std::string &keywords)
 {
   command("pair_style sph/bulk kernel " + model.kernel + " dim " + std::to_string(model.n) +
-          " eos " + eos + " shear " + shear + " bulk " + bulk);
+          " eos " + eos + " shear " + shear + " bulk " + bulk + " " + keywords);
   for (std::size_t type = 1; type <= model.fluids.size(); type++) {
     const auto &fluid = model.fluids[type - 1];
     const std::string name = std::to_string(type);
@@ -235,6 +236,8 @@ Computed LammpsDriver::run0(bool with_virial)
   result.volume = column(2);
   result.density = column(3);
   result.energy = column(4);
+  MPI_Allreduce(lmp->force->pair->pvector, &result.beyond_limit, 1, MPI_DOUBLE, MPI_SUM,
+                MPI_COMM_WORLD);
   if (!with_virial) return result;
 
   double mine[7], all[7];

@@ -30,6 +30,7 @@ struct Computed {
   std::vector<double> force;    // 3 per particle
   std::vector<double> desph, numden, dnumden, volume, density, energy;
   std::vector<double> atom_energy, atom_virial;    // virial: 6 per particle
+  double beyond_limit = 0.0;    // number of particles with too negative a bulk coefficient
   double total_energy = 0.0, total_virial[6] = {};
 };
 
@@ -58,7 +59,8 @@ class LammpsDriver {
 
   // pair_style sph/bulk of these settings and the fluids of the model
   void pair_style(const DenseReference::Model &model, const std::string &eos,
-                  const std::string &shear, const std::string &bulk);
+                  const std::string &shear, const std::string &bulk,
+                  const std::string &keywords = "");
 
   Computed run0(bool with_virial = false);
 

@@ -209,6 +209,34 @@ TEST(DenseReference, eigenvalues_are_not_negative)
   }
 }
 
+// Several fluids with zeta < 0 violate positivity where types meet, because a pair has less shear
+// viscosity than its thicker partner; the limit on zeta restores it, for kappa down to zero.
+
+TEST(DenseReference, limit_on_zeta_restores_positivity)
+{
+  for (int dim = 1; dim <= 3; dim++) {
+    const Configuration config = small_drop(dim, 12);
+    Model model = test_model(config, "wendland/c2");
+    model.mu_unlike.clear();
+    for (auto &fluid : model.fluids) fluid.kappa = 0.0L;
+    const System system = make_system(config, model);
+    for (const auto &form : {"mg", "mg/fr"}) {
+      EXPECT_GT(system.beyond_limit(form), 0);
+      const Matrix shear = system.shear(form).R;
+      for (const bool limited : {false, true}) {
+        const Matrix R = shear + system.bulk("density", form, limited).R;
+        const Vector spectrum =
+            Eigen::SelfAdjointEigenSolver<Matrix>(R, Eigen::EigenvaluesOnly).eigenvalues();
+        const Real relative = spectrum.minCoeff() / spectrum.maxCoeff();
+        if (limited)
+          EXPECT_GT(relative, -1e-15L) << form << " n = " << dim;
+        else
+          EXPECT_LT(relative, -1e-6L) << form << " n = " << dim;
+      }
+    }
+  }
+}
+
 TEST(DenseReference, rigid_motion_is_in_the_null_space)
 {
   for (int dim = 1; dim <= 3; dim++) {

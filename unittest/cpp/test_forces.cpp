@@ -166,6 +166,33 @@ TEST(Forces, intrinsic_bulk_viscosity_and_one_fluid)
   if (LammpsDriver::rank() == 0) record.print();
 }
 
+TEST(Forces, limit_on_negative_bulk_coefficients)
+{
+  Record record;
+  for (int dim = 1; dim <= 3; dim++) {
+    const Configuration config = periodic_fluid(dim, false, 190 + dim);
+    Model model = test_model(config, "wendland/c2");
+    for (auto &fluid : model.fluids) fluid.kappa = 0.0L;
+    const auto expected = reference(config, model);
+    for (const bool on : {true, false}) {
+      lammps().create(config, newton(on));
+      for (const std::string shear : {"mg", "mg/fr"}) {
+        for (const std::string limit : {"count", "yes"}) {
+          lammps().pair_style(model, "linear", shear, "density", "limit " + limit);
+          const Computed computed = lammps().run0();
+          if (!expected) continue;
+          expected->set_limited(limit == "yes");
+          compare(computed, *expected, "linear", shear, "density", record,
+                  label(config, model, "linear", shear, "density limit " + limit));
+          EXPECT_EQ(computed.beyond_limit, expected->system().beyond_limit(shear));
+          EXPECT_GT(computed.beyond_limit, 0);
+        }
+      }
+    }
+  }
+  if (LammpsDriver::rank() == 0) record.print();
+}
+
 // The comparison must notice errors of the size of the tolerance: with one input of the reference
 // wrong by 2e-11 of its value the forces differ by more.
 
