@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ways.sh WAY LAMMPS TREE: builds LAMMPS with the package by one of the ways that README.md describes, in the folder
 # TREE, and runs the smoke input. WAY is hook, make or plugin; LAMMPS is a version to obtain, 26 or 25, or the folder of
-# a source tree. ways.sh mismatch TREE OTHER: the plugin of the folder OTHER must not load into the LAMMPS of TREE.
+# a source tree. WAY mismatch compiles a plugin for another version than that of the LAMMPS which WAY plugin left in TREE.
 # Environment: ROOT (the package's repository), PYTHON, REFERENCE (result of the smoke input to compare with), LAUNCHER
 # (ccache, or empty), SPHD_JOBS, SPHD_CACHE.
 set -euo pipefail
@@ -21,12 +21,6 @@ expect_error() {
     exit 1
   fi
 }
-
-if [[ $1 == mismatch ]]; then
-  echo "plugin load $3/plugin/sphdissipationplugin.so" >"$2/in.mismatch"
-  expect_error "was compiled for LAMMPS version" "$2/build/lmp" -in "$2/in.mismatch"
-  exit
-fi
 
 way=$1 lammps=$2 tree=$3
 if [[ $lammps == 26 || $lammps == 25 ]]; then
@@ -107,6 +101,17 @@ case $way in
     printf '%s\n' "plugin load $plugin" "include $here/in.smoke" "plugin clear" "group half id 1:100" \
       "delete_atoms group half" "write_data unload.data" >unload.in
     build/lmp -in unload.in -log none -var result unload >unload.out || { tail -n 5 unload.out; exit 1; }
+    ;;
+
+  mismatch)
+    mkdir -p other/src
+    ln -sfn "$lammps"/src/*.h "$lammps/src/fmt" "$lammps/src/nlohmann" other/src
+    rm other/src/version.h
+    echo '#define LAMMPS_VERSION "1 Jan 2025"' >other/src/version.h
+    configure "$tree/package/plugin" plugin-other -D LAMMPS_SOURCE_DIR="$tree/other"
+    ninja -C plugin-other -j "$jobs" >>plugin-other.log 2>&1 || { tail -n 30 plugin-other.log; exit 1; }
+    echo "plugin load $tree/plugin-other/sphdissipationplugin.so" >other.in
+    expect_error "was compiled for LAMMPS version 20250101" build/lmp -in other.in
     ;;
 
   *)

@@ -221,13 +221,17 @@ System::System(const Model &_model, const Box &box, const Particles &particles) 
           for (int d = -range[2]; d <= range[2]; d++) {
             const Real shift[3] = {static_cast<Real>(a), static_cast<Real>(b),
                                    static_cast<Real>(d)};
-            SmallVector r = atoms.x.col(i) - atoms.x.col(j);
-            for (int k = 0; k < n; k++) r -= shift[k] * box.lattice.col(k);
-            const Real dist = r.norm();
-            if (dist >= model.support) continue;
+            Real r[3] = {0.0L, 0.0L, 0.0L}, rsq = 0.0L;
+            for (int k = 0; k < n; k++) {
+              r[k] = atoms.x(k, i) - atoms.x(k, j);
+              for (int l = 0; l < n; l++) r[k] -= shift[l] * box.lattice(k, l);
+              rsq += r[k] * r[k];
+            }
+            if (rsq >= model.support * model.support) continue;
+            const Real dist = std::sqrt(rsq);
             c(i) += kernel.W(dist);
             if (dist == 0.0L) continue;    // the particle itself, or another one at the same point
-            pairs.push_back({i, j, r, dist, kernel.F(dist)});
+            pairs.push_back({i, j, Eigen::Map<const Vector>(r, n), dist, kernel.F(dist)});
           }
         }
       }
@@ -451,10 +455,16 @@ Viscous System::bulk(const std::string &form, const std::string &shear_form, boo
 
   Viscous result;
   result.R = Matrix::Zero(N * n, N * n);
-  for (int k = 0; k < N; k++)
-    for (Sparse::InnerIterator b(right, k); b; ++b)
-      for (Sparse::InnerIterator a(left, k); a; ++a)
-        result.R(a.col(), b.col()) += amplitude(k) * a.value() * b.value();
+  for (int k = 0; k < N; k++) {
+    if (amplitude(k) == 0.0L) continue;
+    const int begin = left.outerIndexPtr()[k], end = left.outerIndexPtr()[k + 1];
+    for (Sparse::InnerIterator b(right, k); b; ++b) {
+      Real *const column = &result.R(0, b.col());
+      const Real factor = amplitude(k) * b.value();
+      for (int a = begin; a < end; a++)
+        column[left.innerIndexPtr()[a]] += factor * left.valuePtr()[a];
+    }
+  }
   result.force = -(result.R * velocity());
   result.heating = amplitude.cwiseProduct(right * velocity()).cwiseProduct(left * velocity());
   return result;

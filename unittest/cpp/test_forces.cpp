@@ -240,7 +240,7 @@ TEST(Forces, coincident_particles)
     Configuration config = periodic_fluid(dim, false, 180 + dim);
     for (int k = 0; k < 3; k++) config.x[3 * 1 + k] = config.x[k];
     Record record;
-    for (const auto &kernel : DenseReference::kernel_names()) {
+    for (const std::string kernel : {"wendland/c2", "cubic", "quintic"}) {
       const Model model = test_model(config, kernel);
       const auto expected = reference(config, model);
       for (const bool on : {true, false}) {
@@ -263,8 +263,7 @@ TEST(Forces, coincident_particles)
         lammps().pair_style(model, "tait", shear, bulk);
         const Computed computed = lammps().run0();
         for (const double f : computed.force) EXPECT_EQ(f, 0.0) << shear << " " << bulk;
-        for (const double q : computed.desph)
-          if (shear != "morris") EXPECT_EQ(q, 0.0) << shear << " " << bulk;
+        for (const double q : computed.desph) EXPECT_EQ(q, 0.0) << shear << " " << bulk;
       }
     }
     if (LammpsDriver::rank() == 0) record.print();

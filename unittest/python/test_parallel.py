@@ -82,6 +82,15 @@ def test_same_trajectory(lammps, serial, name, ranks, before, after):
 
 
 @pytest.mark.parametrize("newton", ["", "newton off"])
+def test_ideal_gas(lammps, newton):
+    """Its pressure follows the internal energy, which has to travel with the particles and to their ghosts."""
+    gas = disordered(2, 20, ntypes=2, speed=1.0)
+    places = [trajectory(lammps, gas, ranks, before, options="eos ideal")[1]
+              for ranks, before in ((1, ""), (4, f"processors 2 2 1\n{newton}"))]
+    assert np.abs(places[1] - places[0]).max() < BOUND
+
+
+@pytest.mark.parametrize("newton", ["", "newton off"])
 def test_ranks_without_particles(lammps, newton):
     """A small set in the corner of a large box leaves most ranks empty."""
     corner = drop(2, 4.0)

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""What the run.py of an example needs to run LAMMPS: several inputs at a time on the cores there are."""
+
+import argparse
+import os
+import shlex
+import shutil
+import subprocess
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+
+class Example:
+    """An example in a folder: its command line, its runs of LAMMPS and its figures of merit."""
+
+    def __init__(self, folder, description):
+        self.folder, self.name = folder, folder.name
+        self.begin = time.monotonic()
+        self.missed = []
+        self.parser = argparse.ArgumentParser(description=description)
+        self.parser.add_argument("--quick", action="store_true", help="a small version, for tests")
+        self.parser.add_argument("--np", type=int, default=1, metavar="N", help="MPI ranks per run (1)")
+        self.parser.add_argument("--out", type=Path, default=folder / "results", metavar="DIR",
+                                 help="folder for results (%(default)s)")
+        self.parser.add_argument("--check", action="store_true", help="exit with 1 if a figure of merit is missed")
+
+    def arguments(self):
+        self.args = self.parser.parse_args()
+        if self.args.np < 1:
+            self.parser.error("--np must be at least 1")
+        self.out = self.args.out.resolve()
+        self.out.mkdir(parents=True, exist_ok=True)
+        return self.args
+
+    def run(self, jobs):
+        """jobs: {name: variables of in.<example>}, the longest first; output files begin with the name."""
+        path = os.environ.get("SPHD_LMP") or str(self.folder.parent.parent / "build" / "lmp")
+        lmp = shutil.which(path)
+        if lmp is None:
+            raise SystemExit(f"{self.name}: no LAMMPS executable {path}; set SPHD_LMP or run ./sphd run {self.name}")
+        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        ranks = self.args.np
+        print(f"{len(jobs)} runs of {lmp} on {ranks} MPI rank(s) each", flush=True)
+        with ThreadPoolExecutor(max(1, cores // ranks)) as pool:
+            started = [pool.submit(self._run, os.path.abspath(lmp), name, variables, ranks, cores)
+                       for name, variables in jobs.items()]
+            for job in started:
+                job.result()
+
+    def _run(self, lmp, name, variables, ranks, cores):
+        mpi = shlex.split(os.environ.get("SPHD_MPIEXEC") or "mpiexec") + ["-n", str(ranks)] if ranks > 1 else []
+        words = [word for key, value in {**variables, "out": name}.items() for word in ("-var", key, str(value))]
+        command = [*mpi, lmp, "-in", str(self.folder / f"in.{self.name}"), "-screen", "none",
+                   "-log", f"{name}.log", *words]
+        # LAMMPS writes its error messages to the log as well; a launcher has only stderr
+        done = subprocess.run(command, env=environment(ranks, cores), text=True, cwd=self.out,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        if done.returncode != 0:
+            log = self.out / f"{name}.log"
+            tail = log.read_text().splitlines()[-15:] if log.exists() else []
+            raise SystemExit("\n".join([f"{self.name}: LAMMPS failed ({done.returncode}) for {name}:",
+                                        done.stdout.strip(), *tail]))
+
+    def merit(self, what, value, lower, upper):
+        """One figure of merit: printed, and missed if outside of the range."""
+        ok = lower <= value <= upper
+        line = f"{what}: {value:.4g}, wanted {lower:.4g} to {upper:.4g}"
+        print(line + ("  ok" if ok else "  MISSED"))
+        if not ok:
+            self.missed.append(line)
+
+    def finish(self, *paths):
+        for path in paths:
+            print(f"wrote {path}")
+        print(f"{self.name}: {time.monotonic() - self.begin:.1f} s")
+        if self.missed:
+            print("\n  ".join(["missed:", *self.missed]))
+        elif self.args.check:
+            print("all figures of merit reached")
+        return 1 if self.args.check and self.missed else 0
+
+
+def environment(ranks, cores):
+    """What makes short runs get along with each other on the same cores (Open MPI; root as in a container)."""
+    env = dict(os.environ, OMP_NUM_THREADS="1")
+    if ranks > 1:
+        env.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
+        env.setdefault("OMPI_MCA_hwloc_base_binding_policy", "none")
+        env.setdefault("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe")
+        if hasattr(os, "geteuid") and os.geteuid() == 0:
+            env["OMPI_ALLOW_RUN_AS_ROOT"] = env["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
+    if ranks > cores:
+        # a rank that waits without yielding keeps the rank it waits for from running
+        env.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
+    return env
+
+
+def frames(path):
+    """The frames of a text dump: {step: {column: values}}."""
+    import numpy as np
+
+    found = {}
+    with open(path) as file:
+        while file.readline():
+            step = int(file.readline())
+            file.readline()
+            count = int(file.readline())
+            for _ in range(4):
+                file.readline()
+            names = file.readline().split()[2:]
+            rows = np.array([file.readline().split() for _ in range(count)], dtype=float)
+            found[step] = dict(zip(names, rows.T))
+    return found
