@@ -42,6 +42,12 @@ DenseReference::Particles Configuration::reference_particles() const
       particles.v(k, i) = v[3 * i + k];
     }
   }
+  if (!spin.empty()) {
+    const int rows = dim == 3 ? 3 : 1;
+    particles.spin.resize(rows, size());
+    for (int i = 0; i < size(); i++)
+      for (int k = 0; k < rows; k++) particles.spin(k, i) = spin[3 * i + 3 - rows + k];
+  }
   particles.mass.assign(mass.begin(), mass.end());
   particles.energy.assign(energy.begin(), energy.end());
   particles.type = type;
@@ -136,6 +142,34 @@ Configuration free_drop(int dim, unsigned seed)
         if (std::hypot(x[0], x[1], x[2]) < radius) add_particle(config, x, random);
       }
     }
+  }
+  return config;
+}
+
+void add_spins(Configuration &config, unsigned seed)
+{
+  Random random(seed);
+  config.spin.resize(config.x.size());
+  for (std::size_t k = 0; k < config.spin.size(); k++)
+    config.spin[k] = (config.dim == 3 || k % 3 == 2) ? 2.0 * random() : 0.0;
+}
+
+Configuration within(const Configuration &full, double radius)
+{
+  Configuration config = full;
+  for (auto *field : {&config.x, &config.v, &config.mass, &config.energy, &config.spin})
+    field->clear();
+  config.type.clear();
+  for (int i = 0; i < full.size(); i++) {
+    const double *x = &full.x[3 * i];
+    if (std::hypot(x[0], x[1], x[2]) > radius) continue;
+    config.x.insert(config.x.end(), x, x + 3);
+    config.v.insert(config.v.end(), &full.v[3 * i], &full.v[3 * i] + 3);
+    if (!full.spin.empty())
+      config.spin.insert(config.spin.end(), &full.spin[3 * i], &full.spin[3 * i] + 3);
+    config.mass.push_back(full.mass[i]);
+    config.energy.push_back(full.energy[i]);
+    config.type.push_back(full.type[i]);
   }
   return config;
 }

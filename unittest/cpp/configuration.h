@@ -30,6 +30,7 @@ struct Configuration {
   std::vector<double> x, v;            // 3 per particle
   std::vector<double> mass, energy;    // energy of the whole particle
   std::vector<int> type;               // from 1
+  std::vector<double> spin;            // 3 per particle of a micropolar fluid, otherwise empty
 
   int size() const { return static_cast<int>(mass.size()); }
   int box_dim() const { return dim == 3 ? 3 : 2; }
@@ -64,6 +65,14 @@ Configuration free_drop(int dim, unsigned seed);
 
 void set_rigid_motion(Configuration &config, const std::array<double, 3> &translation,
                       const std::array<double, 3> &omega);
+
+// Random spins, along z unless dim is 3
+
+void add_spins(Configuration &config, unsigned seed);
+
+// The particles within a radius of the origin
+
+Configuration within(const Configuration &config, double radius);
 
 // Three fluids for the types of the configurations, scaled so that conservative and viscous forces
 // are of the same size

@@ -179,6 +179,19 @@ Real Kernel::mean_distance() const
   return moment(1);
 }
 
+Real Kernel::slope_moment() const
+{
+  const Real sphere[3] = {2.0L, 2.0L * PI, 4.0L * PI};
+  std::vector<Real> radial(n + 1, 0.0L);
+  radial.back() = -1.0L;
+  Real sum = 0.0, begin = 0.0;
+  for (const auto &p : pieces) {
+    sum += integrate(p.slope * Polynomial(radial), begin, p.end);
+    begin = p.end;
+  }
+  return norm * sphere[n - 1] * sum * std::pow(support, static_cast<Real>(n));
+}
+
 const Kernel::Piece &Kernel::piece(Real q) const
 {
   for (const auto &p : pieces)
@@ -244,6 +257,13 @@ System::System(const Model &_model, const Box &box, const Particles &particles) 
 Vector System::velocity() const
 {
   return Eigen::Map<const Vector>(atoms.v.data(), N * n);
+}
+
+Vector System::velocity_and_spin() const
+{
+  Vector q(N * n + atoms.spin.size());
+  q << velocity(), Eigen::Map<const Vector>(atoms.spin.data(), atoms.spin.size());
+  return q;
 }
 
 // row k: derivative of cdot_k with respect to all velocities
@@ -334,12 +354,16 @@ Vector System::compression_power(const std::string &eos) const
 
 /* ---------------------------------------------------------------------- */
 
+static Real harmonic_mean(Real a, Real b)
+{
+  return a == 0.0L || b == 0.0L ? 0.0L : 2.0L / (1.0L / a + 1.0L / b);
+}
+
 Real System::mu(int itype, int jtype) const
 {
   const auto found = model.mu_unlike.find(std::minmax(itype, jtype));
   if (found != model.mu_unlike.end()) return found->second;
-  const Real mui = model.fluids[itype - 1].mu, muj = model.fluids[jtype - 1].mu;
-  return mui == 0.0L || muj == 0.0L ? 0.0L : 2.0L / (1.0L / mui + 1.0L / muj);
+  return harmonic_mean(model.fluids[itype - 1].mu, model.fluids[jtype - 1].mu);
 }
 
 Real System::zeta(int type, const std::string &shear_form) const
@@ -350,6 +374,7 @@ Real System::zeta(int type, const std::string &shear_form) const
   Real lambda = 0.0L;
   if (shear_form == "mg" || shear_form == "mg/fr") lambda = fluid.mu;
   if (shear_form == "morris") lambda = -fluid.mu;
+  if (shear_form == "micropolar") lambda = fluid.mu - model.spins[type - 1].mu_r;
   if (shear_form == "espanol") lambda = -fluid.mu * (n + 1) / (n + 3);
   const Real shear_kappa = shear_form == "none" ? 0.0L : lambda + 2.0L * fluid.mu / n;
   return fluid.kappa - shear_kappa;
@@ -385,6 +410,127 @@ Viscous System::shear(const std::string &form) const
     result.heating(p.i) += 0.5L * u.dot(block * u);
   }
   result.force = -(result.R * velocity());
+  return result;
+}
+
+// Four flows whose dissipation per volume is known for the continuum,
+//   spin 1 along z in fluid at rest: 4 mu_r
+//   u_x = y, spin half of the vorticity: mu
+//   transverse wave of the spin, per slope squared: gamma1
+//   longitudinal one: 2 gamma1 + gamma2
+// and for the pair forms, with integrals over the kernel and over directions e: half of the
+// integral of F [zeta1 (e.u*)^2 + zeta2 u*^2], likewise with xi.
+
+System::PairViscosity System::micropolar_viscosity(int itype, int jtype) const
+{
+  const SpinFluid &a = model.spins[itype - 1], &b = model.spins[jtype - 1];
+  SpinFluid fluid{harmonic_mean(a.mu_r, b.mu_r), harmonic_mean(a.gamma1, b.gamma1),
+                  harmonic_mean(a.gamma2, b.gamma2)};
+  const auto found = model.spin_unlike.find(std::minmax(itype, jtype));
+  if (found != model.spin_unlike.end()) fluid = found->second;
+
+  // means of ex^2, ex^2 ey^2, ex^4 over directions
+  constexpr int points = 32;
+  Real azimuth[3] = {0.0L, 0.0L, 0.0L};
+  for (int k = 0; k < points; k++) {
+    const Real x = std::cos(2.0L * PI * k / points), y = std::sin(2.0L * PI * k / points);
+    azimuth[0] += x * x / points;
+    azimuth[1] += x * x * y * y / points;
+    azimuth[2] += x * x * x * x / points;
+  }
+  if (n == 3) {
+    const Polynomial sine_squared({1.0L, 0.0L, -1.0L});
+    azimuth[0] *= 0.5L * integrate(sine_squared, -1.0L, 1.0L);
+    for (int k = 1; k < 3; k++)
+      azimuth[k] *= 0.5L * integrate(sine_squared * sine_squared, -1.0L, 1.0L);
+  }
+  const Real half = 0.5L * kernel.slope_moment();
+  const Real xx = half * azimuth[0], xxyy = half * azimuth[1], xxxx = half * azimuth[2];
+
+  PairViscosity result;
+  // |spin x r|^2 = x^2 + y^2
+  result.zeta2 = 4.0L * fluid.mu_r / (2.0L * xx);
+  // r.u*/r = x y/r, |u*|^2 = (x^2 + y^2)/4
+  result.zeta1 = (mu(itype, jtype) - result.zeta2 * 0.5L * xx) / xxyy;
+  if (n == 2) {
+    result.xi1 = 0.0L;
+    result.xi2 = fluid.gamma1 / xx;
+  } else {
+    // gamma1 = xi1 xxyy + xi2 xx, 2 gamma1 + gamma2 = xi1 xxxx + xi2 xx
+    result.xi1 = (fluid.gamma1 + fluid.gamma2) / (xxxx - xxyy);
+    result.xi2 = (fluid.gamma1 - result.xi1 * xxyy) / xx;
+  }
+  return result;
+}
+
+// the power is q.R q with q = velocities and spins: each ordered pair brings half of its form
+
+Micropolar System::micropolar() const
+{
+  const int s = (n == 3) ? 3 : 1, dof = N * (n + s);
+  const Vector q = velocity_and_spin();
+  Micropolar result;
+  result.R = Matrix::Zero(dof, dof);
+  result.central = result.vortex = result.spin = Vector::Zero(N);
+
+  std::map<std::pair<int, int>, PairViscosity> viscosity;
+  const int ntypes = static_cast<int>(model.fluids.size());
+  for (int a = 1; a <= ntypes; a++)
+    for (int b = 1; b <= ntypes; b++) viscosity[{a, b}] = micropolar_viscosity(a, b);
+
+  for (const auto &p : pairs) {
+    const PairViscosity &visc = viscosity[{atoms.type[p.i], atoms.type[p.j]}];
+    const Real weight = p.F * V(p.i) * V(p.j);
+
+    // columns: velocities of i and j, spins of i and j
+    std::vector<int> columns;
+    for (const int base : {n * p.i, n * p.j})
+      for (int a = 0; a < n; a++) columns.push_back(base + a);
+    for (const int base : {N * n + s * p.i, N * n + s * p.j})
+      for (int a = 0; a < s; a++) columns.push_back(base + a);
+
+    // u* = u_i - u_j - (spin_i + spin_j)/2 x r
+    Matrix slip = Matrix::Zero(n, 2 * (n + s)), difference = Matrix::Zero(s, 2 * (n + s));
+    for (int a = 0; a < n; a++) {
+      slip(a, a) = 1.0L;
+      slip(a, n + a) = -1.0L;
+    }
+    Matrix cross = Matrix::Zero(n, s);    // spin x r = cross * spin
+    if (n == 2) {
+      cross << -p.r(1), p.r(0);
+    } else {
+      cross << 0.0L, p.r(2), -p.r(1), -p.r(2), 0.0L, p.r(0), p.r(1), -p.r(0), 0.0L;
+    }
+    slip.block(0, 2 * n, n, s) = slip.block(0, 2 * n + s, n, s) = -0.5L * cross;
+    for (int a = 0; a < s; a++) {
+      difference(a, 2 * n + a) = 1.0L;
+      difference(a, 2 * n + s + a) = -1.0L;
+    }
+
+    const Vector e = p.r / p.dist;
+    const Matrix along = e.transpose() * slip;
+    Matrix spin_form = visc.xi2 * difference.transpose() * difference;
+    if (n == 3) {
+      const Matrix spin_along = e.transpose() * difference;
+      spin_form += visc.xi1 * spin_along.transpose() * spin_along;
+    }
+    const Matrix forms[3] = {weight * visc.zeta1 * along.transpose() * along,
+                             weight * visc.zeta2 * slip.transpose() * slip, weight * spin_form};
+
+    const int width = static_cast<int>(columns.size());
+    Vector local(width);
+    for (int a = 0; a < width; a++) local(a) = q(columns[a]);
+    Vector *const heat[3] = {&result.central, &result.vortex, &result.spin};
+    for (int k = 0; k < 3; k++) {
+      (*heat[k])(p.i) += 0.5L * local.dot(forms[k] * local);
+      for (int a = 0; a < width; a++)
+        for (int b = 0; b < width; b++)
+          result.R(columns[a], columns[b]) += 0.5L * forms[k](a, b);
+    }
+  }
+  const Vector total = -(result.R * q);
+  result.force = total.head(N * n);
+  result.torque = total.tail(N * s);
   return result;
 }
 

@@ -6,7 +6,7 @@
    version 2. See the LICENSE file in the top-level directory.
 ------------------------------------------------------------------------- */
 
-// Independent dense reference of the sph/bulk fluid. It shares no code with the package: pairs are
+// Independent dense reference of the sph/bulk and sph/micropolar fluids. It shares no code with the package: pairs are
 // found by brute force over all periodic images, kernels are polynomials that are built, normalised
 // and differentiated by machine, and the viscous force is the product of one matrix of the whole
 // system with the velocities. Everything is in long double, so its error is far below the
@@ -68,6 +68,7 @@ class Kernel {
   Real W(Real r) const;
   Real F(Real r) const;          // -W'(r)/r
   Real mean_distance() const;    // integral of r W over all space
+  Real slope_moment() const;     // integral of r^2 F over all space
 
  private:
   struct Piece {
@@ -92,6 +93,12 @@ struct Fluid {
   Real gamma = 0.0;    // 0 = default of the equation of state
 };
 
+// what a micropolar fluid has in addition: vortex viscosity and spin viscosities
+
+struct SpinFluid {
+  Real mu_r = 0.0, gamma1 = 0.0, gamma2 = 0.0;
+};
+
 // n columns of a lattice vector each; non-periodic directions have no images. Particles lie inside.
 
 struct Box {
@@ -101,6 +108,7 @@ struct Box {
 
 struct Particles {
   Matrix x, v;    // n rows, one column per particle
+  Matrix spin;    // n = 3: three rows, n = 2: one row, the z component; empty without spin
   std::vector<Real> mass, energy;
   std::vector<int> type;    // from 1
   int size() const { return static_cast<int>(mass.size()); }
@@ -112,6 +120,8 @@ struct Model {
   Real support = 1.0;
   std::vector<Fluid> fluids;
   std::map<std::pair<int, int>, Real> mu_unlike;    // explicit shear viscosity of two types
+  std::vector<SpinFluid> spins;                     // one per type of a micropolar fluid, or none
+  std::map<std::pair<int, int>, SpinFluid> spin_unlike;
 };
 
 // viscous part of the force: f = -R u, its pairwise split and the heat it makes
@@ -120,6 +130,15 @@ struct Viscous {
   Matrix R;
   Vector force;
   Vector heating;    // one per particle
+};
+
+// Dissipative part of a micropolar fluid but for its bulk term. R acts on all velocities followed by
+// all spins; the heat of each pair form goes half to either partner.
+
+struct Micropolar {
+  Matrix R;
+  Vector force, torque;
+  Vector central, vortex, spin;    // heating by (e.u*)^2, by u*^2 and by differences of spin
 };
 
 class System {
@@ -137,6 +156,7 @@ class System {
   Vector compression_power(const std::string &eos) const;    // p V^2 cdot, per particle
 
   Viscous shear(const std::string &form) const;
+  Micropolar micropolar() const;
   Viscous bulk(const std::string &form, const std::string &shear_form, bool limited = false) const;
 
   // half of r_ij (x) f_ij of every pair to each partner: 6 rows xx yy zz xy xz yz (rows of absent
@@ -153,7 +173,8 @@ class System {
   Real zeta(int type, const std::string &shear_form) const;
   Real mu(int itype, int jtype) const;
 
-  Vector velocity() const;    // all velocities stacked
+  Vector velocity() const;          // all velocities stacked
+  Vector velocity_and_spin() const;    // and all spins behind them
 
  private:
   struct Pair {    // every ordered pair (i, image of j) in the support
@@ -162,6 +183,10 @@ class System {
     Real dist, F;
   };
 
+  struct PairViscosity {
+    Real zeta1, zeta2, xi1, xi2;
+  };
+  PairViscosity micropolar_viscosity(int itype, int jtype) const;
   SmallMatrix shear_block(const Pair &pair, const std::string &form) const;
   Real bulk_amplitude(int k, const std::string &form, const std::string &shear_form) const;
   Vector zeta_limit(const std::string &shear_form) const;    // per particle, negative

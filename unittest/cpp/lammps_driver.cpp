@@ -132,18 +132,22 @@ void LammpsDriver::create(const Configuration &config, const Layout &layout)
   else
     setenv("SPH_DISSIPATION_SIMD", layout.simd.c_str(), 1);
 
-  create_box(config, layout, "sph/bulk");
+  const std::string style = config.spin.empty() ? "sph/bulk" : "sph/micropolar";
+  create_box(config, layout, style);
   create_particles(config);
   const Atom *atom = lmp->atom;
   for (int i = 0; i < atom->nlocal; i++) {
     atom->rmass[i] = config.mass[atom->tag[i] - 1];
     atom->esph[i] = config.energy[atom->tag[i] - 1];
+    if (!config.spin.empty())
+      for (int d = 0; d < 3; d++) atom->omega[i][d] = config.spin[3 * (atom->tag[i] - 1) + d];
   }
   if (layout.tiled) {
     command("comm_style tiled");
     command("balance 1.0 rcb");
   }
-  command("fix integrator all sph/bulk");
+  command("fix integrator all " + style + (config.spin.empty() ? "" : " inertia 0.2 0.01"));
+  if (!config.spin.empty()) command("compute dissipation all sph/dissipation");
   command("compute property all property/atom numden dnumden vol rho esph");
   command("compute stress all stress/atom NULL virial");
   command("compute energy all pe/atom pair");
@@ -175,14 +179,21 @@ void LammpsDriver::pair_style(const DenseReference::Model &model, const std::str
                               const std::string &shear, const std::string &bulk,
                               const std::string &keywords)
 {
-  command("pair_style sph/bulk kernel " + model.kernel + " dim " + std::to_string(model.n) +
-          " eos " + eos + " shear " + shear + " bulk " + bulk + " " + keywords);
+  const bool micropolar = !model.spins.empty();
+  command("pair_style sph/" + std::string(micropolar ? "micropolar" : "bulk") + " kernel " +
+          model.kernel + " dim " + std::to_string(model.n) + " eos " + eos +
+          (micropolar ? "" : " shear " + shear) + " bulk " + bulk + " " + keywords);
+  auto spin_words = [](const DenseReference::SpinFluid &spin, bool named) {
+    return std::string(named ? " mu_r " : " ") + exact(spin.mu_r) + (named ? " gamma1 " : " ") +
+        exact(spin.gamma1) + (named ? " gamma2 " : " ") + exact(spin.gamma2);
+  };
   for (std::size_t type = 1; type <= model.fluids.size(); type++) {
     const auto &fluid = model.fluids[type - 1];
     const std::string name = std::to_string(type);
     std::string line = "pair_coeff " + name + " " + name + " " + exact(fluid.rho0) + " " +
         exact(fluid.c0) + " " + exact(shear == "none" ? 0.0 : fluid.mu) + " " +
-        (fluid.intrinsic ? "intrinsic" : exact(fluid.kappa)) + " " + exact(model.support);
+        (fluid.intrinsic ? "intrinsic" : exact(fluid.kappa)) +
+        (micropolar ? spin_words(model.spins[type - 1], false) : "") + " " + exact(model.support);
     if (fluid.pb != 0.0L) line += " pb " + exact(fluid.pb);
     if (fluid.gamma != 0.0L) line += " gamma " + exact(fluid.gamma);
     command(line);
@@ -191,6 +202,9 @@ void LammpsDriver::pair_style(const DenseReference::Model &model, const std::str
     command("pair_coeff " + std::to_string(entry.first.first) + " " +
             std::to_string(entry.first.second) + " mu " +
             exact(shear == "none" ? 0.0 : entry.second));
+  for (const auto &entry : model.spin_unlike)
+    command("pair_coeff " + std::to_string(entry.first.first) + " " +
+            std::to_string(entry.first.second) + spin_words(entry.second, true));
 }
 
 std::vector<double> LammpsDriver::gather(int width,
@@ -223,6 +237,13 @@ Computed LammpsDriver::run0(bool with_virial)
     return atom->desph[i];
   });
   if (!ours) return result;
+  if (Compute *dissipation = lmp->modify->get_compute_by_id("dissipation")) {
+    result.torque = gather(3, [=](int i, int k) {
+      return atom->torque[i][k];
+    });
+    dissipation->compute_vector();
+    result.power.assign(dissipation->vector, dissipation->vector + dissipation->size_vector);
+  }
 
   Compute *property = lmp->modify->get_compute_by_id("property");
   property->compute_peratom();

@@ -29,6 +29,8 @@ class LAMMPS;
 struct Computed {
   std::vector<double> force;    // 3 per particle
   std::vector<double> desph, numden, dnumden, volume, density, energy;
+  std::vector<double> torque;              // 3 per particle, micropolar fluids only
+  std::vector<double> power;               // dissipation: shear, bulk, vortex, spin; likewise
   std::vector<double> atom_energy, atom_virial;    // virial: 6 per particle
   double beyond_limit = 0.0;    // number of particles with too negative a bulk coefficient
   double total_energy = 0.0, total_virial[6] = {};
@@ -57,7 +59,8 @@ class LammpsDriver {
   // the same box for LAMMPS's own SPH styles, with masses by type and given densities
   void create_lammps_sph(const Configuration &config, const std::vector<double> &density);
 
-  // pair_style sph/bulk of these settings and the fluids of the model
+  // pair_style of these settings and the fluids of the model; sph/micropolar, which has no choice
+  // of shear, if the model has spin viscosities
   void pair_style(const DenseReference::Model &model, const std::string &eos,
                   const std::string &shear, const std::string &bulk,
                   const std::string &keywords = "");
