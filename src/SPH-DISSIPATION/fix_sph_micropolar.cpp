@@ -87,7 +87,9 @@ void FixSPHMicropolar::setup(int /*vflag*/)
 
 double FixSPHMicropolar::planned_inertia(int i, double rho0) const
 {
-  if (!inertia_flag || inertia_done) return avec->inertia[i];
+  // the pair style asks before init()
+  if (!inertia_flag || inertia_done)
+    return dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(style))->inertia[i];
   return factor * pow(atom->rmass[i] / rho0, 2.0 / domain->dimension) + offset;
 }
 

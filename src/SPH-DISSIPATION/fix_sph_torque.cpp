@@ -15,6 +15,7 @@
 
 #include "atom.h"
 #include "atom_vec_sph_micropolar.h"
+#include "domain.h"
 #include "error.h"
 #include "input.h"
 #include "memory.h"
@@ -69,6 +70,8 @@ int FixSPHTorque::setmask()
 
 void FixSPHTorque::init()
 {
+  if (domain->dimension == 2 && (name[0] || name[1] || value[0] != 0.0 || value[1] != 0.0))
+    error->all(FLERR, "Fix {}: torque must be along z in 2d", style);
   for (int d = 0; d < 3; d++) {
     if (!name[d]) continue;
     variable[d] = input->variable->find(name[d]);
