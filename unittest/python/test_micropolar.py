@@ -1,6 +1,5 @@
 """The micropolar fluid as a user meets it: conservation, ranks, files, commands, energy, body torque, bad input."""
 
-import os
 import re
 
 import numpy as np
@@ -9,7 +8,7 @@ import pytest
 from helpers import SUPPORT, disordered, drop, free, header, relative
 
 STYLE = "sph/micropolar"
-STEPS = int(os.environ.get("SPHD_LONG_STEPS", "1000"))  # 10000: the long variant
+STEPS = 10000
 FULL = "thermo_modify norm no format float %.17g\n"
 COLUMNS = "id mass xu yu zu vx vy vz fx fy fz omegax omegay omegaz tqx tqy tqz"
 TIMESTEP = "timestep 0.002\n"
@@ -306,6 +305,20 @@ def test_dissipation_is_the_work_of_forces_and_torques(lammps, dim, ranks, newto
     assert table["c_S"][0] == pytest.approx(work, rel=1e-12)
     assert (channels[1] == 0.0) == (bulk == "none")
     assert min(channels[0], channels[2], channels[3]) > 0.0
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "on"), (2, "off")])
+def test_pressure_is_the_sum_of_stress_per_atom(lammps, dim, ranks, newton):
+    write(SYSTEMS[dim], lammps.path("box.data"))
+    table = lammps(header(dim, newton=newton, style=STYLE) + "read_data box.data\n" + two_fluids(dim) + integrate()
+                   + "compute P all pressure NULL virial\nthermo_style custom step vol c_P[1] c_P[2] c_P[3]\n" + FULL
+                   + "run 0\ncompute S all stress/atom NULL virial\ncompute T all reduce sum c_S[1] c_S[2] c_S[3]\n"
+                   "thermo_style custom step vol c_T[1] c_T[2] c_T[3]\n" + FULL + "run 0\n", ranks=ranks).thermo()
+    for k in range(1, dim + 1):
+        total = -table[1][f"c_T[{k}]"][0] / table[1]["Volume"][0]
+        assert abs(total) > 0.01
+        assert table[0][f"c_P[{k}]"][0] == pytest.approx(total, rel=1e-12)
 
 
 # ---------------------------------------------------------------------------------------------
