@@ -670,7 +670,7 @@ void PairSPHBulk::derive_coeffs()
       for (int j = 1; j < i; j++)
         if (!viscosity_set[k][i][j]) {
           const double a = type.viscosity[k], b = coeffs[j].viscosity[k];
-          viscosity[k][i][j] = viscosity[k][j][i] = (a + b != 0.0) ? 2.0 * a * b / (a + b) : 0.0;
+          viscosity[k][i][j] = viscosity[k][j][i] = (a * b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
         }
     }
     for (int j = 1; j <= i; j++) {
