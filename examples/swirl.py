@@ -16,7 +16,7 @@ import numpy as np
 from scipy.linalg import solve_banded
 
 CELLS = 400       # about; the interface must be a face
-STEP = 0.002      # of the time; Crank and Nicolson's scheme after a start of implicit Euler steps
+STEP = 0.002      # of the time; Crank and Nicolson's scheme, implicit Euler steps up to the first of the times
 
 
 class Swirl:
@@ -81,3 +81,8 @@ class Swirl:
 
     def angular_momentum(self, u):
         return np.sum(self.moment * u, axis=-1)
+
+    def angular_velocity(self, u, within):
+        """Angular momentum over moment of inertia of the fluid at r < within."""
+        core = self.r < within
+        return np.sum((self.moment * u)[..., core], axis=-1) / np.sum((self.moment * self.r)[core])

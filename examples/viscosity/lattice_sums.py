@@ -10,12 +10,15 @@ viscosity are 1, as in in.viscosity.
 import itertools
 
 import numpy as np
+from scipy.integrate import quad
 
-# W(q) and -W'(q)/q, q = r/support, without the norms; h/support
+# W(q) and -W'(q)/q, q = r/support, without the norms; the norms in two and three dimensions
 KERNELS = {
-    "wendland/c2": (lambda q: (1 - q) ** 4 * (1 + 4 * q), lambda q: 20 * (1 - q) ** 3, {2: 7 / np.pi, 3: 21 / (2 * np.pi)}),
+    "wendland/c2": (lambda q: (1 - q) ** 4 * (1 + 4 * q), lambda q: 20 * (1 - q) ** 3,
+                    {2: 7 / np.pi, 3: 21 / (2 * np.pi)}),
     "lucy": (lambda q: (1 - q) ** 3 * (1 + 3 * q), lambda q: 12 * (1 - q) ** 2, {2: 5 / np.pi, 3: 105 / (16 * np.pi)}),
 }
+# dimension, unit cell, particles in it
 BASES = {
     "sq": (2, [[1, 0], [0, 1]], [[0, 0]]),
     "hex": (2, [[1, 0], [0, np.sqrt(3)]], [[0, 0], [0.5, 0.5]]),
@@ -57,10 +60,8 @@ class Lattice:
         # the volume of a particle comes from the summed density, or is given (LAMMPS's own styles)
         self.V = 1 / c if summed else 1.0
         # integral of r W, for the form with the weight F r
-        q = np.linspace(0, 1, 20001)
-        surface = 2 * np.pi if dim == 2 else 4 * np.pi
-        self.mean_radius = np.trapezoid(surface * norm[dim] * w(q) * q**dim, q) * support \
-            if hasattr(np, "trapezoid") else np.trapz(surface * norm[dim] * w(q) * q**dim, q) * support
+        surface = {2: 2 * np.pi, 3: 4 * np.pi}[dim]
+        self.mean_radius = support * quad(lambda q: surface * norm[dim] * w(q) * q**dim, 0, 1)[0]
 
     def _waves(self, k):
         """(1 - cos kx)/k^2 and sin(kx)/k at the neighbors, for k = 0 their limits."""
@@ -82,3 +83,7 @@ class Lattice:
     def bulk_term(self, k):
         """Longitudinal viscosity of the bulk term for zeta = 1."""
         return self.V**3 * np.sum(self.F * self.r[:, 0] * self._waves(k)[1]) ** 2
+
+    def sound_speed(self, k):
+        """Of waves without damping, over c0."""
+        return self.V * abs(np.sum(self.F * self.r[:, 0] * self._waves(k)[1]))
