@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-only
-"""Two fluids in a cup that turns: angular velocity with a conserving and with a Laplacian viscous force.
+"""Two fluids in a cup that turns: angular velocity with conserving and with Laplacian viscous forces.
 
     ./sphd run two_fluid_cup          or
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
@@ -19,8 +19,9 @@ from swirl import Swirl                     # noqa: E402
 
 R1, SUPPORT = 0.5, 4                            # as in the input; R2 = 1, Omega0 = 1
 RATIOS = {"0.2": (5.0, 1.0), "5": (1.0, 5.0)}   # eta2/eta1: (eta1, eta2)
-SHEARS = {"mg": ("newton", "o", "C0"), "morris": ("laplace", "s", "C3")}
-CONSERVING = 0.01       # mg: Omega_in over Omega0, minus 1
+SHEARS = {"mg": ("newton", "o", "C0"), "morris": ("laplace", "s", "C3"),
+          "micropolar": ("newton", "x", "C2")}
+CONSERVING = 0.01       # mg, micropolar: Omega_in over Omega0, minus 1; mean spin likewise
 FORMULA = 0.05          # morris: Omega_in over the formula, minus 1
 LATTICE = 0.01          # morris: Omega_in over that of particles that stay where they were, minus 1
 
@@ -60,8 +61,10 @@ def lattice_inner(n, eta1, eta2):
 
 class Run:
     def __init__(self, out, name):
-        self.t, self.inside = np.loadtxt(out / f"{name}.inside.txt")[:, 1:3].T
+        columns = np.loadtxt(out / f"{name}.inside.txt").T
+        self.t, self.inside = columns[1:3]
         last = self.t > self.t[-1] * 5 / 6
+        self.spin = columns[4][last].mean() if len(columns) > 4 else None
         self.omega, self.spread = self.inside[last].mean(), np.ptp(self.inside[last])
         collected = frames(out / f"{name}.particles.txt").values()
         x, y, vx, vy = (np.concatenate([frame[c] for frame in collected]) for c in ("x", "y", "vx", "vy"))
@@ -83,10 +86,11 @@ def plot(path, runs, n):
     for axis, (ratio, etas) in zip(axes, RATIOS.items()):
         for shear, (stress, marker, color) in SHEARS.items():
             swirl = Swirl(stress, *etas, R1, wall=1.0)
-            axis.plot(np.append(swirl.r, 1), np.append(swirl.steady() / swirl.r, 1), "-" if shear == "mg" else "--", color="k",
-                      label="conserving stress" if shear == "mg" else "$\\eta\\nabla v$ as stress")
+            if shear != "micropolar":
+                axis.plot(np.append(swirl.r, 1), np.append(swirl.steady() / swirl.r, 1), "-" if shear == "mg" else "--", color="k",
+                          label="conserving stress" if shear == "mg" else "$\\eta\\nabla v$ as stress")
             run = runs[shear, ratio, n]
-            axis.plot(run.r, run.profile, marker, color=color, ms=4.5, mfc="none", label=f"shear {shear}")
+            axis.plot(run.r, run.profile, marker, color=color, ms=4.5, mfc="none", label=f"shear {shear}" if shear != "micropolar" else shear)
         axis.axvspan(0, R1, color="#d8a040", alpha=0.18, lw=0)
         axis.axvspan(R1, 1, color="#a8c4e0", alpha=0.25, lw=0)
         for x, name in ((R1 / 2, "\\eta_1"), ((1 + R1) / 2, "\\eta_2")):
@@ -98,6 +102,9 @@ def plot(path, runs, n):
     for ratio, etas in RATIOS.items():
         for shear, (stress, marker, color) in SHEARS.items():
             run = runs[shear, ratio, n]
+            if shear == "micropolar":
+                axis.plot(run.t[3::6], run.inside[3::6], marker, color=color, ms=3.5)
+                continue
             swirl = Swirl(stress, *etas, R1, wall=1.0)
             exact = swirl.angular_velocity(swirl.evolve(np.zeros_like(swirl.r), run.t), R1 - SUPPORT / n)
             axis.plot(run.t, exact, "-" if shear == "mg" else "--", color="k", lw=1)
@@ -123,19 +130,23 @@ def main():
     table = example.out / "omega.csv"
     with open(table, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["eta2/eta1", "shear", "n", "omega_in", "spread", "continuum", "lattice"])
+        writer.writerow(["eta2/eta1", "shear", "n", "omega_in", "spread", "continuum", "lattice", "spin"])
         for ratio, etas in RATIOS.items():
             for n in reversed(sizes):
                 print()
-                conserving, run = runs["mg", ratio, n], runs["morris", ratio, n]
+                conserving, run, spinning = (runs[shear, ratio, n] for shear in SHEARS)
                 formula, lattice = laplacian_inner(*etas), lattice_inner(n, *etas)
-                print(f"eta2/eta1 = {ratio}, n = {n}: Omega_in = {conserving.omega:.4f} with mg, {run.omega:.4f} with morris; "
+                print(f"eta2/eta1 = {ratio}, n = {n}: Omega_in = {conserving.omega:.4f} with mg, {run.omega:.4f} with morris, "
+                      f"{spinning.omega:.4f} and mean spin {spinning.spin:.4f} with micropolar; "
                       f"formula {formula:.4f}, still lattice {lattice:.4f}")
                 example.merit("mg: Omega_in over Omega0, minus 1", abs(conserving.omega - 1), 0.0, CONSERVING)
+                example.merit("micropolar: Omega_in over Omega0, minus 1", abs(spinning.omega - 1), 0.0, CONSERVING)
+                example.merit("micropolar: mean spin over Omega0, minus 1", abs(spinning.spin - 1), 0.0, CONSERVING)
                 example.merit("morris: Omega_in over the formula, minus 1", abs(run.omega / formula - 1), 0.0, FORMULA)
                 example.merit("morris: Omega_in over that of a still lattice, minus 1", abs(run.omega / lattice - 1), 0.0, LATTICE)
-                writer.writerow([ratio, "mg", n, f"{conserving.omega:.6f}", f"{conserving.spread:.1e}", 1.0, 1.0])
-                writer.writerow([ratio, "morris", n, f"{run.omega:.6f}", f"{run.spread:.1e}", f"{formula:.6f}", f"{lattice:.6f}"])
+                writer.writerow([ratio, "mg", n, f"{conserving.omega:.6f}", f"{conserving.spread:.1e}", 1.0, 1.0, ""])
+                writer.writerow([ratio, "morris", n, f"{run.omega:.6f}", f"{run.spread:.1e}", f"{formula:.6f}", f"{lattice:.6f}", ""])
+                writer.writerow([ratio, "micropolar", n, f"{spinning.omega:.6f}", f"{spinning.spread:.1e}", 1.0, 1.0, f"{spinning.spin:.6f}"])
             if len(sizes) > 1:
                 coarse, fine = (abs(runs["morris", ratio, n].omega / formula - 1) for n in sorted(sizes))
                 example.merit("morris: error at n = 32 over that at n = 16", fine / coarse, 0.0, 1.0)
