@@ -22,6 +22,7 @@
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "sph_dissipation_boundary.h"
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
@@ -40,6 +41,11 @@ using namespace SPHDissipation;
 // negative coefficients of the bulk term beyond the bound of a particle: let be, count, cut off
 
 enum class Limit { NO, COUNT, YES };
+
+// most values per atom that any stage of the communication has
+
+static constexpr int MAXFORWARD = 9;
+static constexpr int MAXREVERSE = 13;
 
 struct PairSPHBulk::Settings {
   Kernel kernel = Kernel::WENDLAND_C2;
@@ -112,15 +118,15 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
     Pair(lmp),
     fluid_style(name), viscosity_names(viscosities), choice(new Settings), coeffs(nullptr),
     viscosity(nullptr), viscosity_set(nullptr), dim(0), support(0.0), announced(false),
-    warned_step(false), engine(new Engine(lmp)), comm_bound(false)
+    warned_step(false), engine(new Engine(lmp)), boundary_bits(0), stage(Stage::DENSITY)
 {
   restartinfo = 1;
   writedata = 1;
   manybody_flag = 1;
   single_enable = 0;
   respa_enable = 0;
-  comm_forward = 2;
-  comm_reverse = 2;
+  comm_forward = MAXFORWARD;
+  comm_reverse = MAXREVERSE;
   nextra = 1;
   pvector = new double[nextra];
   pvector[0] = 0.0;
@@ -154,18 +160,17 @@ void PairSPHBulk::compute(int eflag, int vflag)
   if (neighbor->ago == 0) check_masses();
 
   engine->accumulate_density(list, extrapolated_spin());
-  if (newton_pair) comm->reverse_comm(this);
-  comm->forward_comm(this);
+  reverse_stage(Stage::DENSITY);
+  forward_stage(Stage::DENSITY);
 
   particle_volume();
   if (choice->limit != Limit::NO) {
     engine->accumulate_bound(list);
-    comm_bound = true;
-    if (newton_pair) comm->reverse_comm(this);
-    comm->forward_comm(this);
-    comm_bound = false;
+    reverse_stage(Stage::BOUND);
+    forward_stage(Stage::BOUND);
   }
   particle_state();
+  if (!boundaries.empty()) extrapolate_to_boundary();
 
   StressTally stress(this, nlocal, newton_pair);
   engine->accumulate_forces(list, vflag_either ? &stress : nullptr);
@@ -184,7 +189,8 @@ void PairSPHBulk::compute(int eflag, int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   volume and density of owned and ghost particles from c and cdot
+   volume and density of owned and ghost particles from c and cdot; a boundary
+   particle has its reference volume, for most of its neighbors are not there
 ------------------------------------------------------------------------- */
 
 void PairSPHBulk::particle_volume()
@@ -200,6 +206,14 @@ void PairSPHBulk::particle_volume()
     rho[i] = rmass[i] * density.c;
     drho[i] = rmass[i] * density.cdot;
     vfrac[i] = engine->particle[i].vol = 1.0 / density.c;
+  }
+
+  if (!boundary_bits) return;
+  for (int i = 0; i < nall; i++) {
+    if (!is_boundary(i)) continue;
+    rho[i] = coeffs[atom->type[i]].eos.rho0;
+    drho[i] = 0.0;
+    vfrac[i] = engine->particle[i].vol = rmass[i] / rho[i];
   }
 }
 
@@ -223,6 +237,10 @@ void PairSPHBulk::particle_state()
   bigint nbeyond = 0;
 
   for (int i = 0; i < nall; i++) {
+    if (is_boundary(i)) {
+      engine->zeta_term[i] = engine->particle[i].g = 0.0;
+      continue;
+    }
     const TypeCoeff &coeff = coeffs[type[i]];
     const double vol = engine->particle[i].vol;
     const double cdot = engine->density[i].cdot;
@@ -243,10 +261,69 @@ void PairSPHBulk::particle_state()
 
   if (!eflag_either) return;
   for (int i = 0; i < nlocal; i++) {
+    if (is_boundary(i)) continue;
     const double energy = rmass[i] * elastic_energy(eos, coeffs[type[i]].eos, rho[i]);
     if (eflag_global) eng_vdwl += energy;
     if (eflag_atom) eatom[i] += energy;
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::add_boundary(Boundary *boundary)
+{
+  boundaries.push_back(boundary);
+  boundary_bits |= boundary->boundary_bit();
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool PairSPHBulk::is_boundary(int i) const
+{
+  return atom->mask[i] & boundary_bits;
+}
+
+/* ----------------------------------------------------------------------
+   boundary particles get the velocity, pressure and spin that act in the pair forces
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::extrapolate_to_boundary()
+{
+  engine->accumulate_boundary(list, boundary_bits);
+  reverse_stage(Stage::BOUNDARY_SUM);
+  check_boundary();
+
+  bool vorticity = false;
+  for (auto boundary : boundaries) {
+    boundary->set_boundary(*engine);
+    vorticity = vorticity || boundary->boundary_vorticity();
+  }
+  forward_stage(Stage::BOUNDARY_STATE);
+  engine->update_boundary_velocity();
+  if (!vorticity || !extrapolated_spin()) return;
+
+  engine->accumulate_vorticity(list);
+  reverse_stage(Stage::VORTICITY);
+  forward_stage(Stage::VORTICITY);
+  engine->accumulate_boundary_vorticity(boundary_bits);
+  reverse_stage(Stage::VORTICITY);
+  for (auto boundary : boundaries)
+    if (boundary->boundary_vorticity()) boundary->set_boundary_spin(*engine);
+  forward_stage(Stage::BOUNDARY_SPIN);
+}
+
+/* ----------------------------------------------------------------------
+   the support of a fluid particle at a plane surface is half full of boundary particles,
+   that of one in the corner of a box 7/8; more only inside
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::check_boundary() const
+{
+  constexpr double INSIDE = 0.9;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (engine->boundary_sum[i].weight > INSIDE && !is_boundary(i))
+      error->one(FLERR, "Particle {} of the fluid of pair style {} is inside a wall", atom->tag[i],
+                 fluid_style);
 }
 
 /* ----------------------------------------------------------------------
@@ -269,9 +346,10 @@ void PairSPHBulk::heating(double *heat, double *power) const
   const int nforce = force->newton_pair ? nlocal + atom->nghost : nlocal;
   std::fill(power, power + NCHANNEL, 0.0);
   for (int i = 0; i < nforce; i++) {
+    if (heat) heat[i] = 0.0;
+    if (is_boundary(i)) continue;
     double channel[NCHANNEL] = {engine->force[i].heat, bulk_heat(i)};
     spin_heat(i, channel);
-    if (heat) heat[i] = 0.0;
     for (int k = 0; k < NCHANNEL; k++) {
       if (heat) heat[i] += channel[k];
       power[k] += channel[k];
@@ -374,7 +452,6 @@ void PairSPHBulk::settings(int narg, char **arg)
   }
   if (choice->limit != Limit::NO && choice->bulk != Bulk::DENSITY)
     error->all(FLERR, "Pair_style {} limit requires bulk density", fluid_style);
-  comm_forward = (choice->eos == Eos::IDEAL) ? 3 : 2;
 }
 
 /* ----------------------------------------------------------------------
@@ -546,6 +623,8 @@ int PairSPHBulk::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, i
 
 void PairSPHBulk::init_style()
 {
+  boundaries.clear();
+  boundary_bits = 0;
   check_setup();
   derive_coeffs();
   announce();
@@ -886,7 +965,6 @@ void PairSPHBulk::read_restart_settings(FILE *fp)
 {
   if (comm->me == 0) utils::sfread(FLERR, choice, sizeof(Settings), 1, fp, nullptr, error);
   MPI_Bcast(choice, sizeof(Settings), MPI_BYTE, 0, world);
-  comm_forward = (choice->eos == Eos::IDEAL) ? 3 : 2;
 }
 
 /* ----------------------------------------------------------------------
@@ -934,12 +1012,78 @@ std::string PairSPHBulk::type_line(int i) const
    ghost stage 1: number density and its rate, first summed onto the owner,
    then copied to all ghosts; the ideal gas needs the internal energy there, too
    with a limit on zeta, once more for the bound of each particle
+   with boundaries, once more for what they get of the fluid and bring into the forces
 ------------------------------------------------------------------------- */
+
+void PairSPHBulk::forward_stage(Stage next)
+{
+  stage = next;
+  comm->forward_comm(this, forward_size());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::reverse_stage(Stage next)
+{
+  stage = next;
+  if (force->newton_pair) comm->reverse_comm(this, reverse_size());
+}
+
+/* ----------------------------------------------------------------------
+   # of values per atom of a stage; none has more than MAXFORWARD, MAXREVERSE
+------------------------------------------------------------------------- */
+
+int PairSPHBulk::forward_size() const
+{
+  switch (stage) {
+    case Stage::DENSITY:
+      return (choice->eos == Eos::IDEAL) ? 3 : 2;
+    case Stage::BOUND:
+      return 1;
+    case Stage::BOUNDARY_STATE:
+      return (choice->shear == Shear::MICROPOLAR) ? 9 : 6;
+    default:
+      return 3;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int PairSPHBulk::reverse_size() const
+{
+  switch (stage) {
+    case Stage::DENSITY:
+      return 2;
+    case Stage::BOUND:
+      return 1;
+    case Stage::BOUNDARY_SUM:
+      return (choice->shear == Shear::MICROPOLAR) ? 13 : 10;
+    default:
+      return 3;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
 
 double &PairSPHBulk::comm_value(int i, int k)
 {
-  if (comm_bound) return engine->bound[i];
-  return (k == 0) ? engine->density[i].c : (k == 1) ? engine->density[i].cdot : atom->esph[i];
+  Particle &particle = engine->particle[i];
+  switch (stage) {
+    case Stage::DENSITY:
+      return (k == 0) ? engine->density[i].c : (k == 1) ? engine->density[i].cdot : atom->esph[i];
+    case Stage::BOUND:
+      return engine->bound[i];
+    case Stage::BOUNDARY_SUM:
+      return reinterpret_cast<double *>(engine->boundary_sum + i)[k];
+    case Stage::BOUNDARY_STATE:
+      if (k < 3) return particle.u[k];
+      if (k > 5) return engine->spin[i].w[k - 6];
+      return (k == 3) ? particle.vol : (k == 4) ? particle.g : engine->zeta_term[i];
+    case Stage::VORTICITY:
+      return engine->vorticity[i][k];
+    default:
+      return engine->spin[i].w[k];
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -947,7 +1091,7 @@ double &PairSPHBulk::comm_value(int i, int k)
 int PairSPHBulk::pack_forward_comm(int n, int *sendlist, double *buf, int /*pbc_flag*/,
                                    int * /*pbc*/)
 {
-  const int nvalues = comm_bound ? 1 : comm_forward;
+  const int nvalues = forward_size();
   int m = 0;
   for (int ii = 0; ii < n; ii++)
     for (int k = 0; k < nvalues; k++) buf[m++] = comm_value(sendlist[ii], k);
@@ -958,7 +1102,7 @@ int PairSPHBulk::pack_forward_comm(int n, int *sendlist, double *buf, int /*pbc_
 
 void PairSPHBulk::unpack_forward_comm(int n, int nfirst, double *buf)
 {
-  const int nvalues = comm_bound ? 1 : comm_forward;
+  const int nvalues = forward_size();
   int m = 0;
   for (int i = nfirst; i < nfirst + n; i++)
     for (int k = 0; k < nvalues; k++) comm_value(i, k) = buf[m++];
@@ -968,7 +1112,7 @@ void PairSPHBulk::unpack_forward_comm(int n, int nfirst, double *buf)
 
 int PairSPHBulk::pack_reverse_comm(int n, int nfirst, double *buf)
 {
-  const int nvalues = comm_bound ? 1 : comm_reverse;
+  const int nvalues = reverse_size();
   int m = 0;
   for (int i = nfirst; i < nfirst + n; i++)
     for (int k = 0; k < nvalues; k++) buf[m++] = comm_value(i, k);
@@ -979,7 +1123,7 @@ int PairSPHBulk::pack_reverse_comm(int n, int nfirst, double *buf)
 
 void PairSPHBulk::unpack_reverse_comm(int n, int *sendlist, double *buf)
 {
-  const int nvalues = comm_bound ? 1 : comm_reverse;
+  const int nvalues = reverse_size();
   int m = 0;
   for (int ii = 0; ii < n; ii++)
     for (int k = 0; k < nvalues; k++) comm_value(sendlist[ii], k) += buf[m++];

@@ -27,6 +27,7 @@ PairStyle(sph/bulk,PairSPHBulk);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class Boundary;
   class Engine;
   enum class Shear;
   struct PairCoeff;
@@ -63,6 +64,15 @@ class PairSPHBulk : public Pair {
   enum Channel { SHEAR, BULK, VORTEX, SPIN, NCHANNEL };
   void heating(double *heat, double *power) const;
 
+  // from the init() of a fix, in every run: its particles are a boundary, not fluid
+
+  void add_boundary(SPHDissipation::Boundary *);
+  bool is_boundary(int i) const;    // owned or ghost particle
+
+  double support_radius() const { return support; }
+  int dimension() const { return dim; }    // of the kernel
+  double reference_density(int) const;     // of a type
+
  protected:
   struct Settings;     // choices of the pair_style command
   struct TypeCoeff;    // what pair_coeff I I sets and what follows from it
@@ -82,7 +92,14 @@ class PairSPHBulk : public Pair {
   bool announced;                    // the table of coefficients is up to date
   bool warned_step;                  // the warning about the time step was given
   SPHDissipation::Engine *engine;    // the two pair loops
-  bool comm_bound;                   // communicate the bound on zeta, not the density
+
+  std::vector<SPHDissipation::Boundary *> boundaries;
+  int boundary_bits;    // of the groups of all boundaries
+
+  // what is communicated between the passes
+
+  enum class Stage { DENSITY, BOUND, BOUNDARY_SUM, BOUNDARY_STATE, VORTICITY, BOUNDARY_SPIN };
+  Stage stage;
 
   PairSPHBulk(class LAMMPS *, const std::string &, const std::vector<std::string> &);
 
@@ -101,7 +118,6 @@ class PairSPHBulk : public Pair {
   virtual void add_torques(int) {}
   virtual void spin_heat(int, double *) const {}
 
-  double reference_density(int) const;
   int is_viscosity(const std::string &) const;
   int type_coeff(int, char **, int, int, int, int);
   int fluid_coeff(int, char **, int, int, int, int);
@@ -113,8 +129,14 @@ class PairSPHBulk : public Pair {
   void announce();
   void particle_volume();
   void particle_state();
+  void check_boundary() const;
+  void extrapolate_to_boundary();
   double bulk_heat(int) const;
   std::string type_line(int) const;
+  void forward_stage(Stage);
+  void reverse_stage(Stage);
+  int forward_size() const;
+  int reverse_size() const;
   double &comm_value(int, int);
 };
 

@@ -51,9 +51,11 @@ static const LoopSet *choose_loops()
 
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
-    zeta_term(nullptr), divergence(nullptr), bound(nullptr), loops(choose_loops()),
-    density_loop(nullptr), force_loop(nullptr), data(), spin(nullptr), shear(Shear::NONE),
-    bulk(Bulk::NONE), self_weight(0.0), nmax(0), imax(0), stride_max(0), pair_max(0), first(nullptr)
+    zeta_term(nullptr), divergence(nullptr), bound(nullptr), spin(nullptr), boundary_sum(nullptr),
+    vorticity(nullptr), loops(choose_loops()), density_loop(nullptr), force_loop(nullptr), data(),
+    kernel(Kernel::WENDLAND_C2), shear(Shear::NONE), bulk(Bulk::NONE), self_weight(0.0),
+    boundary_bits(0), nmax(0), nmax_boundary(0), nmax_vorticity(0), imax(0), stride_max(0),
+    pair_max(0), first(nullptr)
 {
 }
 
@@ -69,6 +71,8 @@ Engine::~Engine()
   memory->sfree(zeta_term);
   memory->sfree(divergence);
   memory->sfree(bound);
+  memory->sfree(boundary_sum);
+  memory->sfree(vorticity);
   memory->sfree(first);
   memory->sfree(data.count);
   memory->sfree(data.neighbor);
@@ -79,11 +83,13 @@ Engine::~Engine()
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::setup(Kernel kernel, int n, double support, Shear shear_in, Bulk bulk_in,
+void Engine::setup(Kernel kernel_in, int n, double support, Shear shear_in, Bulk bulk_in,
                    const std::vector<PairCoeff> &coeff_in, int ntypes)
 {
+  kernel = kernel_in;
   bulk = bulk_in;
   shear = shear_in;
+  boundary_bits = 0;
   coeff = coeff_in;
   density_loop = loops->density(kernel);
 
@@ -266,6 +272,8 @@ double Engine::memory_usage() const
 {
   return (double) nmax *
       (sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double)) +
+      (double) nmax_boundary * sizeof(BoundarySum) + (double) nmax_vorticity * 3 * sizeof(double) +
+      (double) boundary_pairs.capacity() * sizeof(BoundaryPair) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + 2 * sizeof(double)) +
       (double) stride_max * NSCRATCH * sizeof(double);

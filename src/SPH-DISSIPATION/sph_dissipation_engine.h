@@ -76,6 +76,20 @@ namespace SPHDissipation {
     double heat_vortex, heat_spin;
   };
 
+  // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
+  // particles f of V_f W(r_wf) times the quantity, S. Adami et al., J. Comput. Phys. 231, 7057 (2012)
+  // of a fluid particle: weight is the part of its support that boundary particles fill
+
+  struct BoundarySum {
+    double weight;       // 1
+    double u[3];         // velocity
+    double rho_r[3];     // density times x_w - x_f
+    double rho;          // density
+    double pressure;     // p + zeta V cdot (bulk density), p (otherwise)
+    double zeta_term;    // zeta V cdot
+    double w[3];         // spin (micropolar)
+  };
+
   // receives the force on i from j of each pair, for virials that are summed by pair
 
   class PairTally {
@@ -169,7 +183,23 @@ namespace SPHDissipation {
     // non-negative for any velocities if zeta_i bound_i >= -1/2 for all particles.
     void accumulate_bound(NeighList *);
 
-    // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller on owned and ghost atoms
+    // between the passes, with particle[].vol and g, zeta_term[] and atom->rho set by the caller on
+    // owned and ghost fluid atoms, vol on boundary atoms, which are those with a bit of bits in their
+    // mask: boundary_sum[] of owned atoms and the contributions to ghost atoms
+    void accumulate_boundary(NeighList *, int bits);
+
+    // the pair forces of boundary atoms act at the velocity that particle[].u of them has now, on
+    // owned and ghost atoms, rather than at the one that made cdot
+    void update_boundary_velocity();
+
+    // vorticity[] = sum_j V_j F r_ij x u_ij, with vol and u of particle[] on owned and ghost atoms
+    void accumulate_vorticity(NeighList *);
+
+    // vorticity[] of boundary atoms = sum_f V_f W vorticity[f], with that of the fluid on owned and ghost atoms
+    void accumulate_boundary_vorticity(int bits);
+
+    // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller
+    // on owned and ghost atoms
     void accumulate_forces(NeighList *, PairTally *);
 
     double memory_usage() const;
@@ -182,18 +212,33 @@ namespace SPHDissipation {
     double *zeta_term;     // zeta V cdot, set by the caller on owned and ghost atoms
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     double *bound;         // of accumulate_bound()
+    Spin *spin;            // micropolar only
+    BoundarySum *boundary_sum;
+    double (*vorticity)[3];
 
    private:
     const LoopSet *loops;
     Loop density_loop, force_loop;
     LoopData data;
     std::vector<PairCoeff> coeff;
-    Spin *spin;
+    Kernel kernel;
     Shear shear;
     Bulk bulk;
     double self_weight;    // W(0)
 
-    int nmax, imax, stride_max;
+    // pairs of a fluid and a boundary atom inside the support; rows of the neighbor list that may
+    // hold some until the list is built anew
+
+    struct BoundaryPair {
+      int fluid, wall;
+      bigint entry;     // of data.neighbor, slope, approach
+      double weight;    // V_fluid W
+    };
+    std::vector<BoundaryPair> boundary_pairs;
+    std::vector<int> boundary_rows;
+    int boundary_bits;    // that boundary_rows is for
+
+    int nmax, nmax_boundary, nmax_vorticity, imax, stride_max;
     bigint pair_max;
     bigint *first;
 
