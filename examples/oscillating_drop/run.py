@@ -108,7 +108,7 @@ def plot_drop(path, runs, T, n):
     main, mg, fine = runs[f"kappa_{n}"], runs["mg"], runs[f"kappa_{sizes[-1]}"]
     end = main.t[-1] / T
     figure = plt.figure(figsize=(10.5, 9.0))
-    top = figure.add_gridspec(1, 5, left=0.06, right=0.97, top=0.97, bottom=0.715, wspace=0.12, width_ratios=[1, 1, 1, 1, 0.06])
+    top = figure.add_gridspec(1, 5, left=0.06, right=0.97, top=0.975, bottom=0.725, wspace=0.12, width_ratios=[1, 1, 1, 1, 0.06])
     last = round(4 * fine.t[-1] / T - 1) / 4
     for column, periods in enumerate((0, 0.25, 0.5, last)):
         axes = figure.add_subplot(top[0, column])
@@ -125,7 +125,7 @@ def plot_drop(path, runs, T, n):
             axes.set_ylabel("$y/R$")
     figure.colorbar(picture, cax=figure.add_subplot(top[0, 4]), label="$p/(\\rho B^2R^2)$")
 
-    grid = figure.add_gridspec(2, 3, left=0.06, right=0.985, top=0.655, bottom=0.055, hspace=0.33, wspace=0.23)
+    grid = figure.add_gridspec(2, 3, left=0.06, right=0.985, top=0.635, bottom=0.055, hspace=0.33, wspace=0.23)
     axes = figure.add_subplot(grid[0, :])
     for k, style in enumerate(("-", "--")):
         axes.plot(main.t / T, np.sqrt(main.exact.moments[:, k, k]), "k", ls=style, lw=2.6, alpha=0.3, label=None if k else "exact")
@@ -133,7 +133,7 @@ def plot_drop(path, runs, T, n):
                   label=None if k else f"$\\kappa$ = {KAPPA:g}, no shear viscosity, n = {main.n}")
         axes.plot(mg.t / T, mg.along[:, k], "C3", ls=style,
                   label=None if k else f"$\\mu$ = {MU:.3f}, no bulk term: the same damping of sound, n = {mg.n}")
-    axes.set(xlim=(0, end), ylim=(0.35, 2.45), xlabel="$t/T$", ylabel="semi-axes $/R$", title="along x: lines, along y: dashed")
+    axes.set(xlim=(0, end), ylim=(0.35, 2.45), xlabel="$t/T$", ylabel="$a/R$, $b/R$", title="semi-axes along x (lines) and y (dashed)")
     axes.legend(ncol=3, loc="upper center")
     axes.grid(True)
 
@@ -146,12 +146,12 @@ def plot_drop(path, runs, T, n):
             right.plot(run.t / T, run.pressure, "k", lw=2.6, alpha=0.3, label="exact")
             right.plot(run.t / T, run.p, color, lw=0.8, label=f"n = {run.n}")
     if "none" in runs:
-        middle.plot(runs["none"].t / T, 1 - runs["none"].energy, "C5", lw=0.9, label=f"no viscosity, n = {runs['none'].n}")
+        middle.plot(runs["none"].t / T, 1 - runs["none"].energy, "k:", lw=1.4, label=f"no viscosity, n = {runs['none'].n}")
     middle.plot(mg.t / T, 1 - mg.energy, "C3", label=f"$\\mu$, n = {mg.n}")
     estimate = Drop(1.0, 0.0, mg.t, MU / mg.R2)
     middle.plot(mg.t / T, 1 - estimate.energy / estimate.energy[0], "k--", lw=0.9, label="estimate for $\\mu$")
     left.set(ylim=(1e-4, 0.2), title="error of $(a/b)^{1/2}$, largest until then")
-    middle.set(ylim=(-0.01, 0.2), title="lost part of the mechanical energy")
+    middle.set(ylim=(-0.02, 0.5), title="lost part of the mechanical energy")
     right.set(ylim=(0, 1.5), title="pressure in the centre $/(\\rho B^2R^2)$")
     for axes, stop in ((left, end), (middle, end), (right, fine.t[-1] / T)):
         axes.set(xlim=(0, stop), xlabel="$t/T$")
