@@ -699,7 +699,7 @@ def test_piston(lammps, dim):
     assert length == pytest.approx(27.5, abs=0.2)  # a tenth of a spacing at either wall
     assert table["f_W1[1]"][0] == pytest.approx(force, rel=0.03)
     assert table["f_W0[1]"][0] == pytest.approx(-table["f_W1[1]"][0], rel=5e-3)
-    assert np.abs(frame["v"][owner < 0].mean(axis=0)).max() < 1e-3
+    assert np.abs(frame["v"][owner < 0].mean(axis=0)).max() < 2e-3  # sound of the start, 0.5, has died away
 
 
 # ---------------------------------------------------------------------------------------------
