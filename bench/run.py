@@ -25,9 +25,9 @@ STYLES = ("lammps", "bulk", "micropolar")
 NAMES = {"lammps": "sph/rhosum 1 + sph/taitwater/morris", "bulk": "sph/bulk (mg, bulk density)",
          "micropolar": "sph/micropolar (everything on)"}
 LAYERS = 3
-WALLS = {"channel of sph/bulk": ("bulk", "slip no"),
-         "channel of sph/micropolar": ("micropolar", "slip no spin zero"),
-         "... spin of the vorticity at the wall": ("micropolar", "slip no spin rate 1.0")}
+WALLS = {"channel, sph/bulk": ("bulk", "slip no"),
+         "channel, sph/micropolar": ("micropolar", "slip no spin zero"),
+         "channel, sph/micropolar, spin rate": ("micropolar", "slip no spin rate 1.0")}
 
 
 def run(style, ranks, args, wall=None):
@@ -81,8 +81,8 @@ def compare(ranks, args):
     for name, (style, _) in WALLS.items():
         all_atoms, fluid = size[name][:2]
         walls.append(ratio([t / all_atoms for t in seconds[name]], [t / atoms for t in seconds[style]],
-                           f"time per particle of the {name.strip('. ')} over the periodic box"))
-        ratio([t / fluid for t in seconds[name]], [t / atoms for t in seconds[style]], "  ... per fluid particle")
+                           f"time per particle, {name} over periodic"))
+        ratio([t / fluid for t in seconds[name]], [t / atoms for t in seconds[style]], "  per fluid particle")
     return faster, cost, max(walls)
 
 
