@@ -42,8 +42,8 @@ using namespace SPHDissipation;
 
 FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), point{0.0, 0.0, 0.0}, axis{0.0, 0.0, 1.0}, gravity{0.0, 0.0, 0.0},
-    move(true), slip(false), spin(ZERO), rate(0.0), pair(nullptr), thickness_checked(false),
-    nmax(0), total(), total_all(), total_summed(false)
+    rotates(false), move(true), slip(false), spin(ZERO), rate(0.0), pair(nullptr),
+    thickness_checked(false), nmax(0), total(), total_all(), total_summed(false)
 {
   for (int iarg = 3; iarg < narg;) {
     const std::string keyword = arg[iarg];
@@ -69,6 +69,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
         error->all(FLERR, "Fix {} rotate: the direction of the axis must not be zero", style);
       MathExtra::norm3(axis);
       value_argument(spin_rate, arg[iarg + 7]);
+      rotates = true;
       iarg += 8;
     } else if (keyword == "move") {
       needs(1);
@@ -99,8 +100,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
       iarg += 2;
     } else if (keyword == "gravity") {
       needs(3);
-      for (int d = 0; d < 3; d++)
-        gravity[d] = utils::numeric(FLERR, arg[iarg + 1 + d], false, lmp);
+      for (int d = 0; d < 3; d++) gravity[d] = utils::numeric(FLERR, arg[iarg + 1 + d], false, lmp);
       iarg += 4;
     } else
       error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
@@ -242,7 +242,8 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
       MathExtra::matvec(rotation, r, rotated);
       for (int d = 0; d < 3; d++) x[i][d] += shift[d] + (rotated[d] - r[d]);
     }
-    for (int d = 0; d < 3; d++) point[d] += shift[d];
+    if (rotates)
+      for (int d = 0; d < 3; d++) point[d] += shift[d];
   }
   set_velocity();
 }
@@ -399,8 +400,7 @@ void FixSPHWall::value_argument(Value &value, const char *word)
 void FixSPHWall::evaluate(Value &value)
 {
   value.before = value.now;
-  if (value.name)
-    value.now = input->variable->compute_equal(input->variable->find(value.name));
+  if (value.name) value.now = input->variable->compute_equal(input->variable->find(value.name));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -489,8 +489,7 @@ void FixSPHWall::check_thickness()
   double worst[2] = {0.0, 0.0}, worst_all[2];    // spacing - depth, spacing over depth of bad ones
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const double spacing =
-        pow(atom->rmass[i] / pair->reference_density(atom->type[i]), 1.0 / dim);
+    const double spacing = pow(atom->rmass[i] / pair->reference_density(atom->type[i]), 1.0 / dim);
 
     double nearest = support, normal[3] = {0.0, 0.0, 0.0};
     for_neighbors(i, [&](int j, const double *r, double distance) {

@@ -60,9 +60,9 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   enum Spin { ZERO, RATE, FREE };
 
   Value velocity[3], spin_rate;    // of the wall; spin_rate = angular velocity
-  double point[3], axis[3];        // of the rotation
+  double point[3], axis[3];        // of the rotation; the torque is about the point
   double gravity[3];
-  bool move, slip;
+  bool rotates, move, slip;
   Spin spin;
   double rate;    // alpha of spin rate
 

@@ -25,8 +25,8 @@ namespace SPHDissipation {
 
   class Boundary {
    public:
-    virtual int boundary_bit() const = 0;            // bit of the group of its particles
-    virtual bool boundary_vorticity() const = 0;     // spins depend on the vorticity of the fluid
+    virtual int boundary_bit() const = 0;           // bit of the group of its particles
+    virtual bool boundary_vorticity() const = 0;    // spins depend on the vorticity of the fluid
 
     // set what its owned particles bring into the pair forces, from Engine::boundary_sum: u, vol
     // and g of Engine::particle, Engine::zeta_term and, if there are spins, Engine::spin

@@ -149,6 +149,5 @@ void Engine::accumulate_boundary_vorticity(int bits)
   for (int i = 0; i < atom->nlocal + atom->nghost; i++)
     if (atom->mask[i] & bits) vorticity[i][0] = vorticity[i][1] = vorticity[i][2] = 0.0;
   for (const auto &pair : boundary_pairs)
-    for (int d = 0; d < 3; d++)
-      vorticity[pair.wall][d] += pair.weight * vorticity[pair.fluid][d];
+    for (int d = 0; d < 3; d++) vorticity[pair.wall][d] += pair.weight * vorticity[pair.fluid][d];
 }

@@ -1,0 +1,890 @@
+"""fix sph/wall as a user meets it: forces against an independent reference, momentum balance, motion, ranks, files, bad input."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import wall_reference as ref
+from helpers import SUPPORT, disordered, free, header, lattice, relative
+from test_micropolar import spins, write
+
+BULK, MICRO = "sph/bulk", "sph/micropolar"
+FULL = "thermo_modify norm no format float %.17g\n"
+
+
+# ---------------------------------------------------------------------------------------------
+# sets of particles with walls, and their input
+
+
+def arrange(particles, inside):
+    """Renumber: first the fluid, then wall after wall. inside: one mask per wall."""
+    owner = np.full(len(particles), -1)
+    for k, mask in enumerate(inside):
+        owner[mask] = k
+    order = np.argsort(owner, kind="stable")
+    return particles.where(order), owner[order]
+
+
+def groups(owner):
+    """Group commands: fluid, wall0, wall1, ..."""
+    text = ""
+    for k in range(-1, owner.max() + 1):
+        ids = np.flatnonzero(owner == k) + 1
+        text += f"group {'fluid' if k < 0 else f'wall{k}'} id {ids[0]}:{ids[-1]}\n"
+    return text
+
+
+def words(values):
+    return " ".join(value if isinstance(value, str) else f"{value:.17g}" for value in values)
+
+
+def wall_fix(k, velocity=None, rotate=None, slip=None, spin=None, gravity=None, move=None):
+    """The fix command; rotate = (point, axis, rate)."""
+    text = f"fix W{k} wall{k} sph/wall"
+    if velocity is not None:
+        text += f" velocity {words(velocity)}"
+    if rotate is not None:
+        point, axis, rate = rotate
+        text += f" rotate {words(point)} {words(axis)} {words([rate])}"
+    for name, value in (("slip", slip), ("spin", spin), ("move", move)):
+        if value is not None:
+            text += f" {name} {value if isinstance(value, str) else f'rate {value}'}"
+    return text + (f" gravity {words(gravity)}" if gravity is not None else "") + "\n"
+
+
+def wall_now(velocity=(0, 0, 0), rotate=None, slip="no", spin="zero", gravity=(0, 0, 0), move=None):
+    """What the command means at the start of a run."""
+    wall = ref.Wall(velocity=np.array(velocity, float), slip=slip, spin=spin, gravity=np.array(gravity, float))
+    if rotate is not None:
+        point, axis, rate = rotate
+        axis = np.array(axis, float)
+        wall.point, wall.omega = np.array(point, float), rate * axis / np.linalg.norm(axis)
+    return wall
+
+
+FLUIDS = {  # two types; the walls have particles of both
+    BULK: [ref.Fluid(1.0, 10.0, 0.5, 2.0, pb=3.0, gamma=5.0), ref.Fluid(1.1, 12.0, 0.2, 0.8, gamma=1.6)],
+    MICRO: [ref.Fluid(1.0, 10.0, 0.5, 2.0, pb=3.0, gamma=5.0, mu_r=0.3, gamma1=0.05, gamma2=-0.05),
+            ref.Fluid(1.1, 12.0, 0.2, 0.8, gamma=1.6, mu_r=0.1, gamma1=0.02, gamma2=-0.02)],
+}
+
+
+def model_of(dim, style=BULK, **settings):
+    fluids = FLUIDS[style]
+    if dim == 3 and style == MICRO:
+        fluids = [replace(fluid, gamma2=0.4 * fluid.gamma1) for fluid in fluids]
+    return ref.Model(dim, fluids, SUPPORT[dim], style, **settings)
+
+
+def pair_commands(model):
+    form = f"shear {model.shear} " if model.style == BULK else ""
+    text = f"pair_style {model.style} kernel {model.kernel} eos {model.eos} {form}bulk {model.bulk}\n"
+    for k, fluid in enumerate(model.fluids, 1):
+        kappa = "intrinsic" if model.bulk == "none" else fluid.kappa
+        spin = f"{fluid.mu_r} {fluid.gamma1} {fluid.gamma2} " if model.style == MICRO else ""
+        gamma = f" gamma {fluid.gamma}" if fluid.gamma else ""
+        text += f"pair_coeff {k} {k} {fluid.rho0} {fluid.c0} {fluid.mu} {kappa} {spin}{model.support} pb {fluid.pb}{gamma}\n"
+    return text
+
+
+def odd_shapes(dim, seed=3):
+    """A disordered periodic set with a paddle and a ragged floor (that of the periodic image below is its ceiling)."""
+    cells = (15, 13) if dim == 2 else (7, 8, 8)
+    particles = disordered(dim, cells, seed=seed, jitter=0.15, ntypes=2)
+    x, y, z = particles.x.T
+    if dim == 2:
+        paddle = (np.hypot(x - 5, y - 6) < 2.4) | ((np.abs(y - 6) < 1.1) & (x > 5) & (x < 9))
+        floor = (y > 11.6 + 0.7 * np.sin(x)) | (y < 0.6)
+    else:
+        paddle = (np.linalg.norm(particles.x - [3.5, 3.5, 3.0], axis=1) < 1.6) | ((x < 4) & (y < 2) & (z < 4) & (z > 2))
+        floor = z > 6.2 + 0.5 * np.sin(x)
+    return arrange(particles, [paddle & ~floor, floor])
+
+
+def save(lammps, particles, model, omega=None):
+    if model.style == MICRO:
+        write(particles, lammps.path("box.data"), omega)
+    else:
+        particles.write(lammps.path("box.data"))
+
+
+def start(model, owner, walls, newton="on", boundary="p p p", step=0.002, before=""):
+    """Everything up to the run."""
+    return (header(model.dim, newton=newton, boundary=boundary, style=model.style) + before + "read_data box.data\n"
+            + groups(owner) + pair_commands(model) + f"fix FLUID fluid {model.style}\n"
+            + "".join(wall_fix(k, **wall) for k, wall in enumerate(walls)) + f"timestep {step}\n")
+
+
+def dump(name, owner, every=1, style=BULK):
+    spin = "omegax omegay omegaz tqx tqy tqz" if style == MICRO else ""
+    each = " ".join(f"f_W{k}[*]" for k in range(owner.max() + 1))
+    return ("compute V all property/atom vestx vesty vestz rho vol\n"
+            f"dump D all custom {every} {name} id xu yu zu vx vy vz fx fy fz {spin} c_V[*] {each}\n"
+            "dump_modify D sort id format float %.17g\n")
+
+
+def undump():
+    return "undump D\nuncompute V\n"
+
+
+def vector(frame, *names):
+    return np.column_stack([frame.columns[name] for name in names])
+
+
+def vest_of(frame):
+    return vector(frame, "c_V[1]", "c_V[2]", "c_V[3]")
+
+
+def torque_of(frame):
+    return vector(frame, "tqx", "tqy", "tqz")
+
+
+def omega_of(frame):
+    return vector(frame, "omegax", "omegay", "omegaz")
+
+
+def global_vector(k):
+    return " ".join(f"f_W{k}[{i}]" for i in range(1, 7))
+
+
+# ---------------------------------------------------------------------------------------------
+# forces against the reference
+
+SETS = {dim: odd_shapes(dim) for dim in (2, 3)}
+WALLS = {  # of the paddle and of the floor
+    2: {"at rest": ({}, {}),
+        "free": (dict(slip="free"), dict(slip="free", spin="free")),
+        "spin rate": (dict(spin=0.4), dict(spin=1.0, velocity=(0.2, 0, 0))),
+        "spin rate and free slip": (dict(spin=0.7, slip="free"), dict(spin="free")),
+        "moving": (dict(velocity=(0.4, -0.3, 0), gravity=(0.5, -2.0, 0)), dict(velocity=(-0.6, 0, 0), slip="free")),
+        "turning": (dict(rotate=((4.5, 6.2, 0), (0, 0, 2), 0.8), velocity=(0.1, 0.2, 0), gravity=(1.0, -0.5, 0)),
+                    dict(gravity=(0.3, -3.0, 0))),
+        "turning freely": (dict(rotate=((4.5, 6.2, 0), (0, 0, -1), 0.8), slip="free", spin=0.5), dict(slip="free"))},
+    3: {"at rest": ({}, {}),
+        "free": (dict(slip="free", spin="free"), dict(slip="free")),
+        "spin rate": (dict(spin=0.4), dict(spin="free")),
+        "moving": (dict(velocity=(0.4, -0.3, 0.2), gravity=(0.5, 1.0, -2.0)), dict(velocity=(-0.6, 0.1, 0), slip="free")),
+        "turning": (dict(rotate=((3.0, 3.5, 3.2), (0.3, -1.0, 0.5), 0.9), velocity=(0.1, 0.2, -0.1), spin=0.3),
+                    dict(gravity=(0.3, 0.0, -3.0)))},
+}
+OPTIONS = [dict(shear="mg", bulk="volume"), dict(shear="mg", bulk="none"), dict(shear="mg/fr"), dict(shear="mg/fr", bulk="volume"),
+           dict(shear="morris"), dict(shear="morris", bulk="volume", kernel="lucy"), dict(shear="espanol", bulk="none"),
+           dict(eos="tait"), dict(eos="ideal"), dict(eos="ideal", bulk="volume")]
+PARALLEL = [(1, "off"), (2, "on"), (2, "off"), (4, "on"), (4, "off")]
+CASES = ([(dim, BULK, name, {}) for dim in (2, 3) for name in WALLS[dim]]
+         + [(dim, MICRO, name, {}) for dim in (2, 3) for name in WALLS[dim]]
+         + [(dim, BULK, "turning", options) for dim in (2, 3) for options in OPTIONS]
+         + [(dim, MICRO, "turning", options) for dim in (2, 3)
+            for options in (dict(bulk="volume"), dict(bulk="none"), dict(eos="tait"), dict(eos="ideal", kernel="lucy"))])
+
+
+def expected(dim, style, name, options):
+    particles, owner = SETS[dim]
+    model = model_of(dim, style, **options)
+    omega = spins(particles) if style == MICRO else None
+    state = ref.State(particles.x, particles.v, particles.mass, particles.esph, particles.type, owner,
+                      particles.hi - particles.lo, omega)
+    return model, omega, ref.forces(model, state, [wall_now(**wall) for wall in WALLS[dim][name]])
+
+
+def assert_forces(frame, owner, want, style, bound=1e-12):
+    difference = {"force": relative(frame["f"] - want["f"], want["f"])}
+    if style == MICRO:
+        difference["torque"] = relative(torque_of(frame) - want["torque"], want["torque"])
+    wet = owner < 0
+    for k in range(owner.max() + 1):
+        each = vector(frame, *[f"f_W{k}[{i}]" for i in range(1, 7)])
+        own = owner == k
+        assert (each[~own] == 0.0).all()
+        difference[f"force on wall {k}"] = relative(each[own, :3] - want["f"][own], want["f"])
+        difference[f"couple on wall {k}"] = relative(each[own, 3:] - want["torque"][own], want["torque"]) if style == MICRO \
+            else np.abs(each[own, 3:]).max()
+        wet |= own & (np.abs(want["f"]).max(axis=1) > 0.0)
+    difference["density"] = relative((frame["c_V[4]"] - want["rho"])[wet], want["rho"])
+    difference["velocity of the walls"] = np.abs(frame["v"] - want["v"])[owner >= 0].max()
+    print("largest differences", {name: f"{value:.1e}" for name, value in difference.items()})
+    assert max(difference.values()) < bound, difference
+
+
+def assert_global(table, owner, want, walls, style, bound=1e-12):
+    for k, wall in enumerate(walls):
+        own = owner == k
+        point = np.array(wall["rotate"][0]) if wall.get("rotate") else np.zeros(3)
+        f = want["f"][own]
+        t = np.cross(want["x"][own] - point, f) + want["torque"][own]
+        total = np.array([table[f"f_W{k}[{i}]"][0] for i in range(1, 7)])
+        assert relative(total[:3] - f.sum(axis=0), f) < bound
+        assert relative(total[3:] - t.sum(axis=0), t) < bound
+
+
+@pytest.mark.parametrize("dim, style, name, options", CASES)
+def test_forces(lammps, dim, style, name, options):
+    model, omega, want = expected(dim, style, name, options)
+    particles, owner = SETS[dim]
+    save(lammps, particles, model, omega)
+    (table,) = lammps(start(model, owner, WALLS[dim][name]) + dump("out.dump", owner, style=style)
+                      + f"thermo_style custom step {global_vector(0)} {global_vector(1)}\n" + FULL + "run 0\n").thermo()
+    assert_forces(lammps.frame("out.dump"), owner, want, style)
+    assert_global(table, owner, {**want, "x": particles.x}, WALLS[dim][name], style)
+
+
+@pytest.mark.parametrize("dim, style, name", [(2, BULK, "turning"), (3, MICRO, "turning"), (2, MICRO, "spin rate"),
+                                              (3, MICRO, "spin rate")])
+@pytest.mark.parametrize("ranks, newton", PARALLEL)
+def test_forces_on_any_number_of_ranks(lammps, dim, style, name, ranks, newton):
+    model, omega, want = expected(dim, style, name, {})
+    particles, owner = SETS[dim]
+    save(lammps, particles, model, omega)
+    (table,) = lammps(start(model, owner, WALLS[dim][name], newton=newton) + dump("out.dump", owner, style=style)
+                      + f"thermo_style custom step {global_vector(0)} {global_vector(1)}\n" + FULL + "run 0\n",
+                      ranks=ranks).thermo()
+    assert_forces(lammps.frame("out.dump"), owner, want, style)
+    assert_global(table, owner, {**want, "x": particles.x}, WALLS[dim][name], style)
+
+
+# ---------------------------------------------------------------------------------------------
+# walls that move
+
+STEP = 0.002
+TIME = "variable t equal step*dt\n"
+
+
+def travel(lammps, walls, steps, before="", ranks=1, dim=2):
+    """Frames of a run of the odd shapes from rest; the walls are as given."""
+    particles, owner = SETS[dim]
+    model = model_of(dim)
+    save(lammps, particles, model)
+    lammps(start(model, owner, walls, step=STEP, before=before) + dump("out.dump", owner) + f"run {steps}\n", ranks=ranks)
+    return particles, owner, lammps.frames("out.dump")
+
+
+def test_constant_velocity(lammps):
+    velocity = np.array([0.4, -0.3, 0.0])
+    particles, owner, frames = travel(lammps, [dict(velocity=velocity), dict(velocity=(0.5, 0, 0), move="no")], 50)
+    for frame in frames:
+        np.testing.assert_allclose(frame["x"][owner == 0], particles.x[owner == 0] + velocity * STEP * frame.step,
+                                   rtol=0, atol=1e-13)
+        assert (frame["x"][owner == 1] == particles.x[owner == 1]).all()
+        for k, v in ((0, velocity), (1, [0.5, 0.0, 0.0])):
+            assert np.abs(frame["v"][owner == k] - v).max() < 1e-15
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_rotation_is_exact_after_any_number_of_steps(lammps, dim):
+    """About an axis whose point travels; distances within the wall stay."""
+    axis = np.array([0.0, 0.0, 2.0]) if dim == 2 else np.array([0.3, -1.0, 0.5])
+    point, velocity, rate = np.array([4.5, 6.0, 0.0] if dim == 2 else [3.0, 3.5, 3.2]), np.array([0.3, 0.1, 0.0]), 5.0
+    particles, owner, frames = travel(lammps, [dict(rotate=(point, axis, rate), velocity=velocity), {}], 200, dim=dim)
+    own = owner == 0
+    arm = particles.x[own] - point
+    axis /= np.linalg.norm(axis)
+    angle = rate * STEP * 200
+    turned = (np.cos(angle) * arm + np.sin(angle) * np.cross(axis, arm)
+              + (1 - np.cos(angle)) * (arm @ axis)[:, None] * axis)
+    last = frames[-1]
+    np.testing.assert_allclose(last["x"][own], point + velocity * STEP * 200 + turned, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(last["v"][own], velocity + rate * np.cross(axis, turned), rtol=0, atol=1e-10)
+    assert (last["x"][owner == 1] == particles.x[owner == 1]).all()
+
+
+def test_rotation_without_motion(lammps):
+    """move no: only the surface turns."""
+    particles, owner, frames = travel(lammps, [dict(rotate=((4.5, 6.0, 0), (0, 0, 1), 2.0), move="no"), {}], 20)
+    own = owner == 0
+    assert (frames[-1]["x"][own] == particles.x[own]).all()
+    v = np.cross([0, 0, 2.0], particles.x[own] - [4.5, 6.0, 0])
+    np.testing.assert_allclose(frames[-1]["v"][own], v, rtol=0, atol=1e-13)
+
+
+def variable_wall(step):
+    """Velocity and rotation at the end of a step, and their backward differences."""
+    def velocity(t):
+        return np.array([0.5 * np.sin(30 * t), 0.2 + 3 * t, 0.0])
+
+    def rate(t):
+        return 0.8 * np.cos(40 * t)
+
+    t = STEP * step
+    before = t - STEP if step else t
+    return (velocity(t), (velocity(t) - velocity(before)) / STEP, rate(t), (rate(t) - rate(before)) / STEP)
+
+
+VARIABLES = TIME + "variable U equal 0.5*sin(30*v_t)\nvariable V equal 0.2+3*v_t\nvariable O equal 0.8*cos(40*v_t)\n"
+
+
+@pytest.mark.parametrize("move", ["yes", "no"])
+def test_variable_velocity_and_rotation(lammps, move):
+    """Forces after some steps against the reference: the acceleration of the wall acts on the pressure in it."""
+    point = np.array([4.5, 6.2, 0.0])
+    walls = [dict(velocity=("v_U", "v_V", 0.0), rotate=(point, (0, 0, 1), "v_O"), move=move), dict(gravity=(0, -1.0, 0))]
+    particles, owner, frames = travel(lammps, walls, 12, before=VARIABLES)
+    model = model_of(2)
+    own = owner == 0
+    for frame in frames:
+        v, v_rate, omega, omega_rate = variable_wall(frame.step)
+        point_now = point.copy()
+        if move == "yes":  # the point of the axis has travelled with the wall, by the mean velocity of each step
+            for s in range(frame.step):
+                point_now += 0.5 * STEP * (variable_wall(s)[0] + variable_wall(s + 1)[0])
+        z = np.array([0.0, 0.0, 1.0])
+        now = ref.Wall(velocity=v, rate=v_rate, omega=omega * z, omega_rate=omega_rate * z, point=point_now)
+        state = ref.State(frame["x"], vest_of(frame), particles.mass, particles.esph, particles.type, owner,
+                          particles.hi - particles.lo)
+        want = ref.forces(model, state, [now, ref.Wall(gravity=np.array([0, -1.0, 0]))])
+        assert_forces(frame, owner, want, BULK)
+    moved = np.abs(frames[-1]["x"][own] - particles.x[own]).max()
+    assert (moved > 0.005) == (move == "yes")
+
+
+# ---------------------------------------------------------------------------------------------
+# vessels whose walls are thick enough
+
+
+def channel(dim=2, jitter=0.1, size=None, layers=3, seed=5, speed=0.2, obstacle=False):
+    """Fluid between a floor and a ceiling, along y, periodic otherwise; wall 0 = floor, 1 = ceiling, 2 = obstacle."""
+    size = size or {2: (16, 18), 3: (6, 12, 6)}[dim]
+    particles = lattice(dim, size)
+    y = particles.x[:, 1]
+    floor, ceiling = y < layers, y > size[1] - layers
+    masks = [floor, ceiling]
+    if obstacle:
+        masks.append(np.linalg.norm(particles.x[:, :2] - [0.5 * size[0], 0.5 * size[1]], axis=1) < 2.3)
+    wet = ~np.any(masks, axis=0)
+    random = np.random.default_rng(seed)
+    particles.x[wet, :dim] += random.uniform(-jitter, jitter, (wet.sum(), dim))
+    particles.v[wet, :dim] = random.normal(0.0, speed, (wet.sum(), dim))
+    return arrange(particles, masks)
+
+
+def cup(dim=2, radius=6.0, thick=3.2, jitter=0.1, seed=5, speed=0.2, seed_spin=0.0):
+    """Fluid in a round vessel in an open box."""
+    cells = 2 * int(radius + thick) + 4
+    particles = lattice(dim, cells)
+    particles.x[:, :dim] -= 0.5 * cells
+    distance = np.linalg.norm(particles.x, axis=1)
+    particles = particles.where(distance < radius + thick)
+    solid = np.linalg.norm(particles.x, axis=1) > radius
+    random = np.random.default_rng(seed)
+    wet = ~solid
+    particles.x[wet, :dim] += random.uniform(-jitter, jitter, (wet.sum(), dim))
+    particles.v[wet, :dim] = random.normal(0.0, speed, (wet.sum(), dim))
+    reach = np.array([cells] * dim + [0.5] * (3 - dim))
+    return arrange(replace(particles, lo=-reach, hi=reach), [solid])
+
+
+def one_fluid(dim, style=BULK, mu=0.5, kappa=2.0, pb=0.0, **settings):
+    spin = dict(mu_r=0.3, gamma1=0.05, gamma2=-0.05 if dim == 2 else 0.02) if style == MICRO else {}
+    return ref.Model(dim, [ref.Fluid(1.0, 10.0, mu, kappa, pb=pb, **spin)], SUPPORT[dim], style, **settings)
+
+
+def run_vessel(lammps, particles, owner, model, walls, commands, ranks=1, newton="on", boundary="p p p", omega=None,
+               check=True, before="", timeout=120):
+    save(lammps, particles, model, omega)
+    return lammps(start(model, owner, walls, newton, boundary, step=0.005, before=before) + commands, ranks=ranks,
+                  check=check, timeout=timeout)
+
+
+# ---------------------------------------------------------------------------------------------
+# momentum
+
+
+@pytest.mark.parametrize("dim, style", [(2, BULK), (3, BULK), (2, MICRO)])
+@pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off")])
+def test_force_on_the_walls_is_the_momentum_lost(lammps, dim, style, ranks, newton):
+    """Over a run: velocity Verlet gives the fluid half the force at the start and half that at the end of each step."""
+    particles, owner = channel(dim, obstacle=dim == 2)
+    walls = [dict(gravity=(0.3, -0.2, 0)), dict(velocity=(0.5, 0, 0), move="no"),
+             dict(rotate=((8, 9, 0), (0, 0, 1), 0.6), slip="free", gravity=(0.3, -0.2, 0))][:2 + (dim == 2)]
+    model = one_fluid(dim, style)
+    steps, body = 300, np.array([0.3, -0.2, 0.0])
+    wet = owner < 0
+    columns = " ".join(global_vector(k) for k in range(len(walls)))
+    result = run_vessel(
+        lammps, particles, owner, model, walls,
+        f"fix G fluid addforce {words(body)}\n" + dump("out.dump", owner, steps, style)
+        + "compute F fluid reduce sum fx fy fz\n" + f"thermo 1\nthermo_style custom step {columns} c_F[*]\n" + FULL
+        + f"run {steps}\n", ranks, newton)
+    (table,) = result.thermo()
+    on_walls = sum(np.column_stack([table[f"f_W{k}[{i}]"] for i in (1, 2, 3)]) for k in range(len(walls)))
+    on_fluid = np.column_stack([table[f"c_F[{i}]"] for i in (1, 2, 3)]) - body * wet.sum()
+    scale = np.abs(on_walls).max()
+    assert np.abs(on_walls + on_fluid).max() < 1e-12 * scale * len(particles) ** 0.5
+    first, last = lammps.frames("out.dump")
+    for frame, row in ((first, 0), (last, -1)):
+        for k in range(len(walls)):
+            each = vector(frame, *[f"f_W{k}[{i}]" for i in (1, 2, 3)])
+            assert np.abs(each.sum(axis=0) - [table[f"f_W{k}[{i}]"][row] for i in (1, 2, 3)]).max() < 1e-12 * scale
+    impulse = 0.005 * (0.5 * (on_walls[1:] + on_walls[:-1])).sum(axis=0)
+    gained = (particles.mass[wet, None] * (last["v"] - first["v"])[wet]).sum(axis=0)
+    missing = np.abs(gained + impulse - body * wet.sum() * 0.005 * steps).max()
+    size = np.abs(particles.mass[:, None] * first["v"]).sum()
+    print(f"impulse {impulse}, missing {missing:.1e} of {size:.1f}")
+    assert np.abs(impulse).max() > 0.1
+    assert missing < 1e-13 * size
+
+
+@pytest.mark.parametrize("dim, style, slip", [(2, BULK, "no"), (2, MICRO, "no"), (2, MICRO, "free"), (3, MICRO, "no")])
+def test_torque_on_the_wall_is_the_angular_momentum_lost(lammps, dim, style, slip):
+    """Orbital and spin part together, in a cup that turns about its axis: forces and couples on the wall balance it."""
+    radius = 6.0 if dim == 2 else 3.6
+    particles, owner = cup(dim, radius=radius, thick=3.2 if dim == 2 else 2.7)
+    omega = 0.5 * spins(particles) if style == MICRO else None
+    axis = (0, 0, 1) if dim == 2 else (0.4, 0.7, -0.5)
+    steps, wet = 300, owner < 0
+    result = run_vessel(
+        lammps, particles, owner, one_fluid(dim, style), [dict(rotate=((0, 0, 0), axis, 0.8), slip=slip, spin=0.5)],
+        dump("out.dump", owner, steps, style) + f"thermo 1\nthermo_style custom step {global_vector(0)}\n" + FULL
+        + f"timestep 0.002\nrun {steps}\n", boundary=free(dim), omega=omega)
+    (table,) = result.thermo()
+    torque = np.column_stack([table[f"f_W0[{i}]"] for i in (4, 5, 6)])
+    impulse = 0.002 * (0.5 * (torque[1:] + torque[:-1])).sum(axis=0)
+    total = []
+    for frame in lammps.frames("out.dump"):
+        mass = particles.mass[wet, None]
+        each = mass * np.cross(frame["x"][wet], frame["v"][wet])
+        if style == MICRO:
+            each = each + mass * 0.2 * omega_of(frame)[wet]
+        total.append((each.sum(axis=0), np.abs(each).sum()))
+    missing = np.abs(total[1][0] - total[0][0] + impulse).max() / total[0][1]
+    print(f"impulse {impulse}, missing {missing:.1e}")
+    assert np.abs(impulse).max() > 0.01 * total[0][1]
+    assert missing < 1e-13
+
+
+# ---------------------------------------------------------------------------------------------
+# ranks, files, commands
+
+MOVING = [dict(gravity=(0.3, -0.2, 0)), dict(velocity=(0.5, 0, 0), move="no"),
+          dict(rotate=((8, 9, 0), (0, 0, 1), 0.6), spin=0.5, gravity=(0.3, -0.2, 0))]
+BODY = "fix G fluid addforce 0.3 -0.2 0\n"
+
+
+def vessel(dim):
+    return channel(dim, obstacle=dim == 2), MOVING if dim == 2 else [MOVING[0], dict(velocity=(0.5, 0, 0.2), slip="free")]
+
+
+def trajectory(lammps, dim, style, ranks=1, newton="on", before="", after="", steps=200):
+    (particles, owner), walls = vessel(dim)
+    omega = 0.3 * spins(particles) if style == MICRO else None
+    run_vessel(lammps, particles, owner, one_fluid(dim, style), walls,
+               after + BODY + dump("out.dump", owner, steps, style) + f"run {steps}\n", ranks, newton, omega=omega, before=before)
+    return lammps.frame("out.dump")
+
+
+def assert_same(one, other, style, bound=1e-11):
+    names = ["xu", "yu", "zu", "vx", "vy", "vz", "fx", "fy", "fz"] + (["omegax", "omegay", "omegaz"] if style == MICRO else [])
+    names += [name for name in one.columns if name.startswith("f_W")]
+    largest = {name: np.abs(one.columns[name] - other.columns[name]).max() for name in names}
+    print("largest difference", max(largest.values()))
+    assert max(largest.values()) < bound, largest
+
+
+@pytest.fixture(scope="module")
+def serial(shared_lammps):
+    known = {}
+
+    def get(dim, style):
+        if (dim, style) not in known:
+            known[dim, style] = trajectory(shared_lammps, dim, style)
+        return known[dim, style]
+
+    return get
+
+
+@pytest.mark.parametrize("dim, style, ranks, newton, before, after", [
+    (2, BULK, 1, "off", "", ""), (2, BULK, 2, "on", "processors 1 2 1\n", ""), (2, BULK, 4, "on", "", ""),
+    (2, BULK, 4, "off", "processors 4 1 1\n", ""), (2, BULK, 4, "on", "comm_style tiled\n", "balance 1.0 rcb\n"),
+    (2, BULK, 2, "off", "comm_modify cutoff 7.0\n", "fix B all balance 50 1.0 shift xy 10 1.05\n"),
+    (2, MICRO, 2, "on", "", ""), (2, MICRO, 4, "off", "", ""), (3, BULK, 2, "on", "", ""), (3, MICRO, 4, "on", "", ""),
+    (3, MICRO, 4, "off", "", "")])
+def test_same_trajectory(lammps, serial, dim, style, ranks, newton, before, after):
+    assert_same(serial(dim, style), trajectory(lammps, dim, style, ranks, newton, before, after), style)
+
+
+@pytest.mark.parametrize("dim, style, before, after", [(2, BULK, 1, 1), (2, BULK, 2, 4), (2, MICRO, 1, 2), (3, BULK, 2, 1)])
+def test_continue_from_a_restart_file(lammps, dim, style, before, after):
+    """Equals a second run command in the script that wrote the file."""
+    (particles, owner), walls = vessel(dim)
+    omega = 0.3 * spins(particles) if style == MICRO else None
+    save(lammps, particles, one_fluid(dim, style), omega)
+    run_vessel(lammps, particles, owner, one_fluid(dim, style), walls,
+               BODY + "run 100\nwrite_restart state.restart\n" + dump("whole.dump", owner, 100, style) + "run 100\n",
+               before, omega=omega)
+    fixes = f"fix FLUID fluid {style}\n" + "".join(wall_fix(k, **wall) for k, wall in enumerate(walls)) + BODY
+    lammps("read_restart state.restart\n" + fixes + "timestep 0.005\n" + dump("parts.dump", owner, 100, style) + "run 100\n",
+           ranks=after)
+    for one, other in zip(lammps.frames("whole.dump"), lammps.frames("parts.dump")):
+        assert one.step == other.step
+        assert_same(one, other, style)
+
+
+def test_position_of_the_axis_is_in_the_restart_file(lammps):
+    """A wheel that rolls: without the travelled point it would be torn apart."""
+    (particles, owner), walls = vessel(2)
+    walls = [walls[0], walls[1], dict(rotate=((8, 9, 0), (0, 0, 1), 3.0), velocity=(1.0, 0, 0))]
+    run_vessel(lammps, particles, owner, one_fluid(2), walls, "run 100\nwrite_restart state.restart\n")
+    fixes = "fix FLUID fluid sph/bulk\n" + "".join(wall_fix(k, **wall) for k, wall in enumerate(walls))
+    lammps("read_restart state.restart\n" + fixes + "timestep 0.005\n" + dump("out.dump", owner, 100) + "run 100\n")
+    own = owner == 2
+    last = lammps.frame("out.dump")
+    arm = particles.x[own] - [8, 9, 0]
+    turned = np.cos(3.0) * arm + np.sin(3.0) * np.cross([0, 0, 1], arm)
+    np.testing.assert_allclose(last["x"][own], turned + [9, 9, 0], rtol=0, atol=1e-11)
+
+
+def test_data_file_round_trip(lammps):
+    (particles, owner), walls = vessel(2)
+    run_vessel(lammps, particles, owner, one_fluid(2), walls, "run 20\nwrite_data out.data\n" + dump("before.dump", owner)
+               + "run 0\n")
+    # the file has the coefficients of the pair style; the obstacle goes on about the same point
+    text = start(one_fluid(2), owner, walls, step=0.005).replace(
+        "read_data box.data", pair_commands(one_fluid(2)).splitlines()[0] + "\nread_data out.data")
+    lammps(text + dump("after.dump", owner) + "run 0\n")
+    one, other = lammps.frame("before.dump"), lammps.frame("after.dump")
+    assert relative(one["f"] - other["f"], one["f"]) < 1e-12
+
+
+def test_run_pre_no_continues_exactly(lammps):
+    """Two runs, the second without set-up, are one long run."""
+    (particles, owner), walls = vessel(2)
+    for name, runs in (("one", "run 60\n"), ("two", "run 30\nrun 30 pre no\n")):
+        run_vessel(lammps, particles, owner, one_fluid(2), walls, BODY + dump(f"{name}.dump", owner, 60) + runs)
+    assert_same(lammps.frame("one.dump"), lammps.frame("two.dump"), BULK)
+
+
+def test_wall_may_stand_still_again(lammps):
+    """After unfix and a new fix the wall has the new velocity; its particles are still not a fluid's."""
+    (particles, owner), walls = vessel(2)
+    run_vessel(lammps, particles, owner, one_fluid(2), walls,
+               "run 10\nunfix W2\n" + wall_fix(2, velocity=(0, 0.1, 0)) + dump("out.dump", owner) + "run 10\n")
+    frames = lammps.frames("out.dump")
+    own = owner == 2
+    np.testing.assert_allclose(frames[-1]["x"][own] - frames[0]["x"][own], np.tile([0, 0.005, 0], (own.sum(), 1)), atol=1e-13)
+
+
+def test_hybrid_overlay(lammps, serial):
+    (particles, owner), walls = vessel(2)
+    save(lammps, particles, one_fluid(2))
+    text = start(one_fluid(2), owner, walls, step=0.005)
+    text = text.replace("pair_style sph/bulk", "pair_style hybrid/overlay zero 3.0 sph/bulk").replace(
+        "pair_coeff 1 1 ", "pair_coeff * * zero\npair_coeff 1 1 sph/bulk ")
+    lammps(text + BODY + dump("out.dump", owner, 200) + "run 200\n")
+    assert_same(serial(2, BULK), lammps.frame("out.dump"), BULK)
+
+
+# ---------------------------------------------------------------------------------------------
+# flows whose forces are known
+
+
+def forces_of(lammps, particles, owner, model, walls, boundary="p p p", omega=None, name="out.dump"):
+    run_vessel(lammps, particles, owner, model, walls, dump(name, owner, style=model.style) + "run 0\n", boundary=boundary,
+               omega=omega)
+    return lammps.frame(name)
+
+
+@pytest.mark.parametrize("style", [BULK, MICRO])
+@pytest.mark.parametrize("slip", ["no", "free"])
+@pytest.mark.parametrize("dim", [2, 3])
+def test_common_motion_exerts_no_viscous_force(lammps, dim, slip, style):
+    """Walls and fluid in uniform motion: the forces are those at rest."""
+    (particles, owner), walls = vessel(dim)
+    velocity = np.array([0.7, -0.4, 0.3 if dim == 3 else 0.0])
+    still = np.zeros((len(particles), 3))
+    frames = []
+    for v, name in ((0 * velocity, "rest.dump"), (velocity, "moving.dump")):
+        particles.v[:] = v
+        frames.append(forces_of(lammps, particles, owner, one_fluid(dim, style),
+                                [dict(velocity=v, slip=slip, spin="free")] * len(walls), omega=still, name=name))
+    difference = relative(frames[1]["f"] - frames[0]["f"], frames[0]["f"])
+    print(f"{difference:.1e}")
+    assert difference < 1e-12
+
+
+@pytest.mark.parametrize("style", [BULK, MICRO])
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("slip", ["no", "free"])
+def test_common_rotation_exerts_no_viscous_force(lammps, dim, style, slip):
+    """Fluid that turns with its cup like a rigid body, spin included: only the pressure of the centrifugal force remains."""
+    particles, owner = cup(dim, radius=6.0 if dim == 2 else 3.6, thick=3.2 if dim == 2 else 2.7)
+    axis = np.array([0, 0, 1.0]) if dim == 2 else np.array([2.0, -1.0, 2.0]) / 3.0
+    rate, point = 0.8, np.array([0.3, -0.2, 0.0])
+    particles.v = rate * np.cross(axis, particles.x - point)
+    omega = np.tile(rate * axis, (len(particles), 1))
+    model = one_fluid(dim, style)
+    wall = dict(rotate=(point, axis, rate), slip=slip)
+    inviscid = replace(model, bulk="none", fluids=[replace(model.fluids[0], mu=0.0, mu_r=0.0, gamma1=0.0, gamma2=0.0)])
+    frames = [forces_of(lammps, particles, owner, one, [wall], free(dim), omega, name)
+              for one, name in ((model, "viscous.dump"), (inviscid, "inviscid.dump"))]
+    difference = relative(frames[0]["f"] - frames[1]["f"], frames[1]["f"])
+    print(f"{difference:.1e}")
+    assert difference < 1e-12
+    if style == MICRO:
+        assert np.abs(torque_of(frames[0])).max() < 1e-12
+
+
+def test_free_slip_leaves_plug_flow_alone(lammps):
+    """No force along the walls in any step as long as rows of the lattice slide; sticking walls do slow it."""
+    particles, owner = channel(2, jitter=0.0)
+    particles.v[owner < 0] = [0.1, 0, 0]
+    speeds = {}
+    for slip in ("free", "no"):
+        run_vessel(lammps, particles, owner, one_fluid(2), [dict(slip=slip)] * 2,
+                   dump(f"{slip}.dump", owner, 500) + "run 500\n")
+        speeds[slip] = lammps.frame(f"{slip}.dump")["v"][owner < 0]
+    print("free:", speeds["free"].min(axis=0), speeds["free"].max(axis=0), "no:", speeds["no"][:, 0].mean())
+    np.testing.assert_allclose(speeds["free"], np.tile([0.1, 0, 0], (len(speeds["free"]), 1)), rtol=0, atol=2e-3)
+    assert speeds["no"][:, 0].mean() < 0.09
+
+
+def test_hydrostatic_pressure(lammps):
+    """A column at rest between floor and lid: it stays at rest, and pressure grows with depth by rho g."""
+    particles, owner = channel(2, jitter=0.0, size=(8, 24))
+    g, model = 0.2, one_fluid(2, mu=2.0, kappa=20.0, pb=4.0)  # no tension; sound dies away
+    particles.v[:] = 0.0
+    wet = owner < 0
+    gravity = dict(gravity=(0, -g, 0))
+    for name, walls in (("with", [gravity] * 2), ("without", [{}, {}])):
+        run_vessel(lammps, particles, owner, model, walls, f"fix G fluid addforce 0 {-g} 0\nrun 4000\n"
+                   + dump(f"{name}.dump", owner) + "run 0\n")
+    result = {}
+    for name in ("with", "without"):
+        frame = lammps.frame(f"{name}.dump")
+        y, p = frame["x"][wet, 1], 100.0 * (frame["c_V[4]"][wet] - 1.0) + 4.0
+        slope, level = np.polyfit(y, p, 1)
+        result[name] = dict(slope=slope, residual=np.abs(p - slope * y - level).max(), speed=np.abs(frame["v"][wet]).max())
+    print(result)
+    assert result["with"]["slope"] == pytest.approx(-g, rel=0.01)
+    assert result["with"]["residual"] < 0.02 * g * 18
+    assert result["with"]["speed"] < 1e-3
+    assert result["without"]["residual"] > 2 * result["with"]["residual"]
+
+
+# ---------------------------------------------------------------------------------------------
+# particles in the wall, thin walls
+
+
+@pytest.mark.parametrize("ranks, newton", [(1, "on"), (1, "off"), (2, "on"), (4, "off")])
+def test_particle_shot_into_a_wall(lammps, ranks, newton):
+    particles, owner = channel(2)
+    shot = np.flatnonzero((owner < 0) & (np.abs(particles.x[:, 1] - 5.5) < 0.4))[3]
+    particles.v[shot] = [0, -300.0, 0]
+    result = run_vessel(lammps, particles, owner, one_fluid(2), [{}, {}], "timestep 0.002\nrun 100\n", ranks, newton,
+                        check=False, timeout=60)
+    assert result.code == 1, result.output[-2000:]
+    assert re.search(rf"Particle {shot + 1} of the fluid .*inside a wall", result.error), result.error
+
+
+def test_fluid_laid_into_the_wall(lammps):
+    """Between its particles; found at the start."""
+    particles, owner = channel(2, layers=5, size=(16, 26))
+    inside = np.flatnonzero(owner < 0)[7]
+    particles.x[inside, :2] = [6.9, 3.1]
+    result = run_vessel(lammps, particles, owner, one_fluid(2), [{}, {}], "run 0\n", check=False)
+    assert result.code == 1
+    assert re.search(rf"Particle {inside + 1} of the fluid .*inside a wall", result.error), result.error
+
+
+def thin(result):
+    return [line for line in result.warnings if "thinner" in line]
+
+
+OPEN = {2: "p f p", 3: "p f p"}
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("dim, layers", [(2, 1), (2, 2), (2, 3), (2, 4), (3, 1), (3, 3)])
+def test_layers_of_a_flat_wall(lammps, dim, layers, ranks):
+    """The support radius is 3 (2d) or 2.5 (3d) spacings: three layers are enough."""
+    particles, owner = channel(dim, layers=layers)
+    result = run_vessel(lammps, particles, owner, one_fluid(dim), [{}, {}], "run 0\nrun 0\n", ranks, boundary=OPEN[dim])
+    lines = thin(result)
+    print(lines)
+    if layers >= 3:
+        assert not result.warnings, result.warnings
+    else:
+        assert len(lines) == 2, result.warnings
+        for k, line in enumerate(lines):
+            assert re.search(rf"fix W{k} sph/wall.* needs 3 layers", line)
+
+
+@pytest.mark.parametrize("support, thinner, needed", [(3.0, 2, 3), (3.4, 2, 4), (3.6, 3, 4), (4.0, 3, 4)])
+def test_layers_for_a_support_radius(lammps, support, thinner, needed):
+    """Half a spacing is allowed to be missing."""
+    for layers in (thinner, thinner + 1, needed):
+        particles, owner = channel(2, layers=layers)
+        lines = thin(run_vessel(lammps, particles, owner, replace(one_fluid(2), support=support), [{}, {}], "run 0\n",
+                                boundary="p f p"))
+        assert len(lines) == (2 if layers == thinner else 0), lines
+        assert all(f"needs {needed} layers" in line for line in lines)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_layers_of_a_cup(lammps, dim):
+    """Cut from a lattice, its surface is not smooth."""
+    radius = 6.0 if dim == 2 else 4.0
+    for thick, warned in ((3.2, False), (1.6, True)):
+        particles, owner = cup(dim, radius=radius, thick=thick)
+        lines = thin(run_vessel(lammps, particles, owner, one_fluid(dim), [{}], "run 0\n", boundary=free(dim)))
+        assert len(lines) == warned, (thick, lines)
+
+
+def test_layers_of_corners_and_of_a_body(lammps):
+    for layers in (3, 2):
+        particles = lattice(2, 20)
+        x, y = particles.x[:, 0], particles.x[:, 1]
+        frame = np.minimum(np.minimum(x, 20 - x), np.minimum(y, 20 - y)) < layers
+        body = (np.abs(x - 8) < 0.5 * layers + 0.5) & (np.abs(y - 11) < 3.1)  # a bar, wetted on both sides
+        particles, owner = arrange(particles, [frame, body])
+        result = run_vessel(lammps, particles, owner, one_fluid(2), [{}, {}], "run 0\n", boundary="f f p")
+        assert len(thin(result)) == 2 * (layers == 2), result.warnings
+
+
+# ---------------------------------------------------------------------------------------------
+# bad input
+
+GOOD = {"definitions": "", "dimension": "dimension 2", "boundary": "boundary p f p", "box": "read_data box.data",
+        "groups": "group floor id <= 24\ngroup lid id >= 121\ngroup fluid subtract all floor lid",
+        "pair": "pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0", "integrate": "fix 1 fluid sph/bulk",
+        "wall": "fix W floor sph/wall", "lid": "fix L lid sph/wall", "extra": "", "run": "run 2"}
+IN_3D = dict(dimension="dimension 3", box="read_data box3.data", boundary="boundary p p p")
+MICROPOLAR = dict(pair="pair_style sph/micropolar\npair_coeff * * 1.0 10.0 0.5 2.0 0.3 0.05 -0.05 3.0",
+                  integrate="fix 1 fluid sph/micropolar")
+
+
+def deck(style=BULK, **changes):
+    assert set(changes) <= set(GOOD)
+    return f"units lj\natom_style {style}\n" + "\n".join({**GOOD, **changes}.values()) + "\n"
+
+
+@pytest.fixture
+def box(lammps):
+    for name, dim, size in (("box", 2, (8, 18)), ("box3", 3, (6, 6, 6))):
+        lattice(dim, size).write(lammps.path(f"{name}.data"))
+    # rows along x: 24 of them below, 24 above
+    particles = lattice(2, (8, 18))
+    particles = particles.where(np.lexsort((particles.x[:, 0], particles.x[:, 1])))
+    particles.write(lammps.path("box.data"))
+    write(particles, lammps.path("spin.data"))
+    return lammps
+
+
+def case(expected_words, wall=None, **changes):
+    if wall is not None:
+        changes["wall"] = f"fix W floor sph/wall {wall}"
+    return pytest.param(changes, expected_words, id=" | ".join(value.replace("\n", "; ") for value in changes.values())[:90])
+
+
+def missing(keyword, number):
+    """One test for every number of arguments that is too small."""
+    return [case(["[Mm]issing", keyword], " ".join([keyword] + ["1.0"] * k)) for k in range(number)]
+
+
+BAD = [
+    # keywords
+    case("Unknown fix sph/wall keyword: speed", "speed 1 0 0"),
+    case("Unknown fix sph/wall keyword: 1.0", "1.0"),
+    case("Unknown fix sph/wall keyword: 4", "velocity 1 2 0 4"),
+    case("Unknown fix sph/wall keyword: 4", "gravity 1 2 0 4"),
+    case("Unknown fix sph/wall keyword: yes", "move no yes"),
+    case("Unknown fix sph/wall keyword: 0.5", "spin zero 0.5"),
+    *missing("velocity", 3), *missing("gravity", 3), *missing("rotate", 7),
+    *missing("move", 1), *missing("slip", 1), *missing("spin", 1),
+    case(["[Mm]issing", "spin"], "spin rate"),
+    # words
+    case(["slip", "partial"], "slip partial"),
+    case(["slip", "yes"], "slip yes"),
+    case(["spin", "half"], "spin half"),
+    case(["spin", "0.5"], "spin 0.5"),
+    case("maybe", "move maybe"),
+    case("much", "spin rate much"),
+    case("fast", "velocity fast 0 0"),
+    case("0,5", "velocity 0,5 0 0"),
+    case(r"\bnan\b", "velocity nan 0 0"),
+    case("1e999", "gravity 0 1e999 0"),
+    case("down", "gravity 0 down 0"),
+    case("v_g", "gravity 0 v_g 0"),
+    case("here", "rotate here 0 0 0 0 1 0.5"),
+    case("up", "rotate 0 0 0 0 0 up 0.5"),
+    case("quick", "rotate 0 0 0 0 0 1 quick"),
+    case("axis", "rotate 0 0 0 0 0 0 0.5"),
+    case("axis", "rotate 0 0 0 0 0 0 0.5", **IN_3D),
+    # variables
+    case(["U", "does not exist"], "velocity v_U 0 0"),
+    case(["O", "does not exist"], "rotate 0 0 0 0 0 1 v_O"),
+    case(["U", "equal"], "velocity 0 v_U 0", definitions="variable U string hello"),
+    case(["U", "equal"], "velocity v_U 0 0", definitions="variable U atom x"),
+    case(["O", "equal"], "rotate 0 0 0 0 0 1 v_O", definitions="variable O atom y"),
+    case("v_nothing", "velocity v_U 0 0", definitions="variable U equal v_nothing"),
+    case("[Vv]ariable +.*does not exist", "velocity v_ 0 0"),
+    # two dimensions
+    case("2d", "velocity 0 0 0.1"),
+    case("2d", "velocity 0 0 v_U", definitions="variable U equal 0.0"),
+    case("2d", "gravity 0 0 -9.81"),
+    case("2d", "rotate 0 0 0 0 1 0 0.5"),
+    case("2d", "rotate 0 0 0 0.1 0 1 0.5"),
+    # groups and other fixes
+    case("no particles|empty", groups=GOOD["groups"] + "\ngroup none id 4711", wall="", integrate=GOOD["integrate"]
+         + "\nfix N none sph/wall"),
+    case("nowhere", integrate=GOOD["integrate"] + "\nfix N nowhere sph/wall"),
+    case("dynamic", extra="group moving dynamic fluid every 1\nfix N moving sph/wall"),
+    case("dynamic", extra="region R block INF INF INF 2 INF INF\ngroup floor dynamic all region R every 1"),
+    case(["fix 1 sph/bulk", r"\d"], integrate="fix 1 all sph/bulk"),
+    case(["fix W2 sph/wall"], extra="fix W2 floor sph/wall"),
+    case("fix N nve", extra="fix N floor nve"),
+    case("fix N nve/noforce", extra="fix N all nve/noforce"),
+    case("fix M move", extra="fix M floor move linear 1 0 0"),
+    case("fix M nve/limit", extra="fix M all nve/limit 0.1"),
+    case("fix 1 sph/bulk", groups=GOOD["groups"] + "\ngroup wet union fluid floor", integrate="fix 1 wet sph/bulk"),
+    # set-up
+    case("requires pair style sph/bulk or sph/micropolar|requires pair style", pair="pair_style zero 3.0\npair_coeff * *"),
+    case("pair style|[Mm]ust", pair=""),
+    case("deform", extra="comm_modify vel yes\nfix D all deform 1 x erate 0.1 remap v"),
+]
+BAD_MICROPOLAR = [
+    case("fix 1 sph/micropolar", **{**MICROPOLAR, "integrate": "fix 1 all sph/micropolar"}),
+    case("Unknown fix sph/wall keyword: omega", "omega 1", **MICROPOLAR),
+    case("much", "spin rate much", **MICROPOLAR),
+]
+
+
+def refused(box, text, expected_words, ranks):
+    result = box(text, ranks=ranks, check=False, timeout=60)
+    assert result.code != 0, f"accepted:\n{result.output[-3000:]}"
+    assert result.code == 1, f"ended by status {result.code}:\n{result.output[-3000:]}"
+    for word in [expected_words] if isinstance(expected_words, str) else expected_words:
+        assert re.search(word, result.error), f"the message lacks '{word}':\n{result.error or result.output[-2000:]}"
+
+
+@pytest.mark.parametrize("changes, expected_words", BAD)
+def test_refused(box, changes, expected_words):
+    refused(box, deck(**changes), expected_words, 1)
+
+
+@pytest.mark.parametrize("changes, expected_words", BAD[6::6] + BAD[-18:])
+def test_refused_on_two_ranks(box, changes, expected_words):
+    refused(box, deck(**changes), expected_words, 2)
+
+
+@pytest.mark.parametrize("changes, expected_words", BAD_MICROPOLAR)
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_refused_with_spin(box, changes, expected_words, ranks):
+    refused(box, deck(MICRO, box="read_data spin.data", **changes), expected_words, ranks)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_the_input_all_cases_start_from_is_good(box, ranks):
+    for text in (deck(), deck(MICRO, box="read_data spin.data", **MICROPOLAR)):
+        result = box(text, ranks=ranks)
+        assert not result.warnings, result.warnings
+        assert not re.search(r"\bnan\b", result.log)
+
+
+@pytest.mark.parametrize("wall", [
+    "velocity 0 0 0 move yes slip no spin zero gravity 0 0 0", "spin free", "spin rate 1.5", "rotate 0 0 0 0 0 -3 0.1 move no",
+    "velocity v_U 0 0 slip free", "velocity v_U v_V 0 rotate 0 0 0 0 0 1 v_O move no"])
+def test_accepted(box, wall):
+    result = box(deck(definitions="variable U equal 0.1*step*dt\nvariable V equal 0.0\nvariable O equal sin(step*dt)",
+                      wall=f"fix W floor sph/wall {wall}"))
+    assert not result.warnings, result.warnings
