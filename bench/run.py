@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Time sph/bulk against LAMMPS's own sph/rhosum + sph/taitwater/morris, and sph/micropolar against sph/bulk.
+"""Time sph/bulk against LAMMPS's own sph/rhosum + sph/taitwater/morris, sph/micropolar against sph/bulk, and
+channels with walls of fix sph/wall against the periodic fluid.
 
 All run from the same executable on the same particles (3d periodic, support radius of three particle
-spacings), in turn, so that a drift of the machine's speed meets all.  Printed: medians of atom-steps per
-second and of pair interactions per second (distinct pairs inside the support), and the median,
-smallest and largest ratio of the runs of one turn.
+spacings), in turn, so that a drift of the machine's speed meets all.  A channel has as many fluid particles
+and besides them two walls of three layers.  Printed: medians of atom-steps per second and of pair
+interactions per second (distinct pairs inside the support), and the median, smallest and largest ratio of
+the runs of one turn.
 """
 
 import argparse
@@ -18,35 +20,50 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 FASTER = 1.5  # what --check asks for
 COST = 1.7
+WALL_COST = 1.3
 STYLES = ("lammps", "bulk", "micropolar")
 NAMES = {"lammps": "sph/rhosum 1 + sph/taitwater/morris", "bulk": "sph/bulk (mg, bulk density)",
          "micropolar": "sph/micropolar (everything on)"}
+LAYERS = 3
+WALLS = {"channel of sph/bulk": ("bulk", "slip no"),
+         "channel of sph/micropolar": ("micropolar", "slip no spin zero"),
+         "... spin of the vorticity at the wall": ("micropolar", "slip no spin rate 1.0")}
 
 
-def run(style, ranks, args):
-    """One run; returns seconds of the time loop, atoms, pairs inside the support, checksum of the positions."""
+def run(style, ranks, args, wall=None):
+    """One run; returns seconds of the time loop, atoms and how many are fluid, pairs inside the support, checksum of
+    the positions."""
     command = [args.lmp, "-in", str(HERE / "in.bench"), "-log", "none", "-nocite",
                "-var", "style", style, "-var", "n", str(args.n), "-var", "steps", str(args.steps)]
+    if wall:
+        command += ["-var", "layers", str(LAYERS), "-var", "wall", wall]
     if ranks > 1:
         command = [args.mpiexec, "--oversubscribe", "-np", str(ranks)] + command
     result = subprocess.run(command, capture_output=True, text=True)
     if result.returncode != 0:
         sys.exit(f"{' '.join(command)}\nfailed:\n{result.stdout[-2000:]}{result.stderr[-2000:]}")
     seconds = float(re.findall(r"Loop time of (\S+) on", result.stdout)[-1])
-    place, pairs, atoms = re.search(r"^BENCH place (\S+) pairs (\S+) atoms (\S+)", result.stdout, re.M).groups()
-    return seconds, int(atoms), 0.5 * float(pairs), float(place)
+    place, pairs, atoms, fluid = re.search(r"^BENCH place (\S+) pairs (\S+) atoms (\S+) fluid (\S+)", result.stdout,
+                                           re.M).groups()
+    return seconds, int(atoms), int(fluid), 0.5 * float(pairs), float(place)
 
 
 def compare(ranks, args):
-    seconds = {style: [] for style in STYLES}
+    seconds = {name: [] for name in (*STYLES, *WALLS)}
+    size = {}
     for _ in range(args.repeat):
         places = []
         for style in STYLES:
-            elapsed, atoms, pairs, place = run(style, ranks, args)
+            elapsed, atoms, _, pairs, place = run(style, ranks, args)
             seconds[style].append(elapsed)
             places.append(place)
         if max(places) - min(places) > 1e-12 * places[0]:
             sys.exit("the styles did not run the same particles")
+        for name, (style, wall) in WALLS.items():
+            elapsed, *size[name] = run(style, ranks, args, wall)
+            seconds[name].append(elapsed)
+            if size[name][1] != atoms:
+                sys.exit("the channel does not have the fluid particles of the periodic box")
 
     print(f"\n{ranks} rank{'s' if ranks > 1 else ''}, {atoms} particles, {2 * pairs / atoms:.1f} neighbours inside "
           f"the support, {args.steps} steps, median of {args.repeat} runs each, in turn")
@@ -54,9 +71,19 @@ def compare(ranks, args):
         steps_per_second = args.steps / statistics.median(seconds[style])
         print(f"  {NAMES[style]:<38} {steps_per_second * atoms:12.4g} atom-steps/s "
               f"{steps_per_second * pairs:12.4g} pairs/s")
+    for name in WALLS:
+        steps_per_second = args.steps / statistics.median(seconds[name])
+        print(f"  {name:<38} {steps_per_second * size[name][0]:12.4g} atom-steps/s "
+              f"{steps_per_second * size[name][1]:12.4g} fluid-atom-steps/s")
     faster = ratio(seconds["lammps"], seconds["bulk"], "steps per second of sph/bulk over LAMMPS's styles")
     cost = ratio(seconds["micropolar"], seconds["bulk"], "time per step of sph/micropolar over sph/bulk")
-    return faster, cost
+    walls = []
+    for name, (style, _) in WALLS.items():
+        all_atoms, fluid = size[name][:2]
+        walls.append(ratio([t / all_atoms for t in seconds[name]], [t / atoms for t in seconds[style]],
+                           f"time per particle of the {name.strip('. ')} over the periodic box"))
+        ratio([t / fluid for t in seconds[name]], [t / atoms for t in seconds[style]], "  ... per fluid particle")
+    return faster, cost, max(walls)
 
 
 def ratio(seconds_a, seconds_b, what):
@@ -76,12 +103,13 @@ def main():
     parser.add_argument("--repeat", type=int, default=5, help="runs of each style")
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--check", action="store_true",
-                        help=f"fail if sph/bulk is not {FASTER} times as fast as LAMMPS's styles, or sph/micropolar "
-                             f"costs more than {COST} times as much as sph/bulk, on the first number of ranks")
+                        help=f"fail if sph/bulk is not {FASTER} times as fast as LAMMPS's styles, sph/micropolar "
+                             f"costs more than {COST} times as much as sph/bulk, or a channel per particle more than "
+                             f"{WALL_COST} times as much as the periodic box, on the first number of ranks")
     args = parser.parse_args()
     results = [compare(ranks, args) for ranks in args.ranks]
-    faster, cost = results[0]
-    if args.check and (faster < FASTER or cost > COST):
+    faster, cost, walls = results[0]
+    if args.check and (faster < FASTER or cost > COST or walls > WALL_COST):
         sys.exit("slower than it should be")
 
 

@@ -209,7 +209,7 @@ def main():
     jobs["spin_mg"] = {"n": spinning, "periods": end, "W": 0.5, **MG}
     jobs["spin_morris"] = {"n": spinning, "periods": end, "W": 0.5, **MG, "shear": "morris"}
     if not args.quick:
-        jobs["none"] = {"n": n, "periods": long, **NONE}
+        jobs["none"] = {"n": n, "periods": end, **NONE}
         jobs |= {name: {"n": 25, "periods": end, **variables} for name, variables in SURFACES.items()}
     for variables in jobs.values():
         variables.update(kappa=KAPPA, p0=P0, gamma=GAMMA, period=T)

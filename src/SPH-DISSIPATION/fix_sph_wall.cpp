@@ -291,23 +291,27 @@ void FixSPHWall::set_boundary(Engine &engine)
     if (!(sum.weight > 0.0)) continue;
     const double norm = 1.0 / sum.weight;
 
-    double r[3], turn[3], centripetal[3], euler[3];
+    double r[3], to_fluid[3], turn[3], centripetal[3], euler[3], wall_there[3];
     from_point(i, r);
     MathExtra::cross3(w, r, turn);
     MathExtra::cross3(w, turn, centripetal);
     MathExtra::cross3(wdot, r, euler);
-    double pressure = sum.pressure;
-    for (int d = 0; d < 3; d++)
-      pressure += (gravity[d] - a0[d] - centripetal[d] - euler[d]) * sum.rho_r[d];
-    pressure *= norm;
+
+    // velocity of the wall, as a rigid body, where the velocity of the fluid is known
+
+    for (int d = 0; d < 3; d++) to_fluid[d] = -sum.r[d] * norm;
+    MathExtra::cross3(w, to_fluid, wall_there);
 
     atom->rho[i] = sum.rho * norm;
     atom->vfrac[i] = particle.vol = atom->rmass[i] / atom->rho[i];
+    double pressure = sum.pressure * norm;
+    for (int d = 0; d < 3; d++)
+      pressure -= atom->rho[i] * (gravity[d] - a0[d] - centripetal[d] - euler[d]) * to_fluid[d];
     particle.g = pressure * particle.vol * particle.vol;
     engine.zeta_term[i] = sum.zeta_term * norm;
     for (int d = 0; d < 3; d++) {
-      const double u = sum.u[d] * norm;
-      particle.u[d] = slip ? u : 2.0 * particle.u[d] - u;
+      const double relative = sum.u[d] * norm - (particle.u[d] + wall_there[d]);
+      particle.u[d] += slip ? relative : -relative;
     }
     if (engine.spin && spin != RATE)
       for (int d = 0; d < 3; d++) {

@@ -39,7 +39,7 @@ using namespace SPHDissipation;
 // most values per atom that any stage of the communication has
 
 static constexpr int MAXFORWARD = 9;
-static constexpr int MAXREVERSE = 13;
+static constexpr int MAXREVERSE = 18;
 
 // adds the virial of each pair to the accumulators of the pair style
 
@@ -254,8 +254,9 @@ void PairSPHBulk::extrapolate_to_boundary()
   engine->update_boundary_velocity();
   if (!vorticity || !extrapolated_spin()) return;
 
-  engine->accumulate_vorticity(list);
-  reverse_stage(Stage::VORTICITY);
+  engine->accumulate_gradient(list, boundary_bits);
+  reverse_stage(Stage::GRADIENT);
+  engine->solve_vorticity();
   forward_stage(Stage::VORTICITY);
   engine->accumulate_boundary_vorticity(boundary_bits);
   reverse_stage(Stage::VORTICITY);
@@ -580,6 +581,8 @@ int PairSPHBulk::reverse_size() const
       return 1;
     case Stage::BOUNDARY_SUM:
       return (model->choice.shear == Shear::MICROPOLAR) ? 13 : 10;
+    case Stage::GRADIENT:
+      return 18;
     default:
       return 3;
   }
@@ -601,6 +604,8 @@ double &PairSPHBulk::comm_value(int i, int k)
       if (k < 3) return particle.u[k];
       if (k > 5) return engine->spin[i].w[k - 6];
       return (k == 3) ? particle.vol : (k == 4) ? particle.g : engine->zeta_term[i];
+    case Stage::GRADIENT:
+      return reinterpret_cast<double *>(engine->gradient + i)[k];
     case Stage::VORTICITY:
       return engine->vorticity[i][k];
     default:

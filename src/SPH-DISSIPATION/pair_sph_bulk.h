@@ -88,7 +88,15 @@ class PairSPHBulk : public Pair {
 
   // what is communicated between the passes
 
-  enum class Stage { DENSITY, BOUND, BOUNDARY_SUM, BOUNDARY_STATE, VORTICITY, BOUNDARY_SPIN };
+  enum class Stage {
+    DENSITY,
+    BOUND,
+    BOUNDARY_SUM,
+    BOUNDARY_STATE,
+    GRADIENT,
+    VORTICITY,
+    BOUNDARY_SPIN
+  };
   Stage stage;
 
   PairSPHBulk(class LAMMPS *, const std::string &, const std::vector<std::string> &);

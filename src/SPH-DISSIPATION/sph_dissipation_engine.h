@@ -83,11 +83,19 @@ namespace SPHDissipation {
   struct BoundarySum {
     double weight;       // 1
     double u[3];         // velocity
-    double rho_r[3];     // density times x_w - x_f
+    double r[3];         // x_w - x_f
     double rho;          // density
     double pressure;     // p + zeta V cdot (bulk density), p (otherwise)
     double zeta_term;    // zeta V cdot
     double w[3];         // spin (micropolar)
+  };
+
+  // Velocity gradient of the fluid around a fluid particle i, of fluid particles j alone and thus
+  // with the matrix that makes it exact for linear fields: sums of V_j F times the products
+
+  struct GradientSum {
+    double rr[3][3];    // r_ij r_ij
+    double ru[3][3];    // r_ij u_ij: first index of r, second of u
   };
 
   // receives the force on i from j of each pair, for virials that are summed by pair
@@ -192,10 +200,14 @@ namespace SPHDissipation {
     // owned and ghost atoms, rather than at the one that made cdot
     void update_boundary_velocity();
 
-    // vorticity[] = sum_j V_j F r_ij x u_ij, with vol and u of particle[] on owned and ghost atoms
-    void accumulate_vorticity(NeighList *);
+    // gradient[] of fluid atoms, with vol and u of particle[] on owned and ghost atoms
+    void accumulate_gradient(NeighList *, int bits);
 
-    // vorticity[] of boundary atoms = sum_f V_f W vorticity[f], with that of the fluid on owned and ghost atoms
+    // vorticity[] of owned atoms from gradient[]; zero if the fluid around lies in a plane or line
+    void solve_vorticity();
+
+    // vorticity[] of boundary atoms = sum_f V_f W vorticity[f], with that of the fluid on owned and
+    // ghost atoms
     void accumulate_boundary_vorticity(int bits);
 
     // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller
@@ -214,6 +226,7 @@ namespace SPHDissipation {
     double *bound;         // of accumulate_bound()
     Spin *spin;            // micropolar only
     BoundarySum *boundary_sum;
+    GradientSum *gradient;
     double (*vorticity)[3];
 
    private:

@@ -16,6 +16,8 @@
 #include "sph_dissipation_engine.h"
 
 #include "atom.h"
+#include "domain.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -79,16 +81,15 @@ void Engine::accumulate_boundary(NeighList *list, int bits)
       }
       const double kernel_weight = data.weight_norm * k.shape(sqrt(rsq) / data.support);
       const double weight = pair.weight = f.vol * kernel_weight;
-      const double weight_rho = weight * rho[pair.fluid];
 
       BoundarySum &total = boundary_sum[pair.wall];
       total.weight += weight;
       for (int d = 0; d < 3; d++) {
         total.u[d] += weight * f.u[d];
-        total.rho_r[d] += weight_rho * r[d];
+        total.r[d] += weight * r[d];
         if (has_spin) total.w[d] += weight * spin[pair.fluid].w[d];
       }
-      total.rho += weight_rho;
+      total.rho += weight * rho[pair.fluid];
       total.pressure += kernel_weight * f.g / f.vol;
       total.zeta_term += weight * zeta_term[pair.fluid];
       boundary_sum[pair.fluid].weight += w.vol * kernel_weight;
@@ -112,32 +113,62 @@ void Engine::update_boundary_velocity()
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_vorticity(NeighList *list)
+void Engine::accumulate_gradient(NeighList *list, int bits)
 {
   if (nmax_vorticity < nmax) {
     nmax_vorticity = nmax;
+    memory->sfree(gradient);
     memory->sfree(vorticity);
+    gradient = (GradientSum *) memory->smalloc(nmax * sizeof(GradientSum), "sph:gradient");
     vorticity = (double(*)[3]) memory->smalloc(nmax * sizeof(*vorticity), "sph:vorticity");
   }
-  memset(vorticity, 0, (atom->nlocal + atom->nghost) * sizeof(*vorticity));
+  memset(gradient, 0, (atom->nlocal + atom->nghost) * sizeof(GradientSum));
 
+  const int *const mask = atom->mask;
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
-    const Particle &a = particle[i];
+    if (mask[i] & bits) continue;
     for (bigint entry = first[ii]; entry < first[ii] + data.count[ii]; entry++) {
       const int j = data.neighbor[entry];
+      if (mask[j] & bits) continue;
+      const Particle &a = particle[i];
       const Particle &b = particle[j];
       double r[3], u[3];
       for (int d = 0; d < 3; d++) {
         r[d] = a.x[d] - b.x[d];
         u[d] = a.u[d] - b.u[d];
       }
-      for (int d = 0; d < 3; d++) {
-        const int e = (d + 1) % 3, g = (d + 2) % 3;
-        const double curl = data.slope[entry] * (r[e] * u[g] - r[g] * u[e]);
-        vorticity[i][d] += b.vol * curl;
-        vorticity[j][d] += a.vol * curl;
-      }
+      for (int d = 0; d < 3; d++)
+        for (int e = 0; e < 3; e++) {
+          const double rr = data.slope[entry] * r[d] * r[e];
+          const double ru = data.slope[entry] * r[d] * u[e];
+          gradient[i].rr[d][e] += b.vol * rr;
+          gradient[i].ru[d][e] += b.vol * ru;
+          gradient[j].rr[d][e] += a.vol * rr;
+          gradient[j].ru[d][e] += a.vol * ru;
+        }
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::solve_vorticity()
+{
+  constexpr double SINGULAR = 1.0e-9;
+  for (int i = 0; i < atom->nlocal; i++) {
+    double(*const rr)[3] = gradient[i].rr;
+    if (domain->dimension == 2) rr[2][2] = 0.5 * (rr[0][0] + rr[1][1]);
+    const double mean = (rr[0][0] + rr[1][1] + rr[2][2]) / 3.0;
+    double(&curl)[3] = vorticity[i];
+    curl[0] = curl[1] = curl[2] = 0.0;
+    if (!(MathExtra::det3(rr) > SINGULAR * mean * mean * mean)) continue;
+    double inverse[3][3], grad[3][3];    // grad[d][e] = derivative of u_e along d
+    MathExtra::invert3(rr, inverse);
+    MathExtra::times3(inverse, gradient[i].ru, grad);
+    for (int d = 0; d < 3; d++) {
+      const int e = (d + 1) % 3, g = (d + 2) % 3;
+      curl[d] = grad[e][g] - grad[g][e];
     }
   }
 }

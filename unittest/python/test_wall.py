@@ -1,7 +1,8 @@
-"""fix sph/wall as a user meets it: forces against an independent reference, momentum balance, motion, ranks, files, bad input."""
+"""fix sph/wall as a user meets it: forces against a reference, momentum, motion, ranks, files, known flows, bad input."""
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -251,12 +252,13 @@ STEP = 0.002
 TIME = "variable t equal step*dt\n"
 
 
-def travel(lammps, walls, steps, before="", ranks=1, dim=2):
+def travel(lammps, walls, steps, before="", dim=2, every=1):
     """Frames of a run of the odd shapes from rest; the walls are as given."""
     particles, owner = SETS[dim]
     model = model_of(dim)
     save(lammps, particles, model)
-    lammps(start(model, owner, walls, step=STEP, before=before) + dump("out.dump", owner) + f"run {steps}\n", ranks=ranks)
+    lammps(start(model, owner, walls, step=STEP, before=before) + dump("out.dump", owner, every)
+           + f"run {steps}\n")
     return particles, owner, lammps.frames("out.dump")
 
 
@@ -276,7 +278,7 @@ def test_rotation_is_exact_after_any_number_of_steps(lammps, dim):
     """About an axis whose point travels; distances within the wall stay."""
     axis = np.array([0.0, 0.0, 2.0]) if dim == 2 else np.array([0.3, -1.0, 0.5])
     point, velocity, rate = np.array([4.5, 6.0, 0.0] if dim == 2 else [3.0, 3.5, 3.2]), np.array([0.3, 0.1, 0.0]), 5.0
-    particles, owner, frames = travel(lammps, [dict(rotate=(point, axis, rate), velocity=velocity), {}], 200, dim=dim)
+    particles, owner, frames = travel(lammps, [dict(rotate=(point, axis, rate), velocity=velocity), {}], 200, dim=dim, every=200)
     own = owner == 0
     arm = particles.x[own] - point
     axis /= np.linalg.norm(axis)
@@ -521,17 +523,20 @@ def test_continue_from_a_restart_file(lammps, dim, style, before, after):
 
 
 def test_position_of_the_axis_is_in_the_restart_file(lammps):
-    """A wheel that rolls: without the travelled point it would be torn apart."""
+    """A wheel that rolls, through a periodic boundary: without the travelled point it would be torn apart."""
     (particles, owner), walls = vessel(2)
-    walls = [walls[0], walls[1], dict(rotate=((8, 9, 0), (0, 0, 1), 3.0), velocity=(1.0, 0, 0))]
-    run_vessel(lammps, particles, owner, one_fluid(2), walls, "run 100\nwrite_restart state.restart\n")
+    particles.x[:, 0] = particles.x[:, 0] + 5.0
+    particles.x[:, 0] -= 16.0 * (particles.x[:, 0] > 16.0)
+    walls = [walls[0], walls[1], dict(rotate=((13, 9, 0), (0, 0, 1), 3.0), velocity=(2.0, 0, 0))]
+    run_vessel(lammps, particles, owner, one_fluid(2), walls, "run 100\nwrite_restart state.restart\n", 2)
     fixes = "fix FLUID fluid sph/bulk\n" + "".join(wall_fix(k, **wall) for k, wall in enumerate(walls))
     lammps("read_restart state.restart\n" + fixes + "timestep 0.005\n" + dump("out.dump", owner, 100) + "run 100\n")
     own = owner == 2
     last = lammps.frame("out.dump")
-    arm = particles.x[own] - [8, 9, 0]
+    arm = particles.x[own] - [13, 9, 0]
     turned = np.cos(3.0) * arm + np.sin(3.0) * np.cross([0, 0, 1], arm)
-    np.testing.assert_allclose(last["x"][own], turned + [9, 9, 0], rtol=0, atol=1e-11)
+    assert last["x"][own, 0].max() > 16.5
+    np.testing.assert_allclose(last["x"][own], turned + [15, 9, 0], rtol=0, atol=1e-11)
 
 
 def test_data_file_round_trip(lammps):
@@ -888,3 +893,34 @@ def test_accepted(box, wall):
     result = box(deck(definitions="variable U equal 0.1*step*dt\nvariable V equal 0.0\nvariable O equal sin(step*dt)",
                       wall=f"fix W floor sph/wall {wall}"))
     assert not result.warnings, result.warnings
+
+
+# ---------------------------------------------------------------------------------------------
+# the inputs of the manual
+
+HOWTO = Path(__file__).resolve().parents[2] / "doc" / "src" / "Howto_walls.rst"
+
+
+def inputs_of_the_manual():
+    blocks = re.findall(r"^\.\. code-block:: LAMMPS\n\n((?: {3}.*\n|\n)+)", HOWTO.read_text(), re.MULTILINE)
+    whole = [re.sub("^   ", "", block, flags=re.MULTILINE) for block in blocks if "atom_style" in block]
+    return {text.splitlines()[0][2:]: text for text in whole}
+
+
+def test_there_are_inputs_in_the_manual():
+    assert len(inputs_of_the_manual()) == 3
+
+
+@pytest.mark.parametrize("title", inputs_of_the_manual())
+def test_inputs_of_the_manual(lammps, title):
+    """Short and small; no warnings."""
+    text = inputs_of_the_manual()[title]
+    assert "variable        n index 32" in text
+    text = re.sub(r"^run .*", "run 300", text.replace("n index 32", "n index 16"), flags=re.MULTILINE)
+    text = re.sub(r"^thermo  +1000", "thermo 100", text, flags=re.MULTILINE)
+    result = lammps(text)
+    assert not result.warnings, result.warnings
+    (table,) = result.thermo()
+    forces = [name for name in table if name.startswith("f_")]
+    assert len(forces) >= 2
+    assert all(np.isfinite(table[name]).all() and np.abs(table[name][-1]) > 0.0 for name in forces)

@@ -158,9 +158,9 @@ def forces(model, state, walls):
         values = values if values.ndim == 2 else values[:, None]
         return (weight @ values) / safe
 
-    column = ((gravity - acceleration) * (weight[..., None] * rho[None, :, None] * r).sum(axis=1)).sum(axis=1)
-    head = column / safe[:, 0]
-    rho[solid] = mean(rho)[solid, 0]
+    centre = (weight[..., None] * r).sum(axis=1) / safe  # place of a wall particle minus that of its means
+    rho[solid] = mean(rho * fluid)[solid, 0]
+    head = rho * ((gravity - acceleration) * centre).sum(axis=1)
     vol[solid] = state.mass[solid] / rho[solid]
     for at in in_wall:
         dry = at[~wet[at]]
@@ -173,14 +173,20 @@ def forces(model, state, walls):
     # the velocity of the fluid relative to that of the rigid body which the wall is
     virtual = u.copy()
     for wall, at in zip(walls, in_wall):
-        centre = (weight[at][..., None] * r[at]).sum(axis=1) / safe[at]  # x_w minus where the mean is
-        relative = mean(u * fluid[:, None])[at] - wall.velocity_at(x[at] - centre)
+        relative = mean(u * fluid[:, None])[at] - wall.velocity_at(x[at] - centre[at])
         relative[~wet[at]] = 0.0
         virtual[at] = u[at] + (relative if wall.slip == "free" else -relative)
 
-    # vorticity of the fluid, for the walls whose spin follows it
+    # vorticity of the fluid from the fluid around, for the walls whose spin follows it
     uu = virtual[:, None] - virtual
-    vorticity = ((vol * F)[..., None] * np.cross(r, uu)).sum(axis=1)
+    VF = np.where(fluid, vol * F, 0.0)
+    moment = np.einsum("ij,ija,ijb->iab", VF, r, r)[:, :n, :n]
+    slope = np.linalg.pinv(moment) @ np.einsum("ij,ija,ijb->iab", VF, r, uu)[:, :n]
+    vorticity = np.zeros((number, 3))
+    vorticity[:, 2] = slope[:, 0, 1] - slope[:, 1, 0]
+    if n == 3:
+        vorticity[:, 0] = slope[:, 1, 2] - slope[:, 2, 1]
+        vorticity[:, 1] = slope[:, 2, 0] - slope[:, 0, 2]
     spin_mean, vorticity_mean = mean(spin * fluid[:, None]), mean(vorticity * fluid[:, None])
     for wall, at in zip(walls, in_wall):
         if wall.spin == "free":
