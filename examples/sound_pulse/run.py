@@ -6,14 +6,8 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import argparse
 import csv
-import os
-import shlex
-import shutil
-import subprocess
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -22,6 +16,8 @@ import numpy as np
 import reference
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from run_lammps import Example      # noqa: E402
 
 # Errors of an independent implementation of the method (numpy, no neighbor lists) with this
 # kernel, support and time integration.  Reached means: not more than 10 % above.
@@ -49,28 +45,9 @@ class Run:
         self.kappa, self.kernel, self.support, _, targets = CASES[case]
         self.target_v, self.target_e = targets[n]
         kernel = self.kernel.replace("/", "_")
-        self.out, self.name = out, f"{kernel}.kappa{self.kappa}.n{n}"
+        self.name = f"{kernel}.kappa{self.kappa}.n{n}"
         self.prefix = out / self.name
-
-    def command(self, lmp, mpiexec, ranks):
-        mpi = shlex.split(mpiexec) + ["-n", str(ranks)] if ranks > 1 else []
-        variables = {"n": self.n, "kappa": self.kappa, "kernel": self.kernel,
-                     "support": self.support, "out": self.name}
-        args = [word for name, value in variables.items() for word in ("-var", name, str(value))]
-        return mpi + [lmp, "-in", str(HERE / "in.sound_pulse"), "-screen", "none",
-                      "-log", f"{self.name}.log", *args]
-
-    def start(self, lmp, mpiexec, ranks, env):
-        # LAMMPS writes its error messages to the log as well; a launcher has only stderr
-        done = subprocess.run(self.command(lmp, mpiexec, ranks), env=env, text=True, cwd=self.out,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        if done.returncode != 0:
-            log = Path(f"{self.prefix}.log")
-            tail = log.read_text().splitlines()[-15:] if log.exists() else []
-            raise SystemExit("\n".join([
-                f"sound_pulse: LAMMPS failed ({done.returncode}) for {self.case}, n = {self.n}:",
-                done.stdout.strip(), *tail]))
-        return self
+        self.variables = {"n": n, "kappa": self.kappa, "kernel": self.kernel, "support": self.support}
 
     def compare(self, solution):
         data = np.loadtxt(f"{self.prefix}.particles.txt", skiprows=9)
@@ -99,29 +76,6 @@ class Run:
     def passed(self):
         return (self.error_v <= TOLERANCE * self.target_v
                 and (self.target_e is None or self.error_e <= TOLERANCE * self.target_e))
-
-
-def find_lmp():
-    name = os.environ.get("SPHD_LMP") or str(HERE.parent.parent / "build" / "lmp")
-    lmp = shutil.which(name)
-    if lmp is None:
-        raise SystemExit(f"sound_pulse: no LAMMPS executable {name}; set SPHD_LMP or run ./sphd run sound_pulse")
-    return os.path.abspath(lmp)     # LAMMPS runs in the folder of the results, whose name may have blanks
-
-
-def environment(ranks, cores):
-    """What makes short runs get along with each other on the same cores (Open MPI; root as in a container)."""
-    env = dict(os.environ, OMP_NUM_THREADS="1")
-    if ranks > 1:
-        env.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
-        env.setdefault("OMPI_MCA_hwloc_base_binding_policy", "none")
-        env.setdefault("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe")
-        if hasattr(os, "geteuid") and os.geteuid() == 0:
-            env["OMPI_ALLOW_RUN_AS_ROOT"] = env["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1"
-    if ranks > cores:
-        # a rank that waits without yielding keeps the rank it waits for from running: 25 times slower
-        env.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
-    return env
 
 
 def order(coarse, fine, error):
@@ -256,37 +210,20 @@ def plot(out, cases, solutions):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Sound pulse damped by bulk viscosity: LAMMPS against finite differences.")
-    parser.add_argument("--quick", action="store_true", help="only n = 64 and 128")
-    parser.add_argument("--np", type=int, default=1, metavar="N", help="MPI ranks per run (1)")
-    parser.add_argument("--out", type=Path, default=HERE / "results", metavar="DIR", help="folder for results (%(default)s)")
-    parser.add_argument("--check", action="store_true", help="exit with 1 if a figure of merit is missed")
-    args = parser.parse_args()
-    if args.np < 1:
-        parser.error("--np must be at least 1")
-
-    begin = time.monotonic()
-    lmp, mpiexec = find_lmp(), os.environ.get("SPHD_MPIEXEC") or "mpiexec"
-    out = args.out.resolve()
-    out.mkdir(parents=True, exist_ok=True)
-
+    example = Example(HERE, "Sound pulse damped by bulk viscosity: LAMMPS against finite differences.")
+    args = example.arguments()
+    out = example.out
     cases = {case: [Run(case, n, out) for n in values[-1] if not args.quick or n <= 128]
              for case, values in CASES.items()}
     runs = [run for group in cases.values() for run in group]
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    env = environment(args.np, cores)
-    print(f"{len(runs)} runs of {lmp} on {args.np} MPI rank(s) each", flush=True)
-    with ThreadPoolExecutor(max(1, cores // args.np)) as pool:
-        # the longest runs first
-        jobs = [pool.submit(run.start, lmp, mpiexec, args.np, env)
-                for run in sorted(runs, key=lambda run: -run.n * run.n * run.kappa)]
-        solutions = {kappa: reference.Solution(kappa) for kappa in sorted({run.kappa for run in runs})}
-        for job in jobs:
-            job.result()
+    with ThreadPoolExecutor(1) as pool:     # the reference, while LAMMPS runs
+        solved = {kappa: pool.submit(reference.Solution, kappa) for kappa in sorted({run.kappa for run in runs})}
+        example.run({run.name: run.variables for run in sorted(runs, key=lambda run: -run.n * run.n * run.kappa)})
+        solutions = {kappa: job.result() for kappa, job in solved.items()}
     for run in runs:
         run.compare(solutions[run.kappa])
 
-    lines, missed = table(cases)
+    lines, example.missed = table(cases)
     print()
     print("\n".join(lines))
     print()
@@ -296,14 +233,7 @@ def main():
           f"{max(run.drift for run in runs):.1e}")
     print()
     write_csv(out / "errors.csv", cases)
-    for path in [*plot(out, cases, solutions), out / "errors.csv"]:
-        print(f"wrote {path}")
-    print(f"sound_pulse: {time.monotonic() - begin:.1f} s")
-    if missed:
-        print("missed:\n  " + "\n  ".join(missed))
-    elif args.check:
-        print("all figures of merit reached")
-    return 1 if args.check and missed else 0
+    return example.finish(*plot(out, cases, solutions), out / "errors.csv")
 
 
 if __name__ == "__main__":

@@ -101,15 +101,29 @@ void FixSPHMicropolar::reset_extrapolation(int i)
   for (int d = 0; d < 3; d++) avec->omegaest[i][d] = atom->omega[i][d];
 }
 
-/* ----------------------------------------------------------------------
-   particles without inertia keep their spin; setup() has seen to it that
-   they have no torque
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void FixSPHMicropolar::initial_integrate(int vflag)
 {
   FixSPHBulk::initial_integrate(vflag);
+  integrate_spin(true);
+}
 
+/* ---------------------------------------------------------------------- */
+
+void FixSPHMicropolar::final_integrate()
+{
+  FixSPHBulk::final_integrate();
+  integrate_spin(false);
+}
+
+/* ----------------------------------------------------------------------
+   half a step; particles without inertia keep their spin; setup() has seen to it
+   that they have no torque
+------------------------------------------------------------------------- */
+
+void FixSPHMicropolar::integrate_spin(bool extrapolate)
+{
   double **omega = atom->omega;
   double **torque = atom->torque;
   double *rmass = atom->rmass;
@@ -122,27 +136,8 @@ void FixSPHMicropolar::initial_integrate(int vflag)
     for (int d = 0; d < 3; d++) {
       const double domega = dtirotate * torque[i][d];
       omega[i][d] += domega;
-      avec->omegaest[i][d] = omega[i][d] + domega;
+      if (extrapolate) avec->omegaest[i][d] = omega[i][d] + domega;
     }
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixSPHMicropolar::final_integrate()
-{
-  FixSPHBulk::final_integrate();
-
-  double **omega = atom->omega;
-  double **torque = atom->torque;
-  double *rmass = atom->rmass;
-  int *mask = atom->mask;
-  const int nlocal = nlocal_group();
-  for (int i = 0; i < nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    const double inertia = rmass[i] * avec->inertia[i];
-    const double dtirotate = (inertia > 0.0) ? dtf / inertia : 0.0;
-    for (int d = 0; d < 3; d++) omega[i][d] += dtirotate * torque[i][d];
   }
 }
 

@@ -48,6 +48,8 @@ class FixSPHMicropolar : public FixSPHBulk {
   int inertia_flag;    // 1: set I = factor V^(2/n) + offset in the first setup
   double factor, offset;
   int inertia_done;
+
+  void integrate_spin(bool);
 };
 
 }    // namespace LAMMPS_NS

@@ -21,16 +21,15 @@ PairStyle(sph/bulk,PairSPHBulk);
 #define LMP_PAIR_SPH_BULK_H
 
 #include "pair.h"
+#include "sph_dissipation_table.h"
 
-#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Boundary;
   class Engine;
-  enum class Shear;
-  struct PairCoeff;
+  class FluidModel;
 }    // namespace SPHDissipation
 
 // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -74,24 +73,15 @@ class PairSPHBulk : public Pair {
   double reference_density(int) const;     // of a type
 
  protected:
-  struct Settings;     // choices of the pair_style command
-  struct TypeCoeff;    // what pair_coeff I I sets and what follows from it
   class StressTally;
 
-  static constexpr int MAXVISCOSITY = 4;
-  const std::string fluid_style;                     // also of the atom style and the integrator
-  const std::vector<std::string> viscosity_names;    // by type pair
-  int nviscosity() const { return static_cast<int>(viscosity_names.size()); }
-
-  Settings *choice;
-  TypeCoeff *coeffs;                 // by type, from 1
-  double ***viscosity;               // by viscosity and type pair
-  int ***viscosity_set;              // 1 if set by pair_coeff, 0 if mixed from the types
-  int dim;                           // dimension of the kernel
-  double support;                    // support radius rc
-  bool announced;                    // the table of coefficients is up to date
-  bool warned_step;                  // the warning about the time step was given
-  SPHDissipation::Engine *engine;    // the two pair loops
+  const std::string fluid_style;        // also of the atom style and the integrator
+  SPHDissipation::FluidModel *model;    // what pair_style and pair_coeff set
+  int dim;                              // dimension of the kernel
+  double support;                       // support radius rc
+  bool announced;                       // the table of coefficients is up to date
+  bool warned_step;                     // the warning about the time step was given
+  SPHDissipation::Engine *engine;       // the two pair loops
 
   std::vector<SPHDissipation::Boundary *> boundaries;
   int boundary_bits;    // of the groups of all boundaries
@@ -115,7 +105,7 @@ class PairSPHBulk : public Pair {
 
   // what depends on the viscosities that a style has
 
-  using Columns = std::vector<std::pair<std::string, double>>;
+  using Columns = SPHDissipation::Columns;
   virtual SPHDissipation::Shear default_shear() const;
   virtual SPHDissipation::PairCoeff pair_coefficients(int, int) const;
   virtual double intrinsic_kappa_of(int, int) const;
@@ -126,13 +116,7 @@ class PairSPHBulk : public Pair {
   virtual void add_torques(int) {}
   virtual void spin_heat(int, double *) const {}
 
-  int is_viscosity(const std::string &) const;
-  int type_coeff(int, char **, int, int, int, int);
-  int fluid_coeff(int, char **, int, int, int, int);
-  int unlike_coeff(int, char **, int, int, int, int);
   virtual void check_setup();
-  void check_masses();
-  void check_line_of_particles();
   void derive_coeffs();
   void announce();
   void particle_volume();
@@ -140,7 +124,6 @@ class PairSPHBulk : public Pair {
   void check_boundary() const;
   void extrapolate_to_boundary();
   double bulk_heat(int) const;
-  std::string type_line(int) const;
   void forward_stage(Stage);
   void reverse_stage(Stage);
   int forward_size() const;

@@ -21,6 +21,7 @@
 #include "modify.h"
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_model.h"
 
 #include <algorithm>
 
@@ -47,15 +48,15 @@ Shear PairSPHMicropolar::default_shear() const
 
 PairCoeff PairSPHMicropolar::pair_coefficients(int i, int j) const
 {
-  return micropolar_coefficients(dim, viscosity[MU][i][j], viscosity[MU_R][i][j],
-                                 viscosity[GAMMA1][i][j], viscosity[GAMMA2][i][j]);
+  return micropolar_coefficients(dim, model->viscosity(MU, i, j), model->viscosity(MU_R, i, j),
+                                 model->viscosity(GAMMA1, i, j), model->viscosity(GAMMA2, i, j));
 }
 
 /* ---------------------------------------------------------------------- */
 
 double PairSPHMicropolar::intrinsic_kappa_of(int i, int j) const
 {
-  return intrinsic_kappa_micropolar(dim, viscosity[MU][i][j], viscosity[MU_R][i][j]);
+  return intrinsic_kappa_micropolar(dim, model->viscosity(MU, i, j), model->viscosity(MU_R, i, j));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -65,7 +66,7 @@ bool PairSPHMicropolar::has_torques() const
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = 1; j <= atom->ntypes; j++)
       for (int k : {MU_R, GAMMA1, GAMMA2})
-        if (viscosity[k][i][j] != 0.0) return true;
+        if (model->viscosity(k, i, j) != 0.0) return true;
   return false;
 }
 
@@ -102,8 +103,8 @@ void PairSPHMicropolar::check_setup()
 
 void PairSPHMicropolar::check_pair(int i, int j)
 {
-  const double mu = viscosity[MU][i][j], mu_r = viscosity[MU_R][i][j];
-  const double gamma1 = viscosity[GAMMA1][i][j], gamma2 = viscosity[GAMMA2][i][j];
+  const double mu = model->viscosity(MU, i, j), mu_r = model->viscosity(MU_R, i, j);
+  const double gamma1 = model->viscosity(GAMMA1, i, j), gamma2 = model->viscosity(GAMMA2, i, j);
   if (const char *violated = inadmissible(dim, mu, 0.0, mu_r, gamma1, gamma2))
     error->all(FLERR, "Pair_coeff {}, not mu = {} mu_r = {} gamma1 = {} gamma2 = {} of types {} {}",
                violated, mu, mu_r, gamma1, gamma2, j, i);
@@ -114,11 +115,11 @@ void PairSPHMicropolar::check_pair(int i, int j)
 PairSPHBulk::Columns PairSPHMicropolar::table_columns(int i, int j, double kappa, double zeta) const
 {
   const PairCoeff coeff = pair_coefficients(i, j);
-  return {{"mu", viscosity[MU][i][j]},
+  return {{"mu", model->viscosity(MU, i, j)},
           {"kappa", kappa},
-          {"mu_r", viscosity[MU_R][i][j]},
-          {"gamma1", viscosity[GAMMA1][i][j]},
-          {"gamma2", viscosity[GAMMA2][i][j]},
+          {"mu_r", model->viscosity(MU_R, i, j)},
+          {"gamma1", model->viscosity(GAMMA1, i, j)},
+          {"gamma2", model->viscosity(GAMMA2, i, j)},
           {"zeta", zeta},
           {"zeta1", coeff.along_r},
           {"zeta2", coeff.along_u},

@@ -31,6 +31,9 @@
 // P3 = Souto-Iglesias, Bonet Avalos, Antuono, Colagrossi, SPHERIC 2022; Phys. Rev. E 104, 015315
 //      (2021)
 
+#include <algorithm>
+#include <vector>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
@@ -151,11 +154,11 @@ namespace SPHDissipation {
     return (1.0 + 2.0 / n) * mu - mu_r;
   }
 
-  // coefficient of the bulk term; P1 (67)
+  // coefficient of the bulk term, for intrinsic = what the shear term brings with it; P1 (67)
 
-  inline double bulk_coefficient(Shear shear, int n, double mu, double kappa)
+  inline double bulk_coefficient(double kappa, double intrinsic)
   {
-    return kappa - intrinsic_kappa(shear, n, mu);
+    return kappa - intrinsic;
   }
 
   // the inequality that (mu, kappa) violates, or nullptr if the fluid dissipates:
@@ -239,10 +242,11 @@ namespace SPHDissipation {
 
   // all limits together: the rates of the viscous terms add
 
-  inline double combined_step(double acoustic, double shear, double bulk)
+  inline double combined_step(double acoustic, const std::vector<double> &viscous)
   {
-    const double viscous = 1.0 / (1.0 / shear + 1.0 / bulk);
-    return (viscous < acoustic) ? viscous : acoustic;
+    double rate = 0.0;
+    for (const double step : viscous) rate += 1.0 / step;
+    return std::min(acoustic, 1.0 / rate);
   }
 
 }    // namespace SPHDissipation

@@ -1,0 +1,51 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_table.h"
+
+#include "utils.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+void CoeffTable::add_row(int i, int j, const Columns &values, double acoustic,
+                         const Columns &viscous)
+{
+  std::vector<double> viscous_steps;
+  for (const auto &step : viscous) viscous_steps.push_back(step.second);
+
+  Columns steps = {{"acoustic", acoustic}};
+  steps.insert(steps.end(), viscous.begin(), viscous.end());
+  steps.emplace_back("all", combined_step(acoustic, viscous_steps));
+  smallest = std::min(smallest, steps.back().second);
+
+  if (lines.empty()) {
+    lines = "  types   ";
+    for (const auto &value : values) lines += fmt::format(" {:<11}", value.first);
+    lines += " | largest stable time step:";
+    for (const auto &step : steps) lines += fmt::format(" {:<10}", step.first);
+    lines += "\n";
+  }
+
+  lines += fmt::format("  {:<8}", fmt::format("{}-{}", i, j));
+  for (const auto &value : values) lines += fmt::format(" {:<11.4g}", value.second);
+  lines += " |                          ";
+  for (const auto &step : steps)
+    lines += (step.second < UNLIMITED_STEP) ? fmt::format(" {:<10.4g}", step.second)
+                                            : fmt::format(" {:<10}", "-");
+  lines += "\n";
+}

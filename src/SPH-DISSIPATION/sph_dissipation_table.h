@@ -1,0 +1,47 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_TABLE_H
+#define LMP_SPH_DISSIPATION_TABLE_H
+
+#include "sph_dissipation_coeffs.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  using Columns = std::vector<std::pair<std::string, double>>;
+
+  // Table of the coefficients and the largest stable time steps of the pairs of types, as it goes to
+  // the log: a row each, the same columns in all rows.
+
+  class CoeffTable {
+   public:
+    // values = viscosities and coefficients, viscous = time steps of the viscous terms
+
+    void add_row(int i, int j, const Columns &values, double acoustic, const Columns &viscous);
+    const std::string &text() const { return lines; }
+    double smallest_step() const { return smallest; }    // with all terms together, of all rows
+
+   private:
+    std::string lines;
+    double smallest = UNLIMITED_STEP;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
