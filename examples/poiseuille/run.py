@@ -102,7 +102,7 @@ def plot(path, runs, sizes):
     axes[1].set(xlabel="$y/H$", ylabel="$\\Omega H/U$", title=f"spin, {shown} rows; lines: exact")
     axes[0].legend(loc="upper center", ncols=2)
     axes[1].legend(loc="upper left")
-    from matplotlib.ticker import NullFormatter
+    from matplotlib.ticker import LogLocator, NullFormatter
     for axis, what in zip(axes[2:], ("velocity", "spin")):
         line = np.array([min(sizes), max(sizes)])
         low, high = axis.get_ylim()
@@ -112,6 +112,9 @@ def plot(path, runs, sizes):
         axis.set(xlabel="rows across the channel", title=f"relative L2 error of the {what}; order")
         axis.set_xticks(sizes, [str(n) for n in sizes])
         axis.xaxis.set_minor_formatter(NullFormatter())
+        axis.yaxis.set_major_locator(LogLocator(subs=(1, 3)))
+        axis.yaxis.set_major_formatter("{x:g}")
+        axis.yaxis.set_minor_formatter(NullFormatter())
         axis.grid(which="minor", alpha=0.15)
         axis.legend(loc="lower left", fontsize=7)
     figure.savefig(path, dpi=95)
