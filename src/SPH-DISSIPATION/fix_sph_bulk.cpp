@@ -18,8 +18,12 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "math_extra.h"
 #include "modify.h"
+#include "pair_sph_bulk.h"
 #include "update.h"
+
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -27,13 +31,26 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), remap_v_flag(0), integrated_groups(0),
-    first_instance(false)
+    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), shift_speed(0.0), pair(nullptr), remap_v_flag(0),
+    integrated_groups(0), first_instance(false)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
-  if (narg > 3) error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[3]);
+  for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
 
   time_integrate = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHBulk::keyword_argument(int iarg, int narg, char **arg)
+{
+  if (strcmp(arg[iarg], "shift") != 0)
+    error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[iarg]);
+  if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, fmt::format("fix {} shift", style), error);
+  shift_speed = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+  if (!(shift_speed >= 0.0))
+    error->all(FLERR, "Fix {} shift must be >= 0, not {}", style, arg[iarg + 1]);
+  return 2;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -56,6 +73,12 @@ void FixSPHBulk::init()
   integrated_groups = 0;
   for (const auto &ifix : integrators) integrated_groups |= ifix->groupbit;
   first_instance = (integrators.front() == this);
+
+  if (shift_speed > 0.0) {
+    pair = dynamic_cast<PairSPHBulk *>(force->pair_match(style, 1));
+    if (!pair) error->all(FLERR, "Fix {} shift requires pair style {}", style, style);
+    pair->request_crowding();
+  }
 
   remap_v_flag = domain->deform_vremap;
   if (remap_v_flag && !comm->ghost_velocity)
@@ -120,6 +143,27 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
       vest[i][d] = keep * v[i][d] + dv;
       x[i][d] += dtv * v[i][d];
     }
+  }
+  if (shift_speed > 0.0) shift_particles();
+}
+
+/* ----------------------------------------------------------------------
+   Fickian particle shifting: velocity U R crowding, at most U/2, on top of the own one,
+   S. J. Lind et al., J. Comput. Phys. 231, 1499 (2012); P. N. Sun et al. (2017), see the engine
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::shift_particles()
+{
+  double **x = atom->x;
+  int *mask = atom->mask;
+  const int nlocal = nlocal_group();
+  const double scale = shift_speed * pair->support_radius();
+  for (int i = 0; i < nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double *const crowding = pair->crowding(i);
+    const double speed = scale * MathExtra::len3(crowding);
+    const double limit = (speed > 0.5 * shift_speed) ? 0.5 * shift_speed / speed : 1.0;
+    for (int d = 0; d < 3; d++) x[i][d] += dtv * limit * scale * crowding[d];
   }
 }
 

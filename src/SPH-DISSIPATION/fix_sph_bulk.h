@@ -44,13 +44,20 @@ class FixSPHBulk : public Fix {
   double dtv, dtf;
   int nlocal_group() const;
 
+  // # of words of the keyword at arg[iarg] that all integrators of this kind have
+  int keyword_argument(int iarg, int narg, char **arg);
+
   // extrapolated quantities of a particle at the start of a run, or if no such fix integrates it
   virtual void reset_extrapolation(int);
 
  private:
-  int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
-  int integrated_groups;    // bits of all groups with an integrator of this kind
-  bool first_instance;      // acts for the particles outside all these groups
+  void shift_particles();
+
+  double shift_speed;         // scale and twice the limit of the velocity of particle shifting
+  class PairSPHBulk *pair;    // of the same name; only if particles are shifted
+  int remap_v_flag;           // fix deform remaps velocities at periodic boundaries
+  int integrated_groups;      // bits of all groups with an integrator of this kind
+  bool first_instance;        // acts for the particles outside all these groups
 };
 
 }    // namespace LAMMPS_NS

@@ -34,9 +34,11 @@ FixSPHMicropolar::FixSPHMicropolar(LAMMPS *lmp, int narg, char **arg) :
 {
   restart_global = 1;
 
-  for (int iarg = 3; iarg < narg; iarg += 3) {
-    if (strcmp(arg[iarg], "inertia") != 0)
-      error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[iarg]);
+  for (int iarg = 3; iarg < narg;) {
+    if (strcmp(arg[iarg], "inertia") != 0) {
+      iarg += keyword_argument(iarg, narg, arg);
+      continue;
+    }
     if (iarg + 3 > narg)
       utils::missing_cmd_args(FLERR, fmt::format("fix {} inertia", style), error);
     inertia_flag = 1;
@@ -45,6 +47,7 @@ FixSPHMicropolar::FixSPHMicropolar(LAMMPS *lmp, int narg, char **arg) :
     if (!(factor >= 0.0) || !(offset >= 0.0) || !(factor + offset > 0.0))
       error->all(FLERR, "Fix {} inertia needs two numbers >= 0, one of them > 0, not {} {}", style,
                  arg[iarg + 1], arg[iarg + 2]);
+    iarg += 3;
   }
 }
 

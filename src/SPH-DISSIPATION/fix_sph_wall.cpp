@@ -113,20 +113,8 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
       error->all(FLERR, "Fix {}: the axis of rotation must be along z in 2d", style);
   }
 
-  // neighbor lists without the pairs of this wall and between this wall and those before
-
   if (group->dynamic[igroup])
     error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[igroup]);
-  auto exclude = [&](int other) {
-    for (int n = 0; n < neighbor->nex_group; n++)
-      if ((neighbor->ex1_group[n] == igroup && neighbor->ex2_group[n] == other) ||
-          (neighbor->ex1_group[n] == other && neighbor->ex2_group[n] == igroup))
-        return;
-    neighbor->modify_params(
-        fmt::format("exclude group {} {}", group->names[igroup], group->names[other]));
-  };
-  exclude(igroup);
-  for (const auto &ifix : modify->get_fix_by_style("^sph/wall$")) exclude(ifix->igroup);
 
   time_integrate = 1;
   restart_global = 1;
@@ -173,6 +161,18 @@ void FixSPHWall::init()
 
   check_group();
   pair->add_boundary(this);
+
+  // no pairs of wall particles in the neighbor lists
+
+  auto exclude = [&](int other) {
+    for (int n = 0; n < neighbor->nex_group; n++)
+      if ((neighbor->ex1_group[n] == igroup && neighbor->ex2_group[n] == other) ||
+          (neighbor->ex1_group[n] == other && neighbor->ex2_group[n] == igroup))
+        return;
+    neighbor->modify_params(
+        fmt::format("exclude group {} {}", group->names[igroup], group->names[other]));
+  };
+  for (const auto &ifix : modify->get_fix_by_style("^sph/wall$")) exclude(ifix->igroup);
 }
 
 /* ----------------------------------------------------------------------

@@ -38,7 +38,7 @@ using namespace SPHDissipation;
 
 // most values per atom that any stage of the communication has
 
-static constexpr int MAXFORWARD = 9;
+static constexpr int MAXFORWARD = 10;
 static constexpr int MAXREVERSE = 18;
 
 // adds the virial of each pair to the accumulators of the pair style
@@ -72,7 +72,7 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
     Pair(lmp),
     fluid_style(name), model(new FluidModel(lmp, name, viscosities)), dim(0), support(0.0),
     announced(false), warned_step(false), engine(new Engine(lmp)), boundary_bits(0),
-    stage(Stage::DENSITY)
+    crowding_requested(false), stage(Stage::DENSITY)
 {
   restartinfo = 1;
   writedata = 1;
@@ -122,6 +122,10 @@ void PairSPHBulk::compute(int eflag, int vflag)
   }
   particle_state();
   if (!boundaries.empty()) extrapolate_to_boundary();
+  if (crowding_requested) {
+    engine->accumulate_crowding(list);
+    reverse_stage(Stage::CROWDING);
+  }
 
   StressTally stress(this, nlocal, newton_pair);
   engine->accumulate_forces(list, vflag_either ? &stress : nullptr);
@@ -226,6 +230,13 @@ void PairSPHBulk::add_boundary(Boundary *boundary)
 {
   boundaries.push_back(boundary);
   boundary_bits |= boundary->boundary_bit();
+}
+
+/* ---------------------------------------------------------------------- */
+
+const double *PairSPHBulk::crowding(int i) const
+{
+  return engine->crowding[i];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -352,6 +363,7 @@ void PairSPHBulk::init_style()
 {
   boundaries.clear();
   boundary_bits = 0;
+  crowding_requested = false;
   check_setup();
   derive_coeffs();
   announce();
@@ -564,7 +576,7 @@ int PairSPHBulk::forward_size() const
     case Stage::BOUND:
       return 1;
     case Stage::BOUNDARY_STATE:
-      return (model->choice.shear == Shear::MICROPOLAR) ? 9 : 6;
+      return (model->choice.shear == Shear::MICROPOLAR) ? 10 : 7;
     default:
       return 3;
   }
@@ -602,12 +614,15 @@ double &PairSPHBulk::comm_value(int i, int k)
       return reinterpret_cast<double *>(engine->boundary_sum + i)[k];
     case Stage::BOUNDARY_STATE:
       if (k < 3) return particle.u[k];
-      if (k > 5) return engine->spin[i].w[k - 6];
+      if (k > 6) return engine->spin[i].w[k - 7];
+      if (k == 6) return engine->boundary_sum[i].weight;
       return (k == 3) ? particle.vol : (k == 4) ? particle.g : engine->zeta_term[i];
     case Stage::GRADIENT:
       return reinterpret_cast<double *>(engine->gradient + i)[k];
     case Stage::VORTICITY:
       return engine->vorticity[i][k];
+    case Stage::CROWDING:
+      return engine->crowding[i][k];
     default:
       return engine->spin[i].w[k];
   }

@@ -68,6 +68,12 @@ class PairSPHBulk : public Pair {
   void add_boundary(SPHDissipation::Boundary *);
   bool is_boundary(int i) const;    // owned or ghost particle
 
+  // from the init() of a fix, in every run: it shifts particles to where they are less crowded.
+  // Then crowding() of an owned particle, 1/length, points there.
+
+  void request_crowding() { crowding_requested = true; }
+  const double *crowding(int i) const;
+
   double support_radius() const { return support; }
   int dimension() const { return dim; }    // of the kernel
   double reference_density(int) const;     // of a type
@@ -85,6 +91,7 @@ class PairSPHBulk : public Pair {
 
   std::vector<SPHDissipation::Boundary *> boundaries;
   int boundary_bits;    // of the groups of all boundaries
+  bool crowding_requested;
 
   // what is communicated between the passes
 
@@ -95,7 +102,8 @@ class PairSPHBulk : public Pair {
     BOUNDARY_STATE,
     GRADIENT,
     VORTICITY,
-    BOUNDARY_SPIN
+    BOUNDARY_SPIN,
+    CROWDING
   };
   Stage stage;
 

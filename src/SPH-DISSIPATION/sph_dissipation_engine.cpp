@@ -52,10 +52,11 @@ static const LoopSet *choose_loops()
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
     zeta_term(nullptr), divergence(nullptr), bound(nullptr), spin(nullptr), boundary_sum(nullptr),
-    gradient(nullptr), vorticity(nullptr), loops(choose_loops()), density_loop(nullptr),
-    force_loop(nullptr), data(), kernel(Kernel::WENDLAND_C2), shear(Shear::NONE), bulk(Bulk::NONE),
-    self_weight(0.0), boundary_bits(0), nmax(0), nmax_boundary(0), nmax_vorticity(0), imax(0),
-    stride_max(0), pair_max(0), first(nullptr)
+    gradient(nullptr), vorticity(nullptr), crowding(nullptr), loops(choose_loops()),
+    density_loop(nullptr), force_loop(nullptr), data(), kernel(Kernel::WENDLAND_C2), dim(0),
+    shear(Shear::NONE), bulk(Bulk::NONE), self_weight(0.0), boundary_bits(0), nmax(0),
+    nmax_boundary(0), nmax_vorticity(0), nmax_crowding(0), imax(0), stride_max(0), pair_max(0),
+    first(nullptr)
 {
 }
 
@@ -74,6 +75,7 @@ Engine::~Engine()
   memory->sfree(boundary_sum);
   memory->sfree(gradient);
   memory->sfree(vorticity);
+  memory->sfree(crowding);
   memory->sfree(first);
   memory->sfree(data.count);
   memory->sfree(data.neighbor);
@@ -88,6 +90,7 @@ void Engine::setup(Kernel kernel_in, int n, double support, Shear shear_in, Bulk
                    const std::vector<PairCoeff> &coeff_in, int ntypes)
 {
   kernel = kernel_in;
+  dim = n;
   bulk = bulk_in;
   shear = shear_in;
   boundary_bits = 0;
@@ -275,6 +278,7 @@ double Engine::memory_usage() const
       (sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double)) +
       (double) nmax_boundary * sizeof(BoundarySum) +
       (double) nmax_vorticity * (sizeof(GradientSum) + 3 * sizeof(double)) +
+      (double) nmax_crowding * 3 * sizeof(double) +
       (double) boundary_pairs.capacity() * sizeof(BoundaryPair) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + 2 * sizeof(double)) +

@@ -200,6 +200,11 @@ namespace SPHDissipation {
     // owned and ghost atoms, rather than at the one that made cdot
     void update_boundary_velocity();
 
+    // crowding[] = sum_j V_j F r_ij [1 + 0.2 (W_ij/W(V_i^(1/n)))^4], which points away from where
+    // the particles are crowded, with vol of particle[] on owned and ghost atoms.  The second term
+    // keeps particles from pairing, P. N. Sun et al., Comput. Methods Appl. Mech. Eng. 315, 25 (2017).
+    void accumulate_crowding(NeighList *);
+
     // gradient[] of fluid atoms, with vol and u of particle[] on owned and ghost atoms
     void accumulate_gradient(NeighList *, int bits);
 
@@ -228,6 +233,7 @@ namespace SPHDissipation {
     BoundarySum *boundary_sum;
     GradientSum *gradient;
     double (*vorticity)[3];
+    double (*crowding)[3];
 
    private:
     const LoopSet *loops;
@@ -235,6 +241,7 @@ namespace SPHDissipation {
     LoopData data;
     std::vector<PairCoeff> coeff;
     Kernel kernel;
+    int dim;    // of the kernel
     Shear shear;
     Bulk bulk;
     double self_weight;    // W(0)
@@ -249,9 +256,10 @@ namespace SPHDissipation {
     };
     std::vector<BoundaryPair> boundary_pairs;
     std::vector<int> boundary_rows;
-    int boundary_bits;    // that boundary_rows is for
+    std::vector<char> place;    // of atoms, for accumulate_gradient()
+    int boundary_bits;          // that boundary_rows is for
 
-    int nmax, nmax_boundary, nmax_vorticity, imax, stride_max;
+    int nmax, nmax_boundary, nmax_vorticity, nmax_crowding, imax, stride_max;
     bigint pair_max;
     bigint *first;
 

@@ -11,7 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The part of the pair engine for boundaries: what the fluid near a wall hands to it.
+// Further sums over the pairs that pass 1 has found: what the fluid near a wall hands to it, and
+// where particles are crowded.
 
 #include "sph_dissipation_engine.h"
 
@@ -22,11 +23,14 @@
 #include "neigh_list.h"
 #include "neighbor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+enum : char { FAR, NEAR, BOUNDARY };    // Engine::place
 
 /* ----------------------------------------------------------------------
    find the pairs of a fluid and a boundary particle, then sum over them
@@ -124,13 +128,19 @@ void Engine::accumulate_gradient(NeighList *list, int bits)
   }
   memset(gradient, 0, (atom->nlocal + atom->nghost) * sizeof(GradientSum));
 
-  const int *const mask = atom->mask;
+  // the gradient is wanted where there are boundary particles in the support
+
+  const int nall = atom->nlocal + atom->nghost;
+  place.resize(nall);
+  for (int i = 0; i < nall; i++)
+    place[i] = (atom->mask[i] & bits) ? BOUNDARY : (boundary_sum[i].weight > 0.0) ? NEAR : FAR;
+
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
-    if (mask[i] & bits) continue;
+    if (place[i] == BOUNDARY) continue;
     for (bigint entry = first[ii]; entry < first[ii] + data.count[ii]; entry++) {
       const int j = data.neighbor[entry];
-      if (mask[j] & bits) continue;
+      if (place[j] == BOUNDARY || place[i] + place[j] == FAR) continue;
       const Particle &a = particle[i];
       const Particle &b = particle[j];
       double r[3], u[3];
@@ -138,15 +148,15 @@ void Engine::accumulate_gradient(NeighList *list, int bits)
         r[d] = a.x[d] - b.x[d];
         u[d] = a.u[d] - b.u[d];
       }
-      for (int d = 0; d < 3; d++)
-        for (int e = 0; e < 3; e++) {
-          const double rr = data.slope[entry] * r[d] * r[e];
-          const double ru = data.slope[entry] * r[d] * u[e];
-          gradient[i].rr[d][e] += b.vol * rr;
-          gradient[i].ru[d][e] += b.vol * ru;
-          gradient[j].rr[d][e] += a.vol * rr;
-          gradient[j].ru[d][e] += a.vol * ru;
-        }
+      auto add = [&](GradientSum &sum, double vol) {
+        for (int d = 0; d < 3; d++)
+          for (int e = 0; e < 3; e++) {
+            sum.rr[d][e] += vol * data.slope[entry] * r[d] * r[e];
+            sum.ru[d][e] += vol * data.slope[entry] * r[d] * u[e];
+          }
+      };
+      if (place[i] == NEAR) add(gradient[i], b.vol);
+      if (place[j] == NEAR) add(gradient[j], a.vol);
     }
   }
 }
@@ -157,11 +167,12 @@ void Engine::solve_vorticity()
 {
   constexpr double SINGULAR = 1.0e-9;
   for (int i = 0; i < atom->nlocal; i++) {
+    double(&curl)[3] = vorticity[i];
+    curl[0] = curl[1] = curl[2] = 0.0;
+    if (place[i] != NEAR) continue;
     double(*const rr)[3] = gradient[i].rr;
     if (domain->dimension == 2) rr[2][2] = 0.5 * (rr[0][0] + rr[1][1]);
     const double mean = (rr[0][0] + rr[1][1] + rr[2][2]) / 3.0;
-    double(&curl)[3] = vorticity[i];
-    curl[0] = curl[1] = curl[2] = 0.0;
     if (!(MathExtra::det3(rr) > SINGULAR * mean * mean * mean)) continue;
     double inverse[3][3], grad[3][3];    // grad[d][e] = derivative of u_e along d
     MathExtra::invert3(rr, inverse);
@@ -181,4 +192,47 @@ void Engine::accumulate_boundary_vorticity(int bits)
     if (atom->mask[i] & bits) vorticity[i][0] = vorticity[i][1] = vorticity[i][2] = 0.0;
   for (const auto &pair : boundary_pairs)
     for (int d = 0; d < 3; d++) vorticity[pair.wall][d] += pair.weight * vorticity[pair.fluid][d];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_crowding(NeighList *list)
+{
+  constexpr double PAIRING = 0.2;
+  if (nmax_crowding < nmax) {
+    nmax_crowding = nmax;
+    memory->sfree(crowding);
+    crowding = (double(*)[3]) memory->smalloc(nmax * sizeof(*crowding), "sph:crowding");
+  }
+  memset(crowding, 0, (atom->nlocal + atom->nghost) * sizeof(*crowding));
+
+  with_kernel(kernel, [&](auto k) {
+    auto contact = [&](const Particle &particle) {    // 1/W at the distance of two neighbors
+      const double spacing = (dim == 1) ? particle.vol
+          : (dim == 2)                  ? sqrt(particle.vol)
+                                        : cbrt(particle.vol);
+      return 1.0 / k.shape(std::min(spacing / data.support, 0.9));
+    };
+    for (int ii = 0; ii < list->inum; ii++) {
+      const int i = list->ilist[ii];
+      const Particle &a = particle[i];
+      const double contact_i = contact(a);
+      for (bigint entry = first[ii]; entry < first[ii] + data.count[ii]; entry++) {
+        const int j = data.neighbor[entry];
+        const Particle &b = particle[j];
+        double r[3], rsq = 0.0;
+        for (int d = 0; d < 3; d++) {
+          r[d] = a.x[d] - b.x[d];
+          rsq += r[d] * r[d];
+        }
+        const double close = k.shape(sqrt(rsq) / data.support) * contact_i;
+        const double push = data.slope[entry] * (1.0 + PAIRING * close * close * close * close);
+        for (int d = 0; d < 3; d++) {
+          crowding[i][d] += b.vol * push * r[d];
+          crowding[j][d] -= a.vol * push * r[d];
+        }
+      }
+    }
+    return 0;
+  });
 }
