@@ -256,8 +256,9 @@ namespace SPHDissipation {
     };
     std::vector<BoundaryPair> boundary_pairs;
     std::vector<int> boundary_rows;
-    std::vector<char> place;    // of atoms, for accumulate_gradient()
-    int boundary_bits;          // that boundary_rows is for
+    std::vector<char> place;        // of atoms, for accumulate_gradient()
+    std::vector<double> contact;    // 1/W(V^(1/n)) of atoms, for accumulate_crowding()
+    int boundary_bits;              // that boundary_rows is for
 
     int nmax, nmax_boundary, nmax_vorticity, nmax_crowding, imax, stride_max;
     bigint pair_max;

@@ -30,7 +30,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-enum : char { FAR, NEAR, BOUNDARY };    // Engine::place
+enum : char { INTERIOR, EDGE, BOUNDARY };    // Engine::place
 
 /* ----------------------------------------------------------------------
    find the pairs of a fluid and a boundary particle, then sum over them
@@ -133,14 +133,14 @@ void Engine::accumulate_gradient(NeighList *list, int bits)
   const int nall = atom->nlocal + atom->nghost;
   place.resize(nall);
   for (int i = 0; i < nall; i++)
-    place[i] = (atom->mask[i] & bits) ? BOUNDARY : (boundary_sum[i].weight > 0.0) ? NEAR : FAR;
+    place[i] = (atom->mask[i] & bits) ? BOUNDARY : (boundary_sum[i].weight > 0.0) ? EDGE : INTERIOR;
 
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
     if (place[i] == BOUNDARY) continue;
     for (bigint entry = first[ii]; entry < first[ii] + data.count[ii]; entry++) {
       const int j = data.neighbor[entry];
-      if (place[j] == BOUNDARY || place[i] + place[j] == FAR) continue;
+      if (place[j] == BOUNDARY || place[i] + place[j] == INTERIOR) continue;
       const Particle &a = particle[i];
       const Particle &b = particle[j];
       double r[3], u[3];
@@ -155,8 +155,8 @@ void Engine::accumulate_gradient(NeighList *list, int bits)
             sum.ru[d][e] += vol * data.slope[entry] * r[d] * u[e];
           }
       };
-      if (place[i] == NEAR) add(gradient[i], b.vol);
-      if (place[j] == NEAR) add(gradient[j], a.vol);
+      if (place[i] == EDGE) add(gradient[i], b.vol);
+      if (place[j] == EDGE) add(gradient[j], a.vol);
     }
   }
 }
@@ -169,7 +169,7 @@ void Engine::solve_vorticity()
   for (int i = 0; i < atom->nlocal; i++) {
     double(&curl)[3] = vorticity[i];
     curl[0] = curl[1] = curl[2] = 0.0;
-    if (place[i] != NEAR) continue;
+    if (place[i] != EDGE) continue;
     double(*const rr)[3] = gradient[i].rr;
     if (domain->dimension == 2) rr[2][2] = 0.5 * (rr[0][0] + rr[1][1]);
     const double mean = (rr[0][0] + rr[1][1] + rr[2][2]) / 3.0;
@@ -206,17 +206,18 @@ void Engine::accumulate_crowding(NeighList *list)
   }
   memset(crowding, 0, (atom->nlocal + atom->nghost) * sizeof(*crowding));
 
+  const int nall = atom->nlocal + atom->nghost;
+  contact.resize(nall);
   with_kernel(kernel, [&](auto k) {
-    auto contact = [&](const Particle &particle) {    // 1/W at the distance of two neighbors
-      const double spacing = (dim == 1) ? particle.vol
-          : (dim == 2)                  ? sqrt(particle.vol)
-                                        : cbrt(particle.vol);
-      return 1.0 / k.shape(std::min(spacing / data.support, 0.9));
-    };
+    for (int i = 0; i < nall; i++) {
+      const double vol = particle[i].vol;
+      const double spacing = (dim == 1) ? vol : (dim == 2) ? sqrt(vol) : cbrt(vol);
+      contact[i] = 1.0 / k.shape(std::min(spacing / data.support, 0.9));
+    }
+
     for (int ii = 0; ii < list->inum; ii++) {
       const int i = list->ilist[ii];
       const Particle &a = particle[i];
-      const double contact_i = contact(a);
       for (bigint entry = first[ii]; entry < first[ii] + data.count[ii]; entry++) {
         const int j = data.neighbor[entry];
         const Particle &b = particle[j];
@@ -225,11 +226,15 @@ void Engine::accumulate_crowding(NeighList *list)
           r[d] = a.x[d] - b.x[d];
           rsq += r[d] * r[d];
         }
-        const double close = k.shape(sqrt(rsq) / data.support) * contact_i;
-        const double push = data.slope[entry] * (1.0 + PAIRING * close * close * close * close);
+        const double shape = k.shape(sqrt(rsq) / data.support);
+        auto push = [&](int n) {
+          const double close = shape * contact[n] * shape * contact[n];
+          return data.slope[entry] * (1.0 + PAIRING * close * close);
+        };
+        const double push_i = b.vol * push(i), push_j = a.vol * push(j);
         for (int d = 0; d < 3; d++) {
-          crowding[i][d] += b.vol * push * r[d];
-          crowding[j][d] -= a.vol * push * r[d];
+          crowding[i][d] += push_i * r[d];
+          crowding[j][d] -= push_j * r[d];
         }
       }
     }
