@@ -231,6 +231,16 @@ def test_forces(lammps, dim, style, name, options):
     assert_global(table, owner, {**want, "x": particles.x}, WALLS[dim][name], style)
 
 
+def test_exclusions_come_back_with_every_run(lammps):
+    """neigh_modify exclude none after the fix: no force between wall particles in the per-atom array."""
+    model, omega, want = expected(2, BULK, "turning", {})
+    particles, owner = SETS[2]
+    save(lammps, particles, model, omega)
+    none = "neigh_modify exclude none\n"
+    lammps(start(model, owner, WALLS[2]["turning"]) + none + "run 0\n" + none + dump("out.dump", owner) + "run 0\n")
+    assert_forces(lammps.frame("out.dump"), owner, want, BULK)
+
+
 @pytest.mark.parametrize("dim, style, name", [(2, BULK, "turning"), (3, MICRO, "turning"), (2, MICRO, "spin rate"),
                                               (3, MICRO, "spin rate")])
 @pytest.mark.parametrize("ranks, newton", PARALLEL)

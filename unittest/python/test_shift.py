@@ -1,0 +1,354 @@
+"""Keyword shift of fix sph/bulk and fix sph/micropolar: displacements against a sum of its own, momentum, ranks, bad input."""
+
+import re
+
+import numpy as np
+import pytest
+
+import test_wall as walls
+from helpers import INTEGRATE, SUPPORT, disordered, fluid, header, lattice, relative
+from test_micropolar import spins, write
+
+BULK, MICRO = "sph/bulk", "sph/micropolar"
+STEP = 0.002
+SPEED = 100.0  # much larger than that of the flow: one step has to show the displacement to twelve digits
+DUMP = "dump D all custom 1 out.dump id xu yu zu vx vy vz\ndump_modify D sort id format float %.17g\n"
+
+# ---------------------------------------------------------------------------------------------
+# the shifting velocity from its equation
+
+KERNELS = {  # sums of a (b - q)_+^p times a polynomial of q
+    "wendland/c2": [(1, 1, 4, [1, 4])],
+    "wendland/c4": [(1, 1, 6, [1, 6, 35 / 3])],
+    "wendland/c6": [(1, 1, 8, [1, 8, 25, 32])],
+    "lucy": [(1, 1, 3, [1, 3])],
+    "cubic": [(1, 1, 3, [1]), (-4, 1 / 2, 3, [1])],
+    "quintic": [(1, 1, 5, [1]), (-6, 2 / 3, 5, [1]), (15, 1 / 3, 5, [1])],
+}
+
+
+def shape(kernel, q):
+    """w(q) and its derivative, not normalised."""
+    w, slope = np.zeros_like(q), np.zeros_like(q)
+    for a, b, p, coefficients in KERNELS[kernel]:
+        rest, factor = np.maximum(b - q, 0.0), np.polynomial.Polynomial(coefficients)
+        w += a * rest ** p * factor(q)
+        slope += a * (rest ** p * factor.deriv()(q) - p * rest ** (p - 1) * factor(q))
+    return w, slope
+
+
+def norm(kernel, dim):
+    """By quadrature, exact for polynomials between the multiples of 1/6."""
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    q = (np.arange(6)[:, None] + 0.5 * (nodes + 1.0)).ravel() / 6.0
+    surface = {1: 2.0, 2: 2 * np.pi, 3: 4 * np.pi}[dim]
+    return 1.0 / (surface * (np.tile(weights / 12.0, 6) * q ** (dim - 1) * shape(kernel, q)[0]).sum())
+
+
+def shifting(particles, support, kernel, speed, vol=None, solid=None):
+    """Shifting velocity before and after its limit; vol of a fluid without walls follows from the number density."""
+    dim, length = particles.dim, particles.hi - particles.lo
+    r = particles.x[:, None] - particles.x
+    r -= length * np.round(r / length)
+    dist = np.linalg.norm(r, axis=2)
+    scale = norm(kernel, dim) / support ** dim
+    w, slope = shape(kernel, np.minimum(dist / support, 1.0))
+    if vol is None:
+        vol = 1.0 / (scale * w).sum(axis=1)
+    contact = shape(kernel, vol ** (1.0 / dim) / support)[0]
+    F = -scale / support * slope / np.where(dist > 0.0, dist, 1.0)
+    push = vol * F * (1.0 + 0.2 * (w / contact[:, None]) ** 4)
+    np.fill_diagonal(push, 0.0)
+    free = speed * support * np.einsum("ij,ijd->id", push, r)
+    if solid is not None:
+        free[solid] = 0.0
+    size = np.linalg.norm(free, axis=1)[:, None]
+    return free, free * np.minimum(1.0, 0.5 * speed / np.where(size > 0.0, size, 1.0))
+
+
+def one_step(lammps, text, speed=SPEED, keywords="", ranks=1):
+    """Positions after one step with the keyword minus those without; text has the fix command without keywords."""
+    places = []
+    for extra in ("", f" shift {speed}"):
+        line = re.search(r"^fix FLUID .*$", text, re.MULTILINE)[0]
+        lammps(text.replace(line, line + keywords + extra) + DUMP + "run 1\n", ranks=ranks)
+        places.append(lammps.frame("out.dump"))
+    assert places[1].step == 1
+    assert (places[0]["v"][0] != places[1]["v"][0]).any()  # the second half of the step has other forces
+    return places[1]["x"] - places[0]["x"]
+
+
+def assert_displaced(moved, free, limited, speed=SPEED):
+    beyond = np.linalg.norm(free, axis=1) > 0.5 * speed
+    difference = relative(moved - STEP * limited, STEP * limited)
+    print(f"largest difference {difference:.1e}, {beyond.sum()} of {len(beyond)} particles at the limit, "
+          f"fastest {np.linalg.norm(free, axis=1).max() / speed:.2f}")
+    assert difference < 1e-12
+    return beyond
+
+
+@pytest.mark.parametrize("kernel, jitter", [*((kernel, 0.1) for kernel in KERNELS), ("wendland/c2", 0.4)])
+@pytest.mark.parametrize("dim, cells, support", [(1, 30, 4.0), (2, (13, 14), 3.2), (3, (7, 8, 7), 2.6)])
+def test_displacement_of_one_step(lammps, dim, cells, support, kernel, jitter):
+    particles = disordered(dim, cells, jitter=jitter, ntypes=2)
+    particles.write(lammps.path("box.data"))
+    text = (header(dim) + "read_data box.data\n" + fluid(dim, f"kernel {kernel}", support=support) + INTEGRATE
+            + f"timestep {STEP}\n")
+    free, limited = shifting(particles, support, kernel, SPEED)
+    beyond = assert_displaced(one_step(lammps, text), free, limited)
+    assert not beyond.all()
+    assert beyond.any() or (dim == 1 or jitter < 0.2)
+
+
+@pytest.mark.parametrize("dim, style, name, kernel, ranks, newton", [
+    (2, BULK, "turning", "wendland/c2", 1, "on"), (2, BULK, "turning", "wendland/c2", 4, "off"),
+    (2, BULK, "free", "lucy", 1, "off"), (2, MICRO, "spin rate", "wendland/c2", 2, "on"),
+    (3, BULK, "moving", "wendland/c2", 1, "on"), (3, MICRO, "moving", "wendland/c2", 2, "off")])
+def test_displacement_next_to_walls(lammps, dim, style, name, kernel, ranks, newton):
+    """The walls count with their extrapolated volume, and are not shifted."""
+    particles, owner = walls.SETS[dim]
+    model, omega, want = walls.expected(dim, style, name, dict(kernel=kernel))
+    walls.save(lammps, particles, model, omega)
+    text = walls.start(model, owner, walls.WALLS[dim][name], newton=newton, step=STEP)
+    moved = one_step(lammps, text, ranks=ranks)
+    free, limited = shifting(particles, model.support, kernel, SPEED, want["vol"], owner >= 0)
+    assert_displaced(moved, free, limited)
+    assert (moved[owner >= 0] == 0.0).all()
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("order", [0, 1])
+def test_shift_and_inertia(lammps, dim, order):
+    """Both keywords of fix sph/micropolar, in either order."""
+    particles = disordered(dim, 13 if dim == 2 else 7, jitter=0.15)
+    write(particles, lammps.path("box.data"), spins(particles))
+    keywords = ["inertia 0.3 0.1", f"shift {SPEED}"]
+    support = SUPPORT[dim]
+    text = (header(dim, style=MICRO) + "read_data box.data\n" + walls.pair_commands(walls.one_fluid(dim, MICRO))
+            + f"fix FLUID all {MICRO}\ntimestep {STEP}\ncompute I all property/atom inertia vol\n")
+    places = []
+    for words in (keywords[:1], keywords[::(-1 if order else 1)]):
+        lammps(text.replace(MICRO + "\ntimestep", f"{MICRO} {' '.join(words)}\ntimestep")
+               + DUMP.replace("vx", "c_I[*] vx") + "run 1\n")
+        places.append(lammps.frame("out.dump"))
+        first = lammps.frames("out.dump")[0]
+        np.testing.assert_allclose(first["c_I[1]"], 0.3 * first["c_I[2]"] ** (2 / dim) + 0.1, rtol=1e-14)
+    free, limited = shifting(particles, support, "wendland/c2", SPEED)
+    assert_displaced(places[1]["x"] - places[0]["x"], free, limited)
+
+
+def test_only_the_group_is_shifted(lammps):
+    """Two fixes: one of them shifts its particles."""
+    particles = disordered(2, 13, ntypes=2)
+    particles.write(lammps.path("box.data"))
+    text = (header(2) + "read_data box.data\n" + fluid(2) + f"group A type 1\ngroup B type 2\ntimestep {STEP}\n"
+            "fix OTHER B sph/bulk\nfix FLUID A sph/bulk\n")
+    free, limited = shifting(particles, SUPPORT[2], "wendland/c2", SPEED)
+    free[particles.type == 2] = limited[particles.type == 2] = 0.0
+    assert_displaced(one_step(lammps, text), free, limited)
+
+
+def test_hybrid_overlay(lammps):
+    particles = disordered(2, 13)
+    particles.write(lammps.path("box.data"))
+    pair = fluid(2).replace("pair_style sph/bulk", "pair_style hybrid/overlay zero 3.0 sph/bulk").replace(
+        "pair_coeff * *", "pair_coeff * * zero\npair_coeff * * sph/bulk")
+    text = header(2) + "read_data box.data\n" + pair + INTEGRATE + f"timestep {STEP}\n"
+    assert_displaced(one_step(lammps, text), *shifting(particles, SUPPORT[2], "wendland/c2", SPEED))
+
+
+def test_zero_is_no_shifting(lammps):
+    disordered(2, 13).write(lammps.path("box.data"))
+    frames = []
+    for keywords in ("", " shift 0"):
+        lammps(header(2) + "read_data box.data\n" + fluid(2) + f"fix FLUID all sph/bulk{keywords}\ntimestep 0.005\n"
+               + DUMP + "run 20\n")
+        frames.append(lammps.frame("out.dump"))
+    for name in ("x", "v"):
+        assert (frames[0][name] == frames[1][name]).all()
+
+
+# ---------------------------------------------------------------------------------------------
+# runs
+
+@pytest.mark.parametrize("dim, cells, style, newton", [(2, 16, BULK, "on"), (2, 16, MICRO, "off"), (3, 7, BULK, "off")])
+def test_momentum(lammps, dim, cells, style, newton):
+    """The velocities are not touched: linear momentum stays to rounding errors."""
+    particles = disordered(dim, cells)
+    model = walls.one_fluid(dim, style)
+    walls.save(lammps, particles, model, spins(particles) if style == MICRO else None)
+    lammps(header(dim, newton=newton, style=style) + "read_data box.data\n" + walls.pair_commands(model)
+           + f"fix FLUID all {style} shift 1.0\ntimestep 0.005\n" + DUMP.replace("custom 1", "custom 300") + "run 300\n")
+    first, last = lammps.frames("out.dump")
+    momentum = [particles.mass[:, None] * frame["v"] for frame in (first, last)]
+    drift = np.abs(momentum[1].sum(axis=0) - momentum[0].sum(axis=0)).max() / np.linalg.norm(momentum[0], axis=1).sum()
+    travelled = np.linalg.norm(last["x"] - first["x"], axis=1).mean()
+    print(f"drift of momentum {drift:.1e}, way of a particle {travelled:.2f}")
+    assert drift < 1e-14
+    assert travelled > 0.05
+
+
+def trajectory(lammps, dim, style, ranks=1, newton="on", commands="run 100\n"):
+    (particles, owner), vessel = walls.vessel(dim)
+    model = walls.one_fluid(dim, style)
+    walls.save(lammps, particles, model, 0.3 * spins(particles) if style == MICRO else None)
+    text = walls.start(model, owner, vessel, newton, step=0.005).replace(f"fluid {style}\n", f"fluid {style} shift 0.5\n")
+    lammps(text + walls.BODY + walls.dump("out.dump", owner, 100, style) + commands, ranks=ranks)
+    return lammps.frame("out.dump")
+
+
+@pytest.fixture(scope="module")
+def serial(shared_lammps):
+    known = {}
+
+    def get(dim, style):
+        if (dim, style) not in known:
+            known[dim, style] = trajectory(shared_lammps, dim, style)
+        return known[dim, style]
+
+    return get
+
+
+@pytest.mark.parametrize("dim, style, ranks, newton", [
+    (2, BULK, 1, "off"), (2, BULK, 2, "on"), (2, BULK, 2, "off"), (2, BULK, 4, "on"), (2, BULK, 4, "off"),
+    (2, MICRO, 2, "on"), (3, BULK, 4, "off")])
+def test_same_trajectory(lammps, serial, dim, style, ranks, newton):
+    """In a vessel with walls."""
+    walls.assert_same(serial(dim, style), trajectory(lammps, dim, style, ranks, newton), style)
+
+
+def test_run_pre_no_continues_exactly(lammps, serial):
+    walls.assert_same(serial(2, BULK), trajectory(lammps, 2, BULK, commands="run 50\nrun 50 pre no\n"), BULK)
+
+
+# ---------------------------------------------------------------------------------------------
+# what it is for
+
+STILL = "pair_coeff * * 1.0 1.0e-6 0.5 2.0"  # a fluid almost without pressure: nothing but shifting moves it
+
+
+@pytest.mark.parametrize("dim, cells", [(2, 12), (3, 7)])
+def test_lattice_stays(lammps, dim, cells):
+    lattice(dim, cells).write(lammps.path("box.data"))
+    lammps(header(dim) + "read_data box.data\n" + fluid(dim) + "fix FLUID all sph/bulk shift 1.0\ntimestep 0.005\n"
+           + DUMP.replace("custom 1", "custom 200") + "run 200\n")
+    first, last = lammps.frames("out.dump")
+    assert np.abs(last["x"] - first["x"]).max() < 1e-11
+
+
+@pytest.mark.parametrize("dim, cells", [(2, 20), (3, 8)])
+def test_disordered_particles_become_even(lammps, dim, cells):
+    """Number density and nearest neighbors; without the keyword nothing happens."""
+    particles = disordered(dim, cells, jitter=0.3, speed=0.0)
+    particles.write(lammps.path("box.data"))
+    support = 4.0 if dim == 2 else 2.5
+    spread = {}
+    for keywords in ("", " shift 1.0"):
+        lammps(header(dim) + "read_data box.data\n" + fluid(dim, coeff=f"{STILL} {support}\n")
+               + f"fix FLUID all sph/bulk{keywords}\ntimestep 0.01\ncompute N all property/atom numden\n"
+               + DUMP.replace("custom 1", "custom 300").replace("id xu", "id c_N xu") + "run 300\n")
+        for frame in lammps.frames("out.dump"):
+            r = frame["x"][:, None] - frame["x"]
+            length = particles.hi - particles.lo
+            r -= length * np.round(r / length)
+            dist = np.linalg.norm(r, axis=2) + 100.0 * np.eye(len(r))
+            nearest = dist.min(axis=1)
+            spread[keywords, frame.step] = np.array([frame["c_N"].std(), nearest.std() / nearest.mean(), nearest.min()])
+    for key, values in spread.items():
+        print(key, "spread of c %.4f, of the distance to the nearest %.4f, shortest distance %.3f" % tuple(values))
+    before, after = spread[" shift 1.0", 0], spread[" shift 1.0", 300]
+    np.testing.assert_allclose(spread["", 300], before, rtol=1e-6)
+    assert (after[:2] < 0.5 * before[:2]).all()
+    assert after[2] > 1.5 * before[2]
+
+
+VORTICES = """
+units lj
+dimension 2
+boundary p p p
+atom_style sph/bulk
+variable n index {n}
+variable dx equal 1.0/v_n
+variable rc equal 4.0*v_dx
+region box block 0 1 0 1 $(-0.5*v_dx) $(0.5*v_dx) units box
+create_box 1 box
+lattice sq $(1/v_dx^2) origin 0.5 0.5 0
+create_atoms 1 region box
+set group all mass $(v_dx^2)
+displace_atoms all random $(0.2*v_dx) $(0.2*v_dx) 0 1 units box
+pair_style sph/bulk
+pair_coeff * * 1.0 10.0 0.001 0.001 ${{rc}}
+neighbor $(0.3*v_rc) bin
+fix FLUID all sph/bulk {keywords}
+timestep $(0.1*v_rc/10.0)
+fix calm all viscous $(5*v_dx^2)
+run {calm}
+unfix calm
+variable u atom -cos(2*PI*x)*sin(2*PI*y)
+variable w atom sin(2*PI*x)*cos(2*PI*y)
+velocity all set v_u v_w 0
+reset_timestep 0 time 0
+compute K all ke
+thermo_style custom step time c_K
+thermo_modify norm no
+thermo $(floor({time}/dt/8))
+run $(floor({time}/dt/8)*8)
+"""
+
+
+def decay(lammps, n, time, keywords):
+    """Rate at which the kinetic energy of Taylor-Green vortices decays, over the exact one; Reynolds number 1000."""
+    table = lammps(VORTICES.format(n=n, time=time, keywords=keywords, calm=6 * n)).thermo()[-1]
+    rate = -np.log(table["c_K"][-1] / table["c_K"][0]) / (table["Time"][-1] - table["Time"][0])
+    return rate / (16.0 * np.pi ** 2 * 0.001)
+
+
+def test_taylor_green_vortices(lammps):
+    """Without shifting, particles in grains resist the flow by more than its viscosity does."""
+    without, shifted = decay(lammps, 40, 1.5, ""), decay(lammps, 40, 1.5, "shift 1.0")
+    print(f"decay rate over the exact one: {without:.3f} without, {shifted:.3f} with shifting")
+    assert abs(shifted - 1.0) < 0.5 * abs(without - 1.0)
+
+
+# ---------------------------------------------------------------------------------------------
+# bad input
+
+BAD = [
+    ("shift -1", ["shift", ">= 0", "-1"]),
+    ("shift -1e-9", ["shift", ">= 0"]),
+    ("shift", ["[Mm]issing", "shift"]),
+    ("shift fast", ["fast"]),
+    ("shift 1,0", ["1,0"]),
+    ("shift nan", ["nan"]),
+    ("shift inf", ["inf"]),
+    ("shift 1e999", ["1e999"]),
+    ("shift v_U", ["v_U"]),
+    ("shift yes", ["yes"]),
+    ("shift 1 2", ["keyword: 2"]),
+    ("shifting 1", ["keyword: shifting"]),
+    ("speed 1", ["keyword: speed"]),
+    ("1.0", ["keyword: 1.0"]),
+    ("shift shift 1", ["shift"]),
+]
+
+
+@pytest.mark.parametrize("style, keywords, expected_words",
+                         [(BULK, *bad) for bad in BAD] + [(MICRO, *bad) for bad in (BAD[0], BAD[2], BAD[3], BAD[11])])
+def test_refused(lammps, style, keywords, expected_words):
+    particles = disordered(2, 8)
+    model = walls.one_fluid(2, style)
+    walls.save(lammps, particles, model, spins(particles) if style == MICRO else None)
+    walls.refused(lammps, header(2, style=style) + "read_data box.data\n" + walls.pair_commands(model)
+                  + f"fix FLUID all {style} {keywords}\nrun 1\n", expected_words, 1)
+
+
+def test_refused_on_two_ranks(lammps):
+    disordered(2, 8).write(lammps.path("box.data"))
+    walls.refused(lammps, header(2) + "read_data box.data\n" + fluid(2) + "fix FLUID all sph/bulk shift -1\nrun 1\n",
+                  ["Fix sph/bulk shift must be >= 0, not -1"], 2)
+
+
+def test_needs_the_pair_style(lammps):
+    disordered(2, 8).write(lammps.path("box.data"))
+    walls.refused(lammps, header(2) + "read_data box.data\npair_style zero 3.0\npair_coeff * *\n"
+                  "fix FLUID all sph/bulk shift 1\nrun 1\n", ["shift requires pair style sph/bulk"], 1)
