@@ -35,7 +35,7 @@ LEVER = 2 / 3 * (7 / np.pi) * 20 / 280
 LIMITS = {
     100: {"re100": (0.015, 0.03, 0.05), "re400": (0.015, 0.03, 0.05), "re1000": (0.03, 0.03, 0.05),
           "k3": (0.015, 0.03, 0.05), "k3b": (0.015, 0.03, 0.05)},
-    50: {"re100": (0.01, 0.06, 0.08), "k3": (0.01, 0.06, 0.08)},
+    50: {"re100": (0.01, 0.04, 0.05), "k3": (0.01, 0.04, 0.05)},
 }
 
 
@@ -101,8 +101,14 @@ class Run:
         psi = np.vstack([np.zeros(m), np.cumsum(self.u, axis=0) / m])
         self.edge = np.arange(m + 1) / m
         self.psi = psi - np.outer(self.edge, psi[-1])       # closed at the lid
+        # center of the vortex: a parabola through what is near the smallest value
         j, i = np.unravel_index(self.psi.argmin(), self.psi.shape)
-        self.vortex = self.psi[j, i], self.cell[i], self.edge[j]
+        x, y = np.meshgrid(self.cell - self.cell[i], self.edge - self.edge[j])
+        near = np.hypot(x, y) < 0.1
+        x, y = x[near], y[near]
+        c = np.linalg.lstsq(np.column_stack([np.ones_like(x), x, y, x * x, x * y, y * y]), self.psi[near], rcond=None)[0]
+        dx, dy = np.linalg.solve([[2 * c[3], c[4]], [c[4], 2 * c[5]]], -c[1:3])
+        self.vortex = c[0] + 0.5 * (c[1] * dx + c[2] * dy), self.cell[i] + dx, self.edge[j] + dy
 
         near = [np.abs(self.cell - x) < 0.035 for x in reference.INNER]
         self.pull = LEVER * SUPPORT / size * (pressure[-1, near[1]].mean() - pressure[-1, near[0]].mean())
@@ -120,6 +126,10 @@ class Run:
             return interpolated(tree, particles[column], np.column_stack([half, s] if upright else [s, half]), 2 / size)
 
         self.profile_u, self.profile_v, self.profile_spin = along(2, self.s, True), along(3, self.s, False), along(4, self.s, True)
+        self.spin_error = None
+        if base == "k3" and abs(variables["end"] - 0.5 * variables["mean"] - 10) < 0.1:
+            exact = np.interp(self.s, references.profiles["s"], references.profiles["spin_k3_10"])
+            self.spin_error = np.sqrt(((self.profile_spin - exact) ** 2).sum() / (exact**2).sum())
         re = self.case[2:] if self.case != "re160" and self.case != "k3" else "100"
         (y, u), (x, v) = reference.ghia(re)
         y, u, x, v = (a[1:-1] for a in (y, u, x, v))
@@ -168,27 +178,40 @@ def plot_energy(path, runs, references):
 
 def plot_profiles(path, runs, references):
     plt = style()
-    names = [[base for base in runs if base.startswith("re")], [base for base in runs if base in ("re400", "k3", "k3b")]]
-    names = [group for group in names if group]
-    figure, axes = plt.subplots(len(names), 2, figsize=(9.5, 3.7 * len(names)), squeeze=False, layout="constrained")
-    for (left, right), group in zip(axes, names):
+    newtonian = [base for base in runs if base.startswith("re")]
+    spinning = [base for base in runs if base in ("re400", "k3", "k3b")] if {"k3", "k3b"} & set(runs) else []
+    rows = [["u", "u", "u", "v", "v", "v"]] if newtonian else []
+    if spinning:
+        rows.append(["u3", "u3", "v3", "v3", "w", "w"] if "k3" in runs else ["u3", "u3", "u3", "v3", "v3", "v3"])
+    figure, axes = plt.subplot_mosaic(rows, figsize=(10, 3.7 * len(rows)), layout="constrained")
+    for suffix, group in (("", newtonian), ("3", spinning)):
+        if not group:
+            continue
+        left, right = axes[f"u{suffix}"], axes[f"v{suffix}"]
         for base in group:
             run = runs[base]
             left.plot(run.profile_u, run.s, color=COLORS[base], label=run.label)
             right.plot(run.s, run.profile_v, color=COLORS[base])
             left.plot(references.profile("u", run.case, run.s), run.s, "k--", lw=0.8)
             right.plot(run.s, references.profile("v", run.case, run.s), "k--", lw=0.8)
-            if run.to_ghia is not None:
+            if run.to_ghia is not None and not suffix:
                 (y, u), (x, v) = reference.ghia(run.case[2:])
                 left.plot(u, y, "o", color=COLORS[base], ms=4, mfc="none")
                 right.plot(x, v, "o", color=COLORS[base], ms=4, mfc="none")
         left.plot([], [], "k--", lw=0.8, label="finite differences")
-        left.plot([], [], "ko", ms=4, mfc="none", label="Ghia et al. (1982)")
+        if not suffix:
+            left.plot([], [], "ko", ms=4, mfc="none", label="Ghia et al. (1982)")
         left.set(xlabel="$u/U$ at $x = L/2$", ylabel="$y/L$", ylim=(0, 1))
         right.set(xlabel="$x/L$", ylabel="$v/U$ at $y = L/2$", xlim=(0, 1))
         left.legend(loc="lower right")
-        left.grid(True)
-        right.grid(True)
+    if "w" in axes:
+        axes["w"].plot(runs["k3"].profile_spin, runs["k3"].s, color=COLORS["k3"])
+        axes["w"].plot(references.profiles["spin_k3_10"], references.profiles["s"], "k--", lw=0.8, label="finite differences, $t = 10$")
+        axes["w"].plot(references.profiles["spin_k3"], references.profiles["s"], "k:", lw=0.8, label="steady")
+        axes["w"].legend(loc="lower left")
+        axes["w"].set(xlabel="spin$\\,L/U$ at $x = L/2$", ylim=(0, 1), title=runs["k3"].label)
+    for axis in axes.values():
+        axis.grid(True)
     figure.savefig(path, dpi=95)
     plt.close(figure)
 
@@ -197,11 +220,11 @@ def plot_streamlines(path, runs, references):
     plt = style()
     chosen = [base for base in ("re400", "k3", "re1000") if base in runs] or list(runs)
     figure, axes = plt.subplots(1, len(chosen), figsize=(3.7 * len(chosen), 3.9), squeeze=False, layout="constrained")
-    levels = [-0.115, -0.11, -0.1, -0.085, -0.07, -0.05, -0.03, -0.015, -0.005, 0.0002, 0.0006, 0.0012]
+    levels = [-0.115, -0.11, -0.1, -0.085, -0.07, -0.05, -0.03, -0.015, -0.005, 0.0004, 0.0008, 0.0014]
     grid = np.unique(references.psi["x"])
     for axis, base in zip(axes[0], chosen):
         run = runs[base]
-        axis.contour(run.cell, run.edge, run.psi, levels, colors=COLORS[base], linestyles="-", linewidths=1.2)
+        axis.contour(run.cell[1:-1], run.edge, run.psi[:, 1:-1], levels, colors=COLORS[base], linestyles="-", linewidths=1.2)
         axis.contour(grid, grid, references.psi[run.case].reshape(len(grid), -1), levels, colors="k", linestyles="--", linewidths=0.7)
         axis.set(xlim=(0, 1), ylim=(0, 1), aspect="equal", xlabel="$x/L$", title=run.label)
     axes[0, 0].set_ylabel("$y/L$")
@@ -211,7 +234,7 @@ def plot_streamlines(path, runs, references):
 
 def plot_particles(path, runs, disorder):
     plt = style()
-    panels = [(runs[base].label, runs[base].particles) for base in ("re100", "re1000", "k3") if base in runs][:2]
+    panels = [(runs[base].label, runs[base].particles) for base in sorted(runs, key=["re1000", "k3", "re400", "re100", "k3b"].index)][:2]
     if disorder:
         panels.append(("Re = 1000, $N = 50$, without shifting", np.loadtxt(disorder, skiprows=9)))
     figure, axes = plt.subplots(1, len(panels), figsize=(4.3 * len(panels), 4.1), squeeze=False, layout="constrained")
@@ -267,6 +290,8 @@ def main():
                 print(f"rms deviation from finite differences {run.to_reference:.4f}"
                       + (f", from Ghia et al. {run.to_ghia:.4f}" if run.to_ghia is not None else "")
                       + f"; kinetic energy {100 * (run.kinetic / run.expected - 1):+.2f} %, force {100 * run.lid_error:+.2f} %")
+            if run.spin_error is not None:
+                example.merit("spin along x = L/2 at t = 10, relative L2 error", run.spin_error, 0, 0.05)
             example.merit("momentum balance over the force on the lid", run.balance, 0, 1e-9)
             writer.writerow([base, size, "" if run.to_ghia is None else f"{run.to_ghia:.5f}", f"{run.to_reference:.5f}", f"{run.kinetic:.6f}",
                              f"{run.spread:.6f}", f"{run.expected:.6f}", f"{run.steady:.6f}", f"{run.lid:.6f}", f"{numbers['lid_0.1_0.9']:.6f}",
