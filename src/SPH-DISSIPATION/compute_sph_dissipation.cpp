@@ -51,8 +51,7 @@ ComputeSPHDissipation::~ComputeSPHDissipation()
 
 void ComputeSPHDissipation::init()
 {
-  pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/bulk", 1));
-  if (!pair) pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/micropolar", 1));
+  pair = PairSPHBulk::find(force);
   if (!pair) error->all(FLERR, "Compute {} requires pair style sph/bulk or sph/micropolar", style);
 }
 

@@ -143,18 +143,17 @@ int FixSPHWall::setmask()
 
 void FixSPHWall::init()
 {
-  pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/bulk", 1));
-  if (!pair) pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/micropolar", 1));
+  pair = PairSPHBulk::find(force);
   if (!pair) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
   if (domain->deform_vremap)
     error->all(FLERR, "Fix {} cannot be used when fix deform remaps velocities", style);
 
   for (auto value : {&velocity[0], &velocity[1], &velocity[2], &spin_rate}) {
     if (!value->name) continue;
-    const int variable = input->variable->find(value->name);
-    if (variable < 0)
+    value->variable = input->variable->find(value->name);
+    if (value->variable < 0)
       error->all(FLERR, "Variable {} for fix {} does not exist", value->name, style);
-    if (!input->variable->equalstyle(variable))
+    if (!input->variable->equalstyle(value->variable))
       error->all(FLERR, "Variable {} for fix {} is not an equal-style variable", value->name,
                  style);
   }
@@ -404,7 +403,7 @@ void FixSPHWall::value_argument(Value &value, const char *word)
 void FixSPHWall::evaluate(Value &value)
 {
   value.before = value.now;
-  if (value.name) value.now = input->variable->compute_equal(input->variable->find(value.name));
+  if (value.name) value.now = input->variable->compute_equal(value.variable);
 }
 
 /* ---------------------------------------------------------------------- */

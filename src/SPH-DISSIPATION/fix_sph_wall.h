@@ -55,6 +55,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
   struct Value {
     char *name = nullptr;    // of the variable
+    int variable = -1;       // its index
     double now = 0.0, before = 0.0;
   };
   enum Spin { ZERO, RATE, FREE };

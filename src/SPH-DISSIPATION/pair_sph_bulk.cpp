@@ -226,6 +226,15 @@ void PairSPHBulk::particle_state()
 
 /* ---------------------------------------------------------------------- */
 
+PairSPHBulk *PairSPHBulk::find(Force *force)
+{
+  auto *pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/bulk", 1));
+  if (!pair) pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/micropolar", 1));
+  return pair;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void PairSPHBulk::add_boundary(Boundary *boundary)
 {
   boundaries.push_back(boundary);

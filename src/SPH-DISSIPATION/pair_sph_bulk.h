@@ -57,6 +57,10 @@ class PairSPHBulk : public Pair {
   void unpack_reverse_comm(int, int *, double *) override;
   double memory_usage() override;
 
+  // the fluid's pair style, of whatever name, alone or in hybrid/overlay; nullptr if there is none
+
+  static PairSPHBulk *find(class Force *);
+
   // heat of the dissipative forces of the last step, per owned and ghost atom as this rank summed
   // it (with newton on, the sums of the ghosts belong to their owners), and its sum on this rank
   // by channel; energy per time; heat may be nullptr

@@ -149,11 +149,14 @@ void Engine::accumulate_gradient(NeighList *list, int bits)
         u[d] = a.u[d] - b.u[d];
       }
       auto add = [&](GradientSum &sum, double vol) {
-        for (int d = 0; d < 3; d++)
+        const double weight = vol * data.slope[entry];
+        for (int d = 0; d < 3; d++) {
+          const double weight_r = weight * r[d];
           for (int e = 0; e < 3; e++) {
-            sum.rr[d][e] += vol * data.slope[entry] * r[d] * r[e];
-            sum.ru[d][e] += vol * data.slope[entry] * r[d] * u[e];
+            sum.rr[d][e] += weight_r * r[e];
+            sum.ru[d][e] += weight_r * u[e];
           }
+        }
       };
       if (place[i] == EDGE) add(gradient[i], b.vol);
       if (place[j] == EDGE) add(gradient[j], a.vol);
