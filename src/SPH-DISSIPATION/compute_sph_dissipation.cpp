@@ -19,9 +19,11 @@
 #include "force.h"
 #include "memory.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_forces.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
+using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
@@ -32,7 +34,7 @@ ComputeSPHDissipation::ComputeSPHDissipation(LAMMPS *lmp, int narg, char **arg) 
   if (igroup != 0) error->all(FLERR, "Compute {} must use group all", style);
 
   scalar_flag = vector_flag = peratom_flag = 1;
-  size_vector = PairSPHBulk::NCHANNEL;
+  size_vector = NCHANNEL;
   size_peratom_cols = 0;
   extscalar = extvector = 1;
   comm_reverse = 1;
@@ -71,9 +73,9 @@ double ComputeSPHDissipation::compute_scalar()
 void ComputeSPHDissipation::compute_vector()
 {
   invoked_vector = update->ntimestep;
-  double power[PairSPHBulk::NCHANNEL];
+  double power[NCHANNEL];
   pair->heating(nullptr, power);
-  MPI_Allreduce(power, vector, PairSPHBulk::NCHANNEL, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(power, vector, NCHANNEL, MPI_DOUBLE, MPI_SUM, world);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -88,7 +90,7 @@ void ComputeSPHDissipation::compute_peratom()
     vector_atom = heat;
   }
 
-  double power[PairSPHBulk::NCHANNEL];
+  double power[NCHANNEL];
   pair->heating(heat, power);
   if (force->newton_pair) comm->reverse_comm(this);
 }

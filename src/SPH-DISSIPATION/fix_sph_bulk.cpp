@@ -32,7 +32,7 @@ using namespace FixConst;
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), shift_speed(0.0), pair(nullptr), remap_v_flag(0),
-    integrated_groups(0), first_instance(false)
+    integrated_groups(0), first_instance(false), last_instance(false)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -73,9 +73,10 @@ void FixSPHBulk::init()
   integrated_groups = 0;
   for (const auto &ifix : integrators) integrated_groups |= ifix->groupbit;
   first_instance = (integrators.front() == this);
+  last_instance = (integrators.back() == this);
 
+  pair = dynamic_cast<PairSPHBulk *>(force->pair_match(style, 1));
   if (shift_speed > 0.0) {
-    pair = dynamic_cast<PairSPHBulk *>(force->pair_match(style, 1));
     if (!pair) error->all(FLERR, "Fix {} shift requires pair style {}", style, style);
     pair->request_crowding();
   }
@@ -110,6 +111,13 @@ void FixSPHBulk::reset_extrapolation(int i)
 void FixSPHBulk::setup_pre_force(int vflag)
 {
   pre_force(vflag);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::setup(int /*vflag*/)
+{
+  if (pair && last_instance) pair->announce();
 }
 
 /* ----------------------------------------------------------------------

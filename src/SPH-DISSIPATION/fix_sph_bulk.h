@@ -34,6 +34,7 @@ class FixSPHBulk : public Fix {
   void init() override;
   void setup_pre_exchange() override;
   void setup_pre_force(int) override;
+  void setup(int) override;
   void initial_integrate(int) override;
   void post_integrate() override;
   void pre_force(int) override;
@@ -54,10 +55,11 @@ class FixSPHBulk : public Fix {
   void shift_particles();
 
   double shift_speed;         // scale and twice the limit of the velocity of particle shifting
-  class PairSPHBulk *pair;    // of the same name; only if particles are shifted
+  class PairSPHBulk *pair;    // of the same name, if there is one
   int remap_v_flag;           // fix deform remaps velocities at periodic boundaries
   int integrated_groups;      // bits of all groups with an integrator of this kind
   bool first_instance;        // acts for the particles outside all these groups
+  bool last_instance;         // acts when all are set up
 };
 
 }    // namespace LAMMPS_NS

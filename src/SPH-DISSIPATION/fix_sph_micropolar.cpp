@@ -63,7 +63,7 @@ void FixSPHMicropolar::init()
    the first force computation has given the volumes that the inertia is set from
 ------------------------------------------------------------------------- */
 
-void FixSPHMicropolar::setup(int /*vflag*/)
+void FixSPHMicropolar::setup(int vflag)
 {
   int *mask = atom->mask;
   if (inertia_flag && !inertia_done) {
@@ -72,6 +72,7 @@ void FixSPHMicropolar::setup(int /*vflag*/)
       if (mask[i] & groupbit) avec->inertia[i] = factor * pow(atom->vfrac[i], power) + offset;
   }
   inertia_done = 1;
+  FixSPHBulk::setup(vflag);
 
   auto *pair = dynamic_cast<PairSPHMicropolar *>(force->pair_match(style, 1));
   if (!pair || !pair->has_torques()) return;
@@ -84,16 +85,6 @@ void FixSPHMicropolar::setup(int /*vflag*/)
                "Fix {}: inertia must be > 0, which that of particle {} is not; use the inertia "
                "keyword or a data file",
                style, id_all);
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FixSPHMicropolar::planned_inertia(int i, double rho0) const
-{
-  // the pair style asks before init()
-  if (!inertia_flag || inertia_done)
-    return dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(style))->inertia[i];
-  return factor * pow(atom->rmass[i] / rho0, 2.0 / domain->dimension) + offset;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -37,9 +37,6 @@ class FixSPHMicropolar : public FixSPHBulk {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  // inertia per mass that an owned particle will have once setup() has set it
-  double planned_inertia(int, double) const;
-
  protected:
   void reset_extrapolation(int) override;
 

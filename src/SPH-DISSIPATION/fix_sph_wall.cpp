@@ -128,6 +128,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
 
 FixSPHWall::~FixSPHWall()
 {
+  if (auto *fluid = PairSPHBulk::find(force)) fluid->remove_boundary(this);
   for (auto value : {&velocity[0], &velocity[1], &velocity[2], &spin_rate}) delete[] value->name;
   memory->destroy(array_atom);
 }
@@ -272,7 +273,7 @@ void FixSPHWall::set_velocity()
    what the particles of the wall bring into the pair forces
 ------------------------------------------------------------------------- */
 
-void FixSPHWall::set_boundary(Engine &engine)
+void FixSPHWall::set_boundary(Engine &engine, const BoundarySum *sums)
 {
   const double dtinv = 1.0 / update->dt;
   double w[3], wdot[3], a0[3];
@@ -284,7 +285,7 @@ void FixSPHWall::set_boundary(Engine &engine)
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const BoundarySum &sum = engine.boundary_sum[i];
+    const BoundarySum &sum = sums[i];
     Particle &particle = engine.particle[i];
     if (engine.spin) std::copy(w, w + 3, engine.spin[i].w);
     if (!(sum.weight > 0.0)) continue;
@@ -322,15 +323,15 @@ void FixSPHWall::set_boundary(Engine &engine)
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHWall::set_boundary_spin(Engine &engine)
+void FixSPHWall::set_boundary_spin(Engine &engine, const BoundarySum *sums, double **vorticity)
 {
   double w[3];
   angular_velocity(w);
   for (int i = 0; i < atom->nlocal; i++) {
-    const BoundarySum &sum = engine.boundary_sum[i];
+    const BoundarySum &sum = sums[i];
     if (!(atom->mask[i] & groupbit) || !(sum.weight > 0.0)) continue;
     for (int d = 0; d < 3; d++) {
-      const double surface = w[d] + rate * (0.5 * engine.vorticity[i][d] / sum.weight - w[d]);
+      const double surface = w[d] + rate * (0.5 * vorticity[i][d] / sum.weight - w[d]);
       engine.spin[i].w[d] = 2.0 * surface - sum.w[d] / sum.weight;
     }
   }

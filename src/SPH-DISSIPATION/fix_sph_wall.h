@@ -47,8 +47,9 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
   int boundary_bit() const override { return groupbit; }
   bool boundary_vorticity() const override;
-  void set_boundary(SPHDissipation::Engine &) override;
-  void set_boundary_spin(SPHDissipation::Engine &) override;
+  void set_boundary(SPHDissipation::Engine &, const SPHDissipation::BoundarySum *) override;
+  void set_boundary_spin(SPHDissipation::Engine &, const SPHDissipation::BoundarySum *,
+                         double **) override;
 
  private:
   // number, or equal-style variable, and its value at the ends of the last step

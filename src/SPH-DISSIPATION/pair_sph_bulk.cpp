@@ -20,13 +20,19 @@
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
-#include "sph_dissipation_boundary.h"
+#include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_crowding.h"
+#include "sph_dissipation_density.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
+#include "sph_dissipation_exchange.h"
+#include "sph_dissipation_forces.h"
 #include "sph_dissipation_kernel.h"
+#include "sph_dissipation_limit.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_pressure.h"
 #include "update.h"
 
 #include <algorithm>
@@ -35,11 +41,6 @@
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-// most values per atom that any stage of the communication has
-
-static constexpr int MAXFORWARD = 10;
-static constexpr int MAXREVERSE = 18;
 
 // adds the virial of each pair to the accumulators of the pair style
 
@@ -71,16 +72,21 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
                          const std::vector<std::string> &viscosities) :
     Pair(lmp),
     fluid_style(name), model(new FluidModel(lmp, name, viscosities)), dim(0), support(0.0),
-    announced(false), warned_step(false), engine(new Engine(lmp)), boundary_bits(0),
-    crowding_requested(false), stage(Stage::DENSITY)
+    announced(false), warned_step(false), engine(new Engine(lmp)), crowding_requested(false)
 {
+  exchange = new Exchange(lmp, this, BoundaryStage::FORWARD, BoundaryStage::REVERSE);
+  density = new DensityStage(lmp, *engine, *exchange);
+  limit = new LimitStage(lmp, *engine, *exchange);
+  pressure = new PressureStage(lmp, *engine, *exchange, *model);
+  boundary = new BoundaryStage(lmp, *engine, *exchange, *model, fluid_style);
+  crowd = new CrowdingStage(lmp, *engine, *exchange);
+  forces = new ForceStage(lmp, *engine, *exchange);
+
   restartinfo = 1;
   writedata = 1;
   manybody_flag = 1;
   single_enable = 0;
   respa_enable = 0;
-  comm_forward = MAXFORWARD;
-  comm_reverse = MAXREVERSE;
   nextra = 1;
   pvector = new double[nextra];
   pvector[0] = 0.0;
@@ -95,8 +101,15 @@ PairSPHBulk::~PairSPHBulk()
     memory->destroy(cutsq);
   }
   delete[] pvector;
-  delete model;
+  delete density;
+  delete limit;
+  delete pressure;
+  delete boundary;
+  delete crowd;
+  delete forces;
+  delete exchange;
   delete engine;
+  delete model;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -104,130 +117,38 @@ PairSPHBulk::~PairSPHBulk()
 void PairSPHBulk::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-
-  const int nlocal = atom->nlocal;
-  const int newton_pair = force->newton_pair;
-
   if (neighbor->ago == 0) check_masses(lmp, fluid_style);
 
-  engine->accumulate_density(list, extrapolated_spin());
-  reverse_stage(Stage::DENSITY);
-  forward_stage(Stage::DENSITY);
+  const Settings &choice = model->choice;
+  const bool limited = (choice.limit != Limit::NO);
+  StressTally stress(this, atom->nlocal, force->newton_pair);
 
-  particle_volume();
-  if (model->choice.limit != Limit::NO) {
-    engine->accumulate_bound(list);
-    reverse_stage(Stage::BOUND);
-    forward_stage(Stage::BOUND);
-  }
-  particle_state();
-  if (!boundaries.empty()) extrapolate_to_boundary();
-  if (crowding_requested) {
-    engine->accumulate_crowding(list);
-    reverse_stage(Stage::CROWDING);
-  }
+  density->run(list, extrapolated_spin(), choice.eos == Eos::IDEAL);
+  if (limited) limit->run(list);
+  if (!boundary->empty()) boundary->set_reference_volume();
+  const bigint nbeyond = pressure->run(limited ? limit->bound : nullptr, boundary->bits());
+  if (!boundary->empty()) boundary->run(list);
+  if (crowding_requested) crowd->run(list);
+  forces->run(list, vflag_either ? &stress : nullptr);
 
-  StressTally stress(this, nlocal, newton_pair);
-  engine->accumulate_forces(list, vflag_either ? &stress : nullptr);
-
-  double **f = atom->f;
-  double *desph = atom->desph;
-  const ForceSum *const total = engine->force;
-  const int nforce = newton_pair ? nlocal + atom->nghost : nlocal;
-  for (int i = 0; i < nforce; i++) {
-    for (int d = 0; d < 3; d++) f[i][d] += total[i].f[d];
-    desph[i] += total[i].heat + bulk_heat(i);
-  }
-  add_torques(nforce);
-
+  pvector[0] = static_cast<double>(nbeyond);
+  if (eflag_either) tally_energy();
   if (vflag_fdotr) virial_fdotr_compute();
 }
 
-/* ----------------------------------------------------------------------
-   volume and density of owned and ghost particles from c and cdot; a boundary
-   particle has its reference volume, for most of its neighbors are not there
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void PairSPHBulk::particle_volume()
+void PairSPHBulk::tally_energy()
 {
-  const double *const rmass = atom->rmass;
-  double *const rho = atom->rho;
-  double *const drho = atom->drho;
-  double *const vfrac = atom->vfrac;
-  const int nall = atom->nlocal + atom->nghost;
-
-  for (int i = 0; i < nall; i++) {
-    const DensitySum &density = engine->density[i];
-    rho[i] = rmass[i] * density.c;
-    drho[i] = rmass[i] * density.cdot;
-    vfrac[i] = engine->particle[i].vol = 1.0 / density.c;
-  }
-
-  if (!boundary_bits) return;
-  for (int i = 0; i < nall; i++) {
-    if (!is_boundary(i)) continue;
-    rho[i] = model->coeffs[atom->type[i]].eos.rho0;
-    drho[i] = 0.0;
-    vfrac[i] = engine->particle[i].vol = rmass[i] / rho[i];
-  }
-}
-
-/* ----------------------------------------------------------------------
-   pressure and bulk term of owned and ghost particles, pressure work and
-   elastic energy of owned ones
-------------------------------------------------------------------------- */
-
-void PairSPHBulk::particle_state()
-{
-  const double *const rmass = atom->rmass;
-  const double *const rho = atom->rho;
-  const double *const esph = atom->esph;
-  const int *const type = atom->type;
-  double *const desph = atom->desph;
-  const int nlocal = atom->nlocal;
-  const int nall = nlocal + atom->nghost;
-  const TypeCoeff *const coeffs = model->coeffs;
-  const Eos eos = model->choice.eos;
-  const Limit limit = model->choice.limit;
-  const bool by_density = (model->choice.bulk == Bulk::DENSITY);
-  bigint nbeyond = 0;
-
-  for (int i = 0; i < nall; i++) {
-    if (is_boundary(i)) {
-      engine->zeta_term[i] = engine->particle[i].g = 0.0;
-      continue;
-    }
-    const TypeCoeff &coeff = coeffs[type[i]];
-    const double vol = engine->particle[i].vol;
-    const double cdot = engine->density[i].cdot;
-
-    double zeta = coeff.zeta;
-    if (limit != Limit::NO && zeta * engine->bound[i] < -0.5) {
-      if (i < nlocal) nbeyond++;
-      if (limit == Limit::YES) zeta = -0.5 / engine->bound[i];
-    }
-
-    const double pressure_term = pressure(eos, coeff.eos, rho[i], esph[i] / rmass[i]) * vol * vol;
-    const double zeta_term = zeta * vol * cdot;
-    engine->zeta_term[i] = zeta_term;
-    engine->particle[i].g = by_density ? pressure_term + zeta_term * vol * vol : pressure_term;
-    if (i < nlocal) desph[i] += pressure_term * cdot;
-  }
-  pvector[0] = static_cast<double>(nbeyond);
-
-  if (!eflag_either) return;
-  for (int i = 0; i < nlocal; i++) {
-    if (is_boundary(i)) continue;
-    const double energy = rmass[i] * elastic_energy(eos, coeffs[type[i]].eos, rho[i]);
-    if (eflag_global) eng_vdwl += energy;
-    if (eflag_atom) eatom[i] += energy;
-  }
+  const double energy = pressure->elastic_energy(eflag_atom ? eatom : nullptr, boundary->bits());
+  if (eflag_global) eng_vdwl += energy;
 }
 
 /* ---------------------------------------------------------------------- */
 
 PairSPHBulk *PairSPHBulk::find(Force *force)
 {
+  if (!force) return nullptr;    // LAMMPS is being taken down, fixes go last
   auto *pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/bulk", 1));
   if (!pair) pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/micropolar", 1));
   return pair;
@@ -235,99 +156,37 @@ PairSPHBulk *PairSPHBulk::find(Force *force)
 
 /* ---------------------------------------------------------------------- */
 
-void PairSPHBulk::add_boundary(Boundary *boundary)
+void PairSPHBulk::add_boundary(Boundary *one)
 {
-  boundaries.push_back(boundary);
-  boundary_bits |= boundary->boundary_bit();
+  boundary->add(one);
 }
 
 /* ---------------------------------------------------------------------- */
 
-const double *PairSPHBulk::crowding(int i) const
+void PairSPHBulk::remove_boundary(Boundary *one)
 {
-  return engine->crowding[i];
+  boundary->remove(one);
 }
 
 /* ---------------------------------------------------------------------- */
 
 bool PairSPHBulk::is_boundary(int i) const
 {
-  return atom->mask[i] & boundary_bits;
+  return atom->mask[i] & boundary->bits();
 }
 
-/* ----------------------------------------------------------------------
-   boundary particles get the velocity, pressure and spin that act in the pair forces
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void PairSPHBulk::extrapolate_to_boundary()
+const double *PairSPHBulk::crowding(int i) const
 {
-  engine->accumulate_boundary(list, boundary_bits);
-  reverse_stage(Stage::BOUNDARY_SUM);
-  check_boundary();
-
-  bool vorticity = false;
-  for (auto boundary : boundaries) {
-    boundary->set_boundary(*engine);
-    vorticity = vorticity || boundary->boundary_vorticity();
-  }
-  forward_stage(Stage::BOUNDARY_STATE);
-  engine->update_boundary_velocity();
-  if (!vorticity || !extrapolated_spin()) return;
-
-  engine->accumulate_gradient(list, boundary_bits);
-  reverse_stage(Stage::GRADIENT);
-  engine->solve_vorticity();
-  forward_stage(Stage::VORTICITY);
-  engine->accumulate_boundary_vorticity(boundary_bits);
-  reverse_stage(Stage::VORTICITY);
-  for (auto boundary : boundaries)
-    if (boundary->boundary_vorticity()) boundary->set_boundary_spin(*engine);
-  forward_stage(Stage::BOUNDARY_SPIN);
-}
-
-/* ----------------------------------------------------------------------
-   the support of a fluid particle at a plane surface is half full of boundary particles,
-   that of one in the corner of a box 7/8; more only inside
-------------------------------------------------------------------------- */
-
-void PairSPHBulk::check_boundary() const
-{
-  constexpr double INSIDE = 0.9;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (engine->boundary_sum[i].weight > INSIDE && !is_boundary(i))
-      error->one(FLERR, "Particle {} of the fluid of pair style {} is inside a wall", atom->tag[i],
-                 fluid_style);
-}
-
-/* ----------------------------------------------------------------------
-   heat of the bulk term: zeta V^3 cdot^2 of the particle (density);
-   zeta V^2 cdot D with D summed by pairs, also on ghost atoms (volume)
-------------------------------------------------------------------------- */
-
-double PairSPHBulk::bulk_heat(int i) const
-{
-  const double vol = engine->particle[i].vol;
-  if (model->choice.bulk == Bulk::VOLUME) return engine->zeta_term[i] * vol * engine->divergence[i];
-  return (i < atom->nlocal) ? engine->zeta_term[i] * vol * vol * engine->density[i].cdot : 0.0;
+  return crowd->crowding[i];
 }
 
 /* ---------------------------------------------------------------------- */
 
 void PairSPHBulk::heating(double *heat, double *power) const
 {
-  const int nlocal = atom->nlocal;
-  const int nforce = force->newton_pair ? nlocal + atom->nghost : nlocal;
-  std::fill(power, power + NCHANNEL, 0.0);
-  for (int i = 0; i < nforce; i++) {
-    if (heat) heat[i] = 0.0;
-    if (is_boundary(i)) continue;
-    double channel[NCHANNEL] = {engine->force[i].heat, bulk_heat(i)};
-    spin_heat(i, channel);
-    for (int k = 0; k < NCHANNEL; k++) {
-      if (heat) heat[i] += channel[k];
-      power[k] += channel[k];
-    }
-  }
+  forces->heating(heat, power, boundary->bits());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -370,12 +229,9 @@ void PairSPHBulk::coeff(int narg, char **arg)
 
 void PairSPHBulk::init_style()
 {
-  boundaries.clear();
-  boundary_bits = 0;
   crowding_requested = false;
   check_setup();
   derive_coeffs();
-  announce();
   neighbor->add_request(this);
 }
 
@@ -459,10 +315,7 @@ PairSPHBulk::Columns PairSPHBulk::viscous_steps(int i, int j, double hsq, double
   return {{"shear", shear_step(model->choice.shear, hsq, model->viscosity(0, i, j) / rho)}};
 }
 
-/* ----------------------------------------------------------------------
-   table of viscosities, model coefficients and time-step limits by type pair,
-   when the coefficients are new; warning when the time step is too large
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void PairSPHBulk::announce()
 {
@@ -553,136 +406,33 @@ void PairSPHBulk::write_data_all(FILE *fp)
 }
 
 /* ----------------------------------------------------------------------
-   ghost stage 1: number density and its rate, first summed onto the owner,
-   then copied to all ghosts; the ideal gas needs the internal energy there, too
-   with a limit on zeta, once more for the bound of each particle
-   with boundaries, once more for what they get of the fluid and bring into the forces
+   what the stages send
 ------------------------------------------------------------------------- */
 
-void PairSPHBulk::forward_stage(Stage next)
+int PairSPHBulk::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
-  stage = next;
-  comm->forward_comm(this, forward_size());
+  return exchange->pack_forward(n, list, buf);
 }
-
-/* ---------------------------------------------------------------------- */
-
-void PairSPHBulk::reverse_stage(Stage next)
-{
-  stage = next;
-  if (force->newton_pair) comm->reverse_comm(this, reverse_size());
-}
-
-/* ----------------------------------------------------------------------
-   # of values per atom of a stage; none has more than MAXFORWARD, MAXREVERSE
-------------------------------------------------------------------------- */
-
-int PairSPHBulk::forward_size() const
-{
-  switch (stage) {
-    case Stage::DENSITY:
-      return (model->choice.eos == Eos::IDEAL) ? 3 : 2;
-    case Stage::BOUND:
-      return 1;
-    case Stage::BOUNDARY_STATE:
-      return (model->choice.shear == Shear::MICROPOLAR) ? 10 : 7;
-    default:
-      return 3;
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-int PairSPHBulk::reverse_size() const
-{
-  switch (stage) {
-    case Stage::DENSITY:
-      return 2;
-    case Stage::BOUND:
-      return 1;
-    case Stage::BOUNDARY_SUM:
-      return (model->choice.shear == Shear::MICROPOLAR) ? 13 : 10;
-    case Stage::GRADIENT:
-      return 18;
-    default:
-      return 3;
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-double &PairSPHBulk::comm_value(int i, int k)
-{
-  Particle &particle = engine->particle[i];
-  switch (stage) {
-    case Stage::DENSITY:
-      return (k == 0) ? engine->density[i].c : (k == 1) ? engine->density[i].cdot : atom->esph[i];
-    case Stage::BOUND:
-      return engine->bound[i];
-    case Stage::BOUNDARY_SUM:
-      return reinterpret_cast<double *>(engine->boundary_sum + i)[k];
-    case Stage::BOUNDARY_STATE:
-      if (k < 3) return particle.u[k];
-      if (k > 6) return engine->spin[i].w[k - 7];
-      if (k == 6) return engine->boundary_sum[i].weight;
-      return (k == 3) ? particle.vol : (k == 4) ? particle.g : engine->zeta_term[i];
-    case Stage::GRADIENT:
-      return reinterpret_cast<double *>(engine->gradient + i)[k];
-    case Stage::VORTICITY:
-      return engine->vorticity[i][k];
-    case Stage::CROWDING:
-      return engine->crowding[i][k];
-    default:
-      return engine->spin[i].w[k];
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-int PairSPHBulk::pack_forward_comm(int n, int *sendlist, double *buf, int /*pbc_flag*/,
-                                   int * /*pbc*/)
-{
-  const int nvalues = forward_size();
-  int m = 0;
-  for (int ii = 0; ii < n; ii++)
-    for (int k = 0; k < nvalues; k++) buf[m++] = comm_value(sendlist[ii], k);
-  return m;
-}
-
-/* ---------------------------------------------------------------------- */
 
 void PairSPHBulk::unpack_forward_comm(int n, int nfirst, double *buf)
 {
-  const int nvalues = forward_size();
-  int m = 0;
-  for (int i = nfirst; i < nfirst + n; i++)
-    for (int k = 0; k < nvalues; k++) comm_value(i, k) = buf[m++];
+  exchange->unpack_forward(n, nfirst, buf);
 }
-
-/* ---------------------------------------------------------------------- */
 
 int PairSPHBulk::pack_reverse_comm(int n, int nfirst, double *buf)
 {
-  const int nvalues = reverse_size();
-  int m = 0;
-  for (int i = nfirst; i < nfirst + n; i++)
-    for (int k = 0; k < nvalues; k++) buf[m++] = comm_value(i, k);
-  return m;
+  return exchange->pack_reverse(n, nfirst, buf);
 }
 
-/* ---------------------------------------------------------------------- */
-
-void PairSPHBulk::unpack_reverse_comm(int n, int *sendlist, double *buf)
+void PairSPHBulk::unpack_reverse_comm(int n, int *list, double *buf)
 {
-  const int nvalues = reverse_size();
-  int m = 0;
-  for (int ii = 0; ii < n; ii++)
-    for (int k = 0; k < nvalues; k++) comm_value(sendlist[ii], k) += buf[m++];
+  exchange->unpack_reverse(n, list, buf);
 }
 
 /* ---------------------------------------------------------------------- */
 
 double PairSPHBulk::memory_usage()
 {
-  return Pair::memory_usage() + engine->memory_usage();
+  return Pair::memory_usage() + engine->memory_usage() + limit->memory_usage() +
+      boundary->memory_usage() + crowd->memory_usage();
 }

@@ -28,8 +28,15 @@ PairStyle(sph/bulk,PairSPHBulk);
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Boundary;
+  class BoundaryStage;
+  class CrowdingStage;
+  class DensityStage;
   class Engine;
+  class Exchange;
   class FluidModel;
+  class ForceStage;
+  class LimitStage;
+  class PressureStage;
 }    // namespace SPHDissipation
 
 // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -61,15 +68,21 @@ class PairSPHBulk : public Pair {
 
   static PairSPHBulk *find(class Force *);
 
-  // heat of the dissipative forces of the last step, per owned and ghost atom as this rank summed
-  // it (with newton on, the sums of the ghosts belong to their owners), and its sum on this rank
-  // by channel; energy per time; heat may be nullptr
-  enum Channel { SHEAR, BULK, VORTEX, SPIN, NCHANNEL };
+  // table of viscosities, model coefficients and time-step limits by type pair, when the
+  // coefficients are new; warning when the time step is too large.  From the setup() of the
+  // integrator, in every run, with the particles and their properties as they enter the first step
+
+  virtual void announce();
+
+  // of the last force computation, see ForceStage::heating()
+
   void heating(double *heat, double *power) const;
 
-  // from the init() of a fix, in every run: its particles are a boundary, not fluid
+  // From the init() of a fix: its particles are a boundary, not fluid.  It stays one until it is
+  // removed, when the fix is deleted; the pair style may be another one then, see find().
 
   void add_boundary(SPHDissipation::Boundary *);
+  void remove_boundary(SPHDissipation::Boundary *);
   bool is_boundary(int i) const;    // owned or ghost particle
 
   // from the init() of a fix, in every run: it shifts particles to where they are less crowded.
@@ -91,25 +104,18 @@ class PairSPHBulk : public Pair {
   double support;                       // support radius rc
   bool announced;                       // the table of coefficients is up to date
   bool warned_step;                     // the warning about the time step was given
-  SPHDissipation::Engine *engine;       // the two pair loops
 
-  std::vector<SPHDissipation::Boundary *> boundaries;
-  int boundary_bits;    // of the groups of all boundaries
+  // the two pair loops, and the stages around them
+
+  SPHDissipation::Engine *engine;
+  SPHDissipation::Exchange *exchange;
+  SPHDissipation::DensityStage *density;
+  SPHDissipation::LimitStage *limit;
+  SPHDissipation::PressureStage *pressure;
+  SPHDissipation::BoundaryStage *boundary;
+  SPHDissipation::CrowdingStage *crowd;
+  SPHDissipation::ForceStage *forces;
   bool crowding_requested;
-
-  // what is communicated between the passes
-
-  enum class Stage {
-    DENSITY,
-    BOUND,
-    BOUNDARY_SUM,
-    BOUNDARY_STATE,
-    GRADIENT,
-    VORTICITY,
-    BOUNDARY_SPIN,
-    CROWDING
-  };
-  Stage stage;
 
   PairSPHBulk(class LAMMPS *, const std::string &, const std::vector<std::string> &);
 
@@ -125,22 +131,10 @@ class PairSPHBulk : public Pair {
   virtual Columns table_columns(int, int, double, double) const;
   virtual Columns viscous_steps(int, int, double, double) const;
   virtual double **extrapolated_spin() { return nullptr; }
-  virtual void add_torques(int) {}
-  virtual void spin_heat(int, double *) const {}
 
   virtual void check_setup();
   void derive_coeffs();
-  void announce();
-  void particle_volume();
-  void particle_state();
-  void check_boundary() const;
-  void extrapolate_to_boundary();
-  double bulk_heat(int) const;
-  void forward_stage(Stage);
-  void reverse_stage(Stage);
-  int forward_size() const;
-  int reverse_size() const;
-  double &comm_value(int, int);
+  void tally_energy();
 };
 
 }    // namespace LAMMPS_NS

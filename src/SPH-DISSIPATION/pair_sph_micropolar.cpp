@@ -17,8 +17,6 @@
 #include "atom_vec_sph_micropolar.h"
 #include "domain.h"
 #include "error.h"
-#include "fix_sph_micropolar.h"
-#include "modify.h"
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_model.h"
@@ -70,33 +68,32 @@ bool PairSPHMicropolar::has_torques() const
   return false;
 }
 
-/* ----------------------------------------------------------------------
-   also finds the smallest moment of inertia, which limits the time step
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void PairSPHMicropolar::check_setup()
 {
   PairSPHBulk::check_setup();
   if (dim == 1) error->all(FLERR, "Pair_style {} needs dim 2 or 3: no spin in dim 1", fluid_style);
 
-  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(fluid_style.c_str()));
-  const auto &fixes = modify->get_fix_by_style("^" + fluid_style + "$");
-  double smallest = UNLIMITED_STEP;
   tagint id = 0, id_all;
-  for (int i = 0; i < atom->nlocal; i++) {
-    double inertia = avec->inertia[i];
-    for (const auto &ifix : fixes)
-      if (atom->mask[i] & ifix->groupbit)
-        inertia = dynamic_cast<FixSPHMicropolar *>(ifix)->planned_inertia(
-            i, reference_density(atom->type[i]));
-    if (inertia > 0.0) smallest = std::min(smallest, inertia);
+  for (int i = 0; i < atom->nlocal; i++)
     if (atom->omega[i][0] != 0.0 || atom->omega[i][1] != 0.0) id = atom->tag[i];
-  }
-  MPI_Allreduce(&smallest, &smallest_inertia, 1, MPI_DOUBLE, MPI_MIN, world);
   MPI_Allreduce(&id, &id_all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   if (domain->dimension == 2 && id_all)
     error->all(FLERR, "Pair style {}: spin must be along z in 2d, which that of particle {} is not",
                fluid_style, id_all);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHMicropolar::announce()
+{
+  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(fluid_style.c_str()));
+  double smallest = UNLIMITED_STEP;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (avec->inertia[i] > 0.0) smallest = std::min(smallest, avec->inertia[i]);
+  MPI_Allreduce(&smallest, &smallest_inertia, 1, MPI_DOUBLE, MPI_MIN, world);
+  PairSPHBulk::announce();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -148,25 +145,4 @@ PairSPHBulk::Columns PairSPHMicropolar::viscous_steps(int i, int j, double hsq, 
 double **PairSPHMicropolar::extrapolated_spin()
 {
   return dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(fluid_style.c_str()))->omegaest;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void PairSPHMicropolar::add_torques(int nforce)
-{
-  double **torque = atom->torque;
-  double *desph = atom->desph;
-  for (int i = 0; i < nforce; i++) {
-    const TorqueSum &total = engine->torque[i];
-    for (int d = 0; d < 3; d++) torque[i][d] += total.t[d];
-    desph[i] += total.heat_vortex + total.heat_spin;
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void PairSPHMicropolar::spin_heat(int i, double *channel) const
-{
-  channel[VORTEX] = engine->torque[i].heat_vortex;
-  channel[SPIN] = engine->torque[i].heat_spin;
 }

@@ -32,6 +32,7 @@ class PairSPHMicropolar : public PairSPHBulk {
   PairSPHMicropolar(class LAMMPS *);
 
   bool has_torques() const;    // any vortex or spin viscosity
+  void announce() override;
 
  protected:
   SPHDissipation::Shear default_shear() const override;
@@ -42,11 +43,9 @@ class PairSPHMicropolar : public PairSPHBulk {
   Columns table_columns(int, int, double, double) const override;
   Columns viscous_steps(int, int, double, double) const override;
   double **extrapolated_spin() override;
-  void add_torques(int) override;
-  void spin_heat(int, double *) const override;
 
  private:
-  double smallest_inertia;    // per mass, of all particles
+  double smallest_inertia;    // per mass, of all particles that have one; limits the time step
 };
 
 }    // namespace LAMMPS_NS

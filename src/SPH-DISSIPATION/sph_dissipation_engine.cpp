@@ -51,12 +51,10 @@ static const LoopSet *choose_loops()
 
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
-    zeta_term(nullptr), divergence(nullptr), bound(nullptr), spin(nullptr), boundary_sum(nullptr),
-    gradient(nullptr), vorticity(nullptr), crowding(nullptr), loops(choose_loops()),
+    zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(choose_loops()),
     density_loop(nullptr), force_loop(nullptr), data(), kernel(Kernel::WENDLAND_C2), dim(0),
-    shear(Shear::NONE), bulk(Bulk::NONE), self_weight(0.0), boundary_bits(0), nmax(0),
-    nmax_boundary(0), nmax_vorticity(0), nmax_crowding(0), imax(0), stride_max(0), pair_max(0),
-    first(nullptr)
+    shear(Shear::NONE), bulk(Bulk::NONE), self_weight(0.0), nmax(0), imax(0), stride_max(0),
+    pair_max(0), first(nullptr)
 {
 }
 
@@ -71,11 +69,6 @@ Engine::~Engine()
   memory->sfree(torque);
   memory->sfree(zeta_term);
   memory->sfree(divergence);
-  memory->sfree(bound);
-  memory->sfree(boundary_sum);
-  memory->sfree(gradient);
-  memory->sfree(vorticity);
-  memory->sfree(crowding);
   memory->sfree(first);
   memory->sfree(data.count);
   memory->sfree(data.neighbor);
@@ -93,7 +86,6 @@ void Engine::setup(Kernel kernel_in, int n, double support, Shear shear_in, Bulk
   dim = n;
   bulk = bulk_in;
   shear = shear_in;
-  boundary_bits = 0;
   coeff = coeff_in;
   density_loop = loops->density(kernel);
 
@@ -142,8 +134,6 @@ void Engine::grow_atoms()
   zeta_term = (double *) memory->smalloc(nmax * sizeof(double), "sph:zeta_term");
   memory->sfree(divergence);
   divergence = (double *) memory->smalloc(nmax * sizeof(double), "sph:divergence");
-  memory->sfree(bound);
-  bound = (double *) memory->smalloc(nmax * sizeof(double), "sph:bound");
 }
 
 /* ----------------------------------------------------------------------
@@ -226,32 +216,6 @@ void Engine::accumulate_density(NeighList *list, double **omegaest)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_bound(NeighList *list)
-{
-  const int *const type = atom->type;
-  memset(bound, 0, (atom->nlocal + atom->nghost) * sizeof(double));
-
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    for (int k = 0; k < data.count[ii]; k++) {
-      const int j = data.neighbor[first[ii] + k];
-      double rsq = 0.0;
-      for (int d = 0; d < 3; d++) {
-        const double del = particle[i].x[d] - particle[j].x[d];
-        rsq += del * del;
-      }
-      const PairCoeff &c = coeff[type[i] * data.ntypes_1 + type[j]];
-      const double weight = central_weight(shear, c, sqrt(rsq));
-      if (rsq == 0.0) continue;
-      const double pair = data.slope[first[ii] + k] * rsq / weight;
-      bound[i] += particle[i].vol * particle[i].vol / particle[j].vol * pair;
-      bound[j] += particle[j].vol * particle[j].vol / particle[i].vol * pair;
-    }
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
 void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 {
   const int nall = atom->nlocal + atom->nghost;
@@ -274,13 +238,9 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 
 double Engine::memory_usage() const
 {
-  return (double) nmax *
-      (sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double)) +
-      (double) nmax_boundary * sizeof(BoundarySum) +
-      (double) nmax_vorticity * (sizeof(GradientSum) + 3 * sizeof(double)) +
-      (double) nmax_crowding * 3 * sizeof(double) +
-      (double) boundary_pairs.capacity() * sizeof(BoundaryPair) +
-      (double) imax * (sizeof(bigint) + sizeof(int)) +
+  double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 2 * sizeof(double);
+  if (has_spin()) per_atom += sizeof(Spin) + sizeof(TorqueSum);
+  return nmax * per_atom + (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + 2 * sizeof(double)) +
       (double) stride_max * NSCRATCH * sizeof(double);
 }

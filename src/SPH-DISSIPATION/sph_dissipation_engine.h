@@ -76,28 +76,6 @@ namespace SPHDissipation {
     double heat_vortex, heat_spin;
   };
 
-  // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
-  // particles f of V_f W(r_wf) times the quantity, S. Adami et al., J. Comput. Phys. 231, 7057 (2012)
-  // of a fluid particle: weight is the part of its support that boundary particles fill
-
-  struct BoundarySum {
-    double weight;       // 1
-    double u[3];         // velocity
-    double r[3];         // x_w - x_f
-    double rho;          // density
-    double pressure;     // p + zeta V cdot (bulk density), p (otherwise)
-    double zeta_term;    // zeta V cdot
-    double w[3];         // spin (micropolar)
-  };
-
-  // Velocity gradient of the fluid around a fluid particle i, of fluid particles j alone and thus
-  // with the matrix that makes it exact for linear fields: sums of V_j F times the products
-
-  struct GradientSum {
-    double rr[3][3];    // r_ij r_ij
-    double ru[3][3];    // r_ij u_ij: first index of r, second of u
-  };
-
   // receives the force on i from j of each pair, for virials that are summed by pair
 
   class PairTally {
@@ -169,7 +147,8 @@ namespace SPHDissipation {
   extern const LoopSet loops_default, loops_avx2, loops_avx512;
 
   // Pair engine of the particle fluid styles: number density and its rate in one loop over the
-  // neighbor list, forces and heating in a second one.
+  // neighbor list, forces and heating in a second one.  Between them the stages of the pair style set
+  // what pass 2 reads.
 
   class Engine : protected Pointers {
    public:
@@ -186,38 +165,18 @@ namespace SPHDissipation {
     // itself) and the contributions to ghost atoms
     void accumulate_density(NeighList *, double **omegaest);
 
-    // between the passes, with particle[].vol set: bound[] = V_i^2 sum_j F r^2 / (V_j a_ij), where
-    // a_ij F V_i V_j is what the shear term puts before (u.e)^2.  The total dissipation is
-    // non-negative for any velocities if zeta_i bound_i >= -1/2 for all particles.
-    void accumulate_bound(NeighList *);
-
-    // between the passes, with particle[].vol and g, zeta_term[] and atom->rho set by the caller on
-    // owned and ghost fluid atoms, vol on boundary atoms, which are those with a bit of bits in their
-    // mask: boundary_sum[] of owned atoms and the contributions to ghost atoms
-    void accumulate_boundary(NeighList *, int bits);
-
-    // the pair forces of boundary atoms act at the velocity that particle[].u of them has now, on
-    // owned and ghost atoms, rather than at the one that made cdot
-    void update_boundary_velocity();
-
-    // crowding[] = sum_j V_j F r_ij [1 + 0.2 (W_ij/W(V_i^(1/n)))^4], which points away from where
-    // the particles are crowded, with vol of particle[] on owned and ghost atoms.  The second term
-    // keeps particles from pairing, P. N. Sun et al., Comput. Methods Appl. Mech. Eng. 315, 25 (2017).
-    void accumulate_crowding(NeighList *);
-
-    // gradient[] of fluid atoms, with vol and u of particle[] on owned and ghost atoms
-    void accumulate_gradient(NeighList *, int bits);
-
-    // vorticity[] of owned atoms from gradient[]; zero if the fluid around lies in a plane or line
-    void solve_vorticity();
-
-    // vorticity[] of boundary atoms = sum_f V_f W vorticity[f], with that of the fluid on owned and
-    // ghost atoms
-    void accumulate_boundary_vorticity(int bits);
-
     // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller
     // on owned and ghost atoms
     void accumulate_forces(NeighList *, PairTally *);
+
+    // the pairs inside the support that pass 1 has found, for the sums of other stages
+    const LoopData &pairs() const { return data; }
+
+    int dimension() const { return dim; }    // of the kernel
+    Kernel kernel_form() const { return kernel; }
+    Shear shear_form() const { return shear; }
+    Bulk bulk_form() const { return bulk; }
+    bool has_spin() const { return shear == Shear::MICROPOLAR; }
 
     double memory_usage() const;
     const char *instruction_set() const { return loops->name; }
@@ -228,12 +187,7 @@ namespace SPHDissipation {
     TorqueSum *torque;     // micropolar only
     double *zeta_term;     // zeta V cdot, set by the caller on owned and ghost atoms
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
-    double *bound;         // of accumulate_bound()
     Spin *spin;            // micropolar only
-    BoundarySum *boundary_sum;
-    GradientSum *gradient;
-    double (*vorticity)[3];
-    double (*crowding)[3];
 
    private:
     const LoopSet *loops;
@@ -246,21 +200,7 @@ namespace SPHDissipation {
     Bulk bulk;
     double self_weight;    // W(0)
 
-    // pairs of a fluid and a boundary atom inside the support; rows of the neighbor list that may
-    // hold some until the list is built anew
-
-    struct BoundaryPair {
-      int fluid, wall;
-      bigint entry;     // of data.neighbor, slope, approach
-      double weight;    // V_fluid W
-    };
-    std::vector<BoundaryPair> boundary_pairs;
-    std::vector<int> boundary_rows;
-    std::vector<char> place;        // of atoms, for accumulate_gradient()
-    std::vector<double> contact;    // 1/W(V^(1/n)) of atoms, for accumulate_crowding()
-    int boundary_bits;              // that boundary_rows is for
-
-    int nmax, nmax_boundary, nmax_vorticity, nmax_crowding, imax, stride_max;
+    int nmax, imax, stride_max;
     bigint pair_max;
     bigint *first;
 

@@ -1,0 +1,88 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_BOUNDARY_STAGE_H
+#define LMP_SPH_DISSIPATION_BOUNDARY_STAGE_H
+
+#include "sph_dissipation_stage.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  class Boundary;
+  class FluidModel;
+  class VorticityStage;
+  struct BoundarySum;
+
+  // a pair of a fluid and a boundary particle inside the support
+
+  struct BoundaryPair {
+    int fluid, wall;
+    bigint entry;     // of the pairs of the engine
+    double weight;    // V_fluid W
+  };
+
+  // Boundary particles get the velocity, volume, pressure and spin that act in the pair forces
+
+  class BoundaryStage : public Stage {
+   public:
+    BoundaryStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &,
+                  const std::string &style);
+    ~BoundaryStage() override;
+    static constexpr int FORWARD = 10, REVERSE = 18;    // values per atom
+
+    void add(Boundary *);       // no effect if it is there
+    void remove(Boundary *);    // no effect if it is not there
+    bool empty() const { return boundaries.empty(); }
+    int bits() const { return group_bits; }    // of the groups of all boundaries
+
+    // after the densities: the particles have none of their own, for most of their neighbors are not
+    // there, but the reference density of their type
+    void set_reference_volume();
+
+    // after the pressures, before pass 2
+    void run(NeighList *);
+
+    double memory_usage() const override;
+
+    BoundarySum *sum;                   // of owned and ghost atoms
+    std::vector<BoundaryPair> pairs;    // of this step
+
+   private:
+    const FluidModel &model;
+    const std::string style;    // of the pair style, for messages
+    std::vector<Boundary *> boundaries;
+    int group_bits;
+
+    // rows of the neighbor list that may hold pairs of a fluid and a boundary particle until the list
+    // is built anew, and the bits they were found for
+
+    std::vector<int> rows;
+    int rows_bits;
+
+    int nmax;
+    VorticityStage *vorticity;
+
+    void find_pairs(NeighList *);
+    void accumulate();
+    void check() const;
+    void update_velocity();
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

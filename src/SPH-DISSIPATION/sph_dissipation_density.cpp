@@ -1,0 +1,47 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_density.h"
+
+#include "atom.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+void DensityStage::run(NeighList *list, double **omegaest, bool with_energy)
+{
+  engine.accumulate_density(list, omegaest);
+
+  DensitySum *const density = engine.density;
+  const Field sums = field(density, &density->c, 2);
+  exchange.reverse({sums});
+  if (with_energy)
+    exchange.forward({sums, {atom->esph, 1, 1}});
+  else
+    exchange.forward({sums});
+
+  const double *const rmass = atom->rmass;
+  double *const rho = atom->rho;
+  double *const drho = atom->drho;
+  double *const vfrac = atom->vfrac;
+  const int nall = atom->nlocal + atom->nghost;
+  for (int i = 0; i < nall; i++) {
+    rho[i] = rmass[i] * density[i].c;
+    drho[i] = rmass[i] * density[i].cdot;
+    vfrac[i] = engine.particle[i].vol = 1.0 / density[i].c;
+  }
+}

@@ -1,0 +1,39 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_DENSITY_H
+#define LMP_SPH_DISSIPATION_DENSITY_H
+
+#include "sph_dissipation_stage.h"
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // Pass 1: number density c and its rate of all particles, then their volume V = 1/c, their mass
+  // density rho = m c and drho = m dc/dt.  P1 (5), (6)
+
+  class DensityStage : public Stage {
+   public:
+    using Stage::Stage;
+    static constexpr int FORWARD = 3, REVERSE = 2;    // values per atom
+
+    // omegaest = extrapolated spin, nullptr for a fluid without; with_energy: the equation of state
+    // needs the internal energy of ghost atoms
+
+    void run(NeighList *, double **omegaest, bool with_energy);
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

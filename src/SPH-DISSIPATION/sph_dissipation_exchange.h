@@ -1,0 +1,70 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_EXCHANGE_H
+#define LMP_SPH_DISSIPATION_EXCHANGE_H
+
+#include "pointers.h"
+
+#include <cstddef>
+#include <initializer_list>
+#include <vector>
+
+namespace LAMMPS_NS {
+class Pair;
+
+namespace SPHDissipation {
+
+  // width doubles of each atom; those of atom i begin at first + i * stride
+
+  struct Field {
+    double *first;
+    std::size_t stride;
+    int width;
+  };
+
+  // the field that begins with a member of an array of structs: field(array, array->member, width)
+
+  template <class T> Field field(T *, double *member, int width)
+  {
+    static_assert(sizeof(T) % sizeof(double) == 0, "a struct of doubles");
+    return {member, sizeof(T) / sizeof(double), width};
+  }
+
+  // The communication of a pair style between owned and ghost atoms: a stage of the step names the
+  // fields that are to go, the pair style hands on the packing that LAMMPS asks for.
+
+  class Exchange : protected Pointers {
+   public:
+    // forward, reverse = most values per atom of any stage
+    Exchange(class LAMMPS *, Pair *, int forward, int reverse);
+
+    void forward(std::initializer_list<Field>);    // owned atoms to their ghosts
+    void reverse(std::initializer_list<Field>);    // ghosts, summed, to their owners; newton on
+
+    int pack_forward(int n, const int *list, double *buf) const;
+    void unpack_forward(int n, int nfirst, const double *buf) const;
+    int pack_reverse(int n, int nfirst, double *buf) const;
+    void unpack_reverse(int n, const int *list, const double *buf) const;
+
+   private:
+    Pair *pair;
+    std::vector<Field> fields;
+
+    int set_fields(std::initializer_list<Field>, int most);
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,87 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_forces.h"
+
+#include "atom.h"
+#include "force.h"
+#include "sph_dissipation_engine.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+int ForceStage::nforce() const
+{
+  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ForceStage::run(NeighList *list, PairTally *tally)
+{
+  engine.accumulate_forces(list, tally);
+
+  double **f = atom->f;
+  double *const desph = atom->desph;
+  const int n = nforce();
+  for (int i = 0; i < n; i++) {
+    const ForceSum &total = engine.force[i];
+    for (int d = 0; d < 3; d++) f[i][d] += total.f[d];
+    desph[i] += total.heat + bulk_heat(i);
+  }
+
+  if (!engine.has_spin()) return;
+  double **torque = atom->torque;
+  for (int i = 0; i < n; i++) {
+    const TorqueSum &total = engine.torque[i];
+    for (int d = 0; d < 3; d++) torque[i][d] += total.t[d];
+    desph[i] += total.heat_vortex + total.heat_spin;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   heat of the bulk term: zeta V^3 cdot^2 of the particle (density);
+   zeta V^2 cdot D with D summed by pairs, also on ghost atoms (volume)
+------------------------------------------------------------------------- */
+
+double ForceStage::bulk_heat(int i) const
+{
+  const double vol = engine.particle[i].vol;
+  if (engine.bulk_form() == Bulk::VOLUME) return engine.zeta_term[i] * vol * engine.divergence[i];
+  return (i < atom->nlocal) ? engine.zeta_term[i] * vol * vol * engine.density[i].cdot : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ForceStage::heating(double *heat, double *power, int not_fluid) const
+{
+  std::fill(power, power + NCHANNEL, 0.0);
+  const int n = nforce();
+  for (int i = 0; i < n; i++) {
+    if (heat) heat[i] = 0.0;
+    if (atom->mask[i] & not_fluid) continue;
+    double channel[NCHANNEL] = {engine.force[i].heat, bulk_heat(i)};
+    if (engine.has_spin()) {
+      channel[VORTEX] = engine.torque[i].heat_vortex;
+      channel[SPIN] = engine.torque[i].heat_spin;
+    }
+    for (int k = 0; k < NCHANNEL; k++) {
+      if (heat) heat[i] += channel[k];
+      power[k] += channel[k];
+    }
+  }
+}

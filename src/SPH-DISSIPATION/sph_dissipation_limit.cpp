@@ -1,0 +1,84 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_limit.h"
+
+#include "atom.h"
+#include "memory.h"
+#include "neigh_list.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+LimitStage::LimitStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
+    Stage(lmp, engine, exchange), bound(nullptr), nmax(0)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+LimitStage::~LimitStage()
+{
+  memory->destroy(bound);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LimitStage::run(NeighList *list)
+{
+  if (nmax < atom->nmax) {
+    nmax = atom->nmax;
+    memory->destroy(bound);
+    memory->create(bound, nmax, "sph:bound");
+  }
+  std::fill_n(bound, atom->nlocal + atom->nghost, 0.0);
+
+  const LoopData &pairs = engine.pairs();
+  const Particle *const particle = engine.particle;
+  const int *const type = atom->type;
+  const Shear shear = engine.shear_form();
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    for (bigint entry = pairs.first[ii]; entry < pairs.first[ii] + pairs.count[ii]; entry++) {
+      const int j = pairs.neighbor[entry];
+      double rsq = 0.0;
+      for (int d = 0; d < 3; d++) {
+        const double del = particle[i].x[d] - particle[j].x[d];
+        rsq += del * del;
+      }
+      if (rsq == 0.0) continue;
+      const PairCoeff &c = pairs.coeff[type[i] * pairs.ntypes_1 + type[j]];
+      const double pair = pairs.slope[entry] * rsq / central_weight(shear, c, sqrt(rsq));
+      bound[i] += particle[i].vol * particle[i].vol / particle[j].vol * pair;
+      bound[j] += particle[j].vol * particle[j].vol / particle[i].vol * pair;
+    }
+  }
+
+  exchange.reverse({{bound, 1, 1}});
+  exchange.forward({{bound, 1, 1}});
+}
+
+/* ---------------------------------------------------------------------- */
+
+double LimitStage::memory_usage() const
+{
+  return (double) nmax * sizeof(double);
+}

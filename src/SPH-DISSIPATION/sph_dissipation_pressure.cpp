@@ -1,0 +1,89 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_pressure.h"
+
+#include "atom.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_model.h"
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+PressureStage::PressureStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
+                             const FluidModel &model) :
+    Stage(lmp, engine, exchange),
+    model(model)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+bigint PressureStage::run(const double *bound, int not_fluid)
+{
+  const double *const rmass = atom->rmass;
+  const double *const rho = atom->rho;
+  const double *const esph = atom->esph;
+  const int *const type = atom->type;
+  const int *const mask = atom->mask;
+  double *const desph = atom->desph;
+  const int nlocal = atom->nlocal;
+  const int nall = nlocal + atom->nghost;
+  const TypeCoeff *const coeffs = model.coeffs;
+  const Eos eos = model.choice.eos;
+  const bool cut_off = (model.choice.limit == Limit::YES);
+  const bool by_density = (model.choice.bulk == Bulk::DENSITY);
+  bigint nbeyond = 0;
+
+  for (int i = 0; i < nall; i++) {
+    Particle &particle = engine.particle[i];
+    if (mask[i] & not_fluid) {
+      engine.zeta_term[i] = particle.g = 0.0;
+      continue;
+    }
+    const TypeCoeff &coeff = coeffs[type[i]];
+    const double vol = particle.vol;
+    const double cdot = engine.density[i].cdot;
+
+    double zeta = coeff.zeta;
+    if (bound && zeta * bound[i] < -0.5) {
+      if (i < nlocal) nbeyond++;
+      if (cut_off) zeta = -0.5 / bound[i];
+    }
+
+    const double pressure_term = pressure(eos, coeff.eos, rho[i], esph[i] / rmass[i]) * vol * vol;
+    const double zeta_term = zeta * vol * cdot;
+    engine.zeta_term[i] = zeta_term;
+    particle.g = by_density ? pressure_term + zeta_term * vol * vol : pressure_term;
+    if (i < nlocal) desph[i] += pressure_term * cdot;
+  }
+  return nbeyond;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PressureStage::elastic_energy(double *each_atom, int not_fluid) const
+{
+  double total = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (atom->mask[i] & not_fluid) continue;
+    const double energy = atom->rmass[i] *
+        SPHDissipation::elastic_energy(model.choice.eos, model.coeffs[atom->type[i]].eos,
+                                       atom->rho[i]);
+    total += energy;
+    if (each_atom) each_atom[i] += energy;
+  }
+  return total;
+}
