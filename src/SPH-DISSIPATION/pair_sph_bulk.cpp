@@ -33,6 +33,7 @@
 #include "sph_dissipation_limit.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_pressure.h"
+#include "sph_dissipation_stress.h"
 #include "update.h"
 
 #include <algorithm>
@@ -87,6 +88,7 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
   manybody_flag = 1;
   single_enable = 0;
   respa_enable = 0;
+  centroidstressflag = CENTROID_AVAIL;
   nextra = 1;
   pvector = new double[nextra];
   pvector[0] = 0.0;
@@ -122,6 +124,9 @@ void PairSPHBulk::compute(int eflag, int vflag)
   const Settings &choice = model->choice;
   const bool limited = (choice.limit != Limit::NO);
   StressTally stress(this, atom->nlocal, force->newton_pair);
+  CentroidTally centroid(stress, cvatom, atom->nlocal, force->newton_pair);
+  PairTally *tally = vflag_either ? &stress : nullptr;
+  if (cvflag_atom) tally = &centroid;
 
   density->run(list, extrapolated_spin(), choice.eos == Eos::IDEAL);
   if (limited) limit->run(list);
@@ -129,7 +134,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
   const bigint nbeyond = pressure->run(limited ? limit->bound : nullptr, boundary->bits());
   if (!boundary->empty()) boundary->run(list);
   if (crowding_requested) crowd->run(list);
-  forces->run(list, vflag_either ? &stress : nullptr);
+  forces->run(list, tally);
 
   pvector[0] = static_cast<double>(nbeyond);
   if (eflag_either) tally_energy();
