@@ -952,7 +952,7 @@ def test_accepted(box, wall):
 # ---------------------------------------------------------------------------------------------
 # the inputs of the manual
 
-HOWTO = Path(__file__).resolve().parents[2] / "doc" / "src" / "Howto_walls.rst"
+HOWTO = Path(__file__).resolve().parents[2] / "doc" / "src" / "Howto_sph_walls.rst"
 
 
 def inputs_of_the_manual():
