@@ -15,6 +15,7 @@
 
 #include "atom.h"
 #include "atom_vec_sph_micropolar.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "input.h"
@@ -22,6 +23,8 @@
 #include "modify.h"
 #include "update.h"
 #include "variable.h"
+
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -45,6 +48,7 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
       value[d] = utils::numeric(FLERR, arg[3 + d], false, lmp);
   }
 
+  restart_global = 1;
   scalar_flag = vector_flag = 1;
   size_vector = 3;
   global_freq = 1;
@@ -154,6 +158,24 @@ double FixSPHTorque::compute_vector(int d)
   double all;
   MPI_Allreduce(&total[d], &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
+}
+
+/* ----------------------------------------------------------------------
+   restart files hold the work
+------------------------------------------------------------------------- */
+
+void FixSPHTorque::write_restart(FILE *fp)
+{
+  const double all = compute_scalar();
+  if (comm->me != 0) return;
+  const int size = sizeof(double);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(&all, sizeof(double), 1, fp);
+}
+
+void FixSPHTorque::restart(char *buf)
+{
+  if (comm->me == 0) memcpy(&work, buf, sizeof(double));
 }
 
 /* ---------------------------------------------------------------------- */

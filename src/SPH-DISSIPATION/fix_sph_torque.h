@@ -37,6 +37,8 @@ class FixSPHTorque : public Fix {
   void post_force(int) override;
   double compute_scalar() override;
   double compute_vector(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
   double memory_usage() override;
 
  private:
