@@ -17,8 +17,8 @@ LMP = os.environ.get("SPHD_LMP") or shutil.which("lmp") or "lmp"
 MPIEXEC = os.environ.get("SPHD_MPIEXEC") or shutil.which("mpiexec") or "mpiexec"
 
 # Containers run as root and have fewer cores than ranks; Open MPI has to be told that this is meant.
-# The other settings save time in hundreds of short runs: no wait for ranks that an error has ended, no search
-# for network cards.
+# The other settings save time in hundreds of short runs: no daemon beside a single rank (0.4 s), no wait for ranks
+# that an error has ended, no search for network cards.
 MPI_ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -26,6 +26,7 @@ MPI_ENVIRONMENT = {
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_hwloc_base_binding_policy": "none",
     "OMPI_MCA_mpi_yield_when_idle": "1",
+    "OMPI_MCA_ess_singleton_isolated": "1",
     "OMPI_MCA_odls_base_sigkill_timeout": "0",
     "OMPI_MCA_pml": "ob1",
     "OMPI_MCA_btl": "self,vader",
