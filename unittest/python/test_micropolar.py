@@ -358,6 +358,18 @@ def test_work_of_a_body_torque_is_the_energy_gained(lammps, name, ranks):
     assert gained[-1] - gained[0] == pytest.approx(work, rel=5e-4)
 
 
+@pytest.mark.parametrize("before, after", [(1, 1), (2, 1), (1, 2)])
+def test_work_of_a_body_torque_goes_on_after_a_restart(lammps, before, after):
+    write(SYSTEMS[2], lammps.path("box.data"))
+    torque = "fix G all sph/torque 0 0 0.5\nthermo_style custom step f_G\n" + FULL + "thermo 20\n"
+    whole = lammps(header(2, style=STYLE) + "read_data box.data\n" + two_fluids(2) + integrate() + torque
+                   + "run 20\nwrite_restart state.restart\nrun 20\n", ranks=before).thermo()
+    parts = lammps("read_restart state.restart\n" + integrate() + torque + "run 20\n", ranks=after).thermo()
+    first, middle, last = whole[0]["f_G"][0], whole[1]["f_G"][0], whole[1]["f_G"][-1]
+    assert first == 0.0 and abs(last - middle) > 0.01
+    np.testing.assert_allclose(parts[0]["f_G"], [middle, last], rtol=1e-12)
+
+
 def test_body_torque_of_every_kind(lammps):
     """Equal- and atom-style variables of a constant value are the constant; a group is respected."""
     _, constant = torque_run(lammps, "", "0 0 0.5", steps=20)
