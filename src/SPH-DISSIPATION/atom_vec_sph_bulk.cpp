@@ -41,7 +41,6 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
   forceclearflag = 1;
 
   atom->rmass_flag = 1;
-  atom->rho_flag = 1;
   atom->esph_flag = 1;
   atom->vest_flag = 1;
 

@@ -20,6 +20,7 @@
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "pair_hybrid.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_coeffs.h"
@@ -34,6 +35,7 @@
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_pressure.h"
 #include "sph_dissipation_stress.h"
+#include "sph_dissipation_table.h"
 #include "update.h"
 
 #include <algorithm>
@@ -73,10 +75,11 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
                          const std::vector<std::string> &viscosities) :
     Pair(lmp),
     fluid_style(name), model(new FluidModel(lmp, name, viscosities)), dim(0), support(0.0),
-    announced(false), warned_step(false), engine(new Engine(lmp)), crowding_requested(false)
+    announced(false), stale(false), warned_step(0.0), engine(new Engine(lmp)),
+    crowding_requested(false)
 {
   exchange = new Exchange(lmp, this, BoundaryStage::FORWARD, BoundaryStage::REVERSE);
-  density = new DensityStage(lmp, *engine, *exchange);
+  density = new DensityStage(lmp, *engine, *exchange, *model);
   limit = new LimitStage(lmp, *engine, *exchange);
   pressure = new PressureStage(lmp, *engine, *exchange, *model);
   boundary = new BoundaryStage(lmp, *engine, *exchange, *model, fluid_style);
@@ -119,7 +122,8 @@ PairSPHBulk::~PairSPHBulk()
 void PairSPHBulk::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  if (neighbor->ago == 0) check_masses(lmp, fluid_style);
+  if (stale) derive_coeffs();
+  if (neighbor->ago == 0) check_masses(lmp, fluid_style, *model);
 
   const Settings &choice = model->choice;
   const bool limited = (choice.limit != Limit::NO);
@@ -128,7 +132,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
   PairTally *tally = vflag_either ? &stress : nullptr;
   if (cvflag_atom) tally = &centroid;
 
-  density->run(list, extrapolated_spin(), choice.eos == Eos::IDEAL);
+  density->run(list, extrapolated_spin());
   if (limited) limit->run(list);
   if (!boundary->empty()) boundary->set_reference_volume();
   const bigint nbeyond = pressure->run(limited ? limit->bound : nullptr, boundary->bits());
@@ -249,7 +253,31 @@ void PairSPHBulk::check_setup()
   check_styles(lmp, fluid_style);
   dim = model->dimension();
   support = model->common_support(setflag);
-  check_support(lmp, fluid_style, dim, support);
+  find_own_types();
+  check_support(lmp, fluid_style, *model, dim, support);
+}
+
+/* ----------------------------------------------------------------------
+   types whose particles are ours: pair_style hybrid may have others, also ones that it
+   gave to another style after their coefficients were set here
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::find_own_types()
+{
+  auto *hybrid = dynamic_cast<PairHybrid *>(force->pair);
+  std::string name = fluid_style;
+  auto ours = [&](int i, int j) {
+    return setflag[i][j] && (!hybrid || hybrid->check_ijtype(i, j, &name[0]));
+  };
+
+  for (int i = 1; i <= atom->ntypes; i++) model->coeffs[i].other = !ours(i, i);
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i + 1; j <= atom->ntypes; j++)
+      if (ours(i, j) && (model->coeffs[i].other || model->coeffs[j].other))
+        error->all(
+            FLERR, Error::NOLASTLINE,
+            "Pair style {} acts between types {} and {}, but type {} has no coefficients of it",
+            fluid_style, i, j, model->coeffs[i].other ? i : j);
 }
 
 /* ----------------------------------------------------------------------
@@ -258,16 +286,19 @@ void PairSPHBulk::check_setup()
 
 void PairSPHBulk::derive_coeffs()
 {
+  if (model->adopt()) announced = false;
+  stale = false;
+
   const int n = atom->ntypes;
   std::vector<PairCoeff> pair_coeffs((n + 1) * (n + 1));
 
   for (int i = 1; i <= n; i++) {
     model->mix(i);
     for (int j = 1; j <= i; j++) {
-      if (setflag[i][i] && setflag[j][j]) check_pair(i, j);
+      if (!model->coeffs[i].other && !model->coeffs[j].other) check_pair(i, j);
       pair_coeffs[i * (n + 1) + j] = pair_coeffs[j * (n + 1) + i] = pair_coefficients(i, j);
     }
-    model->set_bulk(i, intrinsic_kappa_of(i, i), setflag[i][i] && !announced);
+    model->set_bulk(i, intrinsic_kappa_of(i, i));
   }
 
   const Settings &choice = model->choice;
@@ -306,7 +337,7 @@ void PairSPHBulk::check_pair(int i, int j)
                model->viscosity(0, i, j), j, i);
 }
 
-PairSPHBulk::Columns PairSPHBulk::table_columns(int i, int j, double kappa, double zeta) const
+Columns PairSPHBulk::table_columns(int i, int j, double kappa, double zeta) const
 {
   const PairCoeff coeff = pair_coefficients(i, j);
   return {{"mu", model->viscosity(0, i, j)},
@@ -315,7 +346,7 @@ PairSPHBulk::Columns PairSPHBulk::table_columns(int i, int j, double kappa, doub
           {"shear_coeff", std::max(coeff.along_r, coeff.along_u)}};
 }
 
-PairSPHBulk::Columns PairSPHBulk::viscous_steps(int i, int j, double hsq, double rho) const
+Columns PairSPHBulk::viscous_steps(int i, int j, double hsq, double rho) const
 {
   return {{"shear", shear_step(model->choice.shear, hsq, model->viscosity(0, i, j) / rho)}};
 }
@@ -335,10 +366,11 @@ void PairSPHBulk::announce()
   const double hsq =
       stability_length_squared(kernel_slope_integral(model->choice.kernel, dim, support));
   CoeffTable table;
-  for (int i = 1; i <= atom->ntypes; i++)
+  for (int i = 1; i <= atom->ntypes; i++) {
+    if (!announced) model->warn_of_ignored(i, intrinsic_kappa_of(i, i));
     for (int j = i; j <= atom->ntypes; j++) {
-      if (!setflag[i][i] || !setflag[j][j]) continue;
       const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
+      if (a.other || b.other) continue;
       const double zeta = 0.5 * (a.zeta + b.zeta);
       const double rho = std::min(a.eos.rho0, b.eos.rho0);
       Columns steps = viscous_steps(i, j, hsq, rho);
@@ -346,31 +378,45 @@ void PairSPHBulk::announce()
       table.add_row(i, j, table_columns(i, j, zeta + intrinsic_kappa_of(i, j), zeta),
                     acoustic_step(sqrt(hsq), std::max(a.eos.c0, b.eos.c0) + fastest), steps);
     }
+  }
 
+  if (!announced) warned_step = 0.0;
   if (!announced && comm->me == 0)
     utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}", fluid_style,
                    model->summary(dim, support), engine->instruction_set(), table.text());
   announced = true;
 
   const double smallest = table.smallest_step();
-  if (update->dt > smallest && !warned_step) {
-    warned_step = true;
+  if (update->dt > smallest && update->dt != warned_step) {
+    warned_step = update->dt;
     if (comm->me == 0)
       error->warning(FLERR,
                      "The time step {:g} exceeds the largest stable time step {:g} of pair "
                      "style {}",
                      update->dt, smallest, fluid_style);
   }
+
+  check_energies(lmp, fluid_style, *model, boundary->bits());
+  check_neighbors(lmp, fluid_style, *model, *engine, boundary->bits(), dim, support);
 }
 
 /* ----------------------------------------------------------------------
    init for one type pair i,j and corresponding j,i
+   also called when another command, such as fix adapt, has changed coefficients
 ------------------------------------------------------------------------- */
 
 double PairSPHBulk::init_one(int i, int j)
 {
+  stale = true;
   if (i != j && model->is_mixed(i, j)) did_mix = true;
   return support;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void *PairSPHBulk::extract(const char *name, int &ndim)
+{
+  return model->extract(name, ndim);
 }
 
 /* ----------------------------------------------------------------------
@@ -380,6 +426,7 @@ double PairSPHBulk::init_one(int i, int j)
 void PairSPHBulk::write_restart(FILE *fp)
 {
   write_restart_settings(fp);
+  model->adopt();
   model->write_coeffs(fp, setflag);
 }
 
@@ -397,11 +444,12 @@ void PairSPHBulk::write_restart_settings(FILE *fp)
 
 void PairSPHBulk::read_restart_settings(FILE *fp)
 {
-  model->read_settings(fp);
+  model->read_settings(fp, default_shear());
 }
 
 void PairSPHBulk::write_data(FILE *fp)
 {
+  model->adopt();
   model->write_data(fp);
 }
 

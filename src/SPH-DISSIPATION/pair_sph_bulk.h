@@ -21,14 +21,12 @@ PairStyle(sph/bulk,PairSPHBulk);
 #define LMP_PAIR_SPH_BULK_H
 
 #include "pair.h"
-#include "sph_dissipation_table.h"
-
-#include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Boundary;
   class BoundaryStage;
+  class Columns;
   class CrowdingStage;
   class DensityStage;
   class Engine;
@@ -37,6 +35,8 @@ namespace SPHDissipation {
   class ForceStage;
   class LimitStage;
   class PressureStage;
+  struct PairCoeff;
+  enum class Shear;
 }    // namespace SPHDissipation
 
 // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -52,6 +52,7 @@ class PairSPHBulk : public Pair {
   void coeff(int, char **) override;
   void init_style() override;
   double init_one(int, int) override;
+  void *extract(const char *, int &) override;
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
   void write_restart_settings(FILE *) override;
@@ -103,7 +104,8 @@ class PairSPHBulk : public Pair {
   int dim;                              // dimension of the kernel
   double support;                       // support radius rc
   bool announced;                       // the table of coefficients is up to date
-  bool warned_step;                     // the warning about the time step was given
+  bool stale;                           // what follows from the coefficients is to be derived anew
+  double warned_step;                   // the time step that the last warning was about
 
   // the two pair loops, and the stages around them
 
@@ -123,16 +125,16 @@ class PairSPHBulk : public Pair {
 
   // what depends on the viscosities that a style has
 
-  using Columns = SPHDissipation::Columns;
   virtual SPHDissipation::Shear default_shear() const;
   virtual SPHDissipation::PairCoeff pair_coefficients(int, int) const;
   virtual double intrinsic_kappa_of(int, int) const;
   virtual void check_pair(int, int);
-  virtual Columns table_columns(int, int, double, double) const;
-  virtual Columns viscous_steps(int, int, double, double) const;
+  virtual SPHDissipation::Columns table_columns(int, int, double, double) const;
+  virtual SPHDissipation::Columns viscous_steps(int, int, double, double) const;
   virtual double **extrapolated_spin() { return nullptr; }
 
   virtual void check_setup();
+  void find_own_types();
   void derive_coeffs();
   void tally_energy();
 };

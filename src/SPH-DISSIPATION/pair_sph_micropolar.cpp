@@ -17,9 +17,11 @@
 #include "atom_vec_sph_micropolar.h"
 #include "domain.h"
 #include "error.h"
+#include "sph_dissipation_checks.h"
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_table.h"
 
 #include <algorithm>
 
@@ -75,13 +77,15 @@ void PairSPHMicropolar::check_setup()
   PairSPHBulk::check_setup();
   if (dim == 1) error->all(FLERR, "Pair_style {} needs dim 2 or 3: no spin in dim 1", fluid_style);
 
-  tagint id = 0, id_all;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->omega[i][0] != 0.0 || atom->omega[i][1] != 0.0) id = atom->tag[i];
-  MPI_Allreduce(&id, &id_all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (domain->dimension == 2 && id_all)
-    error->all(FLERR, "Pair style {}: spin must be along z in 2d, which that of particle {} is not",
-               fluid_style, id_all);
+  if (domain->dimension != 2) return;
+  const auto tilted = first_particle(lmp, [this](int i) {
+    const double *const omega = atom->omega[i];
+    return !model->coeffs[atom->type[i]].other && (omega[0] != 0.0 || omega[1] != 0.0);
+  });
+  if (!tilted.empty())
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {}: spin must be along z in 2d, which that of {} is not", fluid_style,
+               tilted);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -91,7 +95,8 @@ void PairSPHMicropolar::announce()
   auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(fluid_style.c_str()));
   double smallest = UNLIMITED_STEP;
   for (int i = 0; i < atom->nlocal; i++)
-    if (avec->inertia[i] > 0.0) smallest = std::min(smallest, avec->inertia[i]);
+    if (avec->inertia[i] > 0.0 && !model->coeffs[atom->type[i]].other)
+      smallest = std::min(smallest, avec->inertia[i]);
   MPI_Allreduce(&smallest, &smallest_inertia, 1, MPI_DOUBLE, MPI_MIN, world);
   PairSPHBulk::announce();
 }
@@ -109,7 +114,7 @@ void PairSPHMicropolar::check_pair(int i, int j)
 
 /* ---------------------------------------------------------------------- */
 
-PairSPHBulk::Columns PairSPHMicropolar::table_columns(int i, int j, double kappa, double zeta) const
+Columns PairSPHMicropolar::table_columns(int i, int j, double kappa, double zeta) const
 {
   const PairCoeff coeff = pair_coefficients(i, j);
   return {{"mu", model->viscosity(MU, i, j)},
@@ -126,7 +131,7 @@ PairSPHBulk::Columns PairSPHMicropolar::table_columns(int i, int j, double kappa
 
 /* ---------------------------------------------------------------------- */
 
-PairSPHBulk::Columns PairSPHMicropolar::viscous_steps(int i, int j, double hsq, double rho) const
+Columns PairSPHMicropolar::viscous_steps(int i, int j, double hsq, double rho) const
 {
   const PairCoeff coeff = pair_coefficients(i, j);
   const double central = std::max(coeff.along_r, 0.0) / shear_factor(Shear::MG, dim, 1.0);

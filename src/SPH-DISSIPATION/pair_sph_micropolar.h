@@ -40,8 +40,8 @@ class PairSPHMicropolar : public PairSPHBulk {
   double intrinsic_kappa_of(int, int) const override;
   void check_setup() override;
   void check_pair(int, int) override;
-  Columns table_columns(int, int, double, double) const override;
-  Columns viscous_steps(int, int, double, double) const override;
+  SPHDissipation::Columns table_columns(int, int, double, double) const override;
+  SPHDissipation::Columns viscous_steps(int, int, double, double) const override;
   double **extrapolated_spin() override;
 
  private:

@@ -17,15 +17,37 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix.h"
 #include "force.h"
 #include "lammps.h"
 #include "modify.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_model.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool(int)> &wrong)
+{
+  Atom *atom = lmp->atom;
+  tagint first = MAXTAGINT, first_all;
+  int found = 0, found_all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!wrong(i)) continue;
+    found = 1;
+    if (atom->tag_enable) first = std::min(first, atom->tag[i]);
+  }
+  MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MAX, lmp->world);
+  MPI_Allreduce(&first, &first_all, 1, MPI_LMP_TAGINT, MPI_MIN, lmp->world);
+  if (!found_all) return "";
+  return atom->tag_enable ? fmt::format("particle {}", first_all) : "a particle";
+}
 
 /* ---------------------------------------------------------------------- */
 
@@ -34,46 +56,92 @@ void SPHDissipation::check_styles(LAMMPS *lmp, const std::string &style)
   Force *force = lmp->force;
   Error *error = lmp->error;
   if (!lmp->atom->style_match(style.c_str()))
-    error->all(FLERR, "Pair style {} requires atom style {}", style, style);
+    error->all(FLERR, Error::NOLASTLINE, "Pair style {} requires atom style {}", style, style);
   if (lmp->modify->get_fix_by_style("^" + style + "$").empty())
-    error->all(FLERR, "Pair style {} requires fix {}", style, style);
+    error->all(FLERR, Error::NOLASTLINE, "Pair style {} requires fix {}", style, style);
   if (force->mvv2e != 1.0)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} requires units in which mass * velocity^2 is an energy, not units {}",
                style, lmp->update->unit_style);
+
+  // the number density, forces, and walls of one fluid know nothing of another one
+
+  Pair *const first = force->pair_match(style, 1, 1),
+              *const second = force->pair_match(style, 1, 2);
+  if ((second && second != first) ||
+      (force->pair_match("sph/bulk", 1, 1) && force->pair_match("sph/micropolar", 1, 1)))
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {} cannot be combined with another sph/bulk or sph/micropolar: "
+               "use one with all types",
+               style);
+
+  // other atom styles sum drho of ghost atoms, which here has been communicated already
+
+  for (const auto &other : utils::split_words(lmp->atom->get_style()))
+    if (other == "sph" || other == "rheo" || other == "rheo/thermal" || other == "mdpd")
+      error->all(
+          FLERR, Error::NOLASTLINE,
+          "Atom style {} cannot be combined with atom style {}, which has a density of its own",
+          style, other);
+
+  // LAMMPS takes pairs with a factor of zero out of the neighbor list, and thus out of the density
+
+  if (lmp->atom->molecular != Atom::ATOMIC)
+    for (int k = 1; k <= 3; k++)
+      if (force->special_lj[k] != 1.0)
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Pair style {} needs all neighbors of a particle, also bonded ones: use "
+                   "special_bonds lj 1 1 1",
+                   style);
 
   // LAMMPS's own particle fluids read the masses of types, which do not exist here
 
   for (const char *other : {"sph/heatconduction", "sph/idealgas", "sph/lj", "sph/rhosum",
                             "sph/taitwater", "sph/taitwater/morris", "sdpd/taitwater/isothermal"})
     if (force->pair_match(other, 1))
-      error->all(FLERR,
+      error->all(FLERR, Error::NOLASTLINE,
                  "Pair style {} cannot be combined with pair style {}, which needs masses by type",
                  style, other);
 }
 
 /* ----------------------------------------------------------------------
-   dim 1: the periodic images across the line must not interact
+   dim 1: the particles are on a line along x or y, whose periodic images must not interact
 ------------------------------------------------------------------------- */
 
-static void check_line_of_particles(LAMMPS *lmp, const std::string &style, double support)
+static void check_line_of_particles(LAMMPS *lmp, const std::string &style, const FluidModel &model,
+                                    double support)
 {
   Atom *atom = lmp->atom;
   Domain *domain = lmp->domain;
   Error *error = lmp->error;
-  constexpr double FAR = 1.0e300;
-  double extent[4] = {-FAR, -FAR, -FAR, -FAR}, all[4];    // largest x, -x, y, -y
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int d = 0; d < 2; d++) {
-      extent[2 * d] = std::max(extent[2 * d], atom->x[i][d]);
-      extent[2 * d + 1] = std::max(extent[2 * d + 1], -atom->x[i][d]);
-    }
-  MPI_Allreduce(extent, all, 4, MPI_DOUBLE, MPI_MAX, lmp->world);
-
-  const int across = (all[0] + all[1] < all[2] + all[3]) ? 0 : 1;
   const double *const prd = domain->prd;
+  constexpr double ROUNDOFF = 1.0e-10;
+
+  // distances from one of the particles, across a periodic boundary if that is shorter
+
+  double corner[2] = {-1.0e300, -1.0e300}, reference[2], spread[2] = {0.0, 0.0}, widest[2];
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!model.coeffs[atom->type[i]].other)
+      for (int d = 0; d < 2; d++) corner[d] = std::max(corner[d], atom->x[i][d]);
+  MPI_Allreduce(corner, reference, 2, MPI_DOUBLE, MPI_MAX, lmp->world);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!model.coeffs[atom->type[i]].other)
+      for (int d = 0; d < 2; d++) {
+        double distance = reference[d] - atom->x[i][d];
+        if (domain->periodicity[d]) distance = std::min(distance, std::fabs(prd[d] - distance));
+        spread[d] = std::max(spread[d], distance);
+      }
+  MPI_Allreduce(spread, widest, 2, MPI_DOUBLE, MPI_MAX, lmp->world);
+
+  const int across = (widest[0] < widest[1]) ? 0 : 1;
+  if (widest[across] > ROUNDOFF * std::max(prd[0], prd[1]))
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair_style {} dim 1: the particles must lie on a line along x or y, but they spread "
+        "over {:g} along x and {:g} along y",
+        style, widest[0], widest[1]);
   if (domain->periodicity[across] && prd[across] <= support)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "Pair_style {}: box too narrow for dim 1: its {} extent {} must be "
                "larger than the support radius {}",
                style, "xy"[across], prd[across], support);
@@ -81,38 +149,93 @@ static void check_line_of_particles(LAMMPS *lmp, const std::string &style, doubl
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_support(LAMMPS *lmp, const std::string &style, int dim, double support)
+void SPHDissipation::check_support(LAMMPS *lmp, const std::string &style, const FluidModel &model,
+                                   int dim, double support)
 {
   Comm *comm = lmp->comm;
   Error *error = lmp->error;
   if (comm->cutghostuser > 0.0 && comm->cutghostuser < support)
-    error->all(FLERR,
+    error->all(FLERR, Error::NOLASTLINE,
                "The ghost cutoff {} of comm_modify is smaller than the support radius {} of "
                "pair style {}",
                comm->cutghostuser, support, style);
-  if (dim == 1) check_line_of_particles(lmp, style, support);
+  if (dim == 1) check_line_of_particles(lmp, style, model, support);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_masses(LAMMPS *lmp, const std::string &style)
+void SPHDissipation::check_masses(LAMMPS *lmp, const std::string &style, const FluidModel &model)
 {
   Atom *atom = lmp->atom;
   Error *error = lmp->error;
-  double lightest = 1.0;
-  tagint id = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->rmass[i] > 0.0)) {
-      lightest = 0.0;
-      id = atom->tag[i];
+  int integrated = 0;
+  for (const auto &ifix : lmp->modify->get_fix_by_style("^" + style + "$"))
+    integrated |= ifix->groupbit;
+
+  const auto weightless = first_particle(lmp, [&](int i) {
+    const bool matters = !model.coeffs[atom->type[i]].other || (atom->mask[i] & integrated);
+    return matters && !(atom->rmass[i] > 0.0);
+  });
+  if (!weightless.empty())
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {}: mass must be > 0, which that of {} is not; use the set command",
+               style, weightless);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const FluidModel &model,
+                                    int boundary_bits)
+{
+  if (model.choice.eos != Eos::IDEAL) return;
+  Atom *atom = lmp->atom;
+  bigint number[2] = {0, 0}, all[2];    // of fluid particles, of those without internal energy
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (model.coeffs[atom->type[i]].other || (atom->mask[i] & boundary_bits)) continue;
+    number[0]++;
+    if (!(atom->esph[i] > 0.0)) number[1]++;
+  }
+  MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+  if (all[1] && lmp->comm->me == 0)
+    lmp->error->warning(
+        FLERR,
+        "Pair style {} eos ideal: {} of {} particles have no internal energy and thus "
+        "no pressure; use set ... sph/e",
+        style, all[1], all[0]);
+}
+
+/* ----------------------------------------------------------------------
+   a few particles may fly by themselves, but each one of a fluid has more neighbors than
+   the two along each axis
+------------------------------------------------------------------------- */
+
+void SPHDissipation::check_neighbors(LAMMPS *lmp, const std::string &style, const FluidModel &model,
+                                     const Engine &engine, int boundary_bits, int dim,
+                                     double support)
+{
+  Atom *atom = lmp->atom;
+  auto is_fluid = [&](int i) {
+    return !model.coeffs[atom->type[i]].other && !(atom->mask[i] & boundary_bits);
+  };
+
+  // a pair is known to the owner of one of its particles, or to both with newton off
+
+  bigint number[2] = {0, 0}, all[2];    // of fluid particles, of their neighbors
+  for (int i = 0; i < atom->nlocal; i++) number[0] += is_fluid(i);
+  const bool ghosts = lmp->force->newton_pair;
+  const LoopData &pairs = engine.pairs();
+  for (int ii = 0; ii < pairs.inum; ii++)
+    for (int k = 0; k < pairs.count[ii]; k++) {
+      const int j = pairs.neighbor[pairs.first[ii] + k];
+      number[1] += is_fluid(pairs.ilist[ii]);
+      if (ghosts || j < atom->nlocal) number[1] += is_fluid(j);
     }
-  double lightest_all;
-  tagint id_all;
-  MPI_Allreduce(&lightest, &lightest_all, 1, MPI_DOUBLE, MPI_MIN, lmp->world);
-  MPI_Allreduce(&id, &id_all, 1, MPI_LMP_TAGINT, MPI_MAX, lmp->world);
-  if (lightest_all <= 0.0)
-    error->all(FLERR,
-               "Pair style {}: mass must be > 0, which that of particle {} is not; "
-               "use the set command",
-               style, id_all);
+  MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+
+  const int enough = 2 * dim;
+  if (all[0] > enough && all[1] < enough * all[0] && lmp->comm->me == 0)
+    lmp->error->warning(FLERR,
+                        "Pair style {}: particles have only {:.2g} neighbors on average within the "
+                        "support radius {:g}; use an rc of three to four particle distances",
+                        style, static_cast<double>(all[1]) / static_cast<double>(all[0]), support);
 }

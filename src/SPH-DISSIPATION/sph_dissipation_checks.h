@@ -14,28 +14,46 @@
 #ifndef LMP_SPH_DISSIPATION_CHECKS_H
 #define LMP_SPH_DISSIPATION_CHECKS_H
 
+#include <functional>
 #include <string>
 
 namespace LAMMPS_NS {
 class LAMMPS;
 
 namespace SPHDissipation {
+  class Engine;
+  class FluidModel;
 
   // What a particle fluid needs from the rest of the simulation.  Called by all ranks; errors name the
   // pair style.
 
-  // atom style, integrator, units; no other pair style that cannot be there
+  // the first of the particles of all ranks for which wrong(i) holds, by its ID if particles have
+  // one: "particle 17"; empty if there is none
+
+  std::string first_particle(LAMMPS *, const std::function<bool(int)> &wrong);
+
+  // atom style, integrator, units, special bonds; no other pair style that cannot be there
 
   void check_styles(LAMMPS *, const std::string &style);
 
-  // the support radius fits into the ghost cutoff and, for dim = 1, into the box
+  // the support radius fits into the ghost cutoff and, for dim = 1, into the box around the line on
+  // which the particles lie
 
-  void check_support(LAMMPS *, const std::string &style, int dim, double support);
+  void check_support(LAMMPS *, const std::string &style, const FluidModel &, int dim,
+                     double support);
 
-  // all masses are positive; also during a run, for fixes that insert particles, whose mass is zero at
-  // first
+  // all masses of fluid and of integrated particles are positive; also during a run, for fixes that
+  // insert particles, whose mass is zero at first
 
-  void check_masses(LAMMPS *, const std::string &style);
+  void check_masses(LAMMPS *, const std::string &style, const FluidModel &);
+
+  // warnings about a fluid that exerts no forces: no internal energy with an equation of state that
+  // needs it, no neighbors inside the support.  Particles with one of boundary_bits in their mask are
+  // no fluid.
+
+  void check_energies(LAMMPS *, const std::string &style, const FluidModel &, int boundary_bits);
+  void check_neighbors(LAMMPS *, const std::string &style, const FluidModel &, const Engine &,
+                       int boundary_bits, int dim, double support);
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

@@ -16,32 +16,47 @@
 #include "atom.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_model.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-void DensityStage::run(NeighList *list, double **omegaest, bool with_energy)
+DensityStage::DensityStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
+                           const FluidModel &model) :
+    Stage(lmp, engine, exchange),
+    model(model)
+{
+}
+
+/* ----------------------------------------------------------------------
+   particles of other styles keep their density
+------------------------------------------------------------------------- */
+
+void DensityStage::run(NeighList *list, double **omegaest)
 {
   engine.accumulate_density(list, omegaest);
 
   DensitySum *const density = engine.density;
   const Field sums = field(density, &density->c, 2);
   exchange.reverse({sums});
-  if (with_energy)
+  if (model.choice.eos == Eos::IDEAL)    // which needs the energy of ghost atoms
     exchange.forward({sums, {atom->esph, 1, 1}});
   else
     exchange.forward({sums});
 
   const double *const rmass = atom->rmass;
+  const int *const type = atom->type;
   double *const rho = atom->rho;
   double *const drho = atom->drho;
   double *const vfrac = atom->vfrac;
   const int nall = atom->nlocal + atom->nghost;
   for (int i = 0; i < nall; i++) {
+    engine.particle[i].vol = 1.0 / density[i].c;
+    if (model.coeffs[type[i]].other) continue;
     rho[i] = rmass[i] * density[i].c;
     drho[i] = rmass[i] * density[i].cdot;
-    vfrac[i] = engine.particle[i].vol = 1.0 / density[i].c;
+    vfrac[i] = engine.particle[i].vol;
   }
 }

@@ -19,18 +19,22 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
+  class FluidModel;
+
   // Pass 1: number density c and its rate of all particles, then their volume V = 1/c, their mass
   // density rho = m c and drho = m dc/dt.  P1 (5), (6)
 
   class DensityStage : public Stage {
    public:
-    using Stage::Stage;
+    DensityStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
     static constexpr int FORWARD = 3, REVERSE = 2;    // values per atom
 
-    // omegaest = extrapolated spin, nullptr for a fluid without; with_energy: the equation of state
-    // needs the internal energy of ghost atoms
+    // omegaest = extrapolated spin, nullptr for a fluid without
 
-    void run(NeighList *, double **omegaest, bool with_energy);
+    void run(NeighList *, double **omegaest);
+
+   private:
+    const FluidModel &model;
   };
 
 }    // namespace SPHDissipation

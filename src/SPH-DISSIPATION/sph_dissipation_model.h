@@ -29,29 +29,33 @@ namespace SPHDissipation {
 
   enum class Limit { NO, COUNT, YES };
 
-  // choices of the pair_style command, as a restart file holds them
+  // choices of the pair_style command
 
   struct Settings {
-    Kernel kernel = Kernel::WENDLAND_C2;
-    Eos eos = Eos::LINEAR;
-    Shear shear = Shear::MG;
-    Bulk bulk = Bulk::DENSITY;
-    int dim = 0;    // 0: dimension of the simulation
-    Limit limit = Limit::NO;
+    Settings();
+
+    Kernel kernel;
+    Eos eos;
+    Shear shear;
+    Bulk bulk;
+    int dim;    // 0: dimension of the simulation
+    Limit limit;
   };
 
   // what pair_coeff I I sets and what follows from it
 
   struct TypeCoeff {
+    TypeCoeff();
     static constexpr int MAXVISCOSITY = 4;
 
     EosParams eos;
-    double viscosity[MAXVISCOSITY] = {};    // mu, and what a derived style adds
-    double kappa = 0.0;
-    double rc = 0.0;
-    double gamma = 0.0;    // 0: default of the equation of state
-    int intrinsic = 0;     // 1: kappa is what the shear term gives
-    double zeta = 0.0;     // coefficient of the bulk term
+    double viscosity[MAXVISCOSITY];    // mu, and what a derived style adds
+    double kappa;
+    double rc;
+    double gamma;     // 0: default of the equation of state
+    int intrinsic;    // 1: kappa is what the shear term gives
+    int other;        // 1: its particles belong to another style of pair_style hybrid
+    double zeta;      // coefficient of the bulk term
   };
 
   // The fluids as the commands of a pair style describe them: the choices of pair_style, the
@@ -76,6 +80,13 @@ namespace SPHDissipation {
     double common_support(int **setflag) const;
     std::string summary(int dim, double support) const;    // one line for the log
 
+    // Coefficients that other commands may vary during a run, see Pair::extract(): arrays by type
+    // pair, of which they set the entries i <= j.  adopt() takes over what they
+    // have set and says whether there was anything.
+
+    void *extract(const char *name, int &dim);
+    bool adopt();
+
     // exponent of the equation of state of type i, its viscosities with types up to i; call for types
     // in ascending order
 
@@ -83,10 +94,11 @@ namespace SPHDissipation {
 
     // coefficient of the bulk term of type i, whose shear term gives the bulk viscosity intrinsic
 
-    void set_bulk(int i, double intrinsic, bool warn);
+    void set_bulk(int i, double intrinsic);
+    void warn_of_ignored(int i, double intrinsic) const;    // kappa, if there is no bulk term
 
     void write_settings(FILE *) const;
-    void read_settings(FILE *);
+    void read_settings(FILE *, Shear default_shear);
     void write_coeffs(FILE *, int **setflag) const;
     void read_coeffs(FILE *, int **setflag);
     void write_data(FILE *) const;
@@ -94,23 +106,39 @@ namespace SPHDissipation {
 
     // k = 0 is the shear viscosity, more follow in the order of their names
 
-    double viscosity(int k, int i, int j) const { return pair_viscosity[k][i][j]; }
+    double viscosity(int k, int i, int j) const { return variables[k].value[i][j]; }
     bool is_mixed(int i, int j) const { return !viscosity_set[0][i][j]; }
 
     Settings choice;
     TypeCoeff *coeffs;    // by type, from 1
 
    private:
+    // what extract() gives out: the viscosities, then coefficients of types, whose value for two types
+    // is the mean and has no other meaning; known = value when the model set it last
+
+    struct Variable {
+      std::string name;
+      double **value;
+      double **known;
+    };
+
+    enum { C0, KAPPA, PB };    // the variables after the viscosities
+
     const std::string style;
     const std::vector<std::string> viscosity_names;
-    double ***pair_viscosity;    // by viscosity and type pair
-    int ***viscosity_set;        // 1 if set by pair_coeff, 0 if mixed from the types
+    std::vector<Variable> variables;
+    double ***pair_viscosity;    // by viscosity and type pair: what pair_coeff gave
+    int ***viscosity_set;        // 1 if it did, 0 if the value is mixed from the types
 
     int nviscosity() const { return static_cast<int>(viscosity_names.size()); }
     int is_viscosity(const std::string &) const;
+    double &type_value(int, int);
+    double pair_value(int, int, int);
+    void publish(int, int);
     int type_coeff(int, char **, int, int, int, int, int **);
     int fluid_coeff(int, char **, int, int, int, int, int **);
     int unlike_coeff(int, char **, int, int, int, int, int **);
+    int place(const char *) const;
     std::string type_line(int) const;
   };
 

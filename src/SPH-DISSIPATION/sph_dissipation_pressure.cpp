@@ -49,11 +49,11 @@ bigint PressureStage::run(const double *bound, int not_fluid)
 
   for (int i = 0; i < nall; i++) {
     Particle &particle = engine.particle[i];
-    if (mask[i] & not_fluid) {
+    const TypeCoeff &coeff = coeffs[type[i]];
+    if (coeff.other || (mask[i] & not_fluid)) {
       engine.zeta_term[i] = particle.g = 0.0;
       continue;
     }
-    const TypeCoeff &coeff = coeffs[type[i]];
     const double vol = particle.vol;
     const double cdot = engine.density[i].cdot;
 
@@ -78,7 +78,7 @@ double PressureStage::elastic_energy(double *each_atom, int not_fluid) const
 {
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (atom->mask[i] & not_fluid) continue;
+    if (model.coeffs[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
     const double energy = atom->rmass[i] *
         SPHDissipation::elastic_energy(model.choice.eos, model.coeffs[atom->type[i]].eos,
                                        atom->rho[i]);

@@ -23,13 +23,20 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  using Columns = std::vector<std::pair<std::string, double>>;
+  // heads and values of columns
+
+  class Columns : public std::vector<std::pair<std::string, double>> {
+   public:
+    using vector::vector;
+  };
 
   // Table of the coefficients and the largest stable time steps of the pairs of types, as it goes to
   // the log: a row each, the same columns in all rows.
 
   class CoeffTable {
    public:
+    CoeffTable() : smallest(UNLIMITED_STEP) {}
+
     // values = viscosities and coefficients, viscous = time steps of the viscous terms
 
     void add_row(int i, int j, const Columns &values, double acoustic, const Columns &viscous);
@@ -38,7 +45,7 @@ namespace SPHDissipation {
 
    private:
     std::string lines;
-    double smallest = UNLIMITED_STEP;
+    double smallest;
   };
 
 }    // namespace SPHDissipation

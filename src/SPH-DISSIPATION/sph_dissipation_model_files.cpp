@@ -1,0 +1,227 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_model.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+// first number of the settings in a restart file; the settings of older versions begin with one
+// below 10.  A new one for every change of what is stored.
+
+static constexpr int FORMAT = 1001;
+
+/* ----------------------------------------------------------------------
+   numbers to and from a restart file; proc 0 reads and checks, all get them
+------------------------------------------------------------------------- */
+
+static void put(FILE *fp, int value)
+{
+  fwrite(&value, sizeof(int), 1, fp);
+}
+
+static void put(FILE *fp, double value)
+{
+  fwrite(&value, sizeof(double), 1, fp);
+}
+
+namespace {
+class Reader : protected Pointers {
+ public:
+  Reader(LAMMPS *lmp, FILE *fp, const std::string &style) : Pointers(lmp), fp(fp), style(style) {}
+
+  int format()
+  {
+    int value = 0;
+    if (comm->me == 0) utils::sfread(FLERR, &value, sizeof(int), 1, fp, nullptr, error);
+    MPI_Bcast(&value, 1, MPI_INT, 0, world);
+    return value;
+  }
+
+  int integer(const char *what, int lo, int hi)
+  {
+    int value = 0;
+    if (comm->me == 0) {
+      utils::sfread(FLERR, &value, sizeof(int), 1, fp, nullptr, error);
+      if (value < lo || value > hi)
+        error->one(FLERR, "Restart file is damaged: pair style {} {} is {}, not {} to {}", style,
+                   what, value, lo, hi);
+    }
+    MPI_Bcast(&value, 1, MPI_INT, 0, world);
+    return value;
+  }
+
+  double number(const char *what, bool positive = false)
+  {
+    double value = 0.0;
+    if (comm->me == 0) {
+      utils::sfread(FLERR, &value, sizeof(double), 1, fp, nullptr, error);
+      if (!std::isfinite(value) || (positive && !(value > 0.0)))
+        error->one(FLERR, "Restart file is damaged: pair style {} {} is {}", style, what, value);
+    }
+    MPI_Bcast(&value, 1, MPI_DOUBLE, 0, world);
+    return value;
+  }
+
+ private:
+  FILE *fp;
+  const std::string &style;
+};
+}    // namespace
+
+/* ----------------------------------------------------------------------
+   proc 0 writes choices to restart file
+------------------------------------------------------------------------- */
+
+void FluidModel::write_settings(FILE *fp) const
+{
+  put(fp, FORMAT);
+  put(fp, static_cast<int>(choice.kernel));
+  put(fp, static_cast<int>(choice.eos));
+  put(fp, static_cast<int>(choice.shear));
+  put(fp, static_cast<int>(choice.bulk));
+  put(fp, choice.dim);
+  put(fp, static_cast<int>(choice.limit));
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 reads choices from restart file, bcasts
+------------------------------------------------------------------------- */
+
+void FluidModel::read_settings(FILE *fp, Shear default_shear)
+{
+  Reader read(lmp, fp, style);
+  const int format = read.format();
+  if (format != FORMAT)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Restart file was written by {} version of pair style {}, format {}, not {}",
+               (format > FORMAT) ? "a newer" : "an older", style, format, FORMAT);
+
+  // the micropolar shear term belongs to a style of its own
+
+  const bool spins = (default_shear == Shear::MICROPOLAR);
+  const int first_shear = static_cast<int>(spins ? Shear::MICROPOLAR : Shear::NONE);
+  const int last_shear = static_cast<int>(spins ? Shear::MICROPOLAR : Shear::ESPANOL);
+  choice.kernel = static_cast<Kernel>(read.integer("kernel", 0, static_cast<int>(Kernel::LUCY)));
+  choice.eos = static_cast<Eos>(read.integer("eos", 0, static_cast<int>(Eos::IDEAL)));
+  choice.shear = static_cast<Shear>(read.integer("shear", first_shear, last_shear));
+  choice.bulk = static_cast<Bulk>(read.integer("bulk", 0, static_cast<int>(Bulk::VOLUME)));
+  choice.dim = read.integer("dim", 0, 3);
+  choice.limit = static_cast<Limit>(read.integer("limit", 0, static_cast<int>(Limit::YES)));
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 writes coefficients to restart file: of the types that have them, and the
+   viscosities that pairs of types have of their own
+------------------------------------------------------------------------- */
+
+void FluidModel::write_coeffs(FILE *fp, int **setflag) const
+{
+  put(fp, nviscosity());
+  for (int i = 1; i <= atom->ntypes; i++) {
+    put(fp, setflag[i][i]);
+    if (setflag[i][i]) {
+      const TypeCoeff &type = coeffs[i];
+      for (double value :
+           {type.eos.rho0, type.eos.c0, type.eos.pb, type.gamma, type.kappa, type.rc})
+        put(fp, value);
+      put(fp, type.intrinsic);
+      for (int k = 0; k < nviscosity(); k++) put(fp, type.viscosity[k]);
+    }
+    for (int j = i + 1; j <= atom->ntypes; j++)
+      for (int k = 0; k < nviscosity(); k++) {
+        put(fp, viscosity_set[k][i][j]);
+        if (viscosity_set[k][i][j]) put(fp, pair_viscosity[k][i][j]);
+      }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 reads coefficients from restart file, bcasts
+------------------------------------------------------------------------- */
+
+void FluidModel::read_coeffs(FILE *fp, int **setflag)
+{
+  Reader read(lmp, fp, style);
+  read.integer("number of viscosities", nviscosity(), nviscosity());
+  for (int i = 1; i <= atom->ntypes; i++) {
+    setflag[i][i] = read.integer("flag of a type", 0, 1);
+    if (setflag[i][i]) {
+      TypeCoeff &type = coeffs[i];
+      type.eos.rho0 = read.number("rho0", true);
+      type.eos.c0 = read.number("c0", true);
+      type.eos.pb = read.number("pb");
+      type.gamma = read.number("gamma");
+      type.kappa = read.number("kappa");
+      type.rc = read.number("rc", true);
+      type.intrinsic = read.integer("flag of intrinsic kappa", 0, 1);
+      for (int k = 0; k < nviscosity(); k++)
+        type.viscosity[k] = read.number(viscosity_names[k].c_str());
+    }
+    for (int j = i + 1; j <= atom->ntypes; j++)
+      for (int k = 0; k < nviscosity(); k++) {
+        const int set = read.integer("flag of two types", 0, 1);
+        viscosity_set[k][i][j] = viscosity_set[k][j][i] = set;
+        if (!set) continue;
+        pair_viscosity[k][i][j] = pair_viscosity[k][j][i] = read.number(viscosity_names[k].c_str());
+        setflag[i][j] = 1;
+      }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 writes coefficients of types to data file
+------------------------------------------------------------------------- */
+
+void FluidModel::write_data(FILE *fp) const
+{
+  for (int i = 1; i <= atom->ntypes; i++) utils::print(fp, "{} {}\n", i, type_line(i));
+}
+
+/* ----------------------------------------------------------------------
+   proc 0 writes coefficients of types and of unlike pairs to data file
+------------------------------------------------------------------------- */
+
+void FluidModel::write_data_all(FILE *fp) const
+{
+  for (int i = 1; i <= atom->ntypes; i++) {
+    utils::print(fp, "{} {} {}\n", i, i, type_line(i));
+    for (int j = i + 1; j <= atom->ntypes; j++) {
+      utils::print(fp, "{} {}", i, j);
+      for (int k = 0; k < nviscosity(); k++)
+        utils::print(fp, " {} {:.17g}", viscosity_names[k], viscosity(k, i, j));
+      utils::print(fp, "\n");
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   arguments of pair_coeff I I
+------------------------------------------------------------------------- */
+
+std::string FluidModel::type_line(int i) const
+{
+  const TypeCoeff &c = coeffs[i];
+  std::string line = fmt::format("{:.17g} {:.17g} {:.17g} {}", c.eos.rho0, c.eos.c0, c.viscosity[0],
+                                 c.intrinsic ? "intrinsic" : fmt::format("{:.17g}", c.kappa));
+  for (int k = 1; k < nviscosity(); k++) line += fmt::format(" {:.17g}", c.viscosity[k]);
+  line += fmt::format(" {:.17g} pb {:.17g}", c.rc, c.eos.pb);
+  if (c.gamma > 0.0) line += fmt::format(" gamma {:.17g}", c.gamma);
+  return line;
+}

@@ -1,0 +1,171 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_model.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ----------------------------------------------------------------------
+   exponent of the equation of state of type i, its viscosities with types up to i
+------------------------------------------------------------------------- */
+
+void FluidModel::mix(int i)
+{
+  TypeCoeff &type = coeffs[i];
+  type.eos.gamma = (type.gamma > 0.0) ? type.gamma : default_gamma(choice.eos);
+  if (choice.eos == Eos::IDEAL && !(type.eos.gamma > 1.0))
+    error->all(FLERR, "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}",
+               type.eos.gamma, i);
+
+  for (int k = 0; k < static_cast<int>(variables.size()); k++)
+    if (k != nviscosity() + KAPPA) publish(k, i);
+}
+
+/* ----------------------------------------------------------------------
+   coefficient of the bulk term of type i, whose shear term gives bulk viscosity intrinsic
+------------------------------------------------------------------------- */
+
+void FluidModel::set_bulk(int i, double intrinsic)
+{
+  TypeCoeff &type = coeffs[i];
+  const bool none = (type.intrinsic || choice.bulk == Bulk::NONE);
+  type.zeta = none ? 0.0 : bulk_coefficient(type.kappa, intrinsic);
+  if (type.intrinsic) type.kappa = intrinsic;
+  publish(nviscosity() + KAPPA, i);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidModel::warn_of_ignored(int i, double intrinsic) const
+{
+  const TypeCoeff &type = coeffs[i];
+  if (choice.bulk != Bulk::NONE || type.other || type.kappa == intrinsic || comm->me) return;
+  error->warning(FLERR,
+                 "Pair_coeff kappa {} of type {} is ignored with bulk none: the shear "
+                 "term gives kappa {}",
+                 type.kappa, i, intrinsic);
+}
+
+/* ----------------------------------------------------------------------
+   what another command may vary; nothing that would have no effect
+------------------------------------------------------------------------- */
+
+void *FluidModel::extract(const char *name, int &dim)
+{
+  dim = 2;
+  if (!coeffs) return nullptr;
+  if (choice.shear == Shear::NONE && strcmp(name, "mu") == 0) return nullptr;
+  if (choice.bulk == Bulk::NONE && strcmp(name, "kappa") == 0) return nullptr;
+  if (choice.eos == Eos::IDEAL && strcmp(name, "c0") == 0) return nullptr;
+  for (const auto &one : variables)
+    if (one.name == name) return one.value;
+  return nullptr;
+}
+
+/* ----------------------------------------------------------------------
+   k-th variable of type i
+------------------------------------------------------------------------- */
+
+double &FluidModel::type_value(int k, int i)
+{
+  TypeCoeff &type = coeffs[i];
+  if (k < nviscosity()) return type.viscosity[k];
+  switch (k - nviscosity()) {
+    case C0:
+      return type.eos.c0;
+    case KAPPA:
+      return type.kappa;
+    default:
+      return type.eos.pb;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   k-th variable of two types, as given or mixed
+------------------------------------------------------------------------- */
+
+double FluidModel::pair_value(int k, int i, int j)
+{
+  const double a = type_value(k, i), b = type_value(k, j);
+  if (i == j) return a;
+  if (k >= nviscosity()) return 0.5 * (a + b);
+  if (viscosity_set[k][i][j]) return pair_viscosity[k][i][j];
+  return (a * b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidModel::publish(int k, int i)
+{
+  const Variable &one = variables[k];
+  for (int j = 1; j <= i; j++)
+    one.value[i][j] = one.value[j][i] = one.known[i][j] = one.known[j][i] = pair_value(k, i, j);
+}
+
+/* ----------------------------------------------------------------------
+   coefficients of types and viscosities of type pairs from what was put in their places
+   a mixed one may change only together with those of both types, to what it would be anyway
+------------------------------------------------------------------------- */
+
+bool FluidModel::adopt()
+{
+  constexpr double ROUNDOFF = 1.0e-12;
+  if (!coeffs) return false;
+  bool changed = false;
+  for (int k = 0; k < static_cast<int>(variables.size()); k++) {
+    const Variable &one = variables[k];
+    auto is_changed = [&](int i, int j) {
+      const double value = one.value[i][j];
+      if (value == one.known[i][j]) return false;
+      if (!std::isfinite(value) || (one.name == "c0" && !(value > 0.0)) ||
+          ((one.name == "mu" || one.name == "kappa") && !(value >= 0.0)))
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Pair style {}: {} of types {} {} was changed to {}, which is not admissible",
+                   style, one.name, i, j, value);
+      one.known[i][j] = value;
+      changed = true;
+      return true;
+    };
+
+    for (int i = 1; i <= atom->ntypes; i++) {
+      if (!is_changed(i, i)) continue;
+      if (one.name == "kappa" && coeffs[i].intrinsic)
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Pair style {}: kappa of type {} is intrinsic and cannot be changed", style, i);
+      type_value(k, i) = one.value[i][i];
+    }
+
+    for (int i = 1; i <= atom->ntypes; i++)
+      for (int j = i + 1; j <= atom->ntypes; j++) {
+        if (!is_changed(i, j)) continue;
+        const double value = one.value[i][j], mixed = pair_value(k, i, j);
+        if (k < nviscosity() && viscosity_set[k][i][j])
+          pair_viscosity[k][i][j] = pair_viscosity[k][j][i] = value;
+        else if (std::fabs(value - mixed) > ROUNDOFF * std::fabs(mixed))
+          error->all(FLERR, Error::NOLASTLINE,
+                     "Pair style {}: {} of types {} {} was changed to {}, but it {}", style,
+                     one.name, i, j, value,
+                     (k < nviscosity()) ? "is the mean of the types; set it by pair_coeff first"
+                                        : "belongs to a type, not to a pair of types");
+      }
+  }
+  return changed;
+}
