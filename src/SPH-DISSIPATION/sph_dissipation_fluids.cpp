@@ -28,8 +28,23 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-static constexpr int MAXLINE = 1024;
 static constexpr int NCOLUMN = 6;    // name temperature rho c mu kappa
+
+/* ----------------------------------------------------------------------
+   one line of any length; false at the end of the file
+   (LAMMPS's readers cut long lines and do not number them)
+------------------------------------------------------------------------- */
+
+static bool read_line(FILE *fp, std::string &line)
+{
+  char part[1024];
+  line.clear();
+  while (fgets(part, sizeof(part), fp)) {
+    line += part;
+    if (line.back() == '\n') return true;
+  }
+  return !line.empty();
+}
 
 /* ----------------------------------------------------------------------
    the fluid of one line
@@ -68,11 +83,11 @@ Fluid SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const std
     FILE *fp = utils::open_potential(file, lmp, nullptr);
     if (!fp) error->one(FLERR, "Cannot open file of fluids {}: {}", file, utils::getsyserror());
 
-    char line[MAXLINE];
+    std::string line;
     int number = 0;
     std::map<std::string, int> line_of;
     std::string known;
-    while (fgets(line, MAXLINE, fp)) {
+    while (read_line(fp, line)) {
       number++;
       const auto words = Tokenizer(utils::trim_comment(line)).as_vector();
       if (words.empty()) continue;

@@ -160,3 +160,18 @@ def test_the_good_file_is_good(box):
     assert table(result)["1-1"] == (1e-3, 2.7e-3)
     assert table(result)["2-2"] == (10.0, 1.0)
     assert not result.warnings, result.warnings
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_lines_of_any_length(box, ranks):
+    """A comment or a number that stands behind the 1023rd character of its line belongs to that line."""
+    long = " " * 1500
+    content = (f"# UNITS: si {'x' * 1100} oil 1 2 3 4 5\n# {'y ' * 5000}\n"
+               f"water 300 1000{long}1500 1e-3 2.7e-3 # {'z ' * 800}\nhoney 300 1400 2000 10.0 1.0")
+    box.path("my.fluids").write_text(content)
+    result = box(deck("pair_coeff 1 1 my.fluids water 2.5\npair_coeff 2 2 my.fluids honey 2.5\n"), ranks=ranks)
+    assert table(result)["1-1"] == (1e-3, 2.7e-3)
+    assert table(result)["2-2"] == (10.0, 1.0)
+    box.path("my.fluids").write_text(content.replace("1400", "heavy"))
+    result = box(deck("pair_coeff * * my.fluids water 2.5\n"), ranks=ranks, check=False)
+    assert re.search(r"my\.fluids:4: 'heavy' is not a number", result.error), result.error

@@ -1,0 +1,255 @@
+"""Coefficients over time: what pair_coeff overwrites, what fix adapt varies, what restart files keep."""
+
+import re
+import struct
+
+import numpy as np
+import pytest
+
+import test_micropolar
+from helpers import INTEGRATE, disordered, dump, fluid, header, relative, undump
+
+LIKE = {1: "1.0 10.0 0.5 2.0 3.0", 2: "1.1 12.0 0.2 0.8 3.0"}
+COLUMN = {"mu": 2, "kappa": 3, "c0": 1}
+
+
+def coeffs(**changes):
+    """pair_coeff lines of two types; mu=(0.4, 0.3) changes mu of both, pb adds a keyword."""
+    lines = ""
+    for i, text in LIKE.items():
+        words = text.split()
+        for name, values in changes.items():
+            if name == "pb":
+                words += ["pb", repr(values[i - 1])]
+            else:
+                words[COLUMN[name]] = repr(values[i - 1])
+        lines += f"pair_coeff {i} {i} {' '.join(words)}\n"
+    return lines
+
+
+def start(lammps, lines, options="", before="", cells=12):
+    disordered(2, cells, ntypes=2).write(lammps.path("box.data"))
+    return (header(2) + f"pair_style sph/bulk {options}\nread_data box.data\n" + lines + before + INTEGRATE)
+
+
+def forces(lammps, text, name="f.dump", ranks=1, steps=0):
+    lammps(text + dump(name) + f"run {steps}\n", ranks=ranks)
+    return lammps.frame(name)["f"]
+
+
+# ---------------------------------------------------------------------------------------------
+# back to the mean
+
+
+@pytest.mark.parametrize("back", [
+    "pair_coeff * * 1.0 10.0 0.5 2.0 3.0\n" + coeffs(),
+    "pair_coeff 1*2 * 1.0 10.0 0.5 2.0 3.0\n" + coeffs(),
+    "pair_coeff 1 2 mu mean\n", "pair_coeff 2 1 mu mean\n", "pair_coeff * * mu mean\n",
+    "pair_style none\npair_style sph/bulk\n" + coeffs()])
+def test_back_to_the_mean(lammps, back):
+    mean = forces(lammps, start(lammps, coeffs()))
+    again = forces(lammps, start(lammps, coeffs() + "pair_coeff 1 2 mu 0.9\n" + back))
+    assert relative(again - mean, mean) == 0.0
+
+
+@pytest.mark.parametrize("keep", ["pair_coeff 1 1 1.0 10.0 0.5 2.0 3.0\n", "pair_style sph/bulk\n",
+                                  "pair_coeff 1 * 1.0 10.0 0.5 2.0 3.0\n"])
+def test_what_leaves_a_viscosity_between_types_alone(lammps, keep):
+    """One type anew, and a repeated pair_style, which in LAMMPS keeps all of pair_coeff."""
+    own = forces(lammps, start(lammps, coeffs() + "pair_coeff 1 2 mu 0.9\n"))
+    again = forces(lammps, start(lammps, coeffs() + "pair_coeff 1 2 mu 0.9\n" + keep))
+    assert relative(again - own, own) == 0.0
+
+
+def test_one_of_several_viscosities_back_to_the_mean(lammps):
+    particles = disordered(2, 10, ntypes=2)
+    test_micropolar.write(particles, lammps.path("box.data"))
+    texts = {"mean": "", "own": "pair_coeff 1 2 mu 0.1 mu_r 0.05\n",
+             "mu back": "pair_coeff 1 2 mu 0.1 mu_r 0.05\npair_coeff 1 2 mu mean\n", "mu_r": "pair_coeff 1 2 mu_r 0.05\n"}
+    found = {}
+    for name, lines in texts.items():
+        model = test_micropolar.two_fluids(2).splitlines(keepends=True)
+        lammps(header(2, style="sph/micropolar") + model[0] + "read_data box.data\n" + "".join(model[1:3]) + lines
+               + test_micropolar.integrate() + test_micropolar.dump("f.dump") + "run 0\n")
+        found[name] = lammps.frame("f.dump")["f"]
+    assert relative(found["mu back"] - found["mu_r"], found["mean"]) == 0.0
+    assert relative(found["mu back"] - found["own"], found["mean"]) > 1e-4
+
+
+# ---------------------------------------------------------------------------------------------
+# fix adapt
+
+
+def adapt(*settings, every=1, pair="sph/bulk", extra=""):
+    """fix adapt of (name, types, formula)."""
+    text = "".join(f"variable a{k} equal \"{formula}\"\n" for k, (_, _, formula) in enumerate(settings))
+    words = " ".join(f"pair {pair} {name} {types} v_a{k}" for k, (name, types, _) in enumerate(settings))
+    return text + f"fix A all adapt {every} {words} {extra}\n"
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 4])
+@pytest.mark.parametrize("name, values", [("mu", (0.8, 0.3)), ("kappa", (0.4, 3.0)), ("c0", (8.0, 14.0)), ("pb", (1.5, 0.5))])
+def test_adapt_is_pair_coeff(lammps, name, values, ranks):
+    """Values of each type; the viscosity of the unlike pair follows them."""
+    settings = [(name, f"{i} {i}", repr(value)) for i, value in enumerate(values, 1)]
+    want = forces(lammps, start(lammps, coeffs(**{name: values})), ranks=ranks, steps=20)
+    text = start(lammps, coeffs(), before=adapt(*settings))
+    have = forces(lammps, text, ranks=ranks, steps=20)
+    assert relative(have - want, want) < 1e-12
+    assert relative(forces(lammps, start(lammps, coeffs()), steps=20) - want, want) > 1e-4
+
+
+@pytest.mark.parametrize("pair_style", ["sph/bulk", "hybrid/overlay sph/bulk zero 3.0"])
+def test_adapt_of_all_types_and_of_an_unlike_pair(lammps, pair_style):
+    lines = coeffs() + "pair_coeff 1 2 mu 0.9\n"
+    want = forces(lammps, start(lammps, coeffs(mu=(0.7, 0.7)) + "pair_coeff 1 2 mu 0.7\n"), steps=10)
+    text = start(lammps, lines, before=adapt(("mu", "* *", "0.7")))
+    if pair_style != "sph/bulk":
+        text = text.replace("pair_style sph/bulk", f"pair_style {pair_style}")
+        text = re.sub(r"pair_coeff (\d) (\d)", r"pair_coeff \1 \2 sph/bulk", text)
+        text = text.replace("fix A", "pair_coeff * * zero\nfix A")
+    assert relative(forces(lammps, text, steps=10) - want, want) < 1e-12
+    want = forces(lammps, start(lammps, coeffs() + "pair_coeff 1 2 mu 0.1\n"), steps=10)
+    have = forces(lammps, start(lammps, lines, before=adapt(("mu", "1 2", "0.1"))), steps=10)
+    assert relative(have - want, want) < 1e-12
+
+
+def test_adapt_of_the_mean_with_both_types(lammps):
+    """Ranges that cover both types, and factors, change a mixed pair to what it would be anyway."""
+    want = forces(lammps, start(lammps, coeffs(mu=(0.7, 0.7), kappa=(1.0, 1.0))))
+    have = forces(lammps, start(lammps, coeffs(), before=adapt(("mu", "* *", "0.7"), ("kappa", "1*2 1*2", "1.0"))))
+    assert relative(have - want, want) < 1e-13
+    want = forces(lammps, start(lammps, coeffs(mu=(1.0, 0.4), kappa=(4.0, 1.6))))
+    have = forces(lammps, start(lammps, coeffs(), before=adapt(("mu", "* *", "2.0"), ("kappa", "* *", "2.0"), extra="scale yes")))
+    assert relative(have - want, want) < 1e-13
+
+
+def test_adapt_in_time(lammps):
+    """Forces are linear in mu and kappa: a step up and a step down in step 5 change the force of that step by
+    opposite amounts, and nothing before."""
+    frames = {}
+    for name, step in {"up": 0.3, "no": 0.0, "down": -0.3}.items():
+        formula = f"0.5+{step}*(step>=5)"
+        text = start(lammps, coeffs(mu=(0.5, 0.5)), before=adapt(("mu", "* *", formula), ("kappa", "1 1", f"1.5+{formula}")))
+        lammps(text + dump("f.dump") + "thermo 1\nrun 6\n")
+        frames[name] = lammps.frames("f.dump")
+    up, no, down = frames["up"], frames["no"], frames["down"]
+    for step in range(5):
+        assert (up[step]["f"] == no[step]["f"]).all()
+    change = up[5]["f"] - no[5]["f"]
+    assert relative(change, no[5]["f"]) > 1e-3
+    assert relative(change + (down[5]["f"] - no[5]["f"]), change) < 1e-11
+
+
+@pytest.mark.parametrize("reset", [False, True])
+def test_adapt_leaves_the_last_values_or_the_first(lammps, reset):
+    """Also in the files, and when pair_coeff follows; the table is printed for new values only."""
+    text = start(lammps, coeffs(), before=adapt(("mu", "1 1", "0.5+0.01*step"), ("c0", "2 2", "12-0.1*step"), every=10,
+                                                extra="reset yes" if reset else ""))
+    result = lammps(text + "run 30\nunfix A\nwrite_data out.data pair ii nocoeff\nwrite_restart out.restart\n"
+                    "write_coeff out.coeff\npair_coeff 2 2 1.1 12.0 0.25 0.8 3.0\n" + dump("f.dump") + "run 0\n")
+    written = lammps.path("out.coeff").read_text()
+    first = re.search(r"^.*\b1 1 (.*)$", written, re.MULTILINE)[1].split()
+    second = re.search(r"^.*\b2 2 (.*)$", written, re.MULTILINE)[1].split()
+    assert float(first[2]) == pytest.approx(0.5 if reset else 0.8, rel=1e-15)
+    assert float(second[1]) == pytest.approx(12.0 if reset else 9.0, rel=1e-15)
+    mu = re.findall(r"^ +1-1 +(\S+)", result.log, re.MULTILINE)
+    assert 2 <= len(mu) <= 3 and float(mu[-1]) == float(first[2]), mu
+    mu = re.findall(r"^ +2-2 +(\S+)", result.log, re.MULTILINE)
+    assert float(mu[-1]) == 0.25
+    result = lammps("read_restart out.restart\n" + INTEGRATE + "run 0\n")
+    assert float(re.search(r"^ +1-1 +(\S+)", result.log, re.MULTILINE)[1]) == float(first[2])
+
+
+@pytest.mark.parametrize("settings, options, words", [
+    ([("mu", "1 2", "0.3")], "", "mu of types 1 2 was changed to 0.3, but it is the mean"),
+    ([("mu", "1 *", "0.3")], "", "mu of types 1 2 .* pair_coeff first"),
+    ([("kappa", "1 2", "3.0")], "", "kappa of types 1 2 .* belongs to a type"),
+    ([("c0", "1 *", "9.0")], "", "c0 of types 1 2 .* belongs to a type"),
+    ([("mu", "1 1", "-0.3")], "", "mu of types 1 1 was changed to -0.3, which is not admissible"),
+    ([("c0", "* *", "1-step")], "", "c0 of types 1 1 was changed to 0"),
+    ([("kappa", "* *", "3.0")], "bulk none", "kappa not supported"),
+    ([("mu", "* *", "3.0")], "shear none", "mu not supported"),
+    ([("c0", "* *", "3.0")], "eos ideal", "c0 not supported"),
+    ([("rc", "* *", "3.0")], "", "rc not supported"),
+    ([("mu_r", "* *", "3.0")], "", "mu_r not supported")])
+def test_adapt_refused(lammps, settings, options, words):
+    text = start(lammps, coeffs(mu=(0.0, 0.0)) if options == "shear none" else coeffs(), options, adapt(*settings))
+    result = lammps(text + "run 3\n", check=False)
+    assert result.code == 1
+    assert re.search(words, result.error), result.error
+
+
+def test_adapt_of_intrinsic_kappa(lammps):
+    """It follows mu, and cannot be set."""
+    lines = "pair_coeff * * 1.0 10.0 {} intrinsic 3.0\n"
+    want = forces(lammps, start(lammps, lines.format(0.7)))
+    have = forces(lammps, start(lammps, lines.format(0.5), before=adapt(("mu", "* *", "0.7"))))
+    assert relative(have - want, want) < 1e-13
+    result = lammps(start(lammps, lines.format(0.5), before=adapt(("kappa", "* *", "2.0"))) + "run 0\n", check=False)
+    assert re.search("kappa of type 1 is intrinsic", result.error), result.error
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_adapt_micropolar(lammps, dim):
+    particles = disordered(dim, 10 if dim == 2 else 6)
+    test_micropolar.write(particles, lammps.path("box.data"))
+
+    def evaluate(name, model, before=""):
+        head = header(dim, style="sph/micropolar")
+        lammps(head + "read_data box.data\n" + model + before + test_micropolar.integrate()
+               + test_micropolar.dump(name) + "run 5\n")
+        frame = lammps.frame(name)
+        return np.hstack([frame["f"], np.column_stack([frame[word] for word in ("tqx", "tqy", "tqz")])])
+
+    gamma1, gamma2 = test_micropolar.gammas(dim, 0.11).split()
+    settings = [("mu", "* *", "0.6"), ("mu_r", "* *", "0.4"), ("gamma1", "* *", gamma1), ("gamma2", "* *", gamma2)]
+    want = evaluate("want.dump", test_micropolar.fluid(dim, mu=0.6, mu_r=0.4, gamma1=0.11))
+    have = evaluate("have.dump", test_micropolar.fluid(dim), adapt(*settings, pair="sph/micropolar"))
+    assert relative(have - want, want) < 1e-12
+    result = lammps(header(dim, style="sph/micropolar") + "read_data box.data\n" + test_micropolar.fluid(dim)
+                    + adapt(("mu_r", "* *", "5.0"), pair="sph/micropolar") + test_micropolar.integrate() + "run 0\n",
+                    check=False)
+    assert re.search("mu_r must be <= mu", result.error), result.error
+
+
+# ---------------------------------------------------------------------------------------------
+# damaged restart files
+
+
+def restart_file(lammps):
+    lammps(start(lammps, coeffs()) + "write_restart good.restart\n")
+    data = lammps.path("good.restart").read_bytes()
+    number = struct.pack("<d", 1.1)  # rho0 of type 2
+    assert data.count(number + struct.pack("<d", 12.0)) == 1
+    return data, data.index(number)
+
+
+def test_restart_file_with_a_number_that_no_fluid_has(lammps):
+    data, place = restart_file(lammps)
+    for value in (-1.0, float("nan")):
+        lammps.path("bad.restart").write_bytes(data[:place] + struct.pack("<d", value) + data[place + 8:])
+        for ranks in (1, 2):
+            result = lammps("read_restart bad.restart\n", ranks=ranks, check=False)
+            assert result.code != 0 and re.search("Restart file is damaged: pair style sph/bulk rho0 is", result.error)
+
+
+def test_restart_file_with_other_settings(lammps):
+    """Settings as the versions before wrote them, of a version to come, and nonsense."""
+    data, _ = restart_file(lammps)
+    head = struct.pack("<i", 1001) + struct.pack("<6i", 0, 0, 1, 1, 0, 0)
+    assert data.count(head) == 1
+    for new, words in {struct.pack("<7i", 0, 0, 1, 1, 0, 0, 1): "written by an older version of pair style sph/bulk",
+                       struct.pack("<7i", 1002, 0, 0, 1, 1, 0, 0): "written by a newer version",
+                       struct.pack("<7i", 1001, 17, 0, 1, 1, 0, 0): "damaged: pair style sph/bulk kernel is 17",
+                       struct.pack("<7i", 1001, 0, 0, 5, 1, 0, 0): "damaged: pair style sph/bulk shear is 5"}.items():
+        lammps.path("bad.restart").write_bytes(data.replace(head, new))
+        result = lammps("read_restart bad.restart\n", check=False)
+        assert result.code != 0 and re.search(words, result.error), result.error or result.output[-2000:]
+
+
+def test_restart_file_that_ends_too_early(lammps):
+    data, place = restart_file(lammps)
+    lammps.path("bad.restart").write_bytes(data[:place + 11])
+    result = lammps("read_restart bad.restart\n", check=False)
+    assert result.code != 0 and re.search("[Uu]nexpected end of file|Incomplete or corrupted", result.error), result.error
