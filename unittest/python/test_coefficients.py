@@ -149,8 +149,8 @@ def test_adapt_leaves_the_last_values_or_the_first(lammps, reset):
     result = lammps(text + "run 30\nunfix A\nwrite_data out.data pair ii nocoeff\nwrite_restart out.restart\n"
                     "write_coeff out.coeff\npair_coeff 2 2 1.1 12.0 0.25 0.8 3.0\n" + dump("f.dump") + "run 0\n")
     written = lammps.path("out.coeff").read_text()
-    first = re.search(r"^.*\b1 1 (.*)$", written, re.MULTILINE)[1].split()
-    second = re.search(r"^.*\b2 2 (.*)$", written, re.MULTILINE)[1].split()
+    first = re.search(r"^pair_coeff +1 +1 (.*)$", written, re.MULTILINE)[1].split()
+    second = re.search(r"^pair_coeff +2 +2 (.*)$", written, re.MULTILINE)[1].split()
     assert float(first[2]) == pytest.approx(0.5 if reset else 0.8, rel=1e-15)
     assert float(second[1]) == pytest.approx(12.0 if reset else 9.0, rel=1e-15)
     mu = re.findall(r"^ +1-1 +(\S+)", result.log, re.MULTILINE)
