@@ -1,0 +1,248 @@
+"""What the fluid checks before a run and during it: combinations, special bonds, lines, neighbors, energies."""
+
+import re
+import subprocess
+
+import numpy as np
+import pytest
+
+import test_micropolar
+from helpers import INTEGRATE, LMP, disordered, dump, fluid, header, lattice, relative
+
+
+def refused(lammps, text, words, ranks=1):
+    result = lammps(text, ranks=ranks, check=False, timeout=60)
+    assert result.code != 0, f"accepted:\n{result.output[-2000:]}"
+    assert re.search(words, result.error), result.error or result.output[-2000:]
+    return result
+
+
+def box(lammps, dim=2, cells=12, **more):
+    particles = disordered(dim, cells, ntypes=2, **more)
+    particles.write(lammps.path("box.data"), ntypes=2)
+    return particles
+
+
+BULK = "pair_coeff {0} {0} sph/bulk {1} 1.0 10.0 0.5 2.0 3.0\n"
+
+# ---------------------------------------------------------------------------------------------
+# other styles
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("hybrid", ["hybrid", "hybrid/overlay"])
+def test_two_fluids_in_two_instances(lammps, hybrid, ranks):
+    box(lammps)
+    zero = "" if hybrid == "hybrid/overlay" else "pair_coeff 1 2 none\n"
+    refused(lammps, header(2) + f"read_data box.data\npair_style {hybrid} sph/bulk sph/bulk eos tait\n"
+            + BULK.format(1, 1) + BULK.format(2, 2) + (zero or "pair_coeff 1 2 sph/bulk 1 mu 0.5\n") + INTEGRATE + "run 0\n",
+            "cannot be combined with another sph/bulk", ranks)
+
+
+def test_one_of_two_types(lammps):
+    """Density, volume, and energy of the particles of another style are left alone, also if that style took the
+    type over later; their mass is of no concern unless they are integrated."""
+    particles = box(lammps)
+    first = particles.type == 1
+    hybrid = header(2) + ("read_data box.data\npair_style hybrid sph/bulk zero 3.0\n" + BULK.format(1, "")
+                          + "{}pair_coeff 1 2 zero\npair_coeff 2 2 zero\n" + INTEGRATE)
+    results = []
+    for name, before in {"never": "", "once": BULK.format(2, "")}.items():
+        results.append(lammps(hybrid.format(before) + dump(f"{name}.dump") + "run 10\n"))
+        frame = lammps.frame(f"{name}.dump")
+        for key in ("rho", "vol", "desph"):
+            assert (frame[key][~first] == 0.0).all(), key
+            assert (np.abs(frame[key][first]) > 0.0).all(), key
+        assert "2-2" not in re.sub(r"\d-\d-\d", "", results[-1].log)
+    particles.where(first).write(lammps.path("alone.data"), ntypes=2)
+    lammps(header(2) + "read_data alone.data\n" + fluid(2) + INTEGRATE + dump("alone.dump") + "run 10\n")
+    alone = lammps.frame("alone.dump")
+    for name in ("never", "once"):
+        frame = lammps.frame(f"{name}.dump")
+        for key in ("f", "rho", "vol", "desph", "esph"):
+            assert relative(frame[key][first] - alone[key], alone[key]) < 1e-12, key
+    weightless = hybrid.format("").replace("box.data\n", "box.data\ncreate_atoms 2 single 5 5 0\n").replace(
+        "fix FLUID all", "group G type 1\nfix FLUID G")
+    lammps(weightless + "run 1\n")
+    refused(lammps, weightless.replace("fix FLUID G", "fix FLUID all") + "run 1\n", "mass must be > 0")
+
+
+def test_a_pair_with_a_type_that_is_no_fluid(lammps):
+    box(lammps)
+    refused(lammps, header(2) + "read_data box.data\npair_style hybrid sph/bulk zero 3.0\n" + BULK.format(1, "")
+            + "pair_coeff 1 2 sph/bulk mu 0.3\npair_coeff 2 2 zero\n" + INTEGRATE + "run 0\n",
+            "between types 1 and 2, but type 2 has no coefficients")
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("order", ["sph/bulk sph", "sph sph/bulk"])
+def test_atom_style_with_another_density(lammps, order, ranks):
+    refused(lammps, header(2, style=f"hybrid {order}") + "region B block 0 9 0 9 -.5 .5\ncreate_box 1 B\n"
+            "create_atoms 1 random 50 1 B\nset group all mass 1.0\nmass 1 1.0\n" + fluid(2) + INTEGRATE + "run 0\n",
+            "Atom style sph/bulk cannot be combined with atom style sph", ranks)
+
+
+@pytest.mark.parametrize("style", ["sph/bulk", "hybrid sph/bulk charge"])
+def test_density_cannot_be_set(lammps, style):
+    """It is a sum over neighbors; dump and compute property/atom have it."""
+    particles = box(lammps)
+    particles.charge = np.zeros(len(particles))
+    particles.write(lammps.path("box.data"), style=style)
+    head = header(2, style=style) + "read_data box.data\n"
+    refused(lammps, head + "set group all sph/rho 2.0\n", "sph/rho")
+    lammps(head + fluid(2) + INTEGRATE + "compute P all property/atom rho\ncompute R all reduce ave c_P\n"
+           "thermo_style custom step c_R\nset group all sph/e 2.0\nrun 0\n")
+    assert lammps.results[-1].thermo()[0]["c_R"][0] == pytest.approx(1.0, rel=0.1)
+
+
+# ---------------------------------------------------------------------------------------------
+# special bonds
+
+
+def bonded(lammps, special, fluid_lines):
+    lammps.path("bond.data").write_text(
+        "bonded\n\n2 atoms\n1 bonds\n1 atom types\n1 bond types\n0 9 xlo xhi\n0 9 ylo yhi\n-0.5 0.5 zlo zhi\n\n"
+        "Atoms # hybrid\n\n1 1 4.0 4.0 0.0 1.0 0.0 1\n2 1 5.0 4.0 0.0 1.0 0.0 1\n\nBonds\n\n1 1 1 2\n")
+    return (header(2, style="hybrid sph/bulk bond") + "bond_style zero\nread_data bond.data\nbond_coeff *\n"
+            f"special_bonds {special}\n" + fluid_lines + INTEGRATE + dump("bond.dump") + "run 0\n")
+
+
+def test_bonded_neighbors_count(lammps):
+    """The density of two bonded particles is that of two free ones.  (LAMMPS's package MOLECULE has bonds.)"""
+    if "MOLECULE" not in subprocess.run([LMP, "-h"], capture_output=True, text=True, check=True).stdout:
+        pytest.skip("LAMMPS was built without bonds")
+    for special in ("lj/coul 1 1 1", "lj 1 1 1 coul 0 0.5 1"):
+        lammps(bonded(lammps, special, fluid(2)))
+        bound = lammps.frame("bond.dump")["rho"]
+        lammps(bonded(lammps, special, fluid(2)).replace("run 0", "delete_bonds all bond 1 remove special\nrun 0"))
+        assert (lammps.frame("bond.dump")["rho"] == bound).all()
+    for special in ("lj/coul 0 0 0", "lj/coul 1 1 0.5", "lj 0 1 1 coul 1 1 1"):
+        refused(lammps, bonded(lammps, special, fluid(2)), "special_bonds lj 1 1 1")
+
+
+# ---------------------------------------------------------------------------------------------
+# particles without an ID
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 4])
+@pytest.mark.parametrize("ids", ["yes", "no"])
+def test_checks_work_without_ids(lammps, ids, ranks):
+    text = (header(2) + f"atom_modify id {ids}\nregion B block 0 9 0 9 -.5 .5\nlattice sq 1.0\ncreate_box 1 B\n"
+            "create_atoms 1 box\nset group all mass 1.0\ncreate_atoms 1 single 3.2 3.2 0\n" + fluid(2))
+    result = refused(lammps, text + INTEGRATE + "run 0\n", "mass must be > 0, which that of a? ?particle", ranks)
+    assert bool(re.search(r"particle \d+", result.error)) == (ids == "yes"), result.error
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_tilted_spins_without_ids(lammps, ranks):
+    refused(lammps, header(2, style="sph/micropolar") + "atom_modify id no\nregion B block 0 9 0 9 -.5 .5\n"
+            "lattice sq 1.0\ncreate_box 1 B\ncreate_atoms 1 box\nset group all mass 1.0 omega 0.1 0.0 0.0\n"
+            + test_micropolar.fluid(2) + test_micropolar.integrate("inertia 0.1667 0.1") + "run 0\n",
+            "spin must be along z in 2d, which that of a particle is not", ranks)
+
+
+# ---------------------------------------------------------------------------------------------
+# one dimension
+
+
+def line(lammps, along=0, at=0.0, off=0.0):
+    """Particles on a line along x or y, one of them off it."""
+    particles = lattice(1, 60)
+    particles.x[7, 1] += off
+    particles.x[:, 1] += at
+    if along == 1:
+        for array in (particles.x, particles.v, particles.lo, particles.hi):
+            array[..., [0, 1]] = array[..., [1, 0]]
+    particles.write(lammps.path("line.data"))
+    return header(1) + "read_data line.data\n" + fluid(1) + INTEGRATE + "run 0\n"
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 4])
+@pytest.mark.parametrize("along", [0, 1])
+def test_dim_1_needs_a_line(lammps, along, ranks):
+    for at in (0.0, 3.7, 10.0 - 1e-12):
+        lammps(line(lammps, along, at), ranks=ranks)
+        lammps(line(lammps, along, at, off=3e-12), ranks=ranks)
+        refused(lammps, line(lammps, along, at, off=1e-3), r"must lie on a line .* but they spread over .*\b0\.001\b", ranks)
+
+
+def test_dim_1_line_and_other_particles(lammps):
+    """Particles of other styles need not be on it."""
+    particles = lattice(1, 60)
+    particles.x[7, 1] = 5.0
+    particles.type[7] = 2
+    particles.write(lammps.path("line.data"))
+    lammps(header(1) + "read_data line.data\npair_style hybrid sph/bulk dim 1 zero 3.0\n"
+           "pair_coeff 1 1 sph/bulk 1.0 10.0 0.5 2.0 3.0\npair_coeff 1*2 2 zero\n" + INTEGRATE + "run 0\n")
+
+
+# ---------------------------------------------------------------------------------------------
+# warnings
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_time_step_warning_comes_again_for_another_step_or_other_coefficients(lammps, ranks):
+    box(lammps)
+    text = header(2) + "read_data box.data\n" + fluid(2) + INTEGRATE
+    runs = ["timestep 0.2\nrun 0\nrun 0\n", "timestep 0.3\nrun 0\nrun 0\n", "timestep 0.2\nrun 0\n",
+            "pair_coeff * * 1.0 11.0 0.5 2.0 3.0\nrun 0\n", "run 0\n", "timestep 0.001\nrun 0\n"]
+    warned = [re.search("time step (\\S+) exceeds", line) for line in lammps(text + "".join(runs), ranks=ranks).warnings]
+    assert [match[1] for match in warned if match] == ["0.2", "0.3", "0.2", "0.2"]
+
+
+def warnings(lammps, text, words, ranks=1):
+    return [line for line in lammps(text + "run 0\n", ranks=ranks).warnings if re.search(words, line)]
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_ideal_gas_without_energy(lammps, ranks):
+    particles = box(lammps)
+    text = header(2) + "read_data box.data\n" + fluid(2, "eos ideal") + INTEGRATE
+    assert not warnings(lammps, text, "energy", ranks)
+    some = warnings(lammps, text + "group G type 2\nset group G sph/e 0.0\n", "energy", ranks)
+    number = (particles.type == 2).sum()
+    assert len(some) == 1 and f"{number} of {len(particles)} particles have no internal energy" in some[0], some
+    assert "set ... sph/e" in some[0]
+    assert not warnings(lammps, text.replace("ideal", "linear") + "set group all sph/e 0.0\n", "energy", ranks)
+    wall = ("region W block INF INF INF 4 INF INF\ngroup W region W\nset group W sph/e 0.0\nunfix FLUID\n"
+            "group F subtract all W\nfix FLUID F sph/bulk\nfix W W sph/wall\n")
+    assert not warnings(lammps, text + wall, "energy", ranks)
+
+
+@pytest.mark.parametrize("newton", ["on", "off"])
+@pytest.mark.parametrize("ranks", [1, 2, 4])
+@pytest.mark.parametrize("dim", [1, 2, 3])
+def test_support_smaller_than_the_spacing(lammps, dim, ranks, newton):
+    lattice(dim, {1: 60, 2: 12, 3: 8}[dim]).write(lammps.path("box.data"))
+    text = header(dim, newton=newton) + "read_data box.data\n"
+    for support, number in ((0.9, "0"), (1.1, None), (1.5, None)):
+        found = warnings(lammps, text + fluid(dim, support=support) + INTEGRATE, "neighbors on average", ranks)
+        assert len(found) == (number is not None), found
+        if found:
+            assert f"have only {number} neighbors on average within the support radius 0.9" in found[0]
+
+
+def test_a_few_free_particles_are_no_fluid(lammps):
+    for chosen in ([5], [3, 40, 77, 100]):
+        lattice(2, 12).where(np.isin(np.arange(144), chosen)).write(lammps.path("box.data"))
+        assert not warnings(lammps, header(2) + "read_data box.data\n" + fluid(2) + INTEGRATE, "neighbors")
+
+
+# ---------------------------------------------------------------------------------------------
+# errors point at the argument
+
+
+@pytest.mark.parametrize("command, word", [
+    ("pair_style sph/bulk eos stiff", "stiff"), ("pair_style sph/bulk kernel lucy krenel lucy", "krenel"),
+    ("pair_style hybrid/overlay zero 3.0 sph/bulk kernel gaussian", "gaussian"), ("pair_style sph/bulk dim 7", "7"),
+    ("pair_coeff 1 1 1.0 10.0 0.5 -2.0 3.0", "-2.0"), ("pair_coeff 1 1 1.0 10.0 0.5 2.0 -3.0", "-3.0"),
+    ("pair_coeff 1 1 1.0 10.0 0.5 2.0 3.0 pb 1.0 vis 2", "vis"), ("pair_coeff 1 2 kappa 1.0", "kappa"),
+    ("pair_coeff 1 2 mu -1.0", "-1.0"), ("pair_coeff 1 1 1.0 10.0 -0.5 2.0 3.0", "-0.5")])
+def test_errors_point_at_the_argument(lammps, command, word):
+    box(lammps)
+    result = lammps(header(2) + "read_data box.data\n" + fluid(2) + f"{command}\n", check=False)
+    lines = result.output.splitlines()
+    place = next(i for i, text in enumerate(lines) if re.fullmatch(r" +\^+", text))
+    mark = lines[place]
+    start = len(mark) - len(mark.lstrip())
+    assert lines[place - 1][start:len(mark)] == word, "\n".join(lines[place - 1:place + 1])
