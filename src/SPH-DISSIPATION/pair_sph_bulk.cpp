@@ -333,7 +333,8 @@ double PairSPHBulk::reference_density(int type) const
 void PairSPHBulk::check_pair(int i, int j)
 {
   if (model->choice.shear == Shear::NONE && model->viscosity(0, i, j) != 0.0)
-    error->all(FLERR, "Pair_coeff mu must be 0 with shear none, not {} for types {} {}",
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair_coeff mu must be 0 with shear none, not {} for types {} {}",
                model->viscosity(0, i, j), j, i);
 }
 

@@ -74,8 +74,10 @@ bool PairSPHMicropolar::has_torques() const
 
 void PairSPHMicropolar::check_setup()
 {
+  if (model->dimension() == 1)
+    error->all(FLERR, Error::NOLASTLINE, "Pair_style {} needs dim 2 or 3: no spin in dim 1",
+               fluid_style);
   PairSPHBulk::check_setup();
-  if (dim == 1) error->all(FLERR, "Pair_style {} needs dim 2 or 3: no spin in dim 1", fluid_style);
 
   if (domain->dimension != 2) return;
   const auto tilted = first_particle(lmp, [this](int i) {
@@ -108,7 +110,8 @@ void PairSPHMicropolar::check_pair(int i, int j)
   const double mu = model->viscosity(MU, i, j), mu_r = model->viscosity(MU_R, i, j);
   const double gamma1 = model->viscosity(GAMMA1, i, j), gamma2 = model->viscosity(GAMMA2, i, j);
   if (const char *violated = inadmissible(dim, mu, 0.0, mu_r, gamma1, gamma2))
-    error->all(FLERR, "Pair_coeff {}, not mu = {} mu_r = {} gamma1 = {} gamma2 = {} of types {} {}",
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair_coeff {}, not mu = {} mu_r = {} gamma1 = {} gamma2 = {} of types {} {}",
                violated, mu, mu_r, gamma1, gamma2, j, i);
 }
 

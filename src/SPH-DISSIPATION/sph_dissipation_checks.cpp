@@ -213,6 +213,8 @@ void SPHDissipation::check_neighbors(LAMMPS *lmp, const std::string &style, cons
                                      const Engine &engine, int boundary_bits, int dim,
                                      double support)
 {
+  const LoopData &pairs = engine.pairs();
+  if (!pairs.ilist) return;    // pair_modify compute no
   Atom *atom = lmp->atom;
   auto is_fluid = [&](int i) {
     return !model.coeffs[atom->type[i]].other && !(atom->mask[i] & boundary_bits);
@@ -223,7 +225,6 @@ void SPHDissipation::check_neighbors(LAMMPS *lmp, const std::string &style, cons
   bigint number[2] = {0, 0}, all[2];    // of fluid particles, of their neighbors
   for (int i = 0; i < atom->nlocal; i++) number[0] += is_fluid(i);
   const bool ghosts = lmp->force->newton_pair;
-  const LoopData &pairs = engine.pairs();
   for (int ii = 0; ii < pairs.inum; ii++)
     for (int k = 0; k < pairs.count[ii]; k++) {
       const int j = pairs.neighbor[pairs.first[ii] + k];

@@ -91,10 +91,9 @@ namespace SPHDissipation {
   // with F r instead of F for mg/fr
 
   struct PairCoeff {
-    double along_r = 0.0;
-    double along_u = 0.0;
-    double xi1 = 0.0;
-    double xi2 = 0.0;
+    PairCoeff() : along_r(0.0), along_u(0.0), xi1(0.0), xi2(0.0) {}
+
+    double along_r, along_u, xi1, xi2;
   };
 
   inline PairCoeff shear_coefficients(Shear shear, int n, double mu, double mean_radius)

@@ -43,10 +43,12 @@ namespace SPHDissipation {
   // the defaults are those of a type without coefficients: no pressure, no energy
 
   struct EosParams {
-    double rho0 = 1.0;     // reference density, mass/length^n
-    double c0 = 0.0;       // sound speed at rho0
-    double pb = 0.0;       // background pressure
-    double gamma = 7.0;    // exponent of tait and ideal
+    EosParams() : rho0(1.0), c0(0.0), pb(0.0), gamma(7.0) {}
+
+    double rho0;     // reference density, mass/length^n
+    double c0;       // sound speed at rho0
+    double pb;       // background pressure
+    double gamma;    // exponent of tait and ideal
   };
 
   // x^gamma, without pow() for the usual exponent of water

@@ -358,9 +358,10 @@ int FluidModel::dimension() const
 {
   const int dim = choice.dim ? choice.dim : domain->dimension;
   if (dim == 1 && domain->dimension == 3)
-    error->all(FLERR, "Pair_style {} dim 1 requires a 2d box", style);
+    error->all(FLERR, Error::NOLASTLINE, "Pair_style {} dim 1 requires a 2d box", style);
   if (dim != 1 && dim != domain->dimension)
-    error->all(FLERR, "Pair_style {} dim {} does not match the {}-d simulation box", style, dim,
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair_style {} dim {} does not match the {}-d simulation box", style, dim,
                domain->dimension);
   return dim;
 }
@@ -376,7 +377,7 @@ double FluidModel::common_support(int **setflag) const
     if (!setflag[i][i]) continue;
     if (support == 0.0) support = coeffs[i].rc;
     if (coeffs[i].rc != support)
-      error->all(FLERR,
+      error->all(FLERR, Error::NOLASTLINE,
                  "Pair style {} rc must be the same for all types: {} of type {} differs from {}",
                  style, coeffs[i].rc, i, support);
   }

@@ -32,8 +32,9 @@ void FluidModel::mix(int i)
   TypeCoeff &type = coeffs[i];
   type.eos.gamma = (type.gamma > 0.0) ? type.gamma : default_gamma(choice.eos);
   if (choice.eos == Eos::IDEAL && !(type.eos.gamma > 1.0))
-    error->all(FLERR, "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}",
-               type.eos.gamma, i);
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}", type.eos.gamma,
+               i);
 
   for (int k = 0; k < static_cast<int>(variables.size()); k++)
     if (k != nviscosity() + KAPPA) publish(k, i);

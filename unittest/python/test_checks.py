@@ -246,3 +246,12 @@ def test_errors_point_at_the_argument(lammps, command, word):
     mark = lines[place]
     start = len(mark) - len(mark.lstrip())
     assert lines[place - 1][start:len(mark)] == word, "\n".join(lines[place - 1:place + 1])
+
+
+@pytest.mark.parametrize("option", ["energy yes", "virial yes", "bodyforces early", "respa 1"])
+@pytest.mark.parametrize("fix", ["sph/bulk", "sph/wall"])
+def test_fix_modify_has_nothing_to_modify(lammps, fix, option):
+    """As the pages say; only dynamic/dof, which LAMMPS offers for any fix, is not refused."""
+    box(lammps)
+    refused(lammps, header(2) + "read_data box.data\n" + fluid(2) + f"fix M all {fix}\nfix_modify M {option}\n",
+            f"does not support fix_modify|fix_modify {option.split()[0]}")
