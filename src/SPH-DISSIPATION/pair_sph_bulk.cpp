@@ -286,9 +286,7 @@ void PairSPHBulk::find_own_types()
 
 void PairSPHBulk::derive_coeffs()
 {
-  if (model->adopt()) announced = false;
   stale = false;
-
   const int n = atom->ntypes;
   std::vector<PairCoeff> pair_coeffs((n + 1) * (n + 1));
 
@@ -408,6 +406,7 @@ void PairSPHBulk::announce()
 
 double PairSPHBulk::init_one(int i, int j)
 {
+  if (model->adopt()) announced = false;
   stale = true;
   if (i != j && model->is_mixed(i, j)) did_mix = true;
   return support;
@@ -427,7 +426,6 @@ void *PairSPHBulk::extract(const char *name, int &ndim)
 void PairSPHBulk::write_restart(FILE *fp)
 {
   write_restart_settings(fp);
-  model->adopt();
   model->write_coeffs(fp, setflag);
 }
 
@@ -450,7 +448,6 @@ void PairSPHBulk::read_restart_settings(FILE *fp)
 
 void PairSPHBulk::write_data(FILE *fp)
 {
-  model->adopt();
   model->write_data(fp);
 }
 

@@ -24,6 +24,7 @@
 #include "sph_dissipation_table.h"
 
 #include <algorithm>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -57,6 +58,16 @@ PairCoeff PairSPHMicropolar::pair_coefficients(int i, int j) const
 double PairSPHMicropolar::intrinsic_kappa_of(int i, int j) const
 {
   return intrinsic_kappa_micropolar(dim, model->viscosity(MU, i, j), model->viscosity(MU_R, i, j));
+}
+
+/* ----------------------------------------------------------------------
+   torques that begin during a run would meet particles whose inertia nobody has checked
+------------------------------------------------------------------------- */
+
+void *PairSPHMicropolar::extract(const char *name, int &ndim)
+{
+  if (strcmp(name, "mu") != 0 && model->is_viscosity(name) >= 0 && !has_torques()) return nullptr;
+  return PairSPHBulk::extract(name, ndim);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -31,6 +31,7 @@ class PairSPHMicropolar : public PairSPHBulk {
  public:
   PairSPHMicropolar(class LAMMPS *);
 
+  void *extract(const char *, int &) override;
   bool has_torques() const;    // any vortex or spin viscosity
   void announce() override;
 

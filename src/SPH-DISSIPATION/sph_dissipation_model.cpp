@@ -194,7 +194,6 @@ static bool is_type_keyword(const std::string &word)
 void FluidModel::coeff(int narg, char **arg, int **setflag)
 {
   if (narg < 3) utils::missing_cmd_args(FLERR, "pair_coeff", error);
-  adopt();
   int ilo, ihi, jlo, jhi;
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);

@@ -107,6 +107,7 @@ namespace SPHDissipation {
     // k = 0 is the shear viscosity, more follow in the order of their names
 
     double viscosity(int k, int i, int j) const { return variables[k].value[i][j]; }
+    int is_viscosity(const std::string &name) const;    // its k, or -1
     bool is_mixed(int i, int j) const { return !viscosity_set[0][i][j]; }
 
     Settings choice;
@@ -131,7 +132,6 @@ namespace SPHDissipation {
     int ***viscosity_set;        // 1 if it did, 0 if the value is mixed from the types
 
     int nviscosity() const { return static_cast<int>(viscosity_names.size()); }
-    int is_viscosity(const std::string &) const;
     double &type_value(int, int);
     double pair_value(int, int, int);
     void publish(int, int);

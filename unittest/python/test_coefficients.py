@@ -211,6 +211,10 @@ def test_adapt_micropolar(lammps, dim):
                     + adapt(("mu_r", "* *", "5.0"), pair="sph/micropolar") + test_micropolar.integrate() + "run 0\n",
                     check=False)
     assert re.search("mu_r must be <= mu", result.error), result.error
+    result = lammps(header(dim, style="sph/micropolar") + "read_data box.data\n" + test_micropolar.fluid(dim, mu_r=0.0, gamma1=0.0)
+                    + adapt(("mu_r", "* *", "0.1*step"), pair="sph/micropolar") + test_micropolar.integrate() + "run 0\n",
+                    check=False)
+    assert re.search("mu_r not supported", result.error), result.error
 
 
 # ---------------------------------------------------------------------------------------------
