@@ -270,7 +270,11 @@ void PairSPHBulk::find_own_types()
     return setflag[i][j] && (!hybrid || hybrid->check_ijtype(i, j, &name[0]));
   };
 
-  for (int i = 1; i <= atom->ntypes; i++) model->coeffs[i].other = !ours(i, i);
+  model->shared = false;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    model->coeffs[i].other = !ours(i, i);
+    if (model->coeffs[i].other) model->shared = true;
+  }
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i + 1; j <= atom->ntypes; j++)
       if (ours(i, j) && (model->coeffs[i].other || model->coeffs[j].other))

@@ -48,13 +48,14 @@ void DensityStage::run(NeighList *list, double **omegaest)
 
   const double *const rmass = atom->rmass;
   const int *const type = atom->type;
+  const bool shared = model.shared;
   double *const rho = atom->rho;
   double *const drho = atom->drho;
   double *const vfrac = atom->vfrac;
   const int nall = atom->nlocal + atom->nghost;
   for (int i = 0; i < nall; i++) {
     engine.particle[i].vol = 1.0 / density[i].c;
-    if (model.coeffs[type[i]].other) continue;
+    if (shared && model.coeffs[type[i]].other) continue;
     rho[i] = rmass[i] * density[i].c;
     drho[i] = rmass[i] * density[i].cdot;
     vfrac[i] = engine.particle[i].vol;

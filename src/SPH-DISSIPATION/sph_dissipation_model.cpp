@@ -48,8 +48,8 @@ TypeCoeff::TypeCoeff() :
 FluidModel::FluidModel(LAMMPS *lmp, const std::string &style,
                        const std::vector<std::string> &viscosities) :
     Pointers(lmp),
-    coeffs(nullptr), style(style), viscosity_names(viscosities), pair_viscosity(nullptr),
-    viscosity_set(nullptr)
+    coeffs(nullptr), shared(false), style(style), viscosity_names(viscosities),
+    pair_viscosity(nullptr), viscosity_set(nullptr)
 {
   for (const auto &name : viscosity_names) variables.push_back({name, nullptr, nullptr});
   for (const auto &name : {"c0", "kappa", "pb"}) variables.push_back({name, nullptr, nullptr});

@@ -112,6 +112,7 @@ namespace SPHDissipation {
 
     Settings choice;
     TypeCoeff *coeffs;    // by type, from 1
+    bool shared;          // there are types of other styles
 
    private:
     // what extract() gives out: the viscosities, then coefficients of types, whose value for two types
