@@ -16,6 +16,7 @@
 
 #include "sph_dissipation_coeffs.h"
 
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +28,7 @@ namespace SPHDissipation {
 
   class Columns : public std::vector<std::pair<std::string, double>> {
    public:
-    using vector::vector;
+    Columns(std::initializer_list<value_type> columns) : vector(columns) {}
   };
 
   // Table of the coefficients and the largest stable time steps of the pairs of types, as it goes to
