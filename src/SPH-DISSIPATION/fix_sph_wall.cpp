@@ -19,18 +19,17 @@
 #include "error.h"
 #include "force.h"
 #include "group.h"
-#include "input.h"
 #include "math_extra.h"
 #include "memory.h"
 #include "modify.h"
-#include "neighbor.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_exclusions.h"
+#include "sph_dissipation_wall_checks.h"
+#include "sph_dissipation_wall_motion.h"
 #include "update.h"
-#include "variable.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -41,9 +40,9 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), point{0.0, 0.0, 0.0}, axis{0.0, 0.0, 1.0}, gravity{0.0, 0.0, 0.0},
-    rotates(false), move(true), slip(false), spin(ZERO), rate(0.0), pair(nullptr),
-    thickness_checked(false), nmax(0), total(), total_all(), total_summed(false)
+    Fix(lmp, narg, arg), motion(new WallMotion(lmp, fmt::format("Fix {}", style))),
+    exclusions(new Exclusions(lmp)), gravity{0.0, 0.0, 0.0}, move(true), slip(false), spin(ZERO),
+    rate(0.0), checked(false), total(), total_all(), total_summed(false)
 {
   for (int iarg = 3; iarg < narg;) {
     const std::string keyword = arg[iarg];
@@ -57,19 +56,11 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
 
     if (keyword == "velocity") {
       needs(3);
-      for (int d = 0; d < 3; d++) value_argument(velocity[d], arg[iarg + 1 + d]);
+      motion->set_velocity(arg + iarg + 1);
       iarg += 4;
     } else if (keyword == "rotate") {
       needs(7);
-      for (int d = 0; d < 3; d++) {
-        point[d] = utils::numeric(FLERR, arg[iarg + 1 + d], false, lmp);
-        axis[d] = utils::numeric(FLERR, arg[iarg + 4 + d], false, lmp);
-      }
-      if (!(MathExtra::len3(axis) > 0.0))
-        error->all(FLERR, "Fix {} rotate: the direction of the axis must not be zero", style);
-      MathExtra::norm3(axis);
-      value_argument(spin_rate, arg[iarg + 7]);
-      rotates = true;
+      motion->set_rotation(arg + iarg + 1);
       iarg += 8;
     } else if (keyword == "move") {
       needs(1);
@@ -106,22 +97,23 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
       error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
   }
 
-  if (domain->dimension == 2) {
-    if (velocity[2].name || velocity[2].now != 0.0 || gravity[2] != 0.0)
-      error->all(FLERR, "Fix {}: velocity and gravity must lie in the plane in 2d", style);
-    if (axis[0] != 0.0 || axis[1] != 0.0)
-      error->all(FLERR, "Fix {}: the axis of rotation must be along z in 2d", style);
-  }
-
+  if (domain->dimension == 2 && gravity[2] != 0.0)
+    error->all(FLERR, "Fix {}: velocity and gravity must lie in the plane in 2d", style);
   if (group->dynamic[igroup])
     error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[igroup]);
 
   time_integrate = 1;
-  restart_global = 1;
+  restart_global = motion->rotates();
+  create_attribute = 1;
   vector_flag = peratom_flag = 1;
   size_vector = size_peratom_cols = 6;
   global_freq = peratom_freq = 1;
   extvector = 1;
+  maxexchange = 6;
+
+  FixSPHWall::grow_arrays(atom->nmax);
+  for (int i = 0; i < atom->nlocal; i++) FixSPHWall::set_arrays(i);
+  atom->add_callback(Atom::GROW);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -129,82 +121,53 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
 FixSPHWall::~FixSPHWall()
 {
   if (auto *fluid = PairSPHBulk::find(force)) fluid->remove_boundary(this);
-  for (auto value : {&velocity[0], &velocity[1], &velocity[2], &spin_rate}) delete[] value->name;
+  atom->delete_callback(id, Atom::GROW);
   memory->destroy(array_atom);
+  delete exclusions;
+  delete motion;
 }
 
 /* ---------------------------------------------------------------------- */
 
 int FixSPHWall::setmask()
 {
-  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_FORCE;
+  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_FORCE | MIN_POST_FORCE;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixSPHWall::init()
 {
-  pair = PairSPHBulk::find(force);
+  PairSPHBulk *pair = PairSPHBulk::find(force);
   if (!pair) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
   if (domain->deform_vremap)
     error->all(FLERR, "Fix {} cannot be used when fix deform remaps velocities", style);
 
-  for (auto value : {&velocity[0], &velocity[1], &velocity[2], &spin_rate}) {
-    if (!value->name) continue;
-    value->variable = input->variable->find(value->name);
-    if (value->variable < 0)
-      error->all(FLERR, "Variable {} for fix {} does not exist", value->name, style);
-    if (!input->variable->equalstyle(value->variable))
-      error->all(FLERR, "Variable {} for fix {} is not an equal-style variable", value->name,
-                 style);
-  }
-
-  check_group();
+  motion->init();
   pair->add_boundary(this);
 
   // no pairs of wall particles in the neighbor lists
 
-  auto exclude = [&](int other) {
-    for (int n = 0; n < neighbor->nex_group; n++)
-      if ((neighbor->ex1_group[n] == igroup && neighbor->ex2_group[n] == other) ||
-          (neighbor->ex1_group[n] == other && neighbor->ex2_group[n] == igroup))
-        return;
-    neighbor->modify_params(
-        fmt::format("exclude group {} {}", group->names[igroup], group->names[other]));
-  };
-  for (const auto &ifix : modify->get_fix_by_style("^sph/wall$")) exclude(ifix->igroup);
+  std::vector<Exclusions::Groups> walls;
+  for (const auto &ifix : modify->get_fix_by_style("^sph/wall$"))
+    walls.push_back({igroup, ifix->igroup});
+  exclusions->set(walls);
+
+  check_wall_particles(lmp, this);
+  check_wall_interacts(lmp, this, pair, !checked);
 }
 
 /* ----------------------------------------------------------------------
-   particles of the wall belong to this fix alone
-------------------------------------------------------------------------- */
-
-void FixSPHWall::check_group()
-{
-  if (group->count(igroup) == 0)
-    error->all(FLERR, "Fix {} group {} has no particles", style, group->names[igroup]);
-
-  for (const auto &ifix : modify->get_fix_list()) {
-    if (!ifix->time_integrate || ifix == this) continue;
-    tagint shared = 0, shared_all;
-    for (int i = 0; i < atom->nlocal; i++)
-      if ((atom->mask[i] & groupbit) && (atom->mask[i] & ifix->groupbit)) shared = atom->tag[i];
-    MPI_Allreduce(&shared, &shared_all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-    if (shared_all)
-      error->all(FLERR, "Particle {} of the wall of fix {} {} is also moved by fix {} {}",
-                 shared_all, id, style, ifix->id, ifix->style);
-  }
-}
-
-/* ----------------------------------------------------------------------
-   before the exchange of atoms, so that ghost atoms get the velocity with their borders
+   before the exchange of atoms, so that ghost atoms get the velocity with their borders;
+   in a minimization nothing moves
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::setup_pre_exchange()
 {
-  evaluate_all();
-  for (auto value : {&velocity[0], &velocity[1], &velocity[2], &spin_rate})
-    value->before = value->now;
+  if (update->whichflag == 2)
+    motion->rest();
+  else
+    motion->start();
   set_velocity();
 }
 
@@ -212,9 +175,16 @@ void FixSPHWall::setup_pre_exchange()
 
 void FixSPHWall::setup(int vflag)
 {
-  if (!thickness_checked) check_thickness();
-  thickness_checked = true;
+  if (!checked) check_wall_thickness(lmp, this, PairSPHBulk::find(force));
+  checked = true;
   post_force(vflag);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHWall::min_setup(int vflag)
+{
+  min_post_force(vflag);
 }
 
 /* ----------------------------------------------------------------------
@@ -224,16 +194,11 @@ void FixSPHWall::setup(int vflag)
 
 void FixSPHWall::initial_integrate(int /*vflag*/)
 {
-  evaluate_all();
+  motion->advance();
 
   if (move) {
-    const double dt = update->dt;
-    const double angle = 0.5 * dt * (spin_rate.before + spin_rate.now);
-    double quaternion[4], rotation[3][3], shift[3];
-    MathExtra::axisangle_to_quat(axis, angle, quaternion);
-    MathExtra::quat_to_mat(quaternion, rotation);
-    for (int d = 0; d < 3; d++) shift[d] = 0.5 * dt * (velocity[d].before + velocity[d].now);
-
+    double rotation[3][3], shift[3];
+    motion->last_step(rotation, shift);
     double **x = atom->x;
     for (int i = 0; i < atom->nlocal; i++) {
       if (!(atom->mask[i] & groupbit)) continue;
@@ -242,8 +207,7 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
       MathExtra::matvec(rotation, r, rotated);
       for (int d = 0; d < 3; d++) x[i][d] += shift[d] + (rotated[d] - r[d]);
     }
-    if (rotates)
-      for (int d = 0; d < 3; d++) point[d] += shift[d];
+    motion->move_point();
   }
   set_velocity();
 }
@@ -253,16 +217,15 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
 void FixSPHWall::set_velocity()
 {
   double w[3], r[3];
-  angular_velocity(w);
+  motion->angular_velocity(w);
   double **v = atom->v;
   double **vest = atom->vest;
   double **omega = atom->omega;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     from_point(i, r);
-    MathExtra::cross3(w, r, v[i]);
+    motion->velocity_at(r, v[i]);
     for (int d = 0; d < 3; d++) {
-      v[i][d] += velocity[d].now;
       vest[i][d] = v[i][d];
       if (omega) omega[i][d] = w[d];
     }
@@ -275,14 +238,8 @@ void FixSPHWall::set_velocity()
 
 void FixSPHWall::set_boundary(Engine &engine, const BoundarySum *sums)
 {
-  const double dtinv = 1.0 / update->dt;
-  double w[3], wdot[3], a0[3];
-  angular_velocity(w);
-  for (int d = 0; d < 3; d++) {
-    wdot[d] = (spin_rate.now - spin_rate.before) * dtinv * axis[d];
-    a0[d] = (velocity[d].now - velocity[d].before) * dtinv;
-  }
-
+  double w[3];
+  motion->angular_velocity(w);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const BoundarySum &sum = sums[i];
@@ -291,11 +248,9 @@ void FixSPHWall::set_boundary(Engine &engine, const BoundarySum *sums)
     if (!(sum.weight > 0.0)) continue;
     const double norm = 1.0 / sum.weight;
 
-    double r[3], to_fluid[3], turn[3], centripetal[3], euler[3], wall_there[3];
+    double r[3], to_fluid[3], acceleration[3], wall_there[3];
     from_point(i, r);
-    MathExtra::cross3(w, r, turn);
-    MathExtra::cross3(w, turn, centripetal);
-    MathExtra::cross3(wdot, r, euler);
+    motion->acceleration_at(r, acceleration);
 
     // velocity of the wall, as a rigid body, where the velocity of the fluid is known
 
@@ -306,7 +261,7 @@ void FixSPHWall::set_boundary(Engine &engine, const BoundarySum *sums)
     atom->vfrac[i] = particle.vol = atom->rmass[i] / atom->rho[i];
     double pressure = sum.pressure * norm;
     for (int d = 0; d < 3; d++)
-      pressure -= atom->rho[i] * (gravity[d] - a0[d] - centripetal[d] - euler[d]) * to_fluid[d];
+      pressure -= atom->rho[i] * (gravity[d] - acceleration[d]) * to_fluid[d];
     particle.g = pressure * particle.vol * particle.vol;
     engine.zeta_term[i] = sum.zeta_term * norm;
     for (int d = 0; d < 3; d++) {
@@ -326,7 +281,7 @@ void FixSPHWall::set_boundary(Engine &engine, const BoundarySum *sums)
 void FixSPHWall::set_boundary_spin(Engine &engine, const BoundarySum *sums, double **vorticity)
 {
   double w[3];
-  angular_velocity(w);
+  motion->angular_velocity(w);
   for (int i = 0; i < atom->nlocal; i++) {
     const BoundarySum &sum = sums[i];
     if (!(atom->mask[i] & groupbit) || !(sum.weight > 0.0)) continue;
@@ -348,12 +303,6 @@ bool FixSPHWall::boundary_vorticity() const
 
 void FixSPHWall::post_force(int /*vflag*/)
 {
-  if (atom->nmax > nmax) {
-    nmax = atom->nmax;
-    memory->destroy(array_atom);
-    memory->create(array_atom, nmax, 6, "sph/wall:array_atom");
-  }
-
   double **f = atom->f;
   double **torque = atom->torque;
   std::fill(total, total + 6, 0.0);
@@ -375,6 +324,17 @@ void FixSPHWall::post_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
+   the minimizer moves particles along their forces: not those of the wall
+------------------------------------------------------------------------- */
+
+void FixSPHWall::min_post_force(int vflag)
+{
+  post_force(vflag);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) std::fill_n(atom->f[i], 3, 0.0);
+}
+
+/* ----------------------------------------------------------------------
    force and torque of the fluid on the wall
 ------------------------------------------------------------------------- */
 
@@ -386,141 +346,13 @@ double FixSPHWall::compute_vector(int n)
 }
 
 /* ----------------------------------------------------------------------
-   number, or variable v_name
-------------------------------------------------------------------------- */
-
-void FixSPHWall::value_argument(Value &value, const char *word)
-{
-  delete[] value.name;
-  value.name = nullptr;
-  if (utils::strmatch(word, "^v_"))
-    value.name = utils::strdup(word + 2);
-  else
-    value.now = value.before = utils::numeric(FLERR, word, false, lmp);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixSPHWall::evaluate(Value &value)
-{
-  value.before = value.now;
-  if (value.name) value.now = input->variable->compute_equal(value.variable);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixSPHWall::evaluate_all()
-{
-  bool any = spin_rate.name;
-  for (const auto &value : velocity) any = any || value.name;
-  if (!any) return;
-  modify->clearstep_compute();
-  for (auto &value : velocity) evaluate(value);
-  evaluate(spin_rate);
-  modify->addstep_compute(update->ntimestep + 1);
-}
-
-/* ----------------------------------------------------------------------
    vector from the point on the axis to a particle
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::from_point(int i, double *r) const
 {
   domain->unmap(atom->x[i], atom->image[i], r);
-  MathExtra::sub3(r, point, r);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixSPHWall::angular_velocity(double *w) const
-{
-  for (int d = 0; d < 3; d++) w[d] = spin_rate.now * axis[d];
-}
-
-/* ----------------------------------------------------------------------
-   warn if the wall does not fill the support of the fluid at its surface.  The first
-   layer is what has fluid at the distance of the particle spacing; how deep the wall
-   goes below it, as seen within the support radius, must be that minus one spacing.
-   The neighbor lists have no pairs of wall particles, hence the bins.
-------------------------------------------------------------------------- */
-
-void FixSPHWall::check_thickness()
-{
-  double **x = atom->x;
-  const int nall = atom->nlocal + atom->nghost;
-  const double support = pair->support_radius();
-  const int dim = pair->dimension();
-
-  double lo[3];
-  bigint nbin[3];
-  for (int d = 0; d < 3; d++) {
-    double hi = lo[d] = nall ? x[0][d] : 0.0;
-    for (int i = 0; i < nall; i++) {
-      lo[d] = std::min(lo[d], x[i][d]);
-      hi = std::max(hi, x[i][d]);
-    }
-    nbin[d] = static_cast<bigint>((hi - lo[d]) / support) + 1;
-  }
-  auto bin_of = [&](int i, int d) {
-    return static_cast<bigint>((x[i][d] - lo[d]) / support);
-  };
-  std::vector<int> head(nbin[0] * nbin[1] * nbin[2], -1), next(nall);
-  for (int i = 0; i < nall; i++) {
-    int &first = head[(bin_of(i, 2) * nbin[1] + bin_of(i, 1)) * nbin[0] + bin_of(i, 0)];
-    next[i] = first;
-    first = i;
-  }
-
-  // for each particle j within the support radius of particle i
-
-  auto for_neighbors = [&](int i, auto &&function) {
-    bigint from[3], to[3];
-    for (int d = 0; d < 3; d++) {
-      from[d] = std::max(bin_of(i, d) - 1, bigint(0));
-      to[d] = std::min(bin_of(i, d) + 1, nbin[d] - 1);
-    }
-    for (bigint c = from[2]; c <= to[2]; c++)
-      for (bigint b = from[1]; b <= to[1]; b++)
-        for (bigint a = from[0]; a <= to[0]; a++)
-          for (int j = head[(c * nbin[1] + b) * nbin[0] + a]; j >= 0; j = next[j]) {
-            double r[3];
-            MathExtra::sub3(x[j], x[i], r);
-            const double rsq = MathExtra::lensq3(r);
-            if (j != i && rsq < support * support) function(j, r, sqrt(rsq));
-          }
-  };
-
-  double worst[2] = {0.0, 0.0}, worst_all[2];    // spacing - depth, spacing over depth of bad ones
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const double spacing = pow(atom->rmass[i] / pair->reference_density(atom->type[i]), 1.0 / dim);
-
-    double nearest = support, normal[3] = {0.0, 0.0, 0.0};
-    for_neighbors(i, [&](int j, const double *r, double distance) {
-      if (pair->is_boundary(j)) return;
-      nearest = std::min(nearest, distance);
-      const double weight = (support - distance) * (support - distance) / distance;
-      for (int d = 0; d < 3; d++) normal[d] += weight * r[d];
-    });
-    if (nearest > 1.25 * spacing || !(MathExtra::len3(normal) > 0.0)) continue;
-    MathExtra::norm3(normal);
-
-    double depth = 0.0;
-    for_neighbors(i, [&](int j, const double *r, double) {
-      if (pair->is_boundary(j)) depth = std::max(depth, -MathExtra::dot3(normal, r));
-    });
-    const double missing = support - (depth + spacing);
-    if (missing > 0.5 * spacing) {
-      worst[0] = std::max(worst[0], missing);
-      worst[1] = std::max(worst[1], ceil(support / spacing - 1.0e-6));
-    }
-  }
-  MPI_Allreduce(worst, worst_all, 2, MPI_DOUBLE, MPI_MAX, world);
-  if (worst_all[0] > 0.0 && comm->me == 0)
-    error->warning(FLERR,
-                   "The wall of fix {} {} is thinner than the support radius {:g}, by {:.3g}: it "
-                   "needs {:g} layers of particles",
-                   id, style, support, worst_all[0], worst_all[1]);
+  MathExtra::sub3(r, motion->axis_point(), r);
 }
 
 /* ----------------------------------------------------------------------
@@ -529,24 +361,58 @@ void FixSPHWall::check_thickness()
 
 void FixSPHWall::write_restart(FILE *fp)
 {
-  if (comm->me == 0) {
-    const int size = 3 * sizeof(double);
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(point, sizeof(double), 3, fp);
-  }
+  if (comm->me != 0) return;
+  double buf[WallMotion::NRESTART];
+  motion->pack_restart(buf);
+  const int size = sizeof(buf);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(buf, sizeof(double), WallMotion::NRESTART, fp);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixSPHWall::restart(char *buf)
 {
-  const auto *stored = reinterpret_cast<double *>(buf);
-  std::copy(stored, stored + 3, point);
+  motion->restart(reinterpret_cast<double *>(buf));
+}
+
+/* ----------------------------------------------------------------------
+   force and couple on each particle; only those of the wall have some to take along
+------------------------------------------------------------------------- */
+
+void FixSPHWall::grow_arrays(int nmax)
+{
+  memory->grow(array_atom, nmax, 6, "sph/wall:array_atom");
+}
+
+void FixSPHWall::set_arrays(int i)
+{
+  std::fill_n(array_atom[i], 6, 0.0);
+}
+
+void FixSPHWall::copy_arrays(int i, int j, int /*delflag*/)
+{
+  std::copy_n(array_atom[i], 6, array_atom[j]);
+}
+
+int FixSPHWall::pack_exchange(int i, double *buf)
+{
+  if (!(atom->mask[i] & groupbit)) return 0;
+  std::copy_n(array_atom[i], 6, buf);
+  return 6;
+}
+
+int FixSPHWall::unpack_exchange(int i, double *buf)
+{
+  set_arrays(i);
+  if (!(atom->mask[i] & groupbit)) return 0;
+  std::copy_n(buf, 6, array_atom[i]);
+  return 6;
 }
 
 /* ---------------------------------------------------------------------- */
 
 double FixSPHWall::memory_usage()
 {
-  return 6.0 * nmax * sizeof(double);
+  return 6.0 * atom->nmax * sizeof(double);
 }

@@ -25,6 +25,10 @@ FixStyle(sph/wall,FixSPHWall);
 #include "sph_dissipation_boundary.h"
 
 namespace LAMMPS_NS {
+namespace SPHDissipation {
+  class Exclusions;
+  class WallMotion;
+}    // namespace SPHDissipation
 
 // Solid wall of particles for the fluids sph/bulk and sph/micropolar: moves them, extrapolates
 // velocity, pressure and spin of the fluid to them, sums up force and torque on them.
@@ -38,11 +42,18 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void init() override;
   void setup_pre_exchange() override;
   void setup(int) override;
+  void min_setup(int) override;
   void initial_integrate(int) override;
   void post_force(int) override;
+  void min_post_force(int) override;
   double compute_vector(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  void grow_arrays(int) override;
+  void set_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
   double memory_usage() override;
 
   int boundary_bit() const override { return groupbit; }
@@ -52,36 +63,21 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
                          double **) override;
 
  private:
-  // number, or equal-style variable, and its value at the ends of the last step
-
-  struct Value {
-    char *name = nullptr;    // of the variable
-    int variable = -1;       // its index
-    double now = 0.0, before = 0.0;
-  };
   enum Spin { ZERO, RATE, FREE };
 
-  Value velocity[3], spin_rate;    // of the wall; spin_rate = angular velocity
-  double point[3], axis[3];        // of the rotation; the torque is about the point
+  SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
+  SPHDissipation::Exclusions *exclusions;
   double gravity[3];
-  bool rotates, move, slip;
+  bool move, slip;
   Spin spin;
-  double rate;    // alpha of spin rate
+  double rate;     // alpha of spin rate
+  bool checked;    // the thickness, in the first run
 
-  class PairSPHBulk *pair;
-  bool thickness_checked;
-  int nmax;
   double total[6], total_all[6];    // force and torque, of this rank and of all
   bool total_summed;
 
-  void value_argument(Value &, const char *);
-  void evaluate(Value &);
-  void evaluate_all();
   void from_point(int, double *) const;
   void set_velocity();
-  void angular_velocity(double *) const;
-  void check_group();
-  void check_thickness();
 };
 
 }    // namespace LAMMPS_NS

@@ -312,16 +312,19 @@ def test_rotation_without_motion(lammps):
 
 
 def variable_wall(step):
-    """Velocity and rotation at the end of a step, and their backward differences."""
+    """Velocity and rotation at the end of a step, and their changes over this step; before the first one, they go on the
+    parabola through those of the next steps."""
     def velocity(t):
         return np.array([0.5 * np.sin(30 * t), 0.2 + 3 * t, 0.0])
 
     def rate(t):
         return 0.8 * np.cos(40 * t)
 
-    t = STEP * step
-    before = t - STEP if step else t
-    return (velocity(t), (velocity(t) - velocity(before)) / STEP, rate(t), (rate(t) - rate(before)) / STEP)
+    def change(value):
+        before = value(STEP * (step - 1)) if step else 3 * value(0.0) - 3 * value(STEP) + value(2 * STEP)
+        return (value(STEP * step) - before) / STEP
+
+    return velocity(STEP * step), change(velocity), rate(STEP * step), change(rate)
 
 
 VARIABLES = TIME + "variable U equal 0.5*sin(30*v_t)\nvariable V equal 0.2+3*v_t\nvariable O equal 0.8*cos(40*v_t)\n"

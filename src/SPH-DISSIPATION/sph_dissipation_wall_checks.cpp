@@ -1,0 +1,255 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_wall_checks.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "group.h"
+#include "lammps.h"
+#include "math_extra.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "pair_hybrid.h"
+#include "pair_sph_bulk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+void SPHDissipation::check_wall_particles(LAMMPS *lmp, const Fix *fix)
+{
+  const Atom *const atom = lmp->atom;
+  const char *const group_name = lmp->group->names[fix->igroup];
+  if (lmp->group->count(fix->igroup) == 0)
+    lmp->error->all(FLERR, "Fix {} group {} has no particles", fix->style, group_name);
+
+  for (const auto &other : lmp->modify->get_fix_list()) {
+    if (!other->time_integrate || other == fix) continue;
+    tagint shared = -1, shared_all;    // all are 0 with atom_modify id no
+    for (int i = 0; i < atom->nlocal; i++)
+      if ((atom->mask[i] & fix->groupbit) && (atom->mask[i] & other->groupbit))
+        shared = atom->tag[i];
+    MPI_Allreduce(&shared, &shared_all, 1, MPI_LMP_TAGINT, MPI_MAX, lmp->world);
+    if (shared_all >= 0)
+      lmp->error->all(FLERR, "Particle {} of the wall of fix {} {} is also moved by fix {} {}",
+                      shared_all, fix->id, fix->style, other->id, other->style);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   particles alike in all that decides whether they have pairs: type and groups
+------------------------------------------------------------------------- */
+
+namespace {
+struct Kind {
+  int type, mask;
+  bool operator<(const Kind &other) const
+  {
+    return std::make_pair(type, mask) < std::make_pair(other.type, other.mask);
+  }
+};
+}    // namespace
+
+// those of the particles of all ranks
+
+static std::set<Kind> all_kinds(LAMMPS *lmp)
+{
+  const Atom *const atom = lmp->atom;
+  std::set<Kind> own;
+  Kind last{0, 0};    // particles alike come in a row
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Kind kind{atom->type[i], atom->mask[i]};
+    if (kind.type == last.type && kind.mask == last.mask) continue;
+    own.insert(last = kind);
+  }
+
+  const std::vector<Kind> send(own.begin(), own.end());
+  const int nprocs = lmp->comm->nprocs;
+  int nsend = 2 * send.size();
+  std::vector<int> nreceived(nprocs), offset(nprocs + 1, 0);
+  MPI_Allgather(&nsend, 1, MPI_INT, nreceived.data(), 1, MPI_INT, lmp->world);
+  for (int p = 0; p < nprocs; p++) offset[p + 1] = offset[p] + nreceived[p];
+  std::vector<Kind> all(offset[nprocs] / 2);
+  MPI_Allgatherv(send.data(), nsend, MPI_INT, all.data(), nreceived.data(), offset.data(), MPI_INT,
+                 lmp->world);
+  return {all.begin(), all.end()};
+}
+
+/* ----------------------------------------------------------------------
+   for two kinds of particles, what NPair and pair style hybrid do
+------------------------------------------------------------------------- */
+
+static bool have_pairs(LAMMPS *lmp, const PairSPHBulk *pair, const Kind &a, const Kind &b)
+{
+  const Neighbor *const neighbor = lmp->neighbor;
+  const int *const bitmask = lmp->group->bitmask;
+
+  if (neighbor->includegroup && !(a.mask & b.mask & bitmask[neighbor->includegroup])) return false;
+  for (int n = 0; n < neighbor->nex_type; n++) {
+    const int first = neighbor->ex1_type[n], second = neighbor->ex2_type[n];
+    if ((a.type == first && b.type == second) || (b.type == first && a.type == second))
+      return false;
+  }
+  for (int n = 0; n < neighbor->nex_group; n++) {
+    const int first = bitmask[neighbor->ex1_group[n]], second = bitmask[neighbor->ex2_group[n]];
+    if (((a.mask & first) && (b.mask & second)) || ((b.mask & first) && (a.mask & second)))
+      return false;
+  }
+
+  auto *const hybrid = dynamic_cast<PairHybrid *>(lmp->force->pair);
+  if (!hybrid) return true;
+  char *const name = lmp->force->pair_match_ptr(const_cast<PairSPHBulk *>(pair));
+  return hybrid->check_ijtype(std::min(a.type, b.type), std::max(a.type, b.type), name);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const PairSPHBulk *pair,
+                                          bool warn)
+{
+  int walls = 0;
+  for (const auto &wall : lmp->modify->get_fix_by_style("^sph/wall$")) walls |= wall->groupbit;
+
+  std::vector<Kind> solid, fluid;
+  for (const Kind &kind : all_kinds(lmp)) {
+    const bool has_coefficients = pair->setflag[kind.type][kind.type];
+    if (kind.mask & fix->groupbit) {
+      if (!has_coefficients)
+        lmp->error->all(FLERR,
+                        "The wall of fix {} {} has particles of type {}, for which there are no "
+                        "coefficients of the pair style of the fluid",
+                        fix->id, fix->style, kind.type);
+      solid.push_back(kind);
+    } else if (has_coefficients && !(kind.mask & walls))
+      fluid.push_back(kind);
+  }
+
+  std::set<int> felt, ignored;    // types of the fluid
+  for (const Kind &f : fluid) {
+    const bool feels = std::any_of(solid.begin(), solid.end(), [&](const Kind &wall) {
+      return have_pairs(lmp, pair, f, wall);
+    });
+    (feels ? felt : ignored).insert(f.type);
+  }
+  if (ignored.empty()) return;
+  const char *const reason =
+      "no pair coefficients of the fluid's style between their types, neigh_modify exclude, or "
+      "neigh_modify include";
+  if (felt.empty())
+    lmp->error->all(FLERR, "The fluid does not interact with the wall of fix {} {}: {}", fix->id,
+                    fix->style, reason);
+  if (warn && lmp->comm->me == 0)
+    lmp->error->warning(FLERR,
+                        "A part of the fluid, of type {}, does not interact with the wall of fix "
+                        "{} {}: {}",
+                        *ignored.begin(), fix->id, fix->style, reason);
+}
+
+/* ----------------------------------------------------------------------
+   warn if the wall does not fill the support of the fluid at its surface.  The first
+   layer is what has fluid at the distance of the particle spacing; how deep the wall
+   goes below it, as seen within the support radius, must be that minus one spacing.
+   The neighbor lists have no pairs of wall particles, hence the bins.
+------------------------------------------------------------------------- */
+
+void SPHDissipation::check_wall_thickness(LAMMPS *lmp, const Fix *fix, const PairSPHBulk *pair)
+{
+  const Atom *const atom = lmp->atom;
+  double **x = atom->x;
+  const int nall = atom->nlocal + atom->nghost;
+  const double support = pair->support_radius();
+  const int dim = pair->dimension();
+
+  double lo[3];
+  bigint nbin[3];
+  for (int d = 0; d < 3; d++) {
+    double hi = lo[d] = nall ? x[0][d] : 0.0;
+    for (int i = 0; i < nall; i++) {
+      lo[d] = std::min(lo[d], x[i][d]);
+      hi = std::max(hi, x[i][d]);
+    }
+    nbin[d] = static_cast<bigint>((hi - lo[d]) / support) + 1;
+  }
+  auto bin_of = [&](int i, int d) {
+    return static_cast<bigint>((x[i][d] - lo[d]) / support);
+  };
+  std::vector<int> head(nbin[0] * nbin[1] * nbin[2], -1), next(nall);
+  for (int i = 0; i < nall; i++) {
+    int &first = head[(bin_of(i, 2) * nbin[1] + bin_of(i, 1)) * nbin[0] + bin_of(i, 0)];
+    next[i] = first;
+    first = i;
+  }
+
+  // for each particle j within the support radius of particle i
+
+  auto for_neighbors = [&](int i, auto &&function) {
+    bigint from[3], to[3];
+    for (int d = 0; d < 3; d++) {
+      from[d] = std::max(bin_of(i, d) - 1, bigint(0));
+      to[d] = std::min(bin_of(i, d) + 1, nbin[d] - 1);
+    }
+    for (bigint c = from[2]; c <= to[2]; c++)
+      for (bigint b = from[1]; b <= to[1]; b++)
+        for (bigint a = from[0]; a <= to[0]; a++)
+          for (int j = head[(c * nbin[1] + b) * nbin[0] + a]; j >= 0; j = next[j]) {
+            double r[3];
+            MathExtra::sub3(x[j], x[i], r);
+            const double rsq = MathExtra::lensq3(r);
+            if (j != i && rsq < support * support) function(j, r, sqrt(rsq));
+          }
+  };
+
+  double worst[2] = {0.0, 0.0}, worst_all[2];    // spacing - depth, spacing over depth of bad ones
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & fix->groupbit)) continue;
+    const double spacing = pow(atom->rmass[i] / pair->reference_density(atom->type[i]), 1.0 / dim);
+
+    double nearest = support, normal[3] = {0.0, 0.0, 0.0};
+    for_neighbors(i, [&](int j, const double *r, double distance) {
+      if (pair->is_boundary(j)) return;
+      nearest = std::min(nearest, distance);
+      const double weight = (support - distance) * (support - distance) / distance;
+      for (int d = 0; d < 3; d++) normal[d] += weight * r[d];
+    });
+    if (nearest > 1.25 * spacing || !(MathExtra::len3(normal) > 0.0)) continue;
+    MathExtra::norm3(normal);
+
+    double depth = 0.0;
+    for_neighbors(i, [&](int j, const double *r, double) {
+      if (pair->is_boundary(j)) depth = std::max(depth, -MathExtra::dot3(normal, r));
+    });
+    const double missing = support - (depth + spacing);
+    if (missing > 0.5 * spacing) {
+      worst[0] = std::max(worst[0], missing);
+      worst[1] = std::max(worst[1], ceil(support / spacing - 1.0e-6));
+    }
+  }
+  MPI_Allreduce(worst, worst_all, 2, MPI_DOUBLE, MPI_MAX, lmp->world);
+  if (worst_all[0] > 0.0 && lmp->comm->me == 0)
+    lmp->error->warning(
+        FLERR,
+        "The wall of fix {} {} is thinner than the support radius {:g}, by {:.3g}: it "
+        "needs {:g} layers of particles",
+        fix->id, fix->style, support, worst_all[0], worst_all[1]);
+}

@@ -1,0 +1,253 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_wall_motion.h"
+
+#include "compute.h"
+#include "domain.h"
+#include "error.h"
+#include "input.h"
+#include "math_extra.h"
+#include "modify.h"
+#include "update.h"
+#include "variable.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+enum { OMEGA = 3 };    // of the values, after the velocity
+
+/* ---------------------------------------------------------------------- */
+
+WallMotion::WallMotion(LAMMPS *lmp, const std::string &owner) :
+    Pointers(lmp), owner(owner),
+    rotation_given(false), given{0.0, 0.0, 0.0, 0.0, 0.0, 1.0}, point{0.0, 0.0, 0.0}, axis{0.0, 0.0,
+                                                                                           1.0},
+    any_variable(false), known_step(-1)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+WallMotion::~WallMotion()
+{
+  for (auto &value : values) delete[] value.name;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::set_velocity(char **arg)
+{
+  for (int d = 0; d < 3; d++) read(values[d], arg[d]);
+  if (domain->dimension == 2 && (values[2].name || values[2].number != 0.0))
+    error->all(FLERR, "{}: velocity and gravity must lie in the plane in 2d", owner);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::set_rotation(char **arg)
+{
+  for (int k = 0; k < 6; k++) given[k] = utils::numeric(FLERR, arg[k], false, lmp);
+  std::copy(given, given + 3, point);
+  std::copy(given + 3, given + 6, axis);
+  if (!(MathExtra::len3(axis) > 0.0))
+    error->all(FLERR, "{} rotate: the direction of the axis must not be zero", owner);
+  if (domain->dimension == 2 && (axis[0] != 0.0 || axis[1] != 0.0))
+    error->all(FLERR, "{}: the axis of rotation must be along z in 2d", owner);
+  MathExtra::norm3(axis);
+  read(values[OMEGA], arg[6]);
+  rotation_given = true;
+}
+
+/* ----------------------------------------------------------------------
+   number, or variable v_name
+------------------------------------------------------------------------- */
+
+void WallMotion::read(Value &value, const char *word)
+{
+  delete[] value.name;
+  value = Value();
+  if (utils::strmatch(word, "^v_"))
+    value.name = utils::strdup(word + 2);
+  else
+    value.number = utils::numeric(FLERR, word, false, lmp);
+  any_variable = any_variable || value.name;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::init()
+{
+  for (auto &value : values) {
+    if (!value.name) continue;
+    value.variable = input->variable->find(value.name);
+    if (value.variable < 0)
+      error->all(FLERR, "Variable {} for {} does not exist", value.name, owner);
+    if (!input->variable->equalstyle(value.variable))
+      error->all(FLERR, "Variable {} for {} is not an equal-style variable", value.name, owner);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   values at the current time step; true if a variable took something from a compute
+------------------------------------------------------------------------- */
+
+bool WallMotion::evaluate(double *result)
+{
+  if (any_variable) modify->clearstep_compute();
+  for (int k = 0; k < NVALUES; k++)
+    result[k] = values[k].name ? input->variable->compute_equal(values[k].variable)
+                               : values[k].number;
+  if (!any_variable) return false;
+  const auto &computes = modify->get_compute_list();
+  return std::any_of(computes.begin(), computes.end(), [](const Compute *compute) {
+    return compute->invoked_flag != Compute::INVOKED_NONE;
+  });
+}
+
+/* ----------------------------------------------------------------------
+   Variables are functions of time, or of what the particles do.  The rate of the former follows
+   from their values in the steps to come.  Those of the latter are not known in advance: they keep
+   the rate of the step that led here, if a run ended with it.
+------------------------------------------------------------------------- */
+
+void WallMotion::start()
+{
+  const bool continues = (known_step == update->ntimestep);
+  known_step = update->ntimestep;
+
+  double now[NVALUES];
+  const bool of_particles = evaluate(now);
+  if (any_variable) modify->addstep_compute(update->ntimestep + 1);
+  for (int k = 0; k < NVALUES; k++) {
+    if (!continues || values[k].now != now[k]) values[k].rate = 0.0;
+    values[k].now = values[k].mean = now[k];
+  }
+  if (any_variable && !of_particles && update->dt != 0.0) estimate_rates();
+}
+
+/* ----------------------------------------------------------------------
+   change over the step before this one, as the parabola through now and the two steps to come
+   has it; in a run of no steps, ramp() of variables has no slope
+------------------------------------------------------------------------- */
+
+void WallMotion::estimate_rates()
+{
+  const bigint ntimestep = update->ntimestep, endstep = update->endstep;
+  if (endstep == update->beginstep) update->endstep = MAXBIGINT;
+  double next[NVALUES], second[NVALUES];
+  update->ntimestep = ntimestep + 1;
+  evaluate(next);
+  update->ntimestep = ntimestep + 2;
+  evaluate(second);
+  update->ntimestep = ntimestep;
+  update->endstep = endstep;
+
+  for (int k = 0; k < NVALUES; k++) {
+    Value &value = values[k];
+    if (next[k] == value.now && second[k] == value.now) continue;
+    const double rate = (3.0 * next[k] - second[k] - 2.0 * value.now) / update->dt;
+    value.rate = std::isfinite(rate) ? rate : 0.0;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::rest()
+{
+  known_step = -1;
+  for (auto &value : values) value.now = value.mean = value.rate = 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   with a time step of zero, nothing changes in time
+------------------------------------------------------------------------- */
+
+void WallMotion::advance()
+{
+  double now[NVALUES];
+  evaluate(now);
+  if (any_variable) modify->addstep_compute(update->ntimestep + 1);
+  known_step = update->ntimestep;
+  for (int k = 0; k < NVALUES; k++) {
+    Value &value = values[k];
+    value.mean = 0.5 * (value.now + now[k]);
+    value.rate = (update->dt != 0.0) ? (now[k] - value.now) / update->dt : 0.0;
+    value.now = now[k];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::last_step(double rotation[3][3], double *shift) const
+{
+  double quaternion[4];
+  MathExtra::axisangle_to_quat(axis, values[OMEGA].mean * update->dt, quaternion);
+  MathExtra::quat_to_mat(quaternion, rotation);
+  for (int d = 0; d < 3; d++) shift[d] = values[d].mean * update->dt;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::move_point()
+{
+  if (!rotation_given) return;
+  for (int d = 0; d < 3; d++) point[d] += values[d].mean * update->dt;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::angular_velocity(double *w) const
+{
+  for (int d = 0; d < 3; d++) w[d] = values[OMEGA].now * axis[d];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::velocity_at(const double *r, double *v) const
+{
+  double w[3];
+  angular_velocity(w);
+  MathExtra::cross3(w, r, v);
+  for (int d = 0; d < 3; d++) v[d] += values[d].now;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::acceleration_at(const double *r, double *a) const
+{
+  double w[3], turn[3], centripetal[3];
+  angular_velocity(w);
+  MathExtra::cross3(w, r, turn);
+  MathExtra::cross3(w, turn, centripetal);
+  MathExtra::cross3(axis, r, a);
+  for (int d = 0; d < 3; d++) a[d] = values[d].rate + values[OMEGA].rate * a[d] + centripetal[d];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::pack_restart(double *buf) const
+{
+  std::copy(given, given + 6, buf);
+  std::copy(point, point + 3, buf + 6);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::restart(const double *buf)
+{
+  if (rotation_given && std::equal(given, given + 6, buf)) std::copy(buf + 6, buf + 9, point);
+}

@@ -1,0 +1,89 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_WALL_MOTION_H
+#define LMP_SPH_DISSIPATION_WALL_MOTION_H
+
+#include "pointers.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // Motion of a rigid wall: a velocity, and a rotation about an axis through a point that travels
+  // with this velocity.  Each component is a number or an equal-style variable.
+
+  class WallMotion : protected Pointers {
+   public:
+    WallMotion(class LAMMPS *, const std::string &owner);    // owner = what messages name
+    ~WallMotion() override;
+
+    // arguments of the commands; what they mean is checked here
+
+    void set_velocity(char **);    // vx vy vz
+    void set_rotation(char **);    // px py pz ax ay az omega
+
+    void init();       // of a run: find the variables
+    void start();      // of a run: values now, and the rates at which they change
+    void rest();       // until the next start: the wall stands still
+    void advance();    // to the end of a step
+
+    // of the last step: r -> rotation r + shift for r from the point on the axis
+
+    void last_step(double rotation[3][3], double *shift) const;
+    void move_point();    // with the wall
+
+    // at the place r from the point on the axis
+
+    void velocity_at(const double *r, double *v) const;
+    void acceleration_at(const double *r, double *a) const;
+    void angular_velocity(double *w) const;
+    const double *axis_point() const { return point; }
+
+    // the point on the axis in restart files: it belongs to the rotation that the input gives, and
+    // is not for another one
+
+    static constexpr int NRESTART = 9;
+    bool rotates() const { return rotation_given; }
+    void pack_restart(double *) const;
+    void restart(const double *);
+
+   private:
+    struct Value {
+      char *name = nullptr;    // of the variable
+      int variable = -1;       // its index
+      double number = 0.0;     // if there is no variable
+      double now = 0.0;        // at the end of the last step
+      double mean = 0.0;       // of its values at both ends of this step
+      double rate = 0.0;       // of its change
+    };
+    static constexpr int NVALUES = 4;
+
+    const std::string owner;
+    Value values[NVALUES];    // velocity along x, y, z and angular velocity
+    bool rotation_given;
+    double given[6];    // point and direction of the axis as in the input
+    double point[3], axis[3];
+    bool any_variable;
+    bigint known_step;    // time step that the values are for, -1 if none
+
+    void read(Value &, const char *);
+    bool evaluate(double *);
+    void estimate_rates();
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
