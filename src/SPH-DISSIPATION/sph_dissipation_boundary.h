@@ -21,7 +21,8 @@ namespace SPHDissipation {
 
   // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
   // particles f of V_f W(r_wf) times the quantity, S. Adami et al., J. Comput. Phys. 231, 7057 (2012)
-  // of a fluid particle: weight is the part of its support that boundary particles fill
+  // of a fluid particle: weight is the part of its support that boundary particles fill, filled that
+  // of a support of a few particle spacings, or of its own if that is smaller
 
   struct BoundarySum {
     double weight;       // 1
@@ -30,6 +31,7 @@ namespace SPHDissipation {
     double rho;          // density
     double pressure;     // p + zeta V cdot (bulk density), p (otherwise)
     double zeta_term;    // zeta V cdot
+    double filled;       // fluid particles only
     double w[3];         // spin (micropolar)
   };
 

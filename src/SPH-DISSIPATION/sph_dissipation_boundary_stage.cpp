@@ -124,6 +124,26 @@ void BoundaryStage::run(NeighList *list)
   exchange.forward({field(engine.spin, engine.spin->w, 3)});
 }
 
+/* ----------------------------------------------------------------------
+   a kernel that sees the nearest particles only, however large the support radius of the
+   fluid: with as many particle spacings as a fluid has at least
+------------------------------------------------------------------------- */
+
+void BoundaryStage::set_near()
+{
+  constexpr double SPACINGS[] = {0.0, 4.0, 3.0, 2.5};    // by dimension
+  const LoopData &all = engine.pairs();
+  const int dim = engine.dimension();
+  near.resize(atom->nlocal + atom->nghost);
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+    if (!(atom->mask[i] & group_bits)) continue;
+    const double vol = engine.particle[i].vol;
+    const double radius = std::min(all.support, SPACINGS[dim] * pow(vol, 1.0 / dim));
+    near[i].norm = vol * all.weight_norm * pow(all.support / radius, dim);
+    near[i].scale = 1.0 / radius;
+  }
+}
+
 /* ---------------------------------------------------------------------- */
 
 void BoundaryStage::find_pairs(NeighList *list)
@@ -131,6 +151,7 @@ void BoundaryStage::find_pairs(NeighList *list)
   const int *const mask = atom->mask;
   if (neighbor->ago == 0 || group_bits != rows_bits) {
     rows_bits = group_bits;
+    set_near();
     rows.clear();
     for (int ii = 0; ii < list->inum; ii++) {
       const int i = list->ilist[ii];
@@ -176,7 +197,8 @@ void BoundaryStage::accumulate()
         r[d] = w.x[d] - f.x[d];
         rsq += r[d] * r[d];
       }
-      const double kernel_weight = all.weight_norm * k.shape(sqrt(rsq) / all.support);
+      const double distance = sqrt(rsq);
+      const double kernel_weight = all.weight_norm * k.shape(distance / all.support);
       const double weight = pair.weight = f.vol * kernel_weight;
 
       BoundarySum &total = sum[pair.wall];
@@ -190,21 +212,25 @@ void BoundaryStage::accumulate()
       total.pressure += kernel_weight * f.g / f.vol;
       total.zeta_term += weight * engine.zeta_term[pair.fluid];
       sum[pair.fluid].weight += w.vol * kernel_weight;
+      const NearKernel &wall = near[pair.wall];
+      const double q = distance * wall.scale;
+      if (q < 1.0) sum[pair.fluid].filled += wall.norm * k.shape(q);
     }
     return 0;
   });
 }
 
 /* ----------------------------------------------------------------------
-   the support of a fluid particle at a plane surface is half full of boundary particles,
-   that of one in the corner of a box 7/8; more only inside
+   the near support of a fluid particle at a plane surface is half full of boundary particles,
+   that of one in the corner of a box 7/8; more only inside.  A larger one would be as full
+   in a pore as wide as the particle itself.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::check() const
 {
   constexpr double INSIDE = 0.9;
   for (int i = 0; i < atom->nlocal; i++)
-    if (sum[i].weight > INSIDE && !(atom->mask[i] & group_bits))
+    if (sum[i].filled > INSIDE && !(atom->mask[i] & group_bits))
       error->one(FLERR, "Particle {} of the fluid of pair style {} is inside a wall", atom->tag[i],
                  style);
 }

@@ -73,9 +73,17 @@ namespace SPHDissipation {
     std::vector<int> rows;
     int rows_bits;
 
+    // for BoundarySum::filled, of boundary atoms until the list is built anew
+
+    struct NearKernel {
+      double norm, scale;    // V W = norm * shape(scale * r)
+    };
+    std::vector<NearKernel> near;
+
     int nmax;
     VorticityStage *vorticity;
 
+    void set_near();
     void find_pairs(NeighList *);
     void accumulate();
     void check() const;

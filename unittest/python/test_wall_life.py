@@ -1,0 +1,511 @@
+"""fix sph/wall from its definition to its end: entry points other than run, restarts, groups, bad neighbours, first steps."""
+
+import re
+
+import numpy as np
+import pytest
+
+from helpers import lattice, relative
+from test_wall import thin
+
+FULL = "thermo_modify norm no format float %.17g\n"
+WALL = "thermo_style custom step " + " ".join(f"f_{name}[{k}]" for name in "FL" for k in range(1, 7)) + "\n" + FULL
+COLUMNS = [f"f_{name}[{k}]" for name in "FL" for k in range(1, 7)]
+LID = "velocity 1 0 0"
+
+
+def box(floor="", lid=LID, pair="pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0\n", style="sph/bulk",
+        before="", types=1, integrate=True, inertia=""):
+    """The vessel that all start from: floor, fluid displaced at random, lid."""
+    return (f"units lj\ndimension 2\natom_style {style}\n{before}lattice sq 1.0 origin 0.5 0.5 0\n"
+            f"region box block 0 12 0 18 -0.5 0.5\ncreate_box {types} box\ncreate_atoms 1 box\n"
+            f"set group all mass 1.0{inertia}\nregion low block INF INF INF 3 INF INF\nregion high block INF INF 15 INF INF INF\n"
+            "group floor region low\ngroup lid region high\ngroup fluid subtract all floor lid\n"
+            "displace_atoms fluid random 0.1 0.1 0 4711\ntimestep 0.005\n" + pair
+            + (f"fix 1 fluid {style}\nfix F floor sph/wall {floor}\nfix L lid sph/wall {lid}\n" if integrate else ""))
+
+
+MICROPOLAR = dict(style="sph/micropolar", inertia=" sph/micropolar/inertia 0.1",
+                  pair="pair_style sph/micropolar\npair_coeff * * 1.0 10.0 0.5 2.0 0.3 0.05 -0.05 3.0\n")
+
+
+def dump(name, every=1):
+    return (f"dump D all custom {every} {name} id xu yu zu vx vy vz fx fy fz f_F[*]\n"
+            "dump_modify D sort id format float %.17g\n")
+
+
+def forces_on_walls(result):
+    return [np.array([table[name] for name in COLUMNS]).T for table in result.thermo()]
+
+
+# ---------------------------------------------------------------------------------------------
+# rerun
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_rerun_gives_the_forces_of_run_0(lammps, ranks):
+    """Snapshot by snapshot, with walls that move and turn."""
+    walls = dict(floor="velocity 0 v_U 0", lid="rotate 6 16 0 0 0 1 0.1 move no")
+    variable = "variable U equal 0.2*step*dt\n"
+    lammps(variable + box(**walls) + "dump D all custom 5 run.dump id x y z vx vy vz ix iy iz\n"
+           "dump_modify D sort id format float %.17g\nrun 20\n")
+    read = "run.dump {} x y vx vy ix iy box yes replace yes\n"
+    rerun = lammps(variable + box(**walls) + WALL + "thermo 5\nrerun run.dump dump x y vx vy ix iy\n", ranks=ranks)
+    single = [lammps(variable + box(**walls) + WALL + "read_dump " + read.format(step) + "run 0\n") for step in range(0, 25, 5)]
+    (found,) = forces_on_walls(rerun)
+    want = np.concatenate([forces_on_walls(result)[0] for result in single])
+    assert len(found) == 5 and np.abs(want[:, 1]).min() > 1.0
+    assert relative(found - want, want) < 1e-12
+
+
+# ---------------------------------------------------------------------------------------------
+# the point of rotate in restart files
+
+TURN = "rotate 6 16 0 0 0 1 0.5 move no"
+
+
+def stored_by(lammps, lid, steps=10):
+    lammps(box(lid=lid) + f"run {steps}\nwrite_restart state.restart\n")
+
+
+def continued(lammps, lid, name="out.dump"):
+    lammps(f"read_restart state.restart\nfix 1 fluid sph/bulk\nfix F floor sph/wall\nfix L lid sph/wall {lid}\ntimestep 0.005\n"
+           + dump(name) + WALL + "run 0\n")
+    frame = lammps.frame(name)
+    return frame, frame["y"] if "y" in frame.columns else frame["yu"]
+
+
+@pytest.mark.parametrize("stored", ["", "velocity 1 0 0", "velocity 1 0 0 move no", "rotate 2 17 0 0 0 1 0.5",
+                                    "rotate 6 16 0 0 0 -1 0.5", "rotate 6 16 0 0 0 1 0.5 velocity 1 0 0"])
+def test_point_of_the_input_beats_that_of_another_rotation(lammps, stored):
+    """Wherever the wall of this ID turned before, if it did at all; only the same rotation goes on about the point that
+    has travelled."""
+    stored_by(lammps, stored)
+    frame, y = continued(lammps, TURN)
+    lid = y > 14.5
+    same = "rotate 6 16 0 0 0 1" in stored
+    point = np.array([6.05 if "velocity" in stored and same else 6.0, 16.0, 0.0])
+    want = np.cross([0, 0, 0.5], frame["x"][lid] - point)
+    np.testing.assert_allclose(frame["v"][lid], want, rtol=0, atol=1e-13)
+
+
+def test_wall_that_no_longer_turns(lammps):
+    """Its torque is about the origin."""
+    stored_by(lammps, TURN)
+    frame, _ = continued(lammps, "")
+    (row,) = forces_on_walls(lammps.results[-1])
+    lid = frame["xu"] * 0 + (frame["yu"] > 14.5)
+    torque = (lid * (frame["xu"] * frame["fy"] - frame["yu"] * frame["fx"])).sum()
+    assert row[0][11] == pytest.approx(torque, rel=1e-12)
+
+
+def test_axis_is_compared_as_it_is_given(lammps):
+    """Its length does not matter to the rotation, nor does it stop the point from being found again."""
+    wall = "rotate 6 16 0 0 0 3 0.5 velocity 1 0 0"
+    stored_by(lammps, wall)
+    frame, y = continued(lammps, wall)
+    lid = y > 14.5
+    want = [1, 0, 0] + np.cross([0, 0, 0.5], frame["x"][lid] - [6.05, 16.0, 0.0])
+    np.testing.assert_allclose(frame["v"][lid], want, rtol=0, atol=1e-13)
+
+
+# ---------------------------------------------------------------------------------------------
+# minimization
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("style", ["sph/bulk", "sph/micropolar"])
+@pytest.mark.parametrize("lid", [LID, "rotate 6 16 0 0 0 1 0.5", "velocity v_U 0 0"])
+def test_walls_stand_still_in_a_minimization(lammps, lid, style, ranks):
+    """Fluid at rest, walls that move in a run: forces are those between walls at rest, and the minimizer moves the fluid
+    only."""
+    text = "variable U equal 3*step*dt\n" + box(lid=lid, **(MICROPOLAR if style != "sph/bulk" else {}))
+    lammps(text + "min_style fire\n" + dump("start.dump", 1) + WALL + "minimize 0 1e-6 20 1000\n", ranks=ranks)
+    lammps(box(lid="", **(MICROPOLAR if style != "sph/bulk" else {})) + dump("rest.dump") + WALL + "run 0\n")
+    frames, rest = lammps.frames("start.dump"), lammps.frame("rest.dump")
+    wet = (rest["yu"] > 3) & (rest["yu"] < 15)
+    moving, still = (forces_on_walls(result)[0][0] for result in lammps.results)
+    assert relative(moving[:3] - still[:3], still) < 1e-12
+    assert relative(frames[0]["f"][wet] - rest["f"][wet], rest["f"][wet]) < 1e-12
+    assert (frames[-1]["x"][~wet] == rest["x"][~wet]).all()
+    assert np.abs(frames[-1]["x"][wet] - rest["x"][wet]).max() > 1e-3
+
+
+@pytest.mark.parametrize("minimizer, tolerance", [("fire", 1e-6), ("quickmin", 1e-6)])
+def test_minimization_after_a_run_converges(lammps, minimizer, tolerance):
+    """Viscous forces of the motion before have no place in it."""
+    result = lammps(box() + f"run 100\nmin_style {minimizer}\nmin_modify dmax 0.05\n" + WALL
+                    + f"minimize 0 {tolerance} 20000 100000\nrun 10\n")
+    assert "Stopping criterion = force tolerance" in result.log, re.findall("Stopping.*", result.log)
+
+
+# ---------------------------------------------------------------------------------------------
+# exclusions
+
+
+ALL_FLUID = "pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0\nfix 1 all sph/bulk\n"
+
+
+def as_fluid(lammps, text, ranks=1):
+    """Energy and forces when all particles are fluid."""
+    result = lammps(text + "thermo_style custom step pe\n" + FULL + "dump E all custom 1 all.dump id fx fy fz\n"
+                    "dump_modify E sort id format float %.17g\nrun 0\n", ranks=ranks)
+    return result.thermo()[-1]["pe"][-1], lammps.frame("all.dump")["f"]
+
+
+def assert_same_fluid(one, other):
+    assert one[0] == pytest.approx(other[0], rel=1e-12)
+    assert relative(one[1] - other[1], other[1]) < 1e-11
+
+
+REMOVE = "unfix 1\nunfix F\nunfix L\n"
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_walls_made_fluid_interact(lammps, ranks):
+    """Nothing of the fixes is left when they are gone."""
+    fresh = as_fluid(lammps, box(integrate=False) + "fix 1 all sph/bulk\n")
+    walls = box(lid="") + "run 0\n" + REMOVE
+    assert_same_fluid(as_fluid(lammps, walls + "fix 1 all sph/bulk\n", ranks), fresh)
+
+
+def test_exclusions_do_not_hit_the_group_that_takes_the_index(lammps):
+    fresh = as_fluid(lammps, box(integrate=False) + "fix 1 all sph/bulk\n")
+    text = (box(lid="") + "run 0\n" + REMOVE + "group floor delete\ngroup lid delete\ngroup fluid delete\n"
+            "group new union all\ngroup other union all\ngroup third union all\nfix 1 all sph/bulk\n")
+    assert_same_fluid(as_fluid(lammps, text), fresh)
+
+
+def test_one_of_two_walls_made_fluid(lammps):
+    """The exclusion between the two walls, too, goes with either."""
+    for gone, name, stays in (("F", "floor", "L lid"), ("L", "lid", "F floor")):
+        frames = []
+        for before in (f"fix F floor sph/wall\nfix L lid sph/wall\nrun 0\nunfix {gone}\n", f"fix {stays} sph/wall\n"):
+            text = (box(integrate=False) + "fix 1 fluid sph/bulk\n" + before + f"unfix 1\ngroup wet union fluid {name}\n"
+                    "fix 1 wet sph/bulk\n" + ("" if gone in before else ""))
+            frames.append(as_fluid(lammps, text.replace(f"fix {stays} sph/wall\nunfix 1", f"fix {stays} sph/wall\nunfix 1")))
+        assert_same_fluid(*frames)
+
+
+@pytest.mark.parametrize("where", ["before", "after"])
+@pytest.mark.parametrize("exclusion", ["floor lid", "floor floor", "fluid fluid", "floor fluid"])
+def test_exclusions_of_the_user_stay(lammps, where, exclusion):
+    """Also if they are the same as those of the walls."""
+    user = f"neigh_modify exclude group {exclusion}\n"
+    before, after = (user, "") if where == "before" else ("", user)
+    fresh = as_fluid(lammps, box(integrate=False) + user + "fix 1 all sph/bulk\n")
+    walls = "fix F floor sph/wall\nfix L lid sph/wall\n"
+    text = box(integrate=False) + "fix 1 fluid sph/bulk\n"
+    if exclusion == "floor fluid":  # with this one there is no run with walls
+        text += walls + "run 0\n" + after if where == "after" else before
+    else:
+        text += before + walls + "run 0\nrun 0\n" + after
+    text += "unfix 1\n" + ("unfix F\nunfix L\n" if walls in text else "") + "fix 1 all sph/bulk\n"
+    assert_same_fluid(as_fluid(lammps, text), fresh)
+
+
+def test_exclude_none_does_no_harm(lammps):
+    """Before any kind of run: the fix defines its exclusions anew, or the lists in use still have them."""
+    runs = {"all at once": "run 40\n", "with set-up": "run 20\nneigh_modify exclude none\nrun 20\n",
+            "without": "run 20\nneigh_modify exclude none\nrun 20 pre no\n"}
+    rows = {name: forces_on_walls(lammps(box() + "neighbor 0.1 bin\n" + WALL + text))[-1][-1] for name, text in runs.items()}
+    for name in ("with set-up", "without"):
+        assert relative(rows[name] - rows["all at once"], rows["all at once"]) < 1e-11, name
+
+
+# ---------------------------------------------------------------------------------------------
+# fix, pair style and groups come and go
+
+
+def test_wall_of_another_group(lammps):
+    """The same ID for other particles; those of before are fluid."""
+    want = as_fluid(lammps, box(integrate=False) + "group wet union fluid floor\nfix 1 wet sph/bulk\nfix L lid sph/wall\n")
+    text = box(integrate=False) + "fix 1 fluid sph/bulk\nfix F floor sph/wall\nfix L lid sph/wall\nrun 1\nunfix 1\nunfix F\n"
+    text = text.replace("run 1", "run 0") + "unfix L\ngroup wet union fluid floor\nfix 1 wet sph/bulk\nfix F lid sph/wall\n"
+    assert_same_fluid(as_fluid(lammps, text), want)
+
+
+def test_run_pre_no_after_unfix(lammps):
+    """The pair style forgets the wall with the fix."""
+    lammps(box() + "run 5\nunfix L\nrun 5 pre no\n")
+
+
+@pytest.mark.parametrize("commands", [
+    "pair_style none\nunfix F\nunfix L\n",
+    "pair_style zero 3.0\npair_coeff * *\nunfix F\nunfix L\nrun 1\n",
+    "pair_style none\n" + MICROPOLAR["pair"].replace("micropolar", "bulk").replace(" 0.3 0.05 -0.05", "") + "run 5\n",
+    "pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0\nrun 5\nunfix F\nfix F floor sph/wall\nrun 5\n",
+    "clear\n", "clear\n" + box() + "run 5\n", "unfix F\nunfix L\nclear\n" + box() + "run 5\n"])
+def test_pair_style_and_fix_come_and_go(lammps, commands):
+    lammps(box() + "run 5\n" + commands)
+
+
+@pytest.mark.parametrize("pair", ["pair_style none\n", "pair_style zero 3.0\npair_coeff * *\n"])
+def test_run_without_the_pair_style(lammps, pair):
+    result = lammps(box() + "run 5\n" + pair + "run 5\n", check=False)
+    assert result.code == 1
+    assert "requires pair style sph/bulk or sph/micropolar" in result.error
+
+
+# ---------------------------------------------------------------------------------------------
+# reading the results of the fix at any time
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_force_on_each_particle_before_the_first_run(lammps, ranks):
+    """And of particles that come later: zero, as long as there was none."""
+    more = "create_box 1 box\n"
+    text = (box() + "write_dump all custom first.dump id f_F[1] f_F[6] modify sort id\n"
+            "variable a atom f_F[1]\nset group all sph/e v_a\n"
+            "change_box all y final 0 200\nregion above block INF INF 20 INF INF INF\ncreate_atoms 1 region above\n"
+            "set group all mass 1.0\nwrite_dump all custom second.dump id f_F[1] f_F[6] modify sort id\n"
+            "variable b atom f_F[2]+f_L[2]\ngroup heavy variable b\n")
+    lammps(text, ranks=ranks)
+    for name, number in (("first.dump", 216), ("second.dump", 216 + 12 * 180)):
+        frame = lammps.frame(name)
+        assert len(frame["id"]) == number
+        assert (frame["f_F[1]"] == 0.0).all() and (frame["f_F[6]"] == 0.0).all()
+    assert more not in text
+
+
+@pytest.mark.parametrize("ranks", [1, 4])
+def test_force_stays_with_its_particle(lammps, ranks):
+    """When particles are deleted, sorted or sent to other ranks between runs."""
+    text = (box() + "run 5\n" + dump("one.dump") + "run 0\nundump D\nbalance 1.0 shift xy 10 1.01\n"
+            "group gone id 80:90\ndelete_atoms group gone compress no\n"
+            "write_dump all custom two.dump id fx fy f_F[*] f_L[*] modify sort id format float %.17g\n")
+    lammps(text, ranks=ranks)
+    one, two = lammps.frame("one.dump"), lammps.frame("two.dump")
+    kept = np.isin(one["id"], two["id"])
+    for k in range(1, 7):
+        assert (one[f"f_F[{k}]"][kept] == two[f"f_F[{k}]"]).all()
+    low = two["id"] <= 36
+    assert (two["f_F[2]"][low] == two["fy"][low]).all() and np.abs(two["f_F[2]"][low]).max() > 0.0
+    high = two["id"] > 180
+    assert (two["f_L[1]"][high] == two["fx"][high]).all() and (two["f_L[2]"][~high] == 0.0).all()
+
+
+# ---------------------------------------------------------------------------------------------
+# time step zero
+
+
+@pytest.mark.parametrize("floor", ["", "velocity 0 v_U 0", "rotate 6 1 0 0 0 1 v_U"])
+def test_time_step_zero(lammps, floor):
+    """Nothing moves, and the forces are those of the start."""
+    result = lammps("variable U equal 0.1*step\n" + box(floor) + WALL + "timestep 0\nthermo 1\nrun 3\n")
+    (rows,) = forces_on_walls(result)
+    assert np.isfinite(rows).all()
+    if not floor:
+        assert relative(rows - rows[0], rows) < 1e-12
+
+
+# ---------------------------------------------------------------------------------------------
+# a wall that nothing feels
+
+TWO = dict(types=2)
+SPH, LJ = "sph/bulk 1.0 10.0 0.5 2.0 3.0", "lj/cut 1.0 1.0 2.5"
+HYBRID = f"pair_style hybrid sph/bulk lj/cut 2.5\npair_coeff 1 1 {SPH}\n"
+BOTH = f"pair_style sph/bulk\npair_coeff * * {SPH[9:]}\n"
+SOLID = "set group floor type 2\nset group lid type 2\n"
+FLOOR = "set group floor type 2\n"
+
+
+def walls_of(pair, types, extra="", types_number=2, before=""):
+    text = box(integrate=False, types=types_number, pair="", before=before)
+    return (text + types + pair + "fix 1 fluid sph/bulk\nfix F floor sph/wall\nfix L lid sph/wall\n" + extra + "run 1\n")
+
+
+APART = "does not interact with the wall of fix F sph/wall"
+
+
+@pytest.mark.parametrize("text, message", [
+    (walls_of(HYBRID + f"pair_coeff * 2 {LJ}\n", FLOOR), "wall of fix F sph/wall has particles of type 2, for which"),
+    (walls_of(HYBRID + f"pair_coeff 2 2 {SPH}\npair_coeff 1 2 {LJ}\n", FLOOR), APART),
+    (walls_of(HYBRID.replace("hybrid", "hybrid/overlay").replace(" lj/cut 2.5", " zero 3.0")
+              + f"pair_coeff 2 2 {SPH}\npair_coeff 1 2 zero\n", FLOOR), APART),
+    (walls_of(HYBRID + f"pair_coeff 2 2 {SPH}\npair_coeff 1 2 none\npair_coeff 1 1 lj/cut 1.0 1.0 2.5\n".replace(
+        "pair_coeff 1 1 lj/cut 1.0 1.0 2.5\n", ""), FLOOR), APART),
+    (walls_of(BOTH, FLOOR, "neigh_modify exclude type 1 2\n"), APART),
+    (walls_of(BOTH, "", "neigh_modify exclude group fluid floor\n"), APART),
+    (walls_of(BOTH, "", "neigh_modify exclude group floor all\n"), APART),
+    (walls_of(BOTH, "", "atom_modify first fluid\nneigh_modify include fluid\n"), APART),
+])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_wall_that_the_fluid_does_not_feel(lammps, text, message, ranks):
+    result = lammps(text, ranks=ranks, check=False, timeout=60)
+    assert result.code == 1, result.output[-2000:]
+    assert message in result.error, result.error
+
+
+def test_wall_that_a_part_of_the_fluid_does_not_feel(lammps):
+    """May be meant: a warning, once."""
+    types = "region half block INF 6 5 13 INF INF\ngroup other region half\nset group other type 2\n"
+    result = lammps(walls_of(BOTH, types, "neigh_modify exclude group other floor\n", before="") + "run 1\n")
+    (line,) = [line for line in result.warnings if APART in line]
+    assert "of type 2" in line
+
+
+@pytest.mark.parametrize("text", [
+    walls_of(BOTH, SOLID), walls_of(HYBRID.replace(" lj/cut 2.5", "") + f"pair_coeff 2 2 {SPH}\n", SOLID),
+    walls_of(BOTH, SOLID, "neigh_modify exclude type 2 2\nneigh_modify exclude group floor lid\n"),
+    walls_of(BOTH, SOLID, "delete_atoms group fluid\n")])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_no_false_alarm_about_walls_nobody_feels(lammps, text, ranks):
+    result = lammps(text, ranks=ranks)
+    assert not [line for line in result.warnings if "interact" in line], result.warnings
+
+
+# ---------------------------------------------------------------------------------------------
+# acceleration at the start of a run
+
+
+def wall_force(lammps, variable, commands, floor="velocity 0 v_U 0", before=""):
+    result = lammps(before + f"variable U equal {variable}\n" + box(floor, lid="") + WALL + "thermo 1\n" + commands)
+    return forces_on_walls(result)
+
+
+@pytest.mark.parametrize("commands", ["run 0\n", "run 3\n", "run 0\nrun 0\n", "run 2\nrun 2\n", "reset_timestep 7\nrun 0\n"])
+def test_accelerating_wall_at_the_start_of_a_run(lammps, commands):
+    """The pressure in the wall is that of its acceleration in every step, also of the first: with a velocity of zero there,
+    it is that of the body force which is equal to it in the frame of the wall."""
+    start = "7*0.005" if "reset" in commands else "0.0"
+    rows = wall_force(lammps, f"3.0*(step*dt-{start})", commands)
+    # the same wall at rest, with the acceleration as gravity of the other sign
+    (like,) = wall_force(lammps, "0.0", "run 0\n", floor="gravity 0 -3.0 0")
+    (rest,) = wall_force(lammps, "0.0", "run 0\n", floor="")
+    print("with acceleration", rows[0][0][1], "gravity", like[0][1], "at rest", rest[0][1])
+    assert np.abs(like[0][1] - rest[0][1]) > 1.0
+    assert relative(rows[0][0] - like[0], like) < 1e-10
+    if commands == "run 0\nrun 0\n":
+        assert relative(rows[1][0] - rows[0][0], like) < 1e-10
+    if commands == "run 2\nrun 2\n":  # extrapolated velocities differ, the acceleration does not
+        assert relative(rows[1][0] - rows[0][2], like) < 0.01
+
+
+@pytest.mark.parametrize("variable, order", [("0.4*sin(20*step*dt)", 2), ("0.3*(step*dt)^2", None), ("ramp(0.0,1.0)", None)])
+def test_start_of_a_run_continues_the_series(lammps, variable, order):
+    """Force at the start of a second run against that at the end of the first: what is left is of second order."""
+    jumps = []
+    for halve in (1, 2):
+        steps = 10 * halve
+        rows = wall_force(lammps, variable, f"timestep {0.005 / halve}\nvelocity fluid set 0 0 0\n"
+                          f"run {steps} start 0 stop {2 * steps}\nrun 0 start 0 stop {2 * steps}\n", floor="velocity v_U 0 0 gravity 0 0 0")
+        jumps.append(np.abs(rows[1][0] - rows[0][-1]).max())
+    print("jumps", jumps)
+    assert jumps[1] < 0.35 * jumps[0] or max(jumps) < 1e-9
+
+
+def test_ramp_in_a_run_of_no_steps(lammps):
+    """It has no slope there."""
+    (ramp,) = wall_force(lammps, "ramp(0.5,1.0)", "run 0\n")
+    (constant,) = wall_force(lammps, "0.5", "run 0\n")
+    assert relative(ramp - constant, constant) < 1e-13
+
+
+def test_wall_moved_by_what_the_particles_do(lammps):
+    """Its velocity in steps to come is not known: computes are not asked for it, and its rate stays that of the last step."""
+    before = "compute KE all ke\nvariable E equal 0.02*c_KE\n"
+    rows = wall_force(lammps, "v_E", "thermo_style custom step c_KE f_F[1] f_F[2]\nrun 5\nrun 5\n", before="").__class__
+    assert rows is list
+    text = ("variable U equal 0.02*c_KE\n" + box("velocity 0 v_U 0", lid="") + "compute KE fluid ke\n"
+            "velocity fluid create 1.0 4711\nthermo 1\nthermo_style custom step c_KE f_F[2]\n" + FULL)
+    one = lammps(text + "run 10\n").thermo()[0]
+    two = lammps(text + "run 5\nrun 5\n").thermo()
+    np.testing.assert_allclose(two[0]["f_F[2]"], one["f_F[2]"][:6], rtol=1e-12)
+    assert two[1]["f_F[2]"][0] == pytest.approx(one["f_F[2]"][5], rel=2e-3)
+    assert before
+
+
+def test_wall_moved_by_the_force_on_it(lammps):
+    """Between runs, the force is that of the last step, and so is the rate of the velocity."""
+    text = ("variable U equal -0.001*f_F[2]\n" + box("velocity 0 v_U 0", lid="") + WALL + "thermo 1\n")
+    one = forces_on_walls(lammps(text + "run 10\n"))[0]
+    two = forces_on_walls(lammps(text + "run 5\nrun 5\n"))
+    assert relative(two[0] - one[:6], one) < 1e-12
+    assert np.isfinite(two[1]).all()
+    assert relative(two[1][0] - one[5], one) < 0.02
+
+
+# ---------------------------------------------------------------------------------------------
+# the table of the first run
+
+
+def smallest_acoustic_step(result):
+    head, row = re.search(r"^.*i +j .*$\n^.*$", result.log, re.MULTILINE)[0].splitlines()
+    names = head.split()
+    (column,) = [k for k, name in enumerate(names) if "acoustic" in name]
+    return float(row.split()[column])
+
+
+@pytest.mark.parametrize("lid", ["velocity 20 0 0 move no", "rotate 6 16 0 0 0 1 3.0 move no"])
+def test_walls_count_in_the_first_table(lammps, lid):
+    steps = [smallest_acoustic_step(lammps(box(lid=wall) + "timestep 0.0001\nrun 0\n")) for wall in ("", lid)]
+    speed = 20.0 if "velocity" in lid else 3.0 * np.hypot(5.5, 1.5)
+    assert steps[0] / steps[1] == pytest.approx(1.0 + speed / 10.0, rel=1e-4)
+
+
+# ---------------------------------------------------------------------------------------------
+# pores
+
+
+def pore(dim, support, length, wet):
+    """A solid with the particles marked by wet(x, y, z) as fluid."""
+    thick = int(np.ceil(support))
+    cells = [2 * thick + 1] * (dim - 1) + [length]
+    particles = lattice(dim, cells)
+    x = particles.x - 0.5
+    mask = wet(*(x[:, d] - (thick if d < dim - 1 else 0) for d in range(dim)))
+    ids = np.flatnonzero(mask) + 1
+    return particles, ids
+
+
+def pore_text(dim, ids, support, commands):
+    number = " ".join(map(str, ids))
+    return (f"units lj\ndimension {dim}\natom_style sph/bulk\nread_data box.data\ngroup fluid id {number}\n"
+            "group solid subtract all fluid\nset group all mass 1.0\npair_style sph/bulk\n"
+            f"pair_coeff * * 1.0 10.0 0.5 2.0 {support}\nfix 1 fluid sph/bulk\nfix F solid sph/wall\ntimestep 0.01\n" + commands)
+
+
+SHAPES = {2: {"slit": lambda x, y: x == 0, "hole": lambda x, y: (x == 0) & (y == 3)},
+          3: {"tube": lambda x, y, z: (x == 0) & (y == 0), "slit": lambda x, y, z: x == 0,
+              "hole": lambda x, y, z: (x == 0) & (y == 0) & (z == 3)}}
+
+
+@pytest.mark.parametrize("dim, shape, support", [(2, "slit", 3.0), (2, "hole", 3.0), (2, "slit", 6.0), (2, "hole", 6.0),
+                                                 (3, "tube", 2.5), (3, "hole", 2.5), (3, "tube", 4.0), (3, "slit", 4.0),
+                                                 (3, "hole", 4.0), (3, "tube", 5.5), (3, "hole", 5.0)])
+def test_pore_one_particle_wide(lammps, dim, shape, support):
+    """At any support radius its particles are where they belong, also when they are pushed about."""
+    particles, ids = pore(dim, support, 2 * int(np.ceil(support)) + 2, SHAPES[dim][shape])
+    particles.write(lammps.path("box.data"))
+    push = "displace_atoms fluid random 0.2 0.2 {} 4711\nrun 20\n".format(0.0 if dim == 2 else 0.2)
+    lammps(pore_text(dim, ids, support, "run 0\n" + push))
+
+
+@pytest.mark.parametrize("dim, support", [(2, 3.0), (2, 6.0), (3, 2.5), (3, 5.0)])
+@pytest.mark.parametrize("lone", [False, True])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_particle_inside_a_wall_of_a_large_support(lammps, dim, support, lone, ranks):
+    """Between its particles; with the fluid above, or alone in front of a dry wall."""
+    layers = int(np.ceil(support))
+    cells = [2 * layers + 2] * (dim - 1) + [4 * layers]
+    particles = lattice(dim, cells)
+    height = particles.x[:, dim - 1]
+    wet = height > layers
+    particles.x[-1, :dim] = [layers + 1.0] * (dim - 1) + [np.floor(0.5 * layers)]
+    ids = [len(particles)] if lone else np.flatnonzero(wet) + 1
+    if lone:
+        keep = ~wet
+        keep[-1] = True
+        particles = particles.where(keep)
+        ids = [len(particles)]
+    particles.write(lammps.path("box.data"))
+    text = pore_text(dim, ids, support, "run 0\n").replace("read_data", f"boundary {'p f p' if dim == 2 else 'p p f'}\nread_data")
+    result = lammps(text, ranks=ranks, check=False)
+    assert result.code == 1
+    assert re.search(rf"Particle {ids[-1]} of the fluid .*inside a wall", result.error), result.error or result.output[-500:]
+
+
+def test_thin_is_what_it_was(lammps):
+    """The fix checks the thickness in the first run only."""
+    assert len(thin(lammps(box() + "run 0\nrun 0\n"))) == 0
