@@ -131,7 +131,7 @@ FixSPHWall::~FixSPHWall()
 
 int FixSPHWall::setmask()
 {
-  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_FORCE | MIN_POST_FORCE;
+  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_FORCE | MIN_PRE_EXCHANGE | MIN_POST_FORCE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -233,11 +233,14 @@ void FixSPHWall::set_velocity()
 }
 
 /* ----------------------------------------------------------------------
-   what the particles of the wall bring into the pair forces
+   what the particles of the wall bring into the pair forces.  An extrapolated pressure has no
+   energy: in a minimization, they have none, and the forces are the gradient of that of the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::set_boundary(Engine &engine, const BoundarySum *sums)
 {
+  if (update->whichflag == 2) return;
+
   double w[3];
   motion->angular_velocity(w);
   for (int i = 0; i < atom->nlocal; i++) {

@@ -121,7 +121,8 @@ bool WallMotion::evaluate(double *result)
 /* ----------------------------------------------------------------------
    Variables are functions of time, or of what the particles do.  The rate of the former follows
    from their values in the steps to come.  Those of the latter are not known in advance: they keep
-   the rate of the step that led here, if a run ended with it.
+   the rate of the step that led here, if a run ended with it, and so do those that do not change
+   any more.
 ------------------------------------------------------------------------- */
 
 void WallMotion::start()
@@ -133,7 +134,7 @@ void WallMotion::start()
   const bool of_particles = evaluate(now);
   if (any_variable) modify->addstep_compute(update->ntimestep + 1);
   for (int k = 0; k < NVALUES; k++) {
-    if (!continues || values[k].now != now[k]) values[k].rate = 0.0;
+    if (!continues || (!of_particles && values[k].now != now[k])) values[k].rate = 0.0;
     values[k].now = values[k].mean = now[k];
   }
   if (any_variable && !of_particles && update->dt != 0.0) estimate_rates();
