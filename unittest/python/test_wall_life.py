@@ -330,17 +330,20 @@ def walls_of(pair, types, extra="", types_number=2, before=""):
 APART = "does not interact with the wall of fix F sph/wall"
 
 
-@pytest.mark.parametrize("text, message", [
-    (walls_of(HYBRID + f"pair_coeff * 2 {LJ}\n", FLOOR), "wall of fix F sph/wall has particles of type 2, for which"),
-    (walls_of(HYBRID + f"pair_coeff 2 2 {SPH}\npair_coeff 1 2 {LJ}\n", FLOOR), APART),
-    (walls_of(HYBRID.replace("hybrid", "hybrid/overlay").replace(" lj/cut 2.5", " zero 3.0")
-              + f"pair_coeff 2 2 {SPH}\npair_coeff 1 2 zero\n", FLOOR), APART),
-    (walls_of(HYBRID.replace(" lj/cut 2.5", "") + f"pair_coeff 2 2 {SPH}\npair_coeff 1 2 none\n", FLOOR), APART),
-    (walls_of(BOTH, FLOOR, "neigh_modify exclude type 1 2\n"), APART),
-    (walls_of(BOTH, "", "neigh_modify exclude group fluid floor\n"), APART),
-    (walls_of(BOTH, "", "neigh_modify exclude group floor all\n"), APART),
-    (walls_of(BOTH, "", "atom_modify first fluid\nneigh_modify include fluid\n"), APART),
-])
+UNFELT = {
+    "no coefficients": (walls_of(HYBRID + f"pair_coeff * 2 {LJ}\n", FLOOR), "wall of fix F sph/wall has particles of type 2"),
+    "hybrid": (walls_of(HYBRID + f"pair_coeff 2 2 {SPH}\npair_coeff 1 2 {LJ}\n", FLOOR), APART),
+    "hybrid none": (walls_of(HYBRID.replace(" lj/cut 2.5", "") + f"pair_coeff 2 2 {SPH}\npair_coeff 1 2 none\n", FLOOR), APART),
+    "hybrid/overlay": (walls_of(HYBRID.replace("hybrid", "hybrid/overlay").replace("lj/cut 2.5", "zero 3.0")
+                                + f"pair_coeff 2 2 {SPH}\npair_coeff 1 2 zero\n", FLOOR), APART),
+    "exclude type": (walls_of(BOTH, FLOOR, "neigh_modify exclude type 1 2\n"), APART),
+    "exclude group": (walls_of(BOTH, "", "neigh_modify exclude group fluid floor\n"), APART),
+    "exclude all": (walls_of(BOTH, "", "neigh_modify exclude group floor all\n"), APART),
+    "include": (walls_of(BOTH, "", "atom_modify first fluid\nneigh_modify include fluid\n"), APART),
+}
+
+
+@pytest.mark.parametrize("text, message", UNFELT.values(), ids=UNFELT)
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_wall_that_the_fluid_does_not_feel(lammps, text, message, ranks):
     result = lammps(text, ranks=ranks, check=False, timeout=60)
@@ -356,10 +359,15 @@ def test_wall_that_a_part_of_the_fluid_does_not_feel(lammps):
     assert "of type 2" in line
 
 
-@pytest.mark.parametrize("text", [
-    walls_of(BOTH, SOLID), walls_of(HYBRID.replace(" lj/cut 2.5", "") + f"pair_coeff 2 2 {SPH}\n", SOLID),
-    walls_of(BOTH, SOLID, "neigh_modify exclude type 2 2\nneigh_modify exclude group floor lid\n"),
-    walls_of(BOTH, SOLID, "delete_atoms group fluid\n")])
+FELT = {
+    "types": walls_of(BOTH, SOLID),
+    "hybrid": walls_of(HYBRID.replace(" lj/cut 2.5", "") + f"pair_coeff 2 2 {SPH}\n", SOLID),
+    "exclusions among walls": walls_of(BOTH, SOLID, "neigh_modify exclude type 2 2\nneigh_modify exclude group floor lid\n"),
+    "no fluid": walls_of(BOTH, SOLID, "delete_atoms group fluid\n"),
+}
+
+
+@pytest.mark.parametrize("text", FELT.values(), ids=FELT)
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_no_false_alarm_about_walls_nobody_feels(lammps, text, ranks):
     result = lammps(text, ranks=ranks)

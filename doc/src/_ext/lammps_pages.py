@@ -18,7 +18,7 @@ MANUAL_PAGES = frozenset("""
     fix fix_adapt fix_deform fix_modify fix_move fix_nve fix_setforce fix_sph fix_sph_stationary lattice mass
     minimize neigh_modify newton pair_coeff pair_hybrid pair_modify pair_sph_idealgas
     pair_sph_rhosum pair_sph_taitwater pair_sph_taitwater_morris pair_style pair_write
-    plugin read_data read_restart replicate restart run run_style set special_bonds thermo_style timestep
+    plugin read_data read_restart replicate rerun restart run run_style set special_bonds thermo_style timestep
     units velocity write_data write_restart
 """.split())
 
