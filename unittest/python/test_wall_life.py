@@ -374,6 +374,14 @@ def test_no_false_alarm_about_walls_nobody_feels(lammps, text, ranks):
     assert not [line for line in result.warnings if "interact" in line], result.warnings
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_wall_moved_by_another_fix_without_atom_ids(lammps, ranks):
+    text = box(before="atom_modify id no\n").replace("fix 1 fluid", "fix 1 all")
+    result = lammps(text + "run 1\n", ranks=ranks, check=False)
+    assert result.code == 1
+    assert "of the wall of fix F sph/wall is also moved by fix 1 sph/bulk" in result.error, result.error
+
+
 # ---------------------------------------------------------------------------------------------
 # acceleration at the start of a run
 
@@ -412,6 +420,19 @@ def test_start_of_a_run_continues_the_series(lammps, variable, order):
         jumps.append(np.abs(rows[1][0] - rows[0][-1]).max())
     print("jumps", jumps)
     assert jumps[1] < 0.35 * jumps[0] or max(jumps) < 1e-9
+
+
+@pytest.mark.parametrize("before, after", [(1, 2), (2, 1)])
+def test_accelerating_wall_after_a_restart(lammps, before, after):
+    """Equals a second run command in the script that wrote the file; the variable is all there is to know."""
+    variable = "variable U equal 0.4*sin(20*step*dt)\nvariable O equal 0.1*cos(10*step*dt)\n"
+    walls = dict(floor="velocity 0 v_U 0", lid="rotate 6 16 0 0 0 1 v_O velocity v_U 0 0")
+    fixes = f"fix 1 fluid sph/bulk\nfix F floor sph/wall {walls['floor']}\nfix L lid sph/wall {walls['lid']}\ntimestep 0.005\n"
+    table = WALL + "thermo 1\n"
+    want = forces_on_walls(lammps(variable + box(**walls) + table + "run 10\nwrite_restart state.restart\nrun 10\n",
+                                  ranks=before))[-1]
+    (found,) = forces_on_walls(lammps(variable + "read_restart state.restart\n" + fixes + table + "run 10\n", ranks=after))
+    assert relative(found - want, want) < 1e-11
 
 
 def test_ramp_in_a_run_of_no_steps(lammps):
