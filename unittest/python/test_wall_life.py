@@ -450,7 +450,7 @@ def test_wall_moved_by_what_the_particles_do(lammps):
     one = lammps(text + "run 10\n").thermo()[0]
     two = lammps(text + "run 5\nrun 5\n").thermo()
     np.testing.assert_allclose(two[0]["f_F[2]"], one["f_F[2]"][:6], rtol=1e-12)
-    assert two[1]["f_F[2]"][0] == pytest.approx(one["f_F[2]"][5], rel=0.03)
+    assert two[1]["f_F[2]"][0] == pytest.approx(one["f_F[2]"][5], abs=2.0)
 
 
 def test_wall_moved_by_the_force_on_it(lammps):
