@@ -100,7 +100,7 @@ void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double 
 {
   int flag, known_cols;
   if (atom->find_custom(name.c_str(), flag, known_cols) >= 0)
-    error->all(FLERR, "A fluid style of particles and another command both define property {}", name);
+    error->all(FLERR, "Atom style needs a custom property {}, which is there already", name);
   const int index = atom->add_custom(name.c_str(), CUSTOM_DOUBLE, cols);
   own_arrays.push_back({name, index, cols, vector, array});
   atom->add_peratom(name, array ? (void *) array : (void *) vector, Atom::DOUBLE, cols);
