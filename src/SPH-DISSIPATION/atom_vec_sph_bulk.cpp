@@ -15,7 +15,9 @@
 
 #include "atom.h"
 #include "error.h"
+#include "memory.h"
 
+#include <algorithm>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -26,6 +28,8 @@ static constexpr const char *PROPERTY[] = {"numden", "dnumden", "vol",   "rho", 
                                            "desph",  "vestx",   "vesty", "vestz"};
 enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, VESTX, VESTY, VESTZ, NPROPERTY };
 
+static constexpr int CUSTOM_DOUBLE = 1;    // data type of Atom::add_custom()
+
 /* ---------------------------------------------------------------------- */
 
 AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) : AtomVecSPHBulk(lmp, COMPLETE) {}
@@ -33,8 +37,8 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) : AtomVecSPHBulk(lmp, COMPLETE) {}
 /* ---------------------------------------------------------------------- */
 
 AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
-    AtomVec(lmp), rmass(nullptr), rho(nullptr), drho(nullptr), vfrac(nullptr), esph(nullptr),
-    desph(nullptr), heatflow(nullptr), vest(nullptr)
+    AtomVec(lmp), desph_before(nullptr), owner(atom), nmax_own(0), rmass(nullptr), rho(nullptr),
+    drho(nullptr), vfrac(nullptr), esph(nullptr), desph(nullptr), vest(nullptr)
 {
   molecular = Atom::ATOMIC;
   mass_type = PER_ATOM;
@@ -44,28 +48,62 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
   atom->esph_flag = 1;
   atom->vest_flag = 1;
 
+  add_array("desph_before", &desph_before);
+
   // strings with peratom variables to include in each AtomVec method
   // strings cannot contain fields in corresponding AtomVec default strings
   // order of fields in a string does not matter
   // except: fields_data_atom & fields_data_vel must match data file
-  // heatflow holds desph of the previous step for the integrator
   // rho, drho, vfrac are computed anew in every step, for owned and ghost atoms, by the
   // pair style; vest is set from the velocity at the start of every run
 
-  fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "heatflow", "vest"};
-  fields_copy = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "heatflow", "vest"};
+  fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
+  fields_copy = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest", "desph_before"};
   fields_comm = {"vest"};
   fields_comm_vel = {"vest"};
   fields_reverse = {"desph"};
   fields_border = {"rmass", "esph", "vest"};
   fields_border_vel = {"rmass", "esph", "vest"};
-  fields_exchange = {"rmass", "rho", "drho", "vfrac", "esph", "heatflow", "vest"};
+  fields_exchange = {"rmass", "esph", "vest", "desph_before"};
   fields_restart = {"rmass", "esph"};
-  fields_create = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "heatflow", "vest"};
+  fields_create = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest", "desph_before"};
   fields_data_atom = {"id", "type", "rmass", "esph", "x"};
   fields_data_vel = {"id", "v"};
 
   if (complete == COMPLETE) setup_fields();
+}
+
+/* ----------------------------------------------------------------------
+   not through atom, which is another one already when replicate deletes the old one
+------------------------------------------------------------------------- */
+
+AtomVecSPHBulk::~AtomVecSPHBulk()
+{
+  auto &fields = owner->peratom;
+  for (const auto &own : own_arrays) {
+    fields.erase(std::remove_if(fields.begin(), fields.end(),
+                                [&](const auto &field) {
+                                  return field.name == own.name;
+                                }),
+                 fields.end());
+    owner->remove_custom(own.index, CUSTOM_DOUBLE, own.cols);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   declare an array that class Atom has no member for, with one value per atom or with columns
+   class Atom owns it as a custom property, so that the library and other commands know it
+   it is no field of fields_grow: style hybrid deletes its sub-styles before it frees those
+------------------------------------------------------------------------- */
+
+void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double ***array, int cols)
+{
+  int flag, known_cols;
+  if (atom->find_custom(name.c_str(), flag, known_cols) >= 0)
+    error->all(FLERR, "Atom style needs a custom property {}, which is there already", name);
+  const int index = atom->add_custom(name.c_str(), CUSTOM_DOUBLE, cols);
+  own_arrays.push_back({name, index, cols, vector, array});
+  atom->add_peratom(name, array ? (void *) array : (void *) vector, Atom::DOUBLE, cols);
 }
 
 /* ----------------------------------------------------------------------
@@ -75,13 +113,20 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
 
 void AtomVecSPHBulk::grow_pointers()
 {
+  const int n = nmax_own = std::max(nmax_own, owner->nmax);
+  for (const auto &own : own_arrays) {
+    if (own.cols)
+      *own.array = memory->grow(owner->darray[own.index], n, own.cols, "atom:own");
+    else
+      *own.vector = memory->grow(owner->dvector[own.index], n, "atom:own");
+  }
+
   rmass = atom->rmass;
   rho = atom->rho;
   drho = atom->drho;
   vfrac = atom->vfrac;
   esph = atom->esph;
   desph = atom->desph;
-  heatflow = atom->heatflow;
   vest = atom->vest;
 }
 
@@ -123,7 +168,7 @@ void AtomVecSPHBulk::unpack_restart_init(int ilocal)
 
 void AtomVecSPHBulk::clear_derived(int ilocal)
 {
-  rho[ilocal] = drho[ilocal] = vfrac[ilocal] = desph[ilocal] = heatflow[ilocal] = 0.0;
+  rho[ilocal] = drho[ilocal] = vfrac[ilocal] = desph[ilocal] = desph_before[ilocal] = 0.0;
   vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
 }
 
@@ -175,4 +220,16 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
         buf[n] = vest[i][index - VESTX];
     }
   }
+}
+
+/* ----------------------------------------------------------------------
+   style hybrid does not ask its sub-styles: there the own arrays are not counted
+------------------------------------------------------------------------- */
+
+double AtomVecSPHBulk::memory_usage()
+{
+  double bytes = AtomVec::memory_usage();
+  for (const auto &own : own_arrays)
+    bytes += (double) nmax_own * std::max(own.cols, 1) * sizeof(double);
+  return bytes;
 }

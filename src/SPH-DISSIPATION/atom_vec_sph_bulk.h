@@ -24,9 +24,9 @@ AtomStyle(sph/bulk,AtomVecSPHBulk);
 
 namespace LAMMPS_NS {
 
-// Per-atom arrays of a particle fluid: mass (rmass), internal energy (esph), its rate (desph) and
-// that of the previous step (heatflow), velocity extrapolated to the end of the step (vest); from
-// the last force computation, density rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.
+// Per-atom arrays of a particle fluid: mass (rmass), internal energy (esph) and its rate (desph),
+// velocity extrapolated to the end of the step (vest); from the last force computation, density
+// rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.
 
 class AtomVecSPHBulk : public AtomVec {
  public:
@@ -34,6 +34,7 @@ class AtomVecSPHBulk : public AtomVec {
 
   enum Complete { COMPLETE, TO_BE_EXTENDED };    // by a derived class, which calls setup_fields()
   AtomVecSPHBulk(class LAMMPS *, Complete);
+  ~AtomVecSPHBulk() override;
 
   void grow_pointers() override;
   void force_clear(int, size_t) override;
@@ -41,12 +42,35 @@ class AtomVecSPHBulk : public AtomVec {
   void unpack_restart_init(int) override;
   int property_atom(const std::string &) override;
   void pack_property_atom(int, double *, int, int) override;
+  double memory_usage() override;
+
+  double *desph_before;    // desph at the start of the step, for the integrator
 
  protected:
   virtual void clear_derived(int);
 
+  // arrays that class Atom has no member for: name as a field, pointer to be kept up to date
+
+  void add_array(const std::string &name, double **vector) { add_array(name, vector, nullptr, 0); }
+  void add_array(const std::string &name, double ***array, int cols)
+  {
+    add_array(name, nullptr, array, cols);
+  }
+
  private:
-  double *rmass, *rho, *drho, *vfrac, *esph, *desph, *heatflow;
+  struct OwnArray {
+    std::string name;
+    int index;          // of the custom property
+    int cols;           // 0: vector
+    double **vector;    // the pointers to be kept up to date
+    double ***array;
+  };
+  std::vector<OwnArray> own_arrays;
+  class Atom *const owner;    // of the arrays
+  int nmax_own;               // their allocated size
+  void add_array(const std::string &, double **, double ***, int);
+
+  double *rmass, *rho, *drho, *vfrac, *esph, *desph;
   double **vest;
 };
 

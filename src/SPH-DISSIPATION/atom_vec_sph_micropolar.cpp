@@ -16,8 +16,6 @@
 #include "atom.h"
 #include "error.h"
 
-#include <map>
-
 using namespace LAMMPS_NS;
 
 // names known to compute property/atom beyond those of sph/bulk, and the first index they get
@@ -26,50 +24,29 @@ static constexpr const char *PROPERTY[] = {"inertia", "omegaestx", "omegaesty", 
 enum { INERTIA, OMEGAESTX, OMEGAESTY, OMEGAESTZ, NPROPERTY };
 static constexpr int FIRST = 100;
 
-/* ----------------------------------------------------------------------
-   class Atom owns no inertia and no extrapolated spin, but lets styles add arrays
-   they must outlive this style: class Atom keeps their addresses when the atom style
-   is created anew, and style hybrid deletes its sub-styles before it frees the arrays
-   an entry is left over from an earlier Atom at the same address if Atom has no such field
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 AtomVecSPHMicropolar::AtomVecSPHMicropolar(LAMMPS *lmp) :
     AtomVecSPHBulk(lmp, TO_BE_EXTENDED), inertia(nullptr), omegaest(nullptr)
 {
-  static std::map<Atom *, Arrays> storage;
-  arrays = &storage[atom];
-  bool known = false;
-  for (const auto &field : atom->peratom)
-    if (field.name == "inertia") known = true;
-  if (!known) {
-    *arrays = Arrays();
-    atom->add_peratom("inertia", &arrays->inertia, Atom::DOUBLE, 0);
-    atom->add_peratom("omegaest", &arrays->omegaest, Atom::DOUBLE, 3);
-  }
+  add_array("inertia", &inertia);
+  add_array("omegaest", &omegaest, 3);
 
   atom->omega_flag = 1;
   atom->torque_flag = 1;
 
-  for (auto *fields : {&fields_grow, &fields_copy, &fields_create})
+  fields_grow.insert(fields_grow.end(), {"omega", "torque"});
+  for (auto *fields : {&fields_copy, &fields_create})
     fields->insert(fields->end(), {"omega", "torque", "inertia", "omegaest"});
-  for (auto *fields : {&fields_border, &fields_border_vel, &fields_exchange})
-    fields->insert(fields->end(), {"omega", "inertia", "omegaest"});
-  for (auto *fields : {&fields_comm, &fields_comm_vel}) fields->push_back("omegaest");
+  fields_exchange.insert(fields_exchange.end(), {"omega", "inertia", "omegaest"});
+  for (auto *fields : {&fields_comm, &fields_comm_vel, &fields_border, &fields_border_vel})
+    fields->push_back("omegaest");
   fields_reverse.push_back("torque");
   fields_restart.insert(fields_restart.end(), {"omega", "inertia"});
   fields_data_atom = {"id", "type", "rmass", "inertia", "esph", "x"};
   fields_data_vel = {"id", "v", "omega"};
 
   setup_fields();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void AtomVecSPHMicropolar::grow_pointers()
-{
-  AtomVecSPHBulk::grow_pointers();
-  inertia = arrays->inertia;
-  omegaest = arrays->omegaest;
 }
 
 /* ---------------------------------------------------------------------- */

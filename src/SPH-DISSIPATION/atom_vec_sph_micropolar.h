@@ -32,7 +32,6 @@ class AtomVecSPHMicropolar : public AtomVecSPHBulk {
  public:
   AtomVecSPHMicropolar(class LAMMPS *);
 
-  void grow_pointers() override;
   void data_atom_post(int) override;
   int property_atom(const std::string &) override;
   void pack_property_atom(int, double *, int, int) override;
@@ -42,13 +41,6 @@ class AtomVecSPHMicropolar : public AtomVecSPHBulk {
 
  protected:
   void clear_derived(int) override;
-
- private:
-  struct Arrays {
-    double *inertia = nullptr;
-    double **omegaest = nullptr;
-  };
-  Arrays *arrays;
 };
 
 }    // namespace LAMMPS_NS

@@ -28,7 +28,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 ComputeSPHDissipation::ComputeSPHDissipation(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), pair(nullptr), nmax(0), heat(nullptr)
+    Compute(lmp, narg, arg), nmax(0), heat(nullptr)
 {
   if (narg > 3) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
   if (igroup != 0) error->all(FLERR, "Compute {} must use group all", style);
@@ -53,15 +53,45 @@ ComputeSPHDissipation::~ComputeSPHDissipation()
 
 void ComputeSPHDissipation::init()
 {
-  pair = PairSPHBulk::find(force);
+  find_pair();
+}
+
+/* ----------------------------------------------------------------------
+   looked up at every use, for the pair style may have been replaced since
+------------------------------------------------------------------------- */
+
+PairSPHBulk *ComputeSPHDissipation::find_pair() const
+{
+  auto *pair = PairSPHBulk::find(force);
   if (!pair) error->all(FLERR, "Compute {} requires pair style sph/bulk or sph/micropolar", style);
+  return pair;
+}
+
+/* ----------------------------------------------------------------------
+   heat of each particle (not if nullptr), and total power by channel
+------------------------------------------------------------------------- */
+
+void ComputeSPHDissipation::collect(double *heat_of_each, double *power)
+{
+  const auto *pair = find_pair();
+  const int missing = pair->has_forces() ? 0 : 1;
+  int any_missing;
+  MPI_Allreduce(&missing, &any_missing, 1, MPI_INT, MPI_MAX, world);
+  if (any_missing)
+    error->all(FLERR,
+               "Compute {} needs the forces of the particles that are there now: use run 0 first",
+               style);
+
+  double own[NCHANNEL];
+  pair->heating(heat_of_each, own);
+  MPI_Allreduce(own, power, NCHANNEL, MPI_DOUBLE, MPI_SUM, world);
 }
 
 /* ---------------------------------------------------------------------- */
 
 double ComputeSPHDissipation::compute_scalar()
 {
-  if (invoked_vector != update->ntimestep) compute_vector();
+  compute_vector();
   invoked_scalar = update->ntimestep;
   scalar = 0.0;
   for (int k = 0; k < size_vector; k++) scalar += vector[k];
@@ -73,9 +103,7 @@ double ComputeSPHDissipation::compute_scalar()
 void ComputeSPHDissipation::compute_vector()
 {
   invoked_vector = update->ntimestep;
-  double power[NCHANNEL];
-  pair->heating(nullptr, power);
-  MPI_Allreduce(power, vector, NCHANNEL, MPI_DOUBLE, MPI_SUM, world);
+  collect(nullptr, vector);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -91,7 +119,7 @@ void ComputeSPHDissipation::compute_peratom()
   }
 
   double power[NCHANNEL];
-  pair->heating(heat, power);
+  collect(heat, power);
   if (force->newton_pair) comm->reverse_comm(this);
 }
 

@@ -40,9 +40,11 @@ class ComputeSPHDissipation : public Compute {
   double memory_usage() override;
 
  private:
-  class PairSPHBulk *pair;
   int nmax;
   double *heat;
+
+  class PairSPHBulk *find_pair() const;
+  void collect(double *, double *);
 };
 
 }    // namespace LAMMPS_NS

@@ -48,7 +48,7 @@ ComputeSPHEnergy::~ComputeSPHEnergy()
 
 double ComputeSPHEnergy::compute_scalar()
 {
-  if (invoked_vector != update->ntimestep) compute_vector();
+  compute_vector();
   invoked_scalar = update->ntimestep;
   scalar = vector[KINETIC] + vector[INTERNAL] + vector[ROTATIONAL];
   return scalar;

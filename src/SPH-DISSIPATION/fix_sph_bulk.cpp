@@ -14,6 +14,7 @@
 #include "fix_sph_bulk.h"
 
 #include "atom.h"
+#include "atom_vec_sph_bulk.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -32,12 +33,13 @@ using namespace FixConst;
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), shift_speed(0.0), pair(nullptr), remap_v_flag(0),
-    integrated_groups(0), first_instance(false), last_instance(false)
+    integrated_groups(0), first_instance(false), last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
 
   time_integrate = 1;
+  create_attribute = 1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -75,8 +77,10 @@ void FixSPHBulk::init()
   first_instance = (integrators.front() == this);
   last_instance = (integrators.back() == this);
 
+  if (first_instance) check_integrated_once();
+
   pair = dynamic_cast<PairSPHBulk *>(force->pair_match(style, 1));
-  if (shift_speed > 0.0) {
+  if (shift_speed > 0.0 && update->whichflag != 2) {
     if (!pair) error->all(FLERR, "Fix {} shift requires pair style {}", style, style);
     pair->request_crowding();
   }
@@ -88,9 +92,66 @@ void FixSPHBulk::init()
 }
 
 /* ----------------------------------------------------------------------
+   a particle in the groups of two such fixes would move twice in every step
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::check_integrated_once()
+{
+  const auto &fixes = modify->get_fix_list();
+  for (std::size_t k = 0; k < fixes.size(); k++)
+    for (std::size_t l = k + 1; l < fixes.size(); l++) {
+      if (!dynamic_cast<FixSPHBulk *>(fixes[k]) || !dynamic_cast<FixSPHBulk *>(fixes[l])) continue;
+      bigint count = 0, all;
+      for (int i = 0; i < atom->nlocal; i++)
+        if ((atom->mask[i] & fixes[k]->groupbit) && (atom->mask[i] & fixes[l]->groupbit)) count++;
+      MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+      if (all)
+        error->all(FLERR,
+                   "Fixes {} and {} both integrate {} particles: a particle must be in the group "
+                   "of one fix {} only",
+                   fixes[k]->id, fixes[l]->id, all, style);
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::setup(int /*vflag*/)
+{
+  if (!pair || !last_instance) return;
+  pair->announce();
+  warn_not_integrated();
+}
+
+/* ----------------------------------------------------------------------
+   fixed particles are legal, forgotten ones are not meant; walls are no fluid
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::warn_not_integrated()
+{
+  int integrated = 0;
+  for (const auto &ifix : modify->get_fix_list())
+    if (ifix->time_integrate) integrated |= ifix->groupbit;
+
+  bigint count = 0, all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int type = atom->type[i];
+    if (!(atom->mask[i] & integrated) && pair->setflag[type][type] && !pair->is_boundary(i))
+      count++;
+  }
+  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+
+  if (all && all != not_integrated && comm->me == 0)
+    error->warning(FLERR,
+                   "{} particles of the fluid are in the group of no fix that integrates them: "
+                   "they stay where they are; fix sph/wall makes walls of such particles",
+                   all);
+  not_integrated = all;
+}
+
+/* ----------------------------------------------------------------------
    at the start of a run the extrapolated velocity is the velocity itself
    before the exchange of atoms, so that ghost atoms get it with their borders
-   with velocity remapping vest holds the increment only, see pre_force()
+   with velocity remapping vest holds the increment only, see add_remapped_velocity()
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::setup_pre_exchange()
@@ -106,18 +167,21 @@ void FixSPHBulk::reset_extrapolation(int i)
   for (int d = 0; d < 3; d++) atom->vest[i][d] = remap_v_flag ? 0.0 : atom->v[i][d];
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   a particle that arrives in a run does so at the end of a step, with its velocity
+   before the borders are set up, so that its ghosts get it, too
+------------------------------------------------------------------------- */
 
-void FixSPHBulk::setup_pre_force(int vflag)
+void FixSPHBulk::set_arrays(int i)
 {
-  pre_force(vflag);
+  if (first_instance) reset_extrapolation(i);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHBulk::setup(int /*vflag*/)
+void FixSPHBulk::setup_pre_force(int /*vflag*/)
 {
-  if (pair && last_instance) pair->announce();
+  add_remapped_velocity();
 }
 
 /* ----------------------------------------------------------------------
@@ -135,7 +199,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
   double *rmass = atom->rmass;
   double *esph = atom->esph;
   double *desph = atom->desph;
-  double *heatflow = atom->heatflow;
+  double *desph_before = avec()->desph_before;
   int *mask = atom->mask;
   const int nlocal = nlocal_group();
   const double keep = remap_v_flag ? 0.0 : 1.0;
@@ -143,7 +207,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
-    heatflow[i] = desph[i];
+    desph_before[i] = desph[i];
     esph[i] += dtv * desph[i];
     for (int d = 0; d < 3; d++) {
       const double dv = dtfm * f[i][d];
@@ -189,12 +253,19 @@ void FixSPHBulk::post_integrate()
     if (!(mask[i] & integrated_groups)) reset_extrapolation(i);
 }
 
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::pre_force(int /*vflag*/)
+{
+  add_remapped_velocity();
+}
+
 /* ----------------------------------------------------------------------
    velocities of ghost atoms change when fix deform remaps them at a periodic
    boundary: add the velocity after the communication, on owned and ghost atoms
 ------------------------------------------------------------------------- */
 
-void FixSPHBulk::pre_force(int /*vflag*/)
+void FixSPHBulk::add_remapped_velocity()
 {
   if (!remap_v_flag || !first_instance) return;
 
@@ -214,14 +285,14 @@ void FixSPHBulk::final_integrate()
   double *rmass = atom->rmass;
   double *esph = atom->esph;
   double *desph = atom->desph;
-  double *heatflow = atom->heatflow;
+  double *desph_before = avec()->desph_before;
   int *mask = atom->mask;
   const int nlocal = nlocal_group();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
-    esph[i] += 0.5 * dtv * (desph[i] - heatflow[i]);
+    esph[i] += 0.5 * dtv * (desph[i] - desph_before[i]);
     for (int d = 0; d < 3; d++) v[i][d] += dtfm * f[i][d];
   }
 }
@@ -239,4 +310,13 @@ void FixSPHBulk::reset_dt()
 int FixSPHBulk::nlocal_group() const
 {
   return (igroup == atom->firstgroup) ? atom->nfirst : atom->nlocal;
+}
+
+/* ----------------------------------------------------------------------
+   not kept, for replicate makes a new one
+------------------------------------------------------------------------- */
+
+AtomVecSPHBulk *FixSPHBulk::avec() const
+{
+  return dynamic_cast<AtomVecSPHBulk *>(atom->style_match(style));
 }

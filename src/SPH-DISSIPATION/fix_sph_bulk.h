@@ -40,18 +40,24 @@ class FixSPHBulk : public Fix {
   void pre_force(int) override;
   void final_integrate() override;
   void reset_dt() override;
+  void set_arrays(int) override;
 
  protected:
   double dtv, dtf;
   int nlocal_group() const;
+  class AtomVecSPHBulk *avec() const;
 
   // # of words of the keyword at arg[iarg] that all integrators of this kind have
   int keyword_argument(int iarg, int narg, char **arg);
 
-  // extrapolated quantities of a particle at the start of a run, or if no such fix integrates it
+  // extrapolated quantities of a particle at the start of a run, when it arrives, or if no such fix
+  // integrates it
   virtual void reset_extrapolation(int);
 
  private:
+  void check_integrated_once();
+  void warn_not_integrated();
+  void add_remapped_velocity();
   void shift_particles();
 
   double shift_speed;         // scale and twice the limit of the velocity of particle shifting
@@ -60,6 +66,7 @@ class FixSPHBulk : public Fix {
   int integrated_groups;      // bits of all groups with an integrator of this kind
   bool first_instance;        // acts for the particles outside all these groups
   bool last_instance;         // acts when all are set up
+  bigint not_integrated;      // # of fluid particles that the last warning was about
 };
 
 }    // namespace LAMMPS_NS

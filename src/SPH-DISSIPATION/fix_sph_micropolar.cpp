@@ -19,6 +19,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "neighbor.h"
 #include "pair_sph_micropolar.h"
 
 #include <cmath>
@@ -26,11 +27,12 @@
 
 using namespace LAMMPS_NS;
 
+enum { DONE, FACTOR, OFFSET, NSTATE };    // of a restart file
+
 /* ---------------------------------------------------------------------- */
 
 FixSPHMicropolar::FixSPHMicropolar(LAMMPS *lmp, int narg, char **arg) :
-    FixSPHBulk(lmp, 3, arg), avec(nullptr), inertia_flag(0), factor(0.0), offset(0.0),
-    inertia_done(0)
+    FixSPHBulk(lmp, 3, arg), inertia_flag(0), factor(0.0), offset(0.0), inertia_done(false)
 {
   restart_global = 1;
 
@@ -53,38 +55,75 @@ FixSPHMicropolar::FixSPHMicropolar(LAMMPS *lmp, int narg, char **arg) :
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHMicropolar::init()
+void FixSPHMicropolar::setup(int vflag)
 {
-  FixSPHBulk::init();
-  avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(style));
+  set_inertia();
+  check_inertia();
+  FixSPHBulk::setup(vflag);
 }
 
 /* ----------------------------------------------------------------------
-   the first force computation has given the volumes that the inertia is set from
+   from the volumes of the force computation before; particles that have got their
+   inertia keep it, so that angular momentum is conserved
 ------------------------------------------------------------------------- */
 
-void FixSPHMicropolar::setup(int vflag)
+void FixSPHMicropolar::set_inertia()
 {
-  int *mask = atom->mask;
-  if (inertia_flag && !inertia_done) {
-    const double power = 2.0 / domain->dimension;
+  double *const inertia = spinning()->inertia;
+  const double power = 2.0 / domain->dimension;
+  if (inertia_flag)
     for (int i = 0; i < atom->nlocal; i++)
-      if (mask[i] & groupbit) avec->inertia[i] = factor * pow(atom->vfrac[i], power) + offset;
-  }
-  inertia_done = 1;
-  FixSPHBulk::setup(vflag);
+      if ((atom->mask[i] & groupbit) && !(inertia_done && inertia[i] > 0.0))
+        inertia[i] = factor * pow(atom->vfrac[i], power) + offset;
+  inertia_done = true;
+}
 
+/* ----------------------------------------------------------------------
+   particles that arrive in a run come with a new neighbor list; their volume is not
+   known before the forces, so that they get the inertia of their reference volume
+------------------------------------------------------------------------- */
+
+void FixSPHMicropolar::pre_force(int vflag)
+{
+  FixSPHBulk::pre_force(vflag);
+  if (neighbor->ago != 0) return;
+  set_inertia_of_arrivals();
+  check_inertia();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHMicropolar::set_inertia_of_arrivals()
+{
+  if (!inertia_flag) return;
+  const auto *pair = PairSPHBulk::find(force);
+  double *const inertia = spinning()->inertia;
+  const double power = 2.0 / domain->dimension;
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit) && !(inertia[i] > 0.0)) {
+      const double volume = atom->rmass[i] / pair->reference_density(atom->type[i]);
+      inertia[i] = factor * pow(volume, power) + offset;
+    }
+}
+
+/* ----------------------------------------------------------------------
+   a torque on a particle without inertia would be lost, and angular momentum with it
+------------------------------------------------------------------------- */
+
+void FixSPHMicropolar::check_inertia() const
+{
   auto *pair = dynamic_cast<PairSPHMicropolar *>(force->pair_match(style, 1));
   if (!pair || !pair->has_torques()) return;
-  tagint id = 0, id_all;
+  const double *const inertia = spinning()->inertia;
+  bigint count = 0, all;
   for (int i = 0; i < atom->nlocal; i++)
-    if ((mask[i] & groupbit) && !(avec->inertia[i] > 0.0)) id = atom->tag[i];
-  MPI_Allreduce(&id, &id_all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (id_all)
+    if ((atom->mask[i] & groupbit) && !(inertia[i] > 0.0)) count++;
+  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all)
     error->all(FLERR,
-               "Fix {}: inertia must be > 0, which that of particle {} is not; use the inertia "
-               "keyword or a data file",
-               style, id_all);
+               "Fix {}: inertia must be > 0 where the fluid exerts torques, which that of {} "
+               "particles is not; use {}a data file, or set d_inertia",
+               style, all, inertia_flag ? "" : "the inertia keyword, ");
 }
 
 /* ---------------------------------------------------------------------- */
@@ -92,7 +131,8 @@ void FixSPHMicropolar::setup(int vflag)
 void FixSPHMicropolar::reset_extrapolation(int i)
 {
   FixSPHBulk::reset_extrapolation(i);
-  for (int d = 0; d < 3; d++) avec->omegaest[i][d] = atom->omega[i][d];
+  double **omegaest = spinning()->omegaest;
+  for (int d = 0; d < 3; d++) omegaest[i][d] = atom->omega[i][d];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -112,40 +152,42 @@ void FixSPHMicropolar::final_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   half a step; particles without inertia keep their spin; setup() has seen to it
-   that they have no torque
+   half a step; particles without inertia keep their spin; check_inertia() has seen to
+   it that they have no torque
 ------------------------------------------------------------------------- */
 
 void FixSPHMicropolar::integrate_spin(bool extrapolate)
 {
   double **omega = atom->omega;
   double **torque = atom->torque;
-  double *rmass = atom->rmass;
-  int *mask = atom->mask;
+  double **omegaest = spinning()->omegaest;
+  const double *const inertia = spinning()->inertia;
+  const double *const rmass = atom->rmass;
+  const int *const mask = atom->mask;
   const int nlocal = nlocal_group();
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
-    const double inertia = rmass[i] * avec->inertia[i];
-    const double dtirotate = (inertia > 0.0) ? dtf / inertia : 0.0;
+    const double dtirotate = (inertia[i] > 0.0) ? dtf / (rmass[i] * inertia[i]) : 0.0;
     for (int d = 0; d < 3; d++) {
       const double domega = dtirotate * torque[i][d];
       omega[i][d] += domega;
-      if (extrapolate) avec->omegaest[i][d] = omega[i][d] + domega;
+      if (extrapolate) omegaest[i][d] = omega[i][d] + domega;
     }
   }
 }
 
 /* ----------------------------------------------------------------------
-   the inertia is set once; a continued run keeps the one of its restart file
+   a continued run keeps the inertia that its particles have, unless its input gives
+   other numbers for it than those by which it was set
 ------------------------------------------------------------------------- */
 
 void FixSPHMicropolar::write_restart(FILE *fp)
 {
   if (comm->me == 0) {
-    const int size = sizeof(double);
-    const double done = inertia_done;
+    const double state[NSTATE] = {static_cast<double>(inertia_done), factor, offset};
+    const int size = sizeof(state);
     fwrite(&size, sizeof(int), 1, fp);
-    fwrite(&done, sizeof(double), 1, fp);
+    fwrite(state, sizeof(double), NSTATE, fp);
   }
 }
 
@@ -153,5 +195,13 @@ void FixSPHMicropolar::write_restart(FILE *fp)
 
 void FixSPHMicropolar::restart(char *buf)
 {
-  inertia_done = static_cast<int>(reinterpret_cast<double *>(buf)[0]);
+  const auto *state = reinterpret_cast<double *>(buf);
+  inertia_done = state[DONE] != 0.0 && state[FACTOR] == factor && state[OFFSET] == offset;
+}
+
+/* ---------------------------------------------------------------------- */
+
+AtomVecSPHMicropolar *FixSPHMicropolar::spinning() const
+{
+  return dynamic_cast<AtomVecSPHMicropolar *>(avec());
 }

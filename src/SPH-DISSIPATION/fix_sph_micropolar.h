@@ -30,22 +30,27 @@ namespace LAMMPS_NS {
 class FixSPHMicropolar : public FixSPHBulk {
  public:
   FixSPHMicropolar(class LAMMPS *, int, char **);
-  void init() override;
   void setup(int) override;
   void initial_integrate(int) override;
+  void pre_force(int) override;
   void final_integrate() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+
+  // in setup(), once the volumes are known, of this fix or of one that needs the inertia
+  void set_inertia();
 
  protected:
   void reset_extrapolation(int) override;
 
  private:
-  class AtomVecSPHMicropolar *avec;
-  int inertia_flag;    // 1: set I = factor V^(2/n) + offset in the first setup
+  int inertia_flag;    // 1: the keyword is there, I = factor V^(2/n) + offset
   double factor, offset;
-  int inertia_done;
+  bool inertia_done;    // the particles have the inertia of these numbers, but for new ones
 
+  class AtomVecSPHMicropolar *spinning() const;
+  void set_inertia_of_arrivals();
+  void check_inertia() const;
   void integrate_spin(bool);
 };
 

@@ -18,6 +18,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_sph_micropolar.h"
 #include "input.h"
 #include "memory.h"
 #include "modify.h"
@@ -34,7 +35,8 @@ using namespace FixConst;
 FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), name{nullptr, nullptr, nullptr}, variable{-1, -1, -1},
     per_atom{false, false, false}, value{0.0, 0.0, 0.0}, nmax(0),
-    field(nullptr), total{0.0, 0.0, 0.0}, power(0.0), work(0.0)
+    field(nullptr), total{0.0, 0.0, 0.0}, power(0.0), work(0.0), receiving_groups(0),
+    not_receiving(0)
 {
   if (!atom->style_match("sph/micropolar"))
     error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);
@@ -84,15 +86,51 @@ void FixSPHTorque::init()
     if (!per_atom[d] && !input->variable->equalstyle(variable[d]))
       error->all(FLERR, "Variable {} for fix {} is of invalid style", name[d], style);
   }
+
+  receiving_groups = 0;
+  for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar$"))
+    receiving_groups |= ifix->groupbit;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixSPHTorque::setup(int vflag)
 {
+  check_receivers();
   const double before = work;
   post_force(vflag);
   work = before;
+}
+
+/* ----------------------------------------------------------------------
+   only spins that are integrated, of particles with inertia, follow a torque
+   the integrators set the inertia in their setup(), which may come after this one
+------------------------------------------------------------------------- */
+
+void FixSPHTorque::check_receivers()
+{
+  for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar$"))
+    dynamic_cast<FixSPHMicropolar *>(ifix)->set_inertia();
+
+  const auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  bigint count[2] = {0, 0}, all[2];    // of the group; of them, without integrator or inertia
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    count[0]++;
+    if (!(atom->mask[i] & receiving_groups) || !(avec->inertia[i] > 0.0)) count[1]++;
+  }
+  MPI_Allreduce(count, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all[1] && all[1] == all[0])
+    error->all(FLERR,
+               "Fix {}: no particle of its group has an inertia > 0 and a fix sph/micropolar that "
+               "integrates its spin",
+               style);
+  if (all[1] && all[1] != not_receiving && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {}: {} of the {} particles of its group get no torque, for they have no "
+                   "inertia or their spin is not integrated by a fix sph/micropolar",
+                   style, all[1], all[0]);
+  not_receiving = all[1];
 }
 
 /* ----------------------------------------------------------------------
@@ -127,7 +165,8 @@ void FixSPHTorque::post_force(int /*vflag*/)
   const double power_before = power;
   power = total[0] = total[1] = total[2] = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
+    if (!(mask[i] & groupbit) || !(mask[i] & receiving_groups) || !(avec->inertia[i] > 0.0))
+      continue;
     for (int d = 0; d < 3; d++) {
       const double torque = per_atom[d] ? field[i][d] : value[d];
       atom->torque[i][d] += torque;
@@ -150,7 +189,7 @@ double FixSPHTorque::compute_scalar()
 }
 
 /* ----------------------------------------------------------------------
-   torque on all particles of the group in the last step
+   torque that the particles of the group have got in the last step
 ------------------------------------------------------------------------- */
 
 double FixSPHTorque::compute_vector(int d)

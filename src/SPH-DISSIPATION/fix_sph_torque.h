@@ -51,6 +51,11 @@ class FixSPHTorque : public Fix {
   double total[3];    // torque on all particles in the last step, of this rank
   double power;       // of the last step, of this rank
   double work;        // since the fix was defined, of this rank
+
+  int receiving_groups;    // bits of the groups whose spin is integrated
+  bigint not_receiving;    // # of particles that the last warning was about
+
+  void check_receivers();
 };
 
 }    // namespace LAMMPS_NS

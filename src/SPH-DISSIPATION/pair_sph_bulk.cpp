@@ -132,7 +132,10 @@ void PairSPHBulk::compute(int eflag, int vflag)
   PairTally *tally = vflag_either ? &stress : nullptr;
   if (cvflag_atom) tally = &centroid;
 
-  density->run(list, extrapolated_spin());
+  // a minimization has no velocities: what is minimized is the energy of the equation of state
+
+  const bool at_rest = (update->whichflag == 2);
+  density->run(list, at_rest ? nullptr : atom->vest, at_rest ? nullptr : extrapolated_spin());
   if (limited) limit->run(list);
   if (!boundary->empty()) boundary->set_reference_volume();
   const bigint nbeyond = pressure->run(limited ? limit->bound : nullptr, boundary->bits());
@@ -189,6 +192,13 @@ bool PairSPHBulk::is_boundary(int i) const
 const double *PairSPHBulk::crowding(int i) const
 {
   return crowd->crowding[i];
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool PairSPHBulk::has_forces() const
+{
+  return engine->has_forces();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -251,6 +261,11 @@ void PairSPHBulk::init_style()
 void PairSPHBulk::check_setup()
 {
   check_styles(lmp, fluid_style);
+  if (update->whichflag == 2 && model->choice.eos == Eos::IDEAL)
+    error->all(FLERR,
+               "Pair style {} with eos ideal cannot be used in a minimization: its energy depends "
+               "on the heat of the particles, not on their positions alone",
+               fluid_style);
   dim = model->dimension();
   support = model->common_support(setflag);
   find_own_types();

@@ -78,6 +78,7 @@ class PairSPHBulk : public Pair {
   // of the last force computation, see ForceStage::heating()
 
   void heating(double *heat, double *power) const;
+  bool has_forces() const;    // of the last step, for the particles that are there now
 
   // From the init() of a fix: its particles are a boundary, not fluid.  It stays one until it is
   // removed, when the fix is deleted; the pair style may be another one then, see find().

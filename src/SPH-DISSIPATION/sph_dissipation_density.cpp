@@ -34,9 +34,9 @@ DensityStage::DensityStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
    particles of other styles keep their density
 ------------------------------------------------------------------------- */
 
-void DensityStage::run(NeighList *list, double **omegaest)
+void DensityStage::run(NeighList *list, double **vest, double **omegaest)
 {
-  engine.accumulate_density(list, omegaest);
+  engine.accumulate_density(list, vest, omegaest);
 
   DensitySum *const density = engine.density;
   const Field sums = field(density, &density->c, 2);

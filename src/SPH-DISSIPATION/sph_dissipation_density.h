@@ -29,9 +29,9 @@ namespace SPHDissipation {
     DensityStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
     static constexpr int FORWARD = 3, REVERSE = 2;    // values per atom
 
-    // omegaest = extrapolated spin, nullptr for a fluid without
+    // extrapolated velocity and spin, each nullptr where it is zero
 
-    void run(NeighList *, double **omegaest);
+    void run(NeighList *, double **vest, double **omegaest);
 
    private:
     const FluidModel &model;

@@ -53,8 +53,8 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
     zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(choose_loops()),
     density_loop(nullptr), force_loop(nullptr), data(), kernel(Kernel::WENDLAND_C2), dim(0),
-    shear(Shear::NONE), bulk(Bulk::NONE), self_weight(0.0), nmax(0), imax(0), stride_max(0),
-    pair_max(0), first(nullptr)
+    shear(Shear::NONE), bulk(Bulk::NONE), self_weight(0.0), nlocal_forces(-1), nghost_forces(-1),
+    nmax(0), imax(0), stride_max(0), pair_max(0), first(nullptr)
 {
 }
 
@@ -182,28 +182,31 @@ void Engine::grow_pairs(NeighList *list)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_density(NeighList *list, double **omegaest)
+void Engine::accumulate_density(NeighList *list, double **vest, double **omegaest)
 {
   grow_atoms();
   grow_pairs(list);
 
+  static constexpr double REST[3] = {0.0, 0.0, 0.0};
   double **x = atom->x;
-  double **vest = atom->vest;
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
 
   for (int i = 0; i < nall; i++) {
+    const double *const u = vest ? vest[i] : REST;
     for (int d = 0; d < 3; d++) {
       particle[i].x[d] = x[i][d];
-      particle[i].u[d] = vest[i][d];
+      particle[i].u[d] = u[d];
     }
     density[i].c = (i < nlocal) ? self_weight : 0.0;
     density[i].cdot = 0.0;
   }
 
-  if (omegaest)
-    for (int i = 0; i < nall; i++)
-      for (int d = 0; d < 3; d++) spin[i].w[d] = omegaest[i][d];
+  if (has_spin())
+    for (int i = 0; i < nall; i++) {
+      const double *const w = omegaest ? omegaest[i] : REST;
+      for (int d = 0; d < 3; d++) spin[i].w[d] = w[d];
+    }
 
   data.inum = list->inum;
   data.ilist = list->ilist;
@@ -232,6 +235,15 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
   data.torque = torque;
   data.tally = tally;
   force_loop(data);
+  nlocal_forces = atom->nlocal;
+  nghost_forces = atom->nghost;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool Engine::has_forces() const
+{
+  return nlocal_forces == atom->nlocal && nghost_forces == atom->nghost;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -160,14 +160,16 @@ namespace SPHDissipation {
     void setup(Kernel, int n, double support, Shear, Bulk, const std::vector<PairCoeff> &coeff,
                int ntypes);
 
-    // pass 1: particle[] from atom->x and atom->vest, spin[] from omegaest (nullptr without spin);
-    // density[] of owned atoms (with the particle
-    // itself) and the contributions to ghost atoms
-    void accumulate_density(NeighList *, double **omegaest);
+    // pass 1: particle[] from atom->x and vest, spin[] from omegaest (micropolar), which are zero
+    // where these are nullptr; density[] of owned atoms (with the particle itself) and the
+    // contributions to ghost atoms
+    void accumulate_density(NeighList *, double **vest, double **omegaest);
 
     // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller
     // on owned and ghost atoms
     void accumulate_forces(NeighList *, PairTally *);
+
+    bool has_forces() const;    // force[] is of the owned and ghost atoms that are there now
 
     // the pairs inside the support that pass 1 has found, for the sums of other stages
     const LoopData &pairs() const { return data; }
@@ -200,6 +202,7 @@ namespace SPHDissipation {
     Bulk bulk;
     double self_weight;    // W(0)
 
+    int nlocal_forces, nghost_forces;    // # of atoms that force[] is of
     int nmax, imax, stride_max;
     bigint pair_max;
     bigint *first;
