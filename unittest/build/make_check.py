@@ -76,7 +76,9 @@ def main():
             registration = REGISTRATION.match(line)
             failed = failed or not registration
             print(f"{'to register' if registration else 'FOUND'} ({name}): {line}")
-    sys.exit(1 if failed else 0)
+    if failed:
+        sys.exit(1)
+    shutil.rmtree(args.folder)
 
 
 main()
