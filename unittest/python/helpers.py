@@ -17,8 +17,8 @@ LMP = os.environ.get("SPHD_LMP") or shutil.which("lmp") or "lmp"
 MPIEXEC = os.environ.get("SPHD_MPIEXEC") or shutil.which("mpiexec") or "mpiexec"
 
 # Containers run as root and have fewer cores than ranks; Open MPI has to be told that this is meant.
-# The other settings save time in hundreds of short runs: no daemon beside a single rank (0.4 s), no wait for ranks
-# that an error has ended, no search for network cards.
+# The other settings save time in hundreds of short runs: no wait for ranks that an error has ended, no search
+# for network cards.
 MPI_ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -26,7 +26,6 @@ MPI_ENVIRONMENT = {
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_hwloc_base_binding_policy": "none",
     "OMPI_MCA_mpi_yield_when_idle": "1",
-    "OMPI_MCA_ess_singleton_isolated": "1",
     "OMPI_MCA_odls_base_sigkill_timeout": "0",
     "OMPI_MCA_pml": "ob1",
     "OMPI_MCA_btl": "self,vader",
@@ -34,6 +33,10 @@ MPI_ENVIRONMENT = {
     "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
     "PRTE_MCA_hwloc_default_binding_policy": "none",
 }
+
+# A single rank needs no daemon, which takes 0.4 s to start; without one, those of several runs at once would share a
+# session folder and remove it under each other.
+SINGLE_RANK = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_orte_create_session_dirs": "0"}
 
 SUPPORT = {1: 4.0, 2: 3.0, 3: 2.5}  # default support radius in particle spacings
 VECTORS = {"x": ("xu", "yu", "zu"), "v": ("vx", "vy", "vz"), "f": ("fx", "fy", "fz"),
@@ -91,9 +94,12 @@ class Lammps:
         log = self.path(f"log.{len(self.results)}")
         self.path(name).write_text(text)
         command = [LMP, "-in", name, "-log", log.name, "-nocite"]
+        environment = {**os.environ, **MPI_ENVIRONMENT}
         if ranks > 1:
             command = [MPIEXEC, "-n", str(ranks), *command]
-        process = subprocess.Popen(command, cwd=self.folder, env={**os.environ, **MPI_ENVIRONMENT},
+        else:
+            environment.update(SINGLE_RANK)
+        process = subprocess.Popen(command, cwd=self.folder, env=environment,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                    stderr=subprocess.STDOUT, text=True, errors="replace",
                                    start_new_session=True)
