@@ -32,20 +32,30 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), shift_speed(0.0), pair(nullptr), remap_v_flag(0),
-    integrated_groups(0), first_instance(false), last_instance(false), not_integrated(0)
+    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), density_done(0), density_flag(0), shift_speed(0.0),
+    pair(nullptr), remap_v_flag(0), integrated_groups(0), first_instance(false),
+    last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
 
   time_integrate = 1;
   create_attribute = 1;
+  restart_global = density_flag;
 }
 
 /* ---------------------------------------------------------------------- */
 
 int FixSPHBulk::keyword_argument(int iarg, int narg, char **arg)
 {
+  if (strcmp(arg[iarg], "density") == 0) {
+    if (iarg + 2 > narg)
+      utils::missing_cmd_args(FLERR, fmt::format("fix {} density", style), error);
+    if (strcmp(arg[iarg + 1], "rho0") != 0 && strcmp(arg[iarg + 1], "keep") != 0)
+      error->all(FLERR, "Fix {} density must be rho0 or keep, not {}", style, arg[iarg + 1]);
+    density_flag = (strcmp(arg[iarg + 1], "rho0") == 0);
+    return 2;
+  }
   if (strcmp(arg[iarg], "shift") != 0)
     error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[iarg]);
   if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, fmt::format("fix {} shift", style), error);
@@ -80,6 +90,8 @@ void FixSPHBulk::init()
   if (first_instance) check_integrated_once();
 
   pair = dynamic_cast<PairSPHBulk *>(force->pair_match(style, 1));
+  if (density_flag && !pair)
+    error->all(FLERR, "Fix {} density requires pair style {}", style, style);
   if (shift_speed > 0.0 && update->whichflag != 2) {
     if (!pair) error->all(FLERR, "Fix {} shift requires pair style {}", style, style);
     pair->request_crowding();
@@ -181,6 +193,10 @@ void FixSPHBulk::set_arrays(int i)
 
 void FixSPHBulk::setup_pre_force(int /*vflag*/)
 {
+  if (density_flag && !density_done) {
+    pair->set_mean_density(groupbit);
+    density_done = 1;
+  }
   add_remapped_velocity();
 }
 
@@ -319,4 +335,25 @@ int FixSPHBulk::nlocal_group() const
 AtomVecSPHBulk *FixSPHBulk::avec() const
 {
   return dynamic_cast<AtomVecSPHBulk *>(atom->style_match(style));
+}
+
+/* ----------------------------------------------------------------------
+   the masses are set once; a continued run keeps those of its restart file
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::write_restart(FILE *fp)
+{
+  if (comm->me == 0) {
+    const int size = sizeof(double);
+    const double done = density_done;
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(&done, sizeof(double), 1, fp);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::restart(char *buf)
+{
+  density_done = static_cast<int>(reinterpret_cast<double *>(buf)[0]);
 }

@@ -41,9 +41,12 @@ class FixSPHBulk : public Fix {
   void final_integrate() override;
   void reset_dt() override;
   void set_arrays(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
 
  protected:
   double dtv, dtf;
+  int density_done;    // the masses were set, in this run or before a restart
   int nlocal_group() const;
   class AtomVecSPHBulk *avec() const;
 
@@ -60,6 +63,7 @@ class FixSPHBulk : public Fix {
   void add_remapped_velocity();
   void shift_particles();
 
+  int density_flag;           // set the masses so that the mean density is rho0
   double shift_speed;         // scale and twice the limit of the velocity of particle shifting
   class PairSPHBulk *pair;    // of the same name, if there is one
   int remap_v_flag;           // fix deform remaps velocities at periodic boundaries

@@ -27,7 +27,7 @@
 
 using namespace LAMMPS_NS;
 
-enum { DONE, FACTOR, OFFSET, NSTATE };    // of a restart file
+enum { DONE, FACTOR, OFFSET, MASSES, NSTATE };    // of a restart file
 
 /* ---------------------------------------------------------------------- */
 
@@ -184,7 +184,8 @@ void FixSPHMicropolar::integrate_spin(bool extrapolate)
 void FixSPHMicropolar::write_restart(FILE *fp)
 {
   if (comm->me == 0) {
-    const double state[NSTATE] = {static_cast<double>(inertia_done), factor, offset};
+    const double state[NSTATE] = {static_cast<double>(inertia_done), factor, offset,
+                                  static_cast<double>(density_done)};
     const int size = sizeof(state);
     fwrite(&size, sizeof(int), 1, fp);
     fwrite(state, sizeof(double), NSTATE, fp);
@@ -197,6 +198,7 @@ void FixSPHMicropolar::restart(char *buf)
 {
   const auto *state = reinterpret_cast<double *>(buf);
   inertia_done = state[DONE] != 0.0 && state[FACTOR] == factor && state[OFFSET] == offset;
+  density_done = (state[MASSES] != 0.0);
 }
 
 /* ---------------------------------------------------------------------- */

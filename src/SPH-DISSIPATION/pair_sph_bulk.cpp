@@ -34,6 +34,7 @@
 #include "sph_dissipation_limit.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_pressure.h"
+#include "sph_dissipation_state.h"
 #include "sph_dissipation_stress.h"
 #include "sph_dissipation_table.h"
 #include "update.h"
@@ -398,10 +399,16 @@ void PairSPHBulk::announce()
     }
   }
 
-  if (!announced) warned_step = 0.0;
-  if (!announced && comm->me == 0)
-    utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}", fluid_style,
-                   model->summary(dim, support), engine->instruction_set(), table.text());
+  if (!announced) {
+    warned_step = 0.0;
+    FluidState state(lmp, *engine, *exchange, *model);
+    state.run(list, 1, boundary->bits());
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", fluid_style,
+                     model->summary(dim, support), engine->instruction_set(), table.text(),
+                     state.table());
+    state.warn(list, fluid_style, crowding_requested);
+  }
   announced = true;
 
   const double smallest = table.smallest_step();
@@ -416,6 +423,17 @@ void PairSPHBulk::announce()
 
   check_energies(lmp, fluid_style, *model, boundary->bits());
   check_neighbors(lmp, fluid_style, *model, *engine, boundary->bits(), dim, support);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::set_mean_density(int groupbit)
+{
+  check_masses(lmp, fluid_style, *model);
+  density->run(list, nullptr, nullptr);
+  FluidState state(lmp, *engine, *exchange, *model);
+  state.run(list, groupbit, boundary->bits());
+  state.scale_masses(fluid_style);
 }
 
 /* ----------------------------------------------------------------------

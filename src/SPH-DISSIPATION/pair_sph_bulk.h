@@ -75,6 +75,11 @@ class PairSPHBulk : public Pair {
 
   virtual void announce();
 
+  // masses of the particles of a group, times a factor of each type, for which their mean density
+  // is rho0; from the setup_pre_force() of the integrator
+
+  void set_mean_density(int groupbit);
+
   // of the last force computation, see ForceStage::heating()
 
   void heating(double *heat, double *power) const;

@@ -41,7 +41,7 @@ namespace SPHDissipation {
     // values = viscosities and coefficients, viscous = time steps of the viscous terms
 
     void add_row(int i, int j, const Columns &values, double acoustic, const Columns &viscous);
-    const std::string &text() const { return lines; }
+    std::string text() const;    // with a line on the accuracy of these steps
     double smallest_step() const { return smallest; }    // with all terms together, of all rows
 
    private:

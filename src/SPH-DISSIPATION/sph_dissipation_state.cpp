@@ -1,0 +1,280 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_state.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "math_const.h"
+#include "neigh_list.h"
+#include "sph_dissipation_elasticity.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
+#include "sph_dissipation_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+using MathConst::MY_2PI;
+
+/* ---------------------------------------------------------------------- */
+
+FluidState::FluidState(LAMMPS *lmp, Engine &engine, Exchange &exchange, const FluidModel &model) :
+    Stage(lmp, engine, exchange), model(model), group(0), not_fluid(0)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidState::run(NeighList *list, int group_in, int not_fluid_in)
+{
+  group = group_in;
+  not_fluid = not_fluid_in;
+  find_full_support(list);
+  add_up();
+}
+
+/* ----------------------------------------------------------------------
+   A particle at a free surface has R |sum_j F r_ij| / c between 1.4 and 2.4, for R of 2.5 to 6
+   spacings in 1 to 3 dimensions; one inside 0 on lattices and below 1 if disordered.  No
+   particle of full support has such a one in reach.
+------------------------------------------------------------------------- */
+
+void FluidState::find_full_support(NeighList *list)
+{
+  constexpr double SURFACE = 1.2;
+  const int nlocal = atom->nlocal;
+  const int nall = nlocal + atom->nghost;
+  const LoopData &pairs = engine.pairs();
+  const Particle *const particle = engine.particle;
+
+  auto each_pair = [&](auto visit) {
+    for (int ii = 0; ii < list->inum; ii++)
+      for (bigint entry = pairs.first[ii]; entry < pairs.first[ii] + pairs.count[ii]; entry++)
+        visit(list->ilist[ii], pairs.neighbor[entry], pairs.slope[entry]);
+  };
+
+  std::vector<double> lopsided(3 * (std::size_t) nall, 0.0), surface(nall, 0.0), near(nall, 0.0);
+  each_pair([&](int i, int j, double slope) {
+    for (int d = 0; d < 3; d++) {
+      const double pull = slope * (particle[i].x[d] - particle[j].x[d]);
+      lopsided[3 * i + d] += pull;
+      lopsided[3 * j + d] -= pull;
+    }
+  });
+  exchange.reverse({{lopsided.data(), 3, 3}});
+
+  for (int i = 0; i < nlocal; i++) {
+    const double *const a = &lopsided[3 * i];
+    const double limit = SURFACE * engine.density[i].c / pairs.support;
+    if (!(atom->mask[i] & not_fluid) && a[0] * a[0] + a[1] * a[1] + a[2] * a[2] > limit * limit)
+      surface[i] = 1.0;
+  }
+  exchange.forward({{surface.data(), 1, 1}});
+
+  each_pair([&](int i, int j, double) {
+    near[i] += surface[j];
+    near[j] += surface[i];
+  });
+  exchange.reverse({{near.data(), 1, 1}});
+
+  full.assign(nall, 0.0);
+  for (int i = 0; i < nlocal; i++)
+    if (surface[i] + near[i] == 0.0 && (atom->mask[i] & group) && !(atom->mask[i] & not_fluid))
+      full[i] = 1.0;
+  exchange.forward({{full.data(), 1, 1}});
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidState::add_up()
+{
+  constexpr double FAR = 1.0e300;
+  const int n = (atom->ntypes + 1) * NSET;
+  std::vector<Mean> my_means(n, {0.0, 0.0, 0.0, 0.0});
+  std::vector<Range> my_ranges(n, {FAR, FAR});
+
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & group) || (atom->mask[i] & not_fluid)) continue;
+    const int type = atom->type[i];
+    if (model.coeffs[type].other) continue;
+    const EosParams &eos = model.coeffs[type].eos;
+    const double excess = atom->rho[i] / eos.rho0 - 1.0;
+    const double p = pressure(model.choice.eos, eos, atom->rho[i], atom->esph[i] / atom->rmass[i]);
+    for (int set = ALL; set <= (full[i] > 0.0 ? FULL : ALL); set++) {
+      Mean &mean = my_means[type * NSET + set];
+      mean.count += 1.0;
+      mean.excess += excess;
+      mean.excess_sq += excess * excess;
+      mean.pressure += p;
+      Range &range = my_ranges[type * NSET + set];
+      range.smallest = std::min(range.smallest, excess);
+      range.minus_largest = std::min(range.minus_largest, -excess);
+    }
+  }
+
+  means.resize(n);
+  ranges.resize(n);
+  MPI_Allreduce(my_means.data(), means.data(), n * sizeof(Mean) / sizeof(double), MPI_DOUBLE,
+                MPI_SUM, world);
+  MPI_Allreduce(my_ranges.data(), ranges.data(), n * sizeof(Range) / sizeof(double), MPI_DOUBLE,
+                MPI_MIN, world);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FluidState::mean_density(int type) const
+{
+  const Mean &mean = means[best(type)];
+  return model.coeffs[type].eos.rho0 * (1.0 + mean.excess / mean.count);
+}
+
+double FluidState::spread(int type) const
+{
+  const Mean &mean = means[best(type)];
+  const double excess = mean.excess / mean.count;
+  return sqrt(std::max(mean.excess_sq / mean.count - excess * excess, 0.0));
+}
+
+double FluidState::mean_pressure(int type) const
+{
+  const Mean &mean = means[best(type)];
+  return mean.pressure / mean.count;
+}
+
+/* ----------------------------------------------------------------------
+   the number density of the particles does not depend on their masses
+------------------------------------------------------------------------- */
+
+void FluidState::scale_masses(const std::string &fix_style)
+{
+  std::vector<double> factor(atom->ntypes + 1, 1.0);
+  for (int type = 1; type <= atom->ntypes; type++) {
+    if (!has_type(type)) continue;
+    factor[type] = model.coeffs[type].eos.rho0 / mean_density(type);
+    if (comm->me != 0) continue;
+    utils::logmesg(lmp, "Fix {}: masses of type {} times {:.8g} for the mean density rho0\n",
+                   fix_style, type, factor[type]);
+    if (!has_full_support(type))
+      error->warning(FLERR,
+                     "Fix {} density: all particles of type {} are near a free surface, the masses "
+                     "are too large for the inside of a fluid",
+                     fix_style, type);
+  }
+
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    if ((atom->mask[i] & group) && !(atom->mask[i] & not_fluid))
+      atom->rmass[i] *= factor[atom->type[i]];
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string FluidState::table() const
+{
+  std::string lines;
+  for (int type = 1; type <= atom->ntypes; type++) {
+    if (!has_type(type)) continue;
+    if (lines.empty())
+      lines = fmt::format("  {:<8} {:<11} {:<15} | {:<11} {:<11} {:<11} {:<11} | {}\n", "type",
+                          "particles", "full support", "rho/rho0", "spread", "smallest", "largest",
+                          "mean pressure");
+    const Mean &mean = means[best(type)];
+    const Range &range = ranges[best(type)];
+    const double excess = mean.excess / mean.count;
+    lines += fmt::format("  {:<8} {:<11.0f} {:<15.0f} | {:<11.6f} {:<11.2g} {:<11.6f} {:<11.6f} "
+                         "| {:.4g}\n",
+                         type, count(type, ALL), count(type, FULL), 1.0 + excess, spread(type),
+                         1.0 + range.smallest, 1.0 - range.minus_largest, mean_pressure(type));
+  }
+  return lines;
+}
+
+/* ----------------------------------------------------------------------
+   largest extent of the box, where it is periodic, or of the fluid
+------------------------------------------------------------------------- */
+
+double FluidState::longest_wave() const
+{
+  constexpr double FAR = 1.0e300;
+  double edge[6] = {FAR, FAR, FAR, FAR, FAR, FAR}, all[6];    // smallest x, -x, y, -y, z, -z
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & group) || (atom->mask[i] & not_fluid)) continue;
+    for (int d = 0; d < 3; d++) {
+      edge[2 * d] = std::min(edge[2 * d], atom->x[i][d]);
+      edge[2 * d + 1] = std::min(edge[2 * d + 1], -atom->x[i][d]);
+    }
+  }
+  MPI_Allreduce(edge, all, 6, MPI_DOUBLE, MPI_MIN, world);
+
+  double length = 0.0;
+  for (int d = 0; d < engine.dimension(); d++)
+    length =
+        std::max(length, domain->periodicity[d] ? domain->prd[d] : -(all[2 * d] + all[2 * d + 1]));
+  return length;
+}
+
+/* ----------------------------------------------------------------------
+   A shear wave of wave number k with the viscosity mu and the elasticity G has the rates
+   g = nu k^2/2 +- sqrt[(nu k^2/2)^2 - G k^2/rho]: for a small G, mu appears to be too small by the
+   part G rho/(mu k)^2 of it; from 1/4 on the wave oscillates.  If G < 0, it grows in the end.
+------------------------------------------------------------------------- */
+
+void FluidState::warn(NeighList *list, const std::string &fix_style, bool evened_out)
+{
+  constexpr double FAR_OFF = 0.1;          // density over rho0
+  constexpr double SPARSE = 0.01;          // the same, where no particle has a full support
+  constexpr double REGULAR = 0.001;        // spread of the density; disordered particles yield
+  constexpr double ELASTIC_PART = 0.25;    // of the viscosity
+
+  const bool shears = (engine.dimension() > 1) && !evened_out;
+  LatticeStrain strain(lmp, engine, exchange);
+  double length = 0.0;
+  if (shears) {
+    strain.run(list, full);
+    length = longest_wave();
+  }
+  if (comm->me != 0) return;
+
+  for (int type = 1; type <= atom->ntypes; type++) {
+    if (!has_type(type)) continue;
+    const double rho = mean_density(type), rho0 = model.coeffs[type].eos.rho0;
+    const double least = has_full_support(type) ? 1.0 - FAR_OFF : SPARSE;
+    if (rho < least * rho0 || rho > (1.0 + FAR_OFF) * rho0) {
+      error->warning(FLERR,
+                     "The mean density {:g} of type {} is far from its rho0 {:g}: the mass of a "
+                     "particle should be rho0 times its volume; use the set command, or keyword "
+                     "density of fix {}",
+                     rho, type, rho0, fix_style);
+      continue;
+    }
+
+    const double mu = model.viscosity(0, type, type);
+    if (!shears || !has_full_support(type) || spread(type) > REGULAR || mu == 0.0) continue;
+    const double p = mean_pressure(type);
+    const double elasticity = p * strain.largest(type) / count(type, FULL);
+    const double k = MY_2PI / length;
+    const double part = fabs(elasticity) * rho / (mu * mu * k * k);
+    if (part < ELASTIC_PART) continue;
+    error->warning(FLERR,
+                   "The mean pressure {:.3g} of type {} gives its arrangement of particles a shear "
+                   "elasticity of {:.2g}, which exceeds the viscosity: shear waves as long as the "
+                   "box {} instead of decaying. Use keyword density of fix {} and no background "
+                   "pressure or, for large strains, its keyword shift",
+                   p, type, elasticity, elasticity < 0.0 ? "grow" : "oscillate", fix_style);
+  }
+}

@@ -1,0 +1,83 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_STATE_H
+#define LMP_SPH_DISSIPATION_STATE_H
+
+#include "sph_dissipation_stage.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  class FluidModel;
+
+  // The fluid as it enters the first step, by type: density, pressure, and the shear elasticity that
+  // the pressure gives to a regular arrangement.  The means are over the particles with a full
+  // support, that is without a free surface in reach; over all if there are no such particles.
+
+  class FluidState : public Stage {
+   public:
+    FluidState(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
+    static constexpr int FORWARD = 1, REVERSE = 3;    // values per atom
+
+    // with the densities of pass 1; of particles with the bit of group, without one of not_fluid
+
+    void run(NeighList *, int group, int not_fluid);
+
+    bool has_type(int type) const { return count(type, ALL) > 0.0; }
+    bool has_full_support(int type) const { return count(type, FULL) > 0.0; }
+    double mean_density(int type) const;
+    double spread(int type) const;    // standard deviation of the density over rho0
+    double mean_pressure(int type) const;
+    std::string table() const;    // for the log
+
+    // Warn, on rank 0, of types whose density is far from rho0, and of those whose shear waves feel
+    // the arrangement; evened_out: shifting takes care that there is none.
+    // fix_style = the integrator, whose keyword helps
+
+    void warn(NeighList *, const std::string &fix_style, bool evened_out);
+
+    // masses of the owned and ghost particles of run(), times one factor for each type, so that the
+    // mean density of the type is rho0
+
+    void scale_masses(const std::string &fix_style);
+
+   private:
+    enum Set { ALL, FULL, NSET };
+    struct Mean {
+      double count, excess, excess_sq, pressure;    // sums; excess = rho/rho0 - 1
+    };
+    struct Range {
+      double smallest, minus_largest;    // of the excess
+    };
+
+    const FluidModel &model;
+    int group, not_fluid;
+    std::vector<double> full;     // 1 for particles with full support, owned and ghost
+    std::vector<Mean> means;      // by type and set
+    std::vector<Range> ranges;    // by type and set
+
+    double count(int type, Set set) const { return means[type * NSET + set].count; }
+    int best(int type) const { return type * NSET + (has_full_support(type) ? FULL : ALL); }
+    void find_full_support(NeighList *);
+    void add_up();
+    double longest_wave() const;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,171 @@
+"""What the manual promises of flows: shear waves on lattices at rest, Taylor-Green vortices, the energy of a drop.
+
+SPHD_FULL=1 takes all sound speeds and the small viscosity for the lattices (ten minutes instead of one).
+"""
+
+import os
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from helpers import drop, fluid, free, header
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples" / "viscosity"))
+from lattice_sums import period  # noqa: E402
+
+FULL = os.environ.get("SPHD_FULL") == "1"
+
+# ---------------------------------------------------------------------------------------------
+# shear waves
+
+WAVE = """
+units lj
+dimension {dim}
+atom_style sph/bulk
+lattice {lattice} 1.0
+region box block 0 {cells} 0 {width} {depth}
+create_box 1 box
+create_atoms 1 box
+set group all mass 1.0
+pair_style sph/bulk
+pair_coeff * * 1.0 {c0} {mu} {kappa} {support}
+neighbor 0.1 bin
+fix FLUID all sph/bulk {keywords}
+timestep {step}
+variable k equal 2*PI/lx
+variable u atom 1e-4*cos(v_k*x)
+velocity all set 0 v_u 0
+variable p atom vy*cos(v_k*x)
+compute A all reduce ave v_p
+thermo_style custom step time c_A
+thermo_modify norm no format float %.15g
+thermo {every}
+run {steps}
+"""
+# support where the viscosity of the lattice itself is within 1 % (theory page, "Few neighbors"), cells along the wave
+LATTICES = {"hex": (2, 4, 24), "sq": (2, 6, 32), "bcc": (3, 4, 18), "fcc": (3, 4, 14)}
+
+
+def wave(lammps, name, c0, mu, keywords, lives=1.0):
+    """Amplitudes of a shear wave over the first one, and mu over the given one from their decay, for kh -> 0."""
+    dim, support, cells = LATTICES[name]
+    k = 2 * np.pi / (cells * period(name, "100"))
+    h = support / 2
+    rate = mu * k**2
+    step = min(0.2 * h / c0, 0.02 * h**2 / mu)
+    every = int(np.ceil(lives / rate / step / 20))
+    lammps(WAVE.format(dim=dim, lattice=name, cells=cells, width=4 if dim == 2 else 3, c0=c0, mu=mu, kappa=2 * mu,
+                       depth="-0.1 0.1" if dim == 2 else "0 3", support=support, keywords=keywords, step=step,
+                       every=every, steps=20 * every))
+    table = lammps.results[-1].thermo()[-1]
+    amplitude = table["c_A"] / table["c_A"][0]
+    # waves that the kernel smooths decay more slowly, by (kh)^2 times a twelfth of the ratio of the means of
+    # x^4 y^2 and x^2 y^2 over F: 0.0463 and 0.0476 for wendland/c2 in two and three dimensions
+    smoothed = 1 - {2: 0.0463, 3: 0.0476}[dim] * (k * h) ** 2
+    measured = -np.log(np.abs(amplitude[1:])) / table["Time"][1:] / rate / smoothed
+    return amplitude, measured
+
+
+@pytest.mark.parametrize("c0", [5, 20, 50] if FULL else [5, 50])
+@pytest.mark.parametrize("name", LATTICES)
+def test_shear_waves_on_lattices_decay(lammps, name, c0):
+    """With masses for which the mean density is rho0: mu within 1 percent at all times, no growth."""
+    amplitude, measured = wave(lammps, name, c0, 0.1 if FULL else 0.5, "density rho0", 3.0 if FULL else 1.0)
+    print(f"{name}, c0 {c0}: mu {measured[0]:.4f} ... {measured[-1]:.4f}, amplitude {amplitude[-1]:.4f}")
+    assert (np.diff(amplitude) < 0.0).all() and amplitude[-1] > 0.0
+    assert np.abs(measured - 1.0).max() < 0.01
+
+
+@pytest.mark.parametrize("name, c0, grows", [("hex", 20, True), ("sq", 20, False)])
+def test_warning_of_a_lattice_under_pressure(lammps, name, c0, grows):
+    """The density sum of a lattice is not exactly rho0, and what follows from that is announced."""
+    def elastic():
+        return [line for line in lammps.results[-1].warnings if "shear elasticity" in line]
+
+    amplitude, _ = wave(lammps, name, c0, 0.1, "density keep", 0.8)
+    assert (amplitude[-1] > 1.0) == grows
+    assert len(elastic()) == 1
+    assert ("grow instead" if grows else "oscillate instead") in elastic()[0]
+    wave(lammps, name, c0, 0.1, "density rho0", 0.05)
+    assert not elastic()
+    wave(lammps, name, c0, 0.1, "density keep shift 0.1", 0.05)
+    assert not elastic()
+
+
+# ---------------------------------------------------------------------------------------------
+# Taylor-Green vortices
+
+VORTICES = """
+units lj
+dimension 2
+boundary p p p
+atom_style sph/bulk
+variable dx equal 1.0/48
+variable rc equal 4.0*v_dx
+region box block 0 1 0 1 $(-0.5*v_dx) $(0.5*v_dx) units box
+create_box 1 box
+lattice sq $(1/v_dx^2) origin 0.5 0.5 0
+create_atoms 1 region box
+set group all mass $(v_dx^2)
+displace_atoms all random $(0.2*v_dx) $(0.2*v_dx) 0 1 units box
+pair_style sph/bulk
+pair_coeff * * 1.0 10.0 0.01 0.01 ${rc}
+neighbor $(0.3*v_rc) bin
+fix FLUID all sph/bulk density rho0 shift 1.0
+timestep $(0.1*v_rc/10.0)
+fix calm all viscous $(5*v_dx^2)
+run 300
+unfix calm
+variable u atom -cos(2*PI*x)*sin(2*PI*y)
+variable w atom sin(2*PI*x)*cos(2*PI*y)
+velocity all set v_u v_w 0
+reset_timestep 0 time 0
+compute K all ke
+thermo_style custom step time c_K
+thermo_modify norm no
+thermo 300
+run 1200
+"""
+
+
+def test_taylor_green_vortices(lammps):
+    """Reynolds number 100, 48 x 48, settled particles, mean density rho0, no background pressure, shifting."""
+    table = lammps(VORTICES).thermo()[-1]
+    rates = -np.log(table["c_K"][1:] / table["c_K"][0]) / table["Time"][1:] / (16.0 * np.pi**2 * 0.01)
+    print("decay rate over the exact one: " + " ".join(f"{rate:.4f}" for rate in rates))
+    assert np.abs(rates - 1.0).max() < 0.02
+
+
+# ---------------------------------------------------------------------------------------------
+# the time step
+
+
+def loss(lammps, factor, largest):
+    """Error of the energy over the kinetic energy at the start, until sound has crossed the drop 2.5 times."""
+    lammps.particles.write(lammps.path("drop.data"))
+    steps = int(np.ceil(5.0 / largest / factor))
+    run = (f"compute E all sph/energy\nthermo_style custom step c_E c_E[1]\nthermo_modify norm no format float %.17g\n"
+           f"thermo {max(steps // 40, 1)}\ntimestep {factor * largest}\nrun {steps}\n")
+    table = lammps(header(2, boundary=free(2)) + "read_data drop.data\n" + fluid(2, mu=0.5, kappa="intrinsic", support=4.0)
+                   + "fix FLUID all sph/bulk\n" + run)
+    energy = table.thermo()[-1]
+    return np.abs(energy["c_E"] - energy["c_E"][0]).max() / energy["c_E[1]"][0], table.log
+
+
+def test_factors_of_the_time_step(lammps):
+    """The table says which part of the largest stable step gives the energy within 1 and 0.1 percent: a drop that is
+    far from equilibrium, for it is torn and its surface has half of the density of its inside."""
+    lammps.particles = drop(2, 10.0, speed=0.0, rate=0.0)
+    lammps.particles.v[:, :2] = lammps.particles.x[:, :2] * [0.1, -0.1]
+    _, log = loss(lammps, 0.1, 0.5)
+    row = re.search(r"^  1-1 .*\| .* (\S+) *$", log, re.MULTILINE)
+    told = re.search(r"energy within 1 % take ([\d.]+), within 0\.1 % ([\d.]+) of", log)
+    largest = float(row[1])
+    one, tenth = float(told[1]), float(told[2])
+    errors = [loss(lammps, factor, largest)[0] for factor in (one, tenth)]
+    print(f"largest step {largest}: error of the energy {errors[0]:.1e} at {one}, {errors[1]:.1e} at {tenth} of it")
+    assert errors[0] < 0.01
+    assert errors[1] < 0.001
