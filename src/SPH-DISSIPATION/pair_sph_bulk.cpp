@@ -229,6 +229,13 @@ void PairSPHBulk::allocate()
 void PairSPHBulk::settings(int narg, char **arg)
 {
   model->settings(narg, arg, default_shear());
+
+  int found = engine->choose_loops(model->simd), found_all;
+  MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MIN, world);
+  if (!found_all)
+    error->all(FLERR,
+               "Pair_style {} simd {}: not in this processor, or not in this executable of LAMMPS",
+               fluid_style, model->simd);
   announced = false;
 }
 

@@ -114,7 +114,6 @@ void BoundaryStage::run(NeighList *list)
     exchange.forward({state, pressure, zeta_term, weight, field(engine.spin, engine.spin->w, 3)});
   else
     exchange.forward({state, pressure, zeta_term});
-  update_velocity();
   if (!needs_vorticity || !engine.has_spin()) return;
 
   vorticity->run(list, group_bits, pairs, sum);
@@ -233,23 +232,6 @@ void BoundaryStage::check() const
     if (sum[i].filled > INSIDE && !(atom->mask[i] & group_bits))
       error->one(FLERR, "Particle {} of the fluid of pair style {} is inside a wall", atom->tag[i],
                  style);
-}
-
-/* ----------------------------------------------------------------------
-   the pair forces of boundary particles act at the velocity that they have now, rather
-   than at the one that made cdot
-------------------------------------------------------------------------- */
-
-void BoundaryStage::update_velocity()
-{
-  const LoopData &all = engine.pairs();
-  for (const auto &pair : pairs) {
-    const Particle &f = engine.particle[pair.fluid];
-    const Particle &w = engine.particle[pair.wall];
-    double approach = 0.0;
-    for (int d = 0; d < 3; d++) approach += (f.x[d] - w.x[d]) * (f.u[d] - w.u[d]);
-    all.approach[pair.entry] = approach;
-  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -87,7 +87,6 @@ namespace SPHDissipation {
     void find_pairs(NeighList *);
     void accumulate();
     void check() const;
-    void update_velocity();
   };
 
 }    // namespace SPHDissipation

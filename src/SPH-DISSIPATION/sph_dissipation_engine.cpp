@@ -20,42 +20,22 @@
 #include "neigh_list.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <string>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-/* ----------------------------------------------------------------------
-   widest instruction set of this processor, or the one that the environment
-   variable SPH_DISSIPATION_SIMD asks for, if the processor has it
-------------------------------------------------------------------------- */
-
-static const LoopSet *choose_loops()
-{
-#ifdef SPH_DISSIPATION_DISPATCH
-  __builtin_cpu_init();
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-  const char *wish = getenv("SPH_DISSIPATION_SIMD");
-  const std::string simd = wish ? wish : "avx512";
-  if (avx512 && simd == "avx512") return &loops_avx512;
-  if (avx2 && simd != "default") return &loops_avx2;
-#endif
-  return &loops_default;
-}
 
 /* ---------------------------------------------------------------------- */
 
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
-    zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(choose_loops()),
+    zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
     density_loop(nullptr), force_loop(nullptr), data(), kernel(Kernel::WENDLAND_C2), dim(0),
     shear(Shear::NONE), bulk(Bulk::NONE), self_weight(0.0), nlocal_forces(-1), nghost_forces(-1),
-    nmax(0), imax(0), stride_max(0), pair_max(0), first(nullptr)
+    nmax(0), imax(0), pair_max(0)
 {
+  choose_loops("auto");
 }
 
 /* ---------------------------------------------------------------------- */
@@ -69,12 +49,33 @@ Engine::~Engine()
   memory->sfree(torque);
   memory->sfree(zeta_term);
   memory->sfree(divergence);
-  memory->sfree(first);
+  memory->sfree(data.first);
   memory->sfree(data.count);
   memory->sfree(data.neighbor);
   memory->sfree(data.slope);
-  memory->sfree(data.approach);
-  memory->sfree(data.scratch);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool Engine::choose_loops(const std::string &simd)
+{
+  std::vector<std::pair<std::string, const LoopSet *>> available;    // the best one first
+#ifdef SPH_DISSIPATION_DISPATCH
+  __builtin_cpu_init();
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  if (avx512) available.emplace_back("avx512", &loops_avx512);
+  if (avx2) available.emplace_back("avx2", &loops_avx2);
+#endif
+  available.emplace_back("none", &loops_plain);
+
+  for (const auto &entry : available)
+    if (simd == "auto" || simd == entry.first) {
+      loops = entry.second;
+      return true;
+    }
+  return false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -118,66 +119,50 @@ void Engine::grow_atoms()
 {
   if (nmax >= atom->nmax) return;
   nmax = atom->nmax;
+  const bigint nrow = (bigint) nmax + BLOCK;    // with the spare ones
   memory->sfree(particle);
   memory->sfree(density);
   memory->sfree(force);
-  particle = (Particle *) memory->smalloc(nmax * sizeof(Particle), "sph:particle");
-  density = (DensitySum *) memory->smalloc(nmax * sizeof(DensitySum), "sph:density");
-  force = (ForceSum *) memory->smalloc(nmax * sizeof(ForceSum), "sph:force");
+  particle = (Particle *) memory->smalloc(nrow * sizeof(Particle), "sph:particle");
+  density = (DensitySum *) memory->smalloc(nrow * sizeof(DensitySum), "sph:density");
+  force = (ForceSum *) memory->smalloc(nrow * sizeof(ForceSum), "sph:force");
   if (shear == Shear::MICROPOLAR) {
     memory->sfree(spin);
     memory->sfree(torque);
-    spin = (Spin *) memory->smalloc(nmax * sizeof(Spin), "sph:spin");
-    torque = (TorqueSum *) memory->smalloc(nmax * sizeof(TorqueSum), "sph:torque");
+    spin = (Spin *) memory->smalloc(nrow * sizeof(Spin), "sph:spin");
+    torque = (TorqueSum *) memory->smalloc(nrow * sizeof(TorqueSum), "sph:torque");
   }
   memory->sfree(zeta_term);
-  zeta_term = (double *) memory->smalloc(nmax * sizeof(double), "sph:zeta_term");
+  zeta_term = (double *) memory->smalloc(nrow * sizeof(double), "sph:zeta_term");
   memory->sfree(divergence);
-  divergence = (double *) memory->smalloc(nmax * sizeof(double), "sph:divergence");
+  divergence = (double *) memory->smalloc(nrow * sizeof(double), "sph:divergence");
 }
 
 /* ----------------------------------------------------------------------
-   room for all pairs of the neighbor list; each atom starts on a full block,
-   so that the loops may fill up its last block
+   room for all pairs of the neighbor list, each atom's filled up to a full block,
+   for one more block, and for the indices that pass 2 looks at ahead of the last block
 ------------------------------------------------------------------------- */
 
 void Engine::grow_pairs(NeighList *list)
 {
   if (list->inum > imax) {
     imax = list->inum;
-    memory->sfree(first);
+    memory->sfree(data.first);
     memory->sfree(data.count);
-    first = (bigint *) memory->smalloc(imax * sizeof(bigint), "sph:first");
+    data.first = (bigint *) memory->smalloc(imax * sizeof(bigint), "sph:first");
     data.count = (int *) memory->smalloc(imax * sizeof(int), "sph:count");
   }
 
-  bigint npair = 0;
-  int longest = 0;
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int room = round_up(list->numneigh[list->ilist[ii]]);
-    if (room > longest) longest = room;
-    first[ii] = npair;
-    npair += room;
-  }
+  bigint npair = 3 * BLOCK;
+  for (int ii = 0; ii < list->inum; ii++)
+    npair += (list->numneigh[list->ilist[ii]] + BLOCK - 1) / BLOCK * BLOCK;
+  if (npair <= pair_max) return;
 
-  if (npair > pair_max) {
-    pair_max = npair + npair / 16;
-    memory->sfree(data.neighbor);
-    memory->sfree(data.slope);
-    memory->sfree(data.approach);
-    data.neighbor = (int *) memory->smalloc(pair_max * sizeof(int), "sph:neighbor");
-    data.slope = (double *) memory->smalloc(pair_max * sizeof(double), "sph:slope");
-    data.approach = (double *) memory->smalloc(pair_max * sizeof(double), "sph:approach");
-  }
-
-  if (longest > stride_max) {
-    stride_max = round_up(longest + longest / 4);
-    memory->sfree(data.scratch);
-    data.scratch =
-        (double *) memory->smalloc(sizeof(double) * NSCRATCH * stride_max, "sph:scratch");
-  }
-  data.stride = stride_max;
-  data.first = first;
+  pair_max = npair + npair / 16;
+  memory->sfree(data.neighbor);
+  memory->sfree(data.slope);
+  data.neighbor = (int *) memory->smalloc(pair_max * sizeof(int), "sph:neighbor");
+  data.slope = (double *) memory->smalloc(pair_max * sizeof(double), "sph:slope");
 }
 
 /* ---------------------------------------------------------------------- */
@@ -208,11 +193,19 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
       for (int d = 0; d < 3; d++) spin[i].w[d] = w[d];
     }
 
+  for (int i = nall; i < nall + BLOCK; i++) {
+    particle[i] = Particle();
+    density[i] = DensitySum();
+    zeta_term[i] = 0.0;
+    if (has_spin()) spin[i] = Spin();
+  }
+
   data.inum = list->inum;
   data.ilist = list->ilist;
   data.numneigh = list->numneigh;
   data.firstneigh = list->firstneigh;
   data.particle = particle;
+  data.spare = nall;
   data.density = density;
   density_loop(data);
 }
@@ -222,9 +215,10 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
 void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 {
   const int nall = atom->nlocal + atom->nghost;
-  memset(force, 0, nall * sizeof(ForceSum));
-  if (bulk == Bulk::VOLUME) memset(divergence, 0, nall * sizeof(double));
-  if (shear == Shear::MICROPOLAR) memset(torque, 0, nall * sizeof(TorqueSum));
+  const bigint nrow = (bigint) nall + BLOCK;
+  memset(force, 0, nrow * sizeof(ForceSum));
+  if (bulk == Bulk::VOLUME) memset(divergence, 0, nrow * sizeof(double));
+  if (shear == Shear::MICROPOLAR) memset(torque, 0, nrow * sizeof(TorqueSum));
 
   data.inum = list->inum;
   data.type = atom->type;
@@ -253,6 +247,5 @@ double Engine::memory_usage() const
   double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 2 * sizeof(double);
   if (has_spin()) per_atom += sizeof(Spin) + sizeof(TorqueSum);
   return nmax * per_atom + (double) imax * (sizeof(bigint) + sizeof(int)) +
-      (double) pair_max * (sizeof(int) + 2 * sizeof(double)) +
-      (double) stride_max * NSCRATCH * sizeof(double);
+      (double) pair_max * (sizeof(int) + sizeof(double));
 }

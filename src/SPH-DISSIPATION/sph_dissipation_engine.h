@@ -18,28 +18,23 @@
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_kernel.h"
 
+#include <string>
 #include <vector>
 
-// GCC can compile single functions for other instruction sets than the rest of LAMMPS
+// GCC and Clang, and what is built on them, can compile single functions for other instruction sets
+// than the rest of LAMMPS.  NVIDIA's compilers call themselves GCC, too, but cannot.
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__INTEL_COMPILER)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__EDG__) && !defined(__NVCC__) && \
+    !defined(__NVCOMPILER) && !defined(__PGI) && !defined(SPH_DISSIPATION_NO_SIMD)
 #define SPH_DISSIPATION_DISPATCH
-#endif
-
-// no iteration of the loop that follows depends on another one
-
-#if defined(__clang__)
-#define SPH_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
-#elif defined(__GNUC__)
-#define SPH_INDEPENDENT _Pragma("GCC ivdep")
-#else
-#define SPH_INDEPENDENT
 #endif
 
 namespace LAMMPS_NS {
 class NeighList;
 
 namespace SPHDissipation {
+
+  // The loops read and write these structures as rows of doubles.
 
   // what the pair loops read of a particle: one cache line
 
@@ -67,6 +62,7 @@ namespace SPHDissipation {
 
   struct Spin {
     double w[3];
+    double unused;    // rows are read by fours
   };
 
   // torque and heat of the vortex and of the spin diffusion term: what pass 2 accumulates
@@ -84,16 +80,14 @@ namespace SPHDissipation {
     virtual void tally(int i, int j, const double *force_on_i, const double *rij) = 0;
   };
 
-  // pairs are worked off in blocks of this many, the widest vector in doubles
+  // Pairs are worked off in blocks of as many as a vector has doubles; this is the widest one.  The
+  // last block of a particle is filled up with spare particles, of which there are as many behind the
+  // owned and ghost ones.
 
   constexpr int BLOCK = 8;
-  inline int round_up(int n)
-  {
-    return (n + BLOCK - 1) / BLOCK * BLOCK;
-  }
 
   // Input, output and scratch space of the two loops.  Both run over a half neighbor list; pass 1
-  // leaves the pairs inside the support, F and r_ij.u_ij of each, for pass 2.
+  // leaves the pairs inside the support, and F of each, for pass 2.
 
   struct LoopData {
     int inum;
@@ -101,6 +95,7 @@ namespace SPHDissipation {
     const int *const *firstneigh;
 
     const Particle *particle;    // owned and ghost
+    int spare;                   // index of the first spare particle
     const Spin *spin;            // owned and ghost (micropolar)
     const int *type;             // read if the coefficients differ between types
     const double *zeta_term;     // zeta V cdot of each particle (bulk volume)
@@ -118,21 +113,13 @@ namespace SPHDissipation {
 
     // pairs of the ii-th atom: entries first[ii] ... first[ii] + count[ii] - 1
 
-    const bigint *first;
+    bigint *first;
     int *count;
     int *neighbor;
-    double *slope;       // F
-    double *approach;    // r_ij . u_ij
-
-    // scratch for the pairs of one atom, stride doubles each
-
-    double *scratch;
-    int stride;
+    double *slope;    // F
 
     PairTally *tally;    // nullptr if nobody asks
   };
-
-  constexpr int NSCRATCH = 30;
 
   typedef void (*Loop)(LoopData &);
 
@@ -144,7 +131,7 @@ namespace SPHDissipation {
     Loop (*forces)(Shear, Bulk);
   };
 
-  extern const LoopSet loops_default, loops_avx2, loops_avx512;
+  extern const LoopSet loops_plain, loops_avx2, loops_avx512;
 
   // Pair engine of the particle fluid styles: number density and its rate in one loop over the
   // neighbor list, forces and heating in a second one.  Between them the stages of the pair style set
@@ -155,7 +142,11 @@ namespace SPHDissipation {
     Engine(class LAMMPS *);
     ~Engine() override;
 
-    // choose the loops; n = dimension of the kernel
+    // simd = auto: the loops for the widest vectors of this processor; none, avx2, avx512: those
+    // loops; false if processor or compiler do not have them
+    bool choose_loops(const std::string &simd);
+
+    // choose the form of the loops; n = dimension of the kernel
     // coeff = of the pair terms, for types 0 to ntypes of i, of j within
     void setup(Kernel, int n, double support, Shear, Bulk, const std::vector<PairCoeff> &coeff,
                int ntypes);
@@ -203,9 +194,8 @@ namespace SPHDissipation {
     double self_weight;    // W(0)
 
     int nlocal_forces, nghost_forces;    // # of atoms that force[] is of
-    int nmax, imax, stride_max;
+    int nmax, imax;
     bigint pair_max;
-    bigint *first;
 
     void grow_atoms();
     void grow_pairs(NeighList *);

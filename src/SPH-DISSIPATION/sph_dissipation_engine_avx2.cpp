@@ -13,21 +13,27 @@
 
 #include "sph_dissipation_engine.h"
 
-#include <cmath>
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
-
 // the pair loops for processors with AVX2, chosen at run time
 
 #ifdef SPH_DISSIPATION_DISPATCH
 
+#include <cmath>
+#include <immintrin.h>
+
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
+#endif
 #define LOOPS loops_of_avx2
 #define LOOPS_AVX2
 #include "sph_dissipation_loops.h"
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {

@@ -13,21 +13,28 @@
 
 #include "sph_dissipation_engine.h"
 
-#include <cmath>
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
-
-// the pair loops for processors with AVX512, chosen at run time
+// the pair loops for processors with AVX-512, chosen at run time
 
 #ifdef SPH_DISSIPATION_DISPATCH
 
+#include <cmath>
+#include <immintrin.h>
+
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2,fma,avx512f,avx512dq,avx512vl"))), \
+                             apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx2,fma,avx512f,avx512dq,avx512vl,prefer-vector-width=512")
+#endif
 #define LOOPS loops_of_avx512
 #define LOOPS_AVX512
 #include "sph_dissipation_loops.h"
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {

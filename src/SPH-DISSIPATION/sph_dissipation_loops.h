@@ -16,106 +16,136 @@
 // Nothing else may be included after the switch, or inline functions of other headers would be
 // compiled for a processor that a user may not have.
 
+#include "sph_dissipation_simd.h"
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   namespace LOOPS {
+
+#include "sph_dissipation_kernel_shapes.h"
 
     // added to r and r^2 before dividing: two particles at the same point, r_ij = 0, exert no force
     // on each other
 
     constexpr double TINY = 1.0e-300;
 
-    // out = sqrt(in); n is a multiple of BLOCK.  Compilers vectorize sqrt() only where it need not
-    // set errno, hence the intrinsics.
+    // pass 2 has the processor fetch the rows of the neighbors that come two blocks later
 
-    inline void square_roots(const double *in, double *out, int n)
+    constexpr int AHEAD = 2 * LANES;
+
+    // particles and sums as rows of numbers
+
+    template <class Row> constexpr int WIDTH = sizeof(Row) / sizeof(double);
+
+    template <class Row> inline const double *numbers(const Row *row)
     {
-#if defined(LOOPS_AVX512)
-      for (int k = 0; k < n; k += 8)
-        _mm512_storeu_pd(out + k, _mm512_sqrt_pd(_mm512_loadu_pd(in + k)));
-#elif defined(LOOPS_AVX2)
-      for (int k = 0; k < n; k += 4)
-        _mm256_storeu_pd(out + k, _mm256_sqrt_pd(_mm256_loadu_pd(in + k)));
-#elif defined(__SSE2__)
-      for (int k = 0; k < n; k += 2) _mm_storeu_pd(out + k, _mm_sqrt_pd(_mm_loadu_pd(in + k)));
-#else
-      for (int k = 0; k < n; k++) out[k] = std::sqrt(in[k]);
-#endif
+      return reinterpret_cast<const double *>(row);
     }
-
-    // sum of n entries, a multiple of BLOCK, with one partial sum for each lane of a vector
-
-    inline double sum(const double *in, int n)
+    template <class Row> inline double *numbers(Row *row)
     {
-      double lane[BLOCK] = {};
-      for (int k = 0; k < n; k += BLOCK)
-        for (int l = 0; l < BLOCK; l++) lane[l] += in[k + l];
-      return ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
-          ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+      return reinterpret_cast<double *>(row);
     }
 
     // pass 1: c_i = sum_j W, cdot_i = -sum_j F r_ij.u_ij
+    // leaves the pairs inside the support for pass 2
 
     template <class K> void density_loop(LoopData &data)
     {
       const Particle *const particle = data.particle;
-      DensitySum *const density = data.density;
-      const double support_sq = data.support * data.support;
+      const Vec support_sq = all(data.support * data.support);
       const double support_inv = 1.0 / data.support;
-      const double weight_norm = data.weight_norm;
-      const double slope_norm = data.slope_norm;
-      double *const radius = data.scratch;
-      double *const weight = radius + data.stride;
-      double *const flux = weight + data.stride;
+      bigint next = 0;
 
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         const int *const jlist = data.firstneigh[i];
         const int jnum = data.numneigh[i];
         const Particle pi = particle[i];
-        int *const neighbor = data.neighbor + data.first[ii];
-        double *const slope = data.slope + data.first[ii];
-        double *const approach = data.approach + data.first[ii];
-
-        // keep the pairs inside the support; slope[] holds r^2 until F overwrites it
-
+        int *const neighbor = data.neighbor + next;
+        double *const slope = data.slope + next;
         int n = 0;
-        for (int jj = 0; jj < jnum; jj++) {
-          const int j = jlist[jj] & NEIGHMASK;
-          const Particle &pj = particle[j];
-          const double dx = pi.x[0] - pj.x[0];
-          const double dy = pi.x[1] - pj.x[1];
-          const double dz = pi.x[2] - pj.x[2];
-          const double rsq = dx * dx + dy * dy + dz * dz;
-          neighbor[n] = j;
-          slope[n] = rsq;
-          approach[n] =
-              dx * (pi.u[0] - pj.u[0]) + dy * (pi.u[1] - pj.u[1]) + dz * (pi.u[2] - pj.u[2]);
-          n += (rsq < support_sq) ? 1 : 0;
+        Vec total[2] = {all(0.0), all(0.0)};
+
+        copy_neighbors(neighbor, jlist, jnum, data.spare);
+
+        for (int jj = 0; jj < jnum; jj += LANES) {
+          const int *const j = neighbor + jj;
+          Vec pj[8];
+          load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
+          load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
+          const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
+          const Vec ux = pi.u[0] - pj[3], uy = pi.u[1] - pj[4], uz = pi.u[2] - pj[5];
+          const Vec rsq = dx * dx + dy * dy + dz * dz;
+          const Vec approach = dx * ux + dy * uy + dz * uz;
+          int inside = bits_below(rsq, support_sq);
+          if (jnum - jj < LANES) inside &= (1 << (jnum - jj)) - 1;
+
+          const Vec q = square_root(rsq) * support_inv;
+          const Vec f = data.slope_norm * K::slope(q);
+          const Vec sums[2] = {if_bits(inside, data.weight_norm * K::shape(q)),
+                               if_bits(inside, -f * approach)};
+          for (int c = 0; c < 2; c++) total[c] += sums[c];
+          add_2_columns<WIDTH<DensitySum>>(numbers(data.density), j, sums);
+
+          pack(slope + n, f, inside);
+          pack(neighbor + n, j, inside);
+          n += count_bits(inside);
         }
+        data.density[i].c += sum(total[0]);
+        data.density[i].cdot += sum(total[1]);
+
+        // fill up the last block with spare particles and F = 0
+
+        store(slope + n, all(0.0));
+        for (int l = 0; l < LANES; l++) neighbor[n + l] = data.spare + l;
         data.count[ii] = n;
-        const int nblock = round_up(n);
-        for (int k = n; k < nblock; k++) {
-          slope[k] = support_sq;
-          approach[k] = 0.0;
-        }
+        data.first[ii] = next;
+        next += (n + LANES - 1) / LANES * LANES;
+      }
+      for (int k = 0; k < AHEAD; k++) data.neighbor[next + k] = data.spare;
+    }
 
-        square_roots(slope, radius, nblock);
+    // coefficients of the pair terms of a block of pairs
 
-        SPH_INDEPENDENT
-        for (int k = 0; k < nblock; k++) {
-          const double q = radius[k] * support_inv;
-          weight[k] = weight_norm * K::shape(q);
-          slope[k] = slope_norm * K::slope(q);
-          flux[k] = slope[k] * approach[k];
-        }
+    struct Coeff {
+      Vec along_r, along_u, xi1, xi2;
 
-        for (int k = 0; k < n; k++) {
-          density[neighbor[k]].c += weight[k];
-          density[neighbor[k]].cdot -= flux[k];
+      inline Coeff(const PairCoeff &pair) :
+          along_r(all(pair.along_r)), along_u(all(pair.along_u)), xi1(all(pair.xi1)),
+          xi2(all(pair.xi2))
+      {
+      }
+      inline void load(const LoopData &data, int i, const int *j, int n)
+      {
+        const PairCoeff *const coeff = data.coeff + data.type[i] * data.ntypes_1;
+        double column[4][LANES];
+        for (int l = 0; l < LANES; l++) {
+          const PairCoeff &pair =
+              coeff[(l < n) ? data.type[j[l]] : 1];    // a spare one has no type
+          column[0][l] = pair.along_r;
+          column[1][l] = pair.along_u;
+          column[2][l] = pair.xi1;
+          column[3][l] = pair.xi2;
         }
-        density[i].c += sum(weight, nblock);
-        density[i].cdot -= sum(flux, nblock);
+        along_r = LOOPS::load(column[0]);
+        along_u = LOOPS::load(column[1]);
+        xi1 = LOOPS::load(column[2]);
+        xi2 = LOOPS::load(column[3]);
+      }
+    };
+
+    inline void tally_block(PairTally *tally, int i, const int *j, int n, const Vec *f,
+                            const Vec *r)
+    {
+      double f_lane[3][LANES], r_lane[3][LANES];
+      for (int d = 0; d < 3; d++) {
+        store(f_lane[d], f[d]);
+        store(r_lane[d], r[d]);
+      }
+      for (int l = 0; l < LANES && l < n; l++) {
+        const double force_on_i[3] = {f_lane[0][l], f_lane[1][l], f_lane[2][l]};
+        const double rij[3] = {r_lane[0][l], r_lane[1][l], r_lane[2][l]};
+        tally->tally(i, j[l], force_on_i, rij);
       }
     }
 
@@ -132,197 +162,129 @@ namespace SPHDissipation {
       constexpr bool ALONG_U = (SHEAR == Shear::MORRIS || SHEAR == Shear::ESPANOL || SPIN);
 
       const Particle *const particle = data.particle;
-      ForceSum *const force = data.force;
-
-      double *column[NSCRATCH];
-      for (int c = 0; c < NSCRATCH; c++) column[c] = data.scratch + (bigint) c * data.stride;
-      double *const dx = column[0];
-      double *const dy = column[1];
-      double *const dz = column[2];
-      double *const ux = column[3];
-      double *const uy = column[4];
-      double *const uz = column[5];
-      double *const fx = column[6];
-      double *const fy = column[7];
-      double *const fz = column[8];
-      double *const vol = column[9];
-      double *const g = column[10];
-      double *const along_r = column[11];
-      double *const metric = column[12];
-      double *const zeta_term = column[13];
-      double *const heat = column[14];
-      double *const flux = column[15];
-      double *const along_u = column[16];
-      double *const xi1 = column[17];
-      double *const xi2 = column[18];
-      double *const wx = column[19];
-      double *const wy = column[20];
-      double *const wz = column[21];
-      double *const tx = column[22];
-      double *const ty = column[23];
-      double *const tz = column[24];
-      double *const sx = column[25];
-      double *const sy = column[26];
-      double *const sz = column[27];
-      double *const heat_vortex = column[28];
-      double *const heat_spin = column[29];
-
-      auto set_coeff = [=](int k, const PairCoeff &coeff) {
-        if (ALONG_R) along_r[k] = coeff.along_r;
-        if (ALONG_U) along_u[k] = coeff.along_u;
-        if (SPIN) {
-          xi1[k] = coeff.xi1;
-          xi2[k] = coeff.xi2;
-        }
-      };
-      if (data.uniform)
-        for (int k = 0; k < data.stride; k++) set_coeff(k, data.coeff[data.ntypes_1 + 1]);
+      Coeff coeff(data.coeff[data.ntypes_1 + 1]);
 
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         const Particle pi = particle[i];
-        const int n = data.count[ii];
-        const int nblock = round_up(n);
-        const int *const neighbor = data.neighbor + data.first[ii];
-        const double *const slope = data.slope + data.first[ii];
-        const double *const approach = data.approach + data.first[ii];
-        const double zeta_term_i = VOLUME ? data.zeta_term[i] : 0.0;
         const Spin spin_i = SPIN ? data.spin[i] : Spin();
+        const double zeta_term_i = VOLUME ? data.zeta_term[i] : 0.0;
+        const int n = data.count[ii];
+        const int *const neighbor = data.neighbor + data.first[ii];
+        const double *const slope_of = data.slope + data.first[ii];
 
-        for (int k = 0; k < n; k++) {
-          const Particle &pj = particle[neighbor[k]];
-          dx[k] = pi.x[0] - pj.x[0];
-          dy[k] = pi.x[1] - pj.x[1];
-          dz[k] = pi.x[2] - pj.x[2];
-          vol[k] = pj.vol;
-          g[k] = pj.g;
-          if (ALONG_U) {
-            ux[k] = pi.u[0] - pj.u[0];
-            uy[k] = pi.u[1] - pj.u[1];
-            uz[k] = pi.u[2] - pj.u[2];
-          }
-          if (SPIN) {
-            const Spin &spin_j = data.spin[neighbor[k]];
-            wx[k] = spin_j.w[0];
-            wy[k] = spin_j.w[1];
-            wz[k] = spin_j.w[2];
-          }
-          if (VOLUME) zeta_term[k] = data.zeta_term[neighbor[k]];
-        }
-        for (int k = n; k < nblock; k++) {
-          dx[k] = dy[k] = dz[k] = vol[k] = g[k] = 0.0;
-          if (ALONG_U) ux[k] = uy[k] = uz[k] = 0.0;
-          if (SPIN) wx[k] = wy[k] = wz[k] = 0.0;
-          if (VOLUME) zeta_term[k] = 0.0;
-        }
-        if ((ALONG_R || ALONG_U) && !data.uniform) {
-          const PairCoeff *const coeff = data.coeff + data.type[i] * data.ntypes_1;
-          for (int k = 0; k < n; k++) set_coeff(k, coeff[data.type[neighbor[k]]]);
-          for (int k = n; k < nblock; k++) set_coeff(k, PairCoeff());
-        }
-        if (ALONG_R || ALONG_U)
-          for (int k = 0; k < nblock; k++)
-            metric[k] = dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k];
-        if (SHEAR == Shear::MG_FR) square_roots(metric, metric, nblock);
+        Vec total_f[4] = {all(0.0), all(0.0), all(0.0), all(0.0)};
+        Vec total_t[4] = {all(0.0), all(0.0), all(0.0), all(0.0)};
+        Vec total_spin = all(0.0), total_flux = all(0.0);
 
-        SPH_INDEPENDENT
-        for (int k = 0; k < nblock; k++) {
-          const double vv_slope = pi.vol * vol[k] * slope[k];
-          double central = (pi.g + g[k]) * slope[k];
-          double heat_shear = 0.0;
-
-          if (ALONG_R) {
-            const double drag = along_r[k] * vv_slope * approach[k] / (metric[k] + TINY);
-            central -= drag;
-            heat_shear = 0.5 * drag * approach[k];
-          }
-          if (VOLUME) {
-            central += (zeta_term_i + zeta_term[k]) * vv_slope;
-            flux[k] = slope[k] * approach[k];
-          }
-          double fxk = central * dx[k];
-          double fyk = central * dy[k];
-          double fzk = central * dz[k];
-          if (ALONG_U) {
-            double uxk = ux[k], uyk = uy[k], uzk = uz[k];
-            if (SPIN) {
-              const double mx = 0.5 * (spin_i.w[0] + wx[k]);
-              const double my = 0.5 * (spin_i.w[1] + wy[k]);
-              const double mz = 0.5 * (spin_i.w[2] + wz[k]);
-              uxk -= my * dz[k] - mz * dy[k];
-              uyk -= mz * dx[k] - mx * dz[k];
-              uzk -= mx * dy[k] - my * dx[k];
+        for (int k = 0; k < n; k += LANES) {
+          const int *const j = neighbor + k;
+          Vec pj[8];
+          load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
+          load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
+          const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
+          Vec ux = pi.u[0] - pj[3], uy = pi.u[1] - pj[4], uz = pi.u[2] - pj[5];
+          const Vec vol = pj[6], g = pj[7];
+          for (int l = 0; l < LANES; l++) {
+            prefetch(particle + j[l + AHEAD]);
+            if constexpr (SPIN) {    // without, the force is in the cache anyway
+              prefetch(data.spin + j[l + AHEAD]);
+              prefetch(data.force + j[l + AHEAD]);
+              prefetch(data.torque + j[l + AHEAD]);
             }
-            const double drag = (metric[k] > 0.0) ? along_u[k] * vv_slope : 0.0;
-            fxk -= drag * uxk;
-            fyk -= drag * uyk;
-            fzk -= drag * uzk;
-            const double heat_u = 0.5 * drag * (uxk * uxk + uyk * uyk + uzk * uzk);
-            if (SPIN) {
-              heat_vortex[k] = heat_u;
-              tx[k] = 0.5 * drag * (dy[k] * uzk - dz[k] * uyk);
-              ty[k] = 0.5 * drag * (dz[k] * uxk - dx[k] * uzk);
-              tz[k] = 0.5 * drag * (dx[k] * uyk - dy[k] * uxk);
+          }
+          const Vec slope = load(slope_of + k);
+          const Vec rsq = dx * dx + dy * dy + dz * dz;
+          const Vec vv_slope = if_positive(rsq, pi.vol * vol * slope);
+          const Vec approach = dx * ux + dy * uy + dz * uz;
+          Vec heat = all(0.0);
+          Vec central = (pi.g + g) * slope;
+
+          if ((ALONG_R || ALONG_U) && !data.uniform) coeff.load(data, i, j, n - k);
+
+          Vec by_metric = all(0.0);
+          if constexpr (ALONG_R) {
+            const Vec metric = (SHEAR == Shear::MG_FR) ? square_root(rsq) : rsq;
+            by_metric = vv_slope / (metric + TINY);
+            const Vec drag = coeff.along_r * by_metric * approach;
+            central -= drag;
+            heat = 0.5 * drag * approach;
+          }
+          if constexpr (VOLUME) {
+            double zeta_term[LANES];
+            for (int l = 0; l < LANES; l++) zeta_term[l] = data.zeta_term[j[l]];
+            central += (zeta_term_i + load(zeta_term)) * vv_slope;
+            const Vec flux = slope * approach;
+            total_flux += flux * vol;
+            add_column<1>(data.divergence, j, -pi.vol * flux);
+          }
+          Vec fx = central * dx, fy = central * dy, fz = central * dz;
+          Vec wx, wy, wz;
+          if constexpr (SPIN) {
+            Vec wj[4];
+            load_4_columns<WIDTH<Spin>>(numbers(data.spin), j, wj);
+            wx = wj[0], wy = wj[1], wz = wj[2];
+            const Vec mx = 0.5 * spin_i.w[0] + 0.5 * wx;
+            const Vec my = 0.5 * spin_i.w[1] + 0.5 * wy;
+            const Vec mz = 0.5 * spin_i.w[2] + 0.5 * wz;
+            ux = ux - my * dz + mz * dy;
+            uy = uy - mz * dx + mx * dz;
+            uz = uz - mx * dy + my * dx;
+          }
+          if constexpr (ALONG_U) {
+            const Vec drag = coeff.along_u * vv_slope;
+            const Vec half_drag = 0.5 * drag;
+            fx -= drag * ux;
+            fy -= drag * uy;
+            fz -= drag * uz;
+            const Vec heat_u = half_drag * (ux * ux + uy * uy + uz * uz);
+            if constexpr (SPIN) {
+              const Vec tx = half_drag * (dy * uz - dz * uy);
+              const Vec ty = half_drag * (dz * ux - dx * uz);
+              const Vec tz = half_drag * (dx * uy - dy * ux);
+              const Vec sx = spin_i.w[0] - wx, sy = spin_i.w[1] - wy, sz = spin_i.w[2] - wz;
+              const Vec along = dx * sx + dy * sy + dz * sz;
+              const Vec drag1 = coeff.xi1 * by_metric * along;
+              const Vec drag2 = coeff.xi2 * vv_slope;
+              const Vec spin_x = drag1 * dx + drag2 * sx;
+              const Vec spin_y = drag1 * dy + drag2 * sy;
+              const Vec spin_z = drag1 * dz + drag2 * sz;
+              const Vec heat_spin = 0.5 * (drag1 * along + drag2 * (sx * sx + sy * sy + sz * sz));
+              const Vec on_j[4] = {tx + spin_x, ty + spin_y, tz + spin_z, heat_u};
+              add_4_columns<WIDTH<TorqueSum>>(numbers(data.torque), j, on_j);
+              add_column<WIDTH<TorqueSum>>(numbers(data.torque) + 4, j, heat_spin);
+              total_t[0] += tx - spin_x;
+              total_t[1] += ty - spin_y;
+              total_t[2] += tz - spin_z;
+              total_t[3] += heat_u;
+              total_spin += heat_spin;
             } else
-              heat_shear += heat_u;
+              heat += heat_u;
           }
-          if (SPIN) {
-            const double sxk = spin_i.w[0] - wx[k];
-            const double syk = spin_i.w[1] - wy[k];
-            const double szk = spin_i.w[2] - wz[k];
-            const double along = dx[k] * sxk + dy[k] * syk + dz[k] * szk;
-            const double drag1 = xi1[k] * vv_slope * along / (metric[k] + TINY);
-            const double drag2 = (metric[k] > 0.0) ? xi2[k] * vv_slope : 0.0;
-            sx[k] = drag1 * dx[k] + drag2 * sxk;
-            sy[k] = drag1 * dy[k] + drag2 * syk;
-            sz[k] = drag1 * dz[k] + drag2 * szk;
-            heat_spin[k] = 0.5 * (drag1 * along + drag2 * (sxk * sxk + syk * syk + szk * szk));
+
+          total_f[0] += fx;
+          total_f[1] += fy;
+          total_f[2] += fz;
+          total_f[3] += heat;
+          const Vec on_j[4] = {-fx, -fy, -fz, heat};
+          add_4_columns<WIDTH<ForceSum>>(numbers(data.force), j, on_j);
+
+          if (data.tally) {
+            const Vec f[3] = {fx, fy, fz}, r[3] = {dx, dy, dz};
+            tally_block(data.tally, i, j, n - k, f, r);
           }
-          fx[k] = fxk;
-          fy[k] = fyk;
-          fz[k] = fzk;
-          heat[k] = heat_shear;
         }
 
-        for (int k = 0; k < n; k++) {
-          ForceSum &fj = force[neighbor[k]];
-          fj.f[0] -= fx[k];
-          fj.f[1] -= fy[k];
-          fj.f[2] -= fz[k];
-          fj.heat += heat[k];
-          if (VOLUME) data.divergence[neighbor[k]] -= pi.vol * flux[k];
-          if (SPIN) {
-            TorqueSum &tj = data.torque[neighbor[k]];
-            tj.t[0] += tx[k] + sx[k];
-            tj.t[1] += ty[k] + sy[k];
-            tj.t[2] += tz[k] + sz[k];
-            tj.heat_vortex += heat_vortex[k];
-            tj.heat_spin += heat_spin[k];
-          }
-        }
-        force[i].f[0] += sum(fx, nblock);
-        force[i].f[1] += sum(fy, nblock);
-        force[i].f[2] += sum(fz, nblock);
-        force[i].heat += sum(heat, nblock);
-        if (SPIN) {
+        ForceSum &fi = data.force[i];
+        for (int d = 0; d < 3; d++) fi.f[d] += sum(total_f[d]);
+        fi.heat += sum(total_f[3]);
+        if constexpr (SPIN) {
           TorqueSum &ti = data.torque[i];
-          ti.t[0] += sum(tx, nblock) - sum(sx, nblock);
-          ti.t[1] += sum(ty, nblock) - sum(sy, nblock);
-          ti.t[2] += sum(tz, nblock) - sum(sz, nblock);
-          ti.heat_vortex += sum(heat_vortex, nblock);
-          ti.heat_spin += sum(heat_spin, nblock);
+          for (int d = 0; d < 3; d++) ti.t[d] += sum(total_t[d]);
+          ti.heat_vortex += sum(total_t[3]);
+          ti.heat_spin += sum(total_spin);
         }
-        if (VOLUME) {
-          for (int k = 0; k < nblock; k++) flux[k] *= vol[k];
-          data.divergence[i] -= sum(flux, nblock);
-        }
-
-        if (data.tally)
-          for (int k = 0; k < n; k++) {
-            const double force_on_i[3] = {fx[k], fy[k], fz[k]};
-            const double rij[3] = {dx[k], dy[k], dz[k]};
-            data.tally->tally(i, neighbor[k], force_on_i, rij);
-          }
+        if constexpr (VOLUME) data.divergence[i] -= sum(total_flux);
       }
     }
 

@@ -48,7 +48,7 @@ TypeCoeff::TypeCoeff() :
 FluidModel::FluidModel(LAMMPS *lmp, const std::string &style,
                        const std::vector<std::string> &viscosities) :
     Pointers(lmp),
-    coeffs(nullptr), shared(false), style(style), viscosity_names(viscosities),
+    coeffs(nullptr), simd("auto"), shared(false), style(style), viscosity_names(viscosities),
     pair_viscosity(nullptr), viscosity_set(nullptr)
 {
   for (const auto &name : viscosity_names) variables.push_back({name, nullptr, nullptr});
@@ -121,12 +121,14 @@ static bool choose(Choice &choice, const std::string &word,
 void FluidModel::settings(int narg, char **arg, Shear default_shear)
 {
   choice = Settings();
+  simd = "auto";
   choice.shear = default_shear;
 
   for (int iarg = 0; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
     if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "bulk" &&
-        keyword != "limit" && (keyword != "shear" || default_shear != Shear::MG))
+        keyword != "limit" && keyword != "simd" &&
+        (keyword != "shear" || default_shear != Shear::MG))
       error->all(FLERR, place(arg[iarg]), "Unknown pair_style {} keyword: {}", style, keyword);
     if (iarg + 2 > narg)
       utils::missing_cmd_args(FLERR, "pair_style " + style + " " + keyword, error);
@@ -161,6 +163,9 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
       if (!choose(choice.limit, word,
                   {{"no", Limit::NO}, {"count", Limit::COUNT}, {"yes", Limit::YES}}))
         unknown("limit");
+    } else if (keyword == "simd") {
+      if (word != "auto" && word != "none" && word != "avx2" && word != "avx512") unknown("simd");
+      simd = word;
     } else {
       choice.dim = utils::inumeric(FLERR, word, false, lmp);
       if (choice.dim < 1 || choice.dim > 3)

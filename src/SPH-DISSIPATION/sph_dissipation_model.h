@@ -111,6 +111,7 @@ namespace SPHDissipation {
     bool is_mixed(int i, int j) const { return !viscosity_set[0][i][j]; }
 
     Settings choice;
+    std::string simd;    // pair loops to use; not in restart files, which may go to another machine
     TypeCoeff *coeffs;    // by type, from 1
     bool shared;          // there are types of other styles
 

@@ -23,7 +23,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 using namespace LAMMPS_NS;
 
@@ -78,6 +77,23 @@ void LammpsDriver::broadcast(std::vector<double> &values)
   MPI_Bcast(values.data(), values.size(), MPI_DOUBLE, 0, MPI_COMM_WORLD);
 }
 
+// the loops that a pair style accepts here
+
+std::vector<std::string> LammpsDriver::instruction_sets()
+{
+  std::vector<std::string> found;
+  lmp->input->one("clear");
+  for (const std::string name : {"none", "avx2", "avx512"}) {
+    try {
+      lmp->input->one("pair_style sph/bulk simd " + name);
+      found.push_back(name);
+    } catch (LAMMPSException &) {
+      // not this processor
+    }
+  }
+  return found;
+}
+
 bool LammpsDriver::command(const std::string &line)
 {
   try {
@@ -126,12 +142,7 @@ void LammpsDriver::create_particles(const Configuration &config)
 
 void LammpsDriver::create(const Configuration &config, const Layout &layout)
 {
-  // read when a pair style is created
-  if (layout.simd.empty())
-    unsetenv("SPH_DISSIPATION_SIMD");
-  else
-    setenv("SPH_DISSIPATION_SIMD", layout.simd.c_str(), 1);
-
+  simd = layout.simd;
   const std::string style = config.spin.empty() ? "sph/bulk" : "sph/micropolar";
   create_box(config, layout, style);
   create_particles(config);
@@ -182,7 +193,7 @@ void LammpsDriver::pair_style(const DenseReference::Model &model, const std::str
   const bool micropolar = !model.spins.empty();
   command("pair_style sph/" + std::string(micropolar ? "micropolar" : "bulk") + " kernel " +
           model.kernel + " dim " + std::to_string(model.n) + " eos " + eos +
-          (micropolar ? "" : " shear " + shear) + " bulk " + bulk + " " + keywords);
+          (micropolar ? "" : " shear " + shear) + " bulk " + bulk + " simd " + simd + " " + keywords);
   auto spin_words = [](const DenseReference::SpinFluid &spin, bool named) {
     return std::string(named ? " mu_r " : " ") + exact(spin.mu_r) + (named ? " gamma1 " : " ") +
         exact(spin.gamma1) + (named ? " gamma2 " : " ") + exact(spin.gamma2);

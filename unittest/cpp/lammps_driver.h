@@ -42,7 +42,7 @@ struct Layout {
   bool newton = true;
   std::string processors = "* * *";
   bool tiled = false;
-  std::string simd;    // instruction set of the pair loops; empty: the package's choice
+  std::string simd = "auto";    // instruction set of the pair loops
 };
 
 class LammpsDriver {
@@ -52,6 +52,9 @@ class LammpsDriver {
 
   // false, and a test failure, if LAMMPS raised an error
   bool command(const std::string &line);
+
+  // names of the instruction sets whose loops can run here
+  std::vector<std::string> instruction_sets();
 
   // a new box with the particles of the configuration and an integrator
   void create(const Configuration &config, const Layout &layout);
@@ -78,6 +81,7 @@ class LammpsDriver {
 
   std::unique_ptr<LAMMPS_NS::LAMMPS> lmp;
   int natoms;
+  std::string simd;
 };
 
 // the one instance of all tests of an executable

@@ -138,10 +138,11 @@ TEST(Forces, processor_grids_and_tiles)
 
 TEST(Forces, instruction_sets)
 {
-  std::vector<Layout> layouts(3);
-  layouts[0].simd = "default";
-  layouts[1].simd = "avx2";
-  layouts[2].simd = "avx512";
+  std::vector<Layout> layouts;
+  for (const auto &simd : lammps().instruction_sets()) {
+    layouts.emplace_back();
+    layouts.back().simd = simd;
+  }
   for (int dim = 1; dim <= 3; dim++)
     check_layouts(periodic_fluid(dim, false, 150 + dim), DenseReference::kernel_names(), {"tait"},
                   layouts);

@@ -174,7 +174,7 @@ TEST(Micropolar, processor_grids_tiles_and_instruction_sets)
     layouts.push_back(newton(on));
     layouts.back().tiled = true;
   }
-  for (const auto &simd : {"default", "avx2", "avx512"}) {
+  for (const auto &simd : lammps().instruction_sets()) {
     layouts.push_back(newton(true));
     layouts.back().simd = simd;
   }

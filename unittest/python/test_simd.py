@@ -1,50 +1,100 @@
-"""The loops for every instruction set of this processor give the same forces to round-off."""
+"""The loops for every instruction set of this processor give the same forces to round-off; keyword simd."""
 
 import re
 
 import pytest
 
-from helpers import disordered, dump, fluid, header, relative
+from helpers import INTEGRATE, disordered, dump, fluid, header, relative
 
-INSTRUCTION_SETS = ("default", "avx2", "avx512")
+INSTRUCTION_SETS = {"none": set(), "avx2": {"avx2", "fma"},
+                    "avx512": {"avx2", "fma", "avx512f", "avx512dq", "avx512vl"}}    # and what the processor needs
 BOUND = 1e-13
 
 
-def fields(lammps, monkeypatch, instruction_set, particles, options):
-    """Forces, heating and number densities, and the name of the loops that LAMMPS printed."""
-    monkeypatch.setenv("SPH_DISSIPATION_SIMD", instruction_set)
+def box(lammps, particles, options, support=None):
+    """A run of no steps; `options` are keywords of pair_style."""
     particles.write(lammps.path("box.data"))
-    result = lammps(header(particles.dim) + "read_data box.data\n" + fluid(particles.dim, options)
-                    + "fix FLUID all sph/bulk\n" + dump("out.dump") + "run 0\n")
+    return lammps(header(particles.dim) + "read_data box.data\n" + fluid(particles.dim, options, support=support)
+                  + "fix FLUID all sph/bulk\n" + dump("out.dump") + "run 0\n")
+
+
+def loops(result):
+    """The loops that LAMMPS says it uses."""
+    return re.search(r"(\w+) loops", result.log)[1]
+
+
+def available(lammps):
+    """Instruction sets whose loops can run here; the others are refused with an error that says so."""
+    found = []
+    for name in INSTRUCTION_SETS:
+        result = lammps(f"pair_style sph/bulk simd {name}\n", check=False)
+        if result.code == 0:
+            found.append(name)
+        else:
+            assert f"Pair_style sph/bulk simd {name}: not in this processor" in result.output
+    assert "none" in found
+    return found
+
+
+def fields(lammps, particles, options, support=None):
+    box(lammps, particles, options, support)
     frame = lammps.frame("out.dump")
-    return {name: frame[name] for name in ("f", "desph", "numden", "dnumden")}, \
-        re.search(r"(\w+) loops", result.log)[1]
+    return {name: frame[name] for name in ("f", "desph", "numden", "dnumden")}
 
 
 @pytest.mark.parametrize("kernel", ["wendland/c2", "wendland/c4", "wendland/c6", "cubic", "quintic", "lucy"])
 @pytest.mark.parametrize("options", ["shear mg bulk density", "shear mg/fr bulk volume", "shear morris bulk volume",
                                      "shear espanol bulk density"])
-def test_instruction_sets_agree(lammps, monkeypatch, kernel, options):
+def test_instruction_sets_agree(lammps, kernel, options):
     particles = disordered(3, (7, 8, 9))
-    results = [fields(lammps, monkeypatch, name, particles, f"kernel {kernel} {options}")
-               for name in INSTRUCTION_SETS]
-    expected, _ = results[0]
-    for values, _ in results[1:]:
-        for name, value in values.items():
-            assert relative(value - expected[name], expected[name]) < BOUND, name
+    expected = fields(lammps, particles, f"kernel {kernel} {options} simd none")
+    for name in available(lammps)[1:]:
+        for field, value in fields(lammps, particles, f"kernel {kernel} {options} simd {name}").items():
+            assert relative(value - expected[field], expected[field]) < BOUND, (name, field)
 
 
-def test_wish_is_obeyed_as_far_as_the_processor_can(lammps, monkeypatch):
+@pytest.mark.parametrize("support", [0.9, 1.1, 1.3, 1.5, 1.7, 1.9])
+def test_short_lists_of_neighbors(lammps, support):
+    """Blocks that are filled up in every way: from no neighbor to some more than a vector has places."""
+    particles = disordered(3, (5, 6, 7))
+    options = "shear espanol bulk volume"
+    expected = fields(lammps, particles, f"{options} simd none", support)
+    for name in available(lammps)[1:]:
+        for field, value in fields(lammps, particles, f"{options} simd {name}", support).items():
+            assert relative(value - expected[field], expected[field]) < BOUND, (name, field)
+
+
+def test_keyword(lammps):
     particles = disordered(2, 8)
-    used = [fields(lammps, monkeypatch, name, particles, "")[1] for name in INSTRUCTION_SETS]
-    assert used[0] == "default"
-    flags = set()
+    here = available(lammps)
+    for name in here:
+        assert loops(box(lammps, particles, f"simd {name}")) == ("plain" if name == "none" else name)
+    best = loops(box(lammps, particles, "simd auto"))
+    assert best == loops(box(lammps, particles, "")) == ("plain" if here[-1] == "none" else here[-1])
+    for style in "sph/bulk", "sph/micropolar":
+        result = lammps(f"pair_style {style} simd sse\n", check=False)
+        assert result.code != 0 and f"Unknown simd sse for pair_style {style}" in result.output
+    result = lammps("pair_style sph/bulk simd\n", check=False)
+    assert result.code != 0 and "pair_style sph/bulk simd" in result.output
+
+
+def test_everything_the_processor_has_is_used(lammps):
+    """Whatever the compiler, if it is GCC or Clang or built on them."""
     try:
         with open("/proc/cpuinfo") as file:
             flags = set(re.search(r"^flags\s*:(.*)$", file.read(), re.MULTILINE)[1].split())
     except (OSError, TypeError):
         pytest.skip("this machine does not tell what its processor can")
-    if {"avx2", "fma"} <= flags:
-        assert used[1] == "avx2"
-    if {"avx2", "fma", "avx512f", "avx512dq", "avx512vl"} <= flags:
-        assert used[2] == "avx512"
+    here = available(lammps)
+    if here == ["none"]:
+        pytest.skip("LAMMPS was built without loops for AVX2 and AVX-512")
+    assert here == [name for name, needed in INSTRUCTION_SETS.items() if needed <= flags]
+
+
+def test_restart_goes_to_another_machine(lammps):
+    """A restart file does not hold the choice."""
+    particles = disordered(2, 8)
+    particles.write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\n" + fluid(2, "simd none") + INTEGRATE + "run 1\nwrite_restart state\n")
+    result = lammps("read_restart state\n" + INTEGRATE + "run 1\n")
+    assert loops(result) == loops(box(lammps, particles, "simd auto"))

@@ -14,17 +14,14 @@
 #include "sph_dissipation_engine.h"
 
 #include <cmath>
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
 
-// the pair loops for the instruction set that the whole of LAMMPS is compiled for
+// the pair loops without vectors, for every processor and compiler
 
-#define LOOPS loops_of_default
+#define LOOPS loops_of_plain
 #include "sph_dissipation_loops.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-  const LoopSet loops_default = {"default", LOOPS::choose_density_loop, LOOPS::choose_force_loop};
+  const LoopSet loops_plain = {"plain", LOOPS::choose_density_loop, LOOPS::choose_force_loop};
 }
 }    // namespace LAMMPS_NS

@@ -1,0 +1,387 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// A thin layer over the vector registers of one instruction set, for sph_dissipation_loops.h, which
+// includes this file once per instruction set.  A Vec holds one number of each of LANES pairs.
+// +, -, * and / act on a Vec as on a double: GCC and Clang have these operators for the vector types
+// of the processor, and where no instruction set is switched on a Vec is a double.
+//
+//   all(a)              a in every lane
+//   if_positive(a, b)   b where a > 0, else 0
+//   bits_below(a, b)    one bit per lane, set where a < b; for if_bits() and pack()
+//   if_bits(bits, a)    a where the bit is set, else 0
+//   count_bits(bits)    how many are set
+//   pack(to, a, bits)   write the lanes whose bits are set one after another; what follows them in
+//                       the next LANES entries is undefined
+//   copy_neighbors()    copy n indices, without the bits that LAMMPS puts into them, and fill up the
+//                       last block by fill, fill + 1, ...
+//   sum(a)              of all lanes
+//   prefetch(p)         the cache line of p will be read soon
+//
+// Rows are structures of N doubles, one per particle; columns are the same numbers, each member in one
+// Vec.  load_4_columns<N>(row, i, column) reads the first four members of the rows i[0] to i[LANES-1],
+// add_4_columns<N>(), add_2_columns<N>() and add_column<N>() add to the first members of the rows,
+// one row after another: an index may occur twice.
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+  namespace LOOPS {
+
+    // row number i of N doubles
+
+    template <int N> inline const double *at(const double *row, int i)
+    {
+      return row + N * static_cast<bigint>(i);
+    }
+    template <int N> inline double *at(double *row, int i)
+    {
+      return row + N * static_cast<bigint>(i);
+    }
+
+#if defined(LOOPS_AVX512)
+
+    constexpr int LANES = 8;
+    typedef __m512d Vec;
+
+    inline Vec all(double a)
+    {
+      return _mm512_set1_pd(a);
+    }
+    inline Vec load(const double *from)
+    {
+      return _mm512_loadu_pd(from);
+    }
+    inline void store(double *to, Vec a)
+    {
+      _mm512_storeu_pd(to, a);
+    }
+    inline Vec square_root(Vec a)
+    {
+      return _mm512_sqrt_pd(a);
+    }
+    inline Vec if_positive(Vec a, Vec value)
+    {
+      return _mm512_maskz_mov_pd(_mm512_cmp_pd_mask(a, _mm512_setzero_pd(), _CMP_GT_OQ), value);
+    }
+    inline int bits_below(Vec a, Vec bound)
+    {
+      return _mm512_cmp_pd_mask(a, bound, _CMP_LT_OQ);
+    }
+    inline Vec if_bits(int bits, Vec value)
+    {
+      return _mm512_maskz_mov_pd(static_cast<__mmask8>(bits), value);
+    }
+    inline void pack(double *to, Vec a, int bits)
+    {
+      _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(bits), a));
+    }
+    inline void pack(int *to, const int *from, int bits)
+    {
+      const __m256i a = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from));
+      _mm256_storeu_si256(reinterpret_cast<__m256i *>(to),
+                          _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), a));
+    }
+    inline void copy_neighbors(int *to, const int *from, int n, int fill)
+    {
+      const __m256i fills =
+          _mm256_add_epi32(_mm256_set1_epi32(fill), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+      for (int k = 0; k < n; k += LANES) {
+        const __mmask8 there = (n - k < LANES) ? (1 << (n - k)) - 1 : 0xff;
+        const __m256i j = _mm256_maskz_loadu_epi32(there, from + k);
+        _mm256_storeu_si256(reinterpret_cast<__m256i *>(to + k),
+                            _mm256_mask_and_epi32(fills, there, j, _mm256_set1_epi32(NEIGHMASK)));
+      }
+    }
+    inline int count_bits(int bits)
+    {
+      return __builtin_popcount(bits);
+    }
+    inline double sum(Vec a)
+    {
+      const __m256d half = _mm512_castpd512_pd256(a) + _mm512_extractf64x4_pd(a, 1);
+      const __m128d pair = _mm256_castpd256_pd128(half) + _mm256_extractf128_pd(half, 1);
+      return _mm_cvtsd_f64(pair) + _mm_cvtsd_f64(_mm_unpackhi_pd(pair, pair));
+    }
+    inline void prefetch(const void *p)
+    {
+      _mm_prefetch(static_cast<const char *>(p), _MM_HINT_T0);
+    }
+    inline Vec load_halves(const double *lower, const double *upper)
+    {
+      return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(lower)),
+                                _mm256_loadu_pd(upper), 1);
+    }
+
+    template <int N> inline void load_4_columns(const double *row, const int *i, Vec *column)
+    {
+      const Vec a = load_halves(at<N>(row, i[0]), at<N>(row, i[2]));
+      const Vec b = load_halves(at<N>(row, i[1]), at<N>(row, i[3]));
+      const Vec c = load_halves(at<N>(row, i[4]), at<N>(row, i[6]));
+      const Vec d = load_halves(at<N>(row, i[5]), at<N>(row, i[7]));
+      const Vec ab_even = _mm512_unpacklo_pd(a, b), cd_even = _mm512_unpacklo_pd(c, d);
+      const Vec ab_odd = _mm512_unpackhi_pd(a, b), cd_odd = _mm512_unpackhi_pd(c, d);
+      column[0] = _mm512_shuffle_f64x2(ab_even, cd_even, 0x88);
+      column[1] = _mm512_shuffle_f64x2(ab_odd, cd_odd, 0x88);
+      column[2] = _mm512_shuffle_f64x2(ab_even, cd_even, 0xdd);
+      column[3] = _mm512_shuffle_f64x2(ab_odd, cd_odd, 0xdd);
+    }
+
+    inline void add_256(double *to, __m256d a)
+    {
+      _mm256_storeu_pd(to, _mm256_loadu_pd(to) + a);
+    }
+    inline void add_128(double *to, __m128d a)
+    {
+      _mm_storeu_pd(to, _mm_loadu_pd(to) + a);
+    }
+
+    template <int N> inline void add_4_columns(double *row, const int *i, const Vec *column)
+    {
+      const Vec even01 = _mm512_unpacklo_pd(column[0], column[1]);
+      const Vec even23 = _mm512_unpacklo_pd(column[2], column[3]);
+      const Vec odd01 = _mm512_unpackhi_pd(column[0], column[1]);
+      const Vec odd23 = _mm512_unpackhi_pd(column[2], column[3]);
+      const __m512i lower = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11);
+      const __m512i upper = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+      const Vec rows02 = _mm512_permutex2var_pd(even01, lower, even23);
+      const Vec rows13 = _mm512_permutex2var_pd(odd01, lower, odd23);
+      const Vec rows46 = _mm512_permutex2var_pd(even01, upper, even23);
+      const Vec rows57 = _mm512_permutex2var_pd(odd01, upper, odd23);
+      add_256(at<N>(row, i[0]), _mm512_castpd512_pd256(rows02));
+      add_256(at<N>(row, i[1]), _mm512_castpd512_pd256(rows13));
+      add_256(at<N>(row, i[2]), _mm512_extractf64x4_pd(rows02, 1));
+      add_256(at<N>(row, i[3]), _mm512_extractf64x4_pd(rows13, 1));
+      add_256(at<N>(row, i[4]), _mm512_castpd512_pd256(rows46));
+      add_256(at<N>(row, i[5]), _mm512_castpd512_pd256(rows57));
+      add_256(at<N>(row, i[6]), _mm512_extractf64x4_pd(rows46, 1));
+      add_256(at<N>(row, i[7]), _mm512_extractf64x4_pd(rows57, 1));
+    }
+
+    template <int N> inline void add_2_columns(double *row, const int *i, const Vec *column)
+    {
+      const Vec even = _mm512_unpacklo_pd(column[0], column[1]);
+      const Vec odd = _mm512_unpackhi_pd(column[0], column[1]);
+      add_128(at<N>(row, i[0]), _mm512_castpd512_pd128(even));
+      add_128(at<N>(row, i[1]), _mm512_castpd512_pd128(odd));
+      add_128(at<N>(row, i[2]), _mm512_extractf64x2_pd(even, 1));
+      add_128(at<N>(row, i[3]), _mm512_extractf64x2_pd(odd, 1));
+      add_128(at<N>(row, i[4]), _mm512_extractf64x2_pd(even, 2));
+      add_128(at<N>(row, i[5]), _mm512_extractf64x2_pd(odd, 2));
+      add_128(at<N>(row, i[6]), _mm512_extractf64x2_pd(even, 3));
+      add_128(at<N>(row, i[7]), _mm512_extractf64x2_pd(odd, 3));
+    }
+
+#elif defined(LOOPS_AVX2)
+
+    constexpr int LANES = 4;
+    typedef __m256d Vec;
+
+    inline Vec all(double a)
+    {
+      return _mm256_set1_pd(a);
+    }
+    inline Vec load(const double *from)
+    {
+      return _mm256_loadu_pd(from);
+    }
+    inline void store(double *to, Vec a)
+    {
+      _mm256_storeu_pd(to, a);
+    }
+    inline Vec square_root(Vec a)
+    {
+      return _mm256_sqrt_pd(a);
+    }
+    inline Vec if_positive(Vec a, Vec value)
+    {
+      return _mm256_and_pd(_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GT_OQ), value);
+    }
+    inline int bits_below(Vec a, Vec bound)
+    {
+      return _mm256_movemask_pd(_mm256_cmp_pd(a, bound, _CMP_LT_OQ));
+    }
+
+    inline Vec if_bits(int bits, Vec value)
+    {
+      const __m256i lane_bit = _mm256_setr_epi64x(1, 2, 4, 8);
+      const __m256i lanes = _mm256_and_si256(_mm256_set1_epi64x(bits), lane_bit);
+      return _mm256_and_pd(_mm256_castsi256_pd(_mm256_cmpeq_epi64(lanes, lane_bit)), value);
+    }
+
+    // PACK[bits]: the lanes whose bits are set first, each lane as a pair of 32-bit halves
+
+    alignas(32) constexpr int PACK[16][8] = {
+        {0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}, {2, 3, 0, 1, 4, 5, 6, 7},
+        {0, 1, 2, 3, 4, 5, 6, 7}, {4, 5, 0, 1, 2, 3, 6, 7}, {0, 1, 4, 5, 2, 3, 6, 7},
+        {2, 3, 4, 5, 0, 1, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}, {6, 7, 0, 1, 2, 3, 4, 5},
+        {0, 1, 6, 7, 2, 3, 4, 5}, {2, 3, 6, 7, 0, 1, 4, 5}, {0, 1, 2, 3, 6, 7, 4, 5},
+        {4, 5, 6, 7, 0, 1, 2, 3}, {0, 1, 4, 5, 6, 7, 2, 3}, {2, 3, 4, 5, 6, 7, 0, 1},
+        {0, 1, 2, 3, 4, 5, 6, 7}};
+
+    inline void pack(double *to, Vec a, int bits)
+    {
+      const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i *>(PACK[bits]));
+      const __m256 packed = _mm256_permutevar8x32_ps(_mm256_castpd_ps(a), order);
+      _mm256_storeu_pd(to, _mm256_castps_pd(packed));
+    }
+    inline void pack(int *to, const int *from, int bits)
+    {
+      int n = 0;
+      for (int l = 0; l < LANES; l++) {
+        to[n] = from[l];
+        n += (bits >> l) & 1;
+      }
+    }
+
+    inline void copy_neighbors(int *to, const int *from, int n, int fill)
+    {
+      for (int k = 0; k < n; k++) to[k] = from[k] & NEIGHMASK;
+      for (int l = 0; l < LANES; l++) to[n + l] = fill + l;
+    }
+    inline int count_bits(int bits)
+    {
+      return __builtin_popcount(bits);
+    }
+    inline double sum(Vec a)
+    {
+      const __m128d pair = _mm256_castpd256_pd128(a) + _mm256_extractf128_pd(a, 1);
+      return _mm_cvtsd_f64(pair) + _mm_cvtsd_f64(_mm_unpackhi_pd(pair, pair));
+    }
+    inline void prefetch(const void *p)
+    {
+      _mm_prefetch(static_cast<const char *>(p), _MM_HINT_T0);
+    }
+
+    inline void transpose(Vec &a, Vec &b, Vec &c, Vec &d)
+    {
+      const Vec ab_even = _mm256_unpacklo_pd(a, b), cd_even = _mm256_unpacklo_pd(c, d);
+      const Vec ab_odd = _mm256_unpackhi_pd(a, b), cd_odd = _mm256_unpackhi_pd(c, d);
+      a = _mm256_permute2f128_pd(ab_even, cd_even, 0x20);
+      b = _mm256_permute2f128_pd(ab_odd, cd_odd, 0x20);
+      c = _mm256_permute2f128_pd(ab_even, cd_even, 0x31);
+      d = _mm256_permute2f128_pd(ab_odd, cd_odd, 0x31);
+    }
+
+    template <int N> inline void load_4_columns(const double *row, const int *i, Vec *column)
+    {
+      for (int l = 0; l < LANES; l++) column[l] = load(at<N>(row, i[l]));
+      transpose(column[0], column[1], column[2], column[3]);
+    }
+
+    template <int N> inline void add_4_columns(double *row, const int *i, const Vec *column)
+    {
+      Vec r[4] = {column[0], column[1], column[2], column[3]};
+      transpose(r[0], r[1], r[2], r[3]);
+      for (int l = 0; l < LANES; l++) {
+        double *const to = at<N>(row, i[l]);
+        store(to, load(to) + r[l]);
+      }
+    }
+
+    inline void add_128(double *to, __m128d a)
+    {
+      _mm_storeu_pd(to, _mm_loadu_pd(to) + a);
+    }
+
+    template <int N> inline void add_2_columns(double *row, const int *i, const Vec *column)
+    {
+      const Vec even = _mm256_unpacklo_pd(column[0], column[1]);
+      const Vec odd = _mm256_unpackhi_pd(column[0], column[1]);
+      add_128(at<N>(row, i[0]), _mm256_castpd256_pd128(even));
+      add_128(at<N>(row, i[1]), _mm256_castpd256_pd128(odd));
+      add_128(at<N>(row, i[2]), _mm256_extractf128_pd(even, 1));
+      add_128(at<N>(row, i[3]), _mm256_extractf128_pd(odd, 1));
+    }
+
+#else
+
+    constexpr int LANES = 1;
+    typedef double Vec;
+
+    inline Vec all(double a)
+    {
+      return a;
+    }
+    inline Vec load(const double *from)
+    {
+      return *from;
+    }
+    inline void store(double *to, Vec a)
+    {
+      *to = a;
+    }
+    inline Vec square_root(Vec a)
+    {
+      return std::sqrt(a);
+    }
+    inline Vec if_positive(Vec a, Vec value)
+    {
+      return (a > 0.0) ? value : 0.0;
+    }
+    inline int bits_below(Vec a, Vec bound)
+    {
+      return (a < bound) ? 1 : 0;
+    }
+    inline Vec if_bits(int bits, Vec value)
+    {
+      return bits ? value : 0.0;
+    }
+    inline void pack(double *to, Vec a, int)
+    {
+      *to = a;
+    }
+    inline void pack(int *to, const int *from, int)
+    {
+      *to = *from;
+    }
+    inline void copy_neighbors(int *to, const int *from, int n, int fill)
+    {
+      for (int k = 0; k < n; k++) to[k] = from[k] & NEIGHMASK;
+      for (int l = 0; l < LANES; l++) to[n + l] = fill + l;
+    }
+    inline int count_bits(int bits)
+    {
+      return bits;
+    }
+    inline double sum(Vec a)
+    {
+      return a;
+    }
+    inline void prefetch(const void *) {}
+    template <int N> inline void load_4_columns(const double *row, const int *i, Vec *column)
+    {
+      for (int c = 0; c < 4; c++) column[c] = at<N>(row, *i)[c];
+    }
+    template <int N> inline void add_4_columns(double *row, const int *i, const Vec *column)
+    {
+      for (int c = 0; c < 4; c++) at<N>(row, *i)[c] += column[c];
+    }
+    template <int N> inline void add_2_columns(double *row, const int *i, const Vec *column)
+    {
+      for (int c = 0; c < 2; c++) at<N>(row, *i)[c] += column[c];
+    }
+
+#endif
+
+    // the same for all instruction sets
+
+    template <int N> inline void add_column(double *row, const int *i, Vec column)
+    {
+      double lane[LANES];
+      store(lane, column);
+      for (int l = 0; l < LANES; l++) *at<N>(row, i[l]) += lane[l];
+    }
+
+  }    // namespace LOOPS
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
