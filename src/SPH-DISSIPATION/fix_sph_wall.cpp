@@ -25,6 +25,7 @@
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exclusions.h"
+#include "sph_dissipation_extension.h"
 #include "sph_dissipation_wall_checks.h"
 #include "sph_dissipation_wall_motion.h"
 #include "update.h"
@@ -232,12 +233,29 @@ void FixSPHWall::set_velocity()
   }
 }
 
+/* ---------------------------------------------------------------------- */
+
+void FixSPHWall::move_surface(Surface *surface, bool before)
+{
+  double w[3], rotation[3][3], shift[3], turned[3];
+  motion->angular_velocity(w);
+  const bool turns = before && motion->rotates() && move && update->whichflag == 1;
+  if (turns) motion->last_step(rotation, shift);
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    std::copy(w, w + 3, surface[i].omega);
+    if (!turns) continue;
+    MathExtra::matvec(rotation, surface[i].normal, turned);
+    std::copy(turned, turned + 3, surface[i].normal);
+  }
+}
+
 /* ----------------------------------------------------------------------
    what the particles of the wall bring into the pair forces.  An extrapolated pressure has no
    energy: in a minimization, they have none, and the forces are the gradient of that of the fluid.
 ------------------------------------------------------------------------- */
 
-void FixSPHWall::set_boundary(Engine &engine, const BoundarySum *sums)
+void FixSPHWall::set_boundary(Engine &engine, const Surface *surfaces, const BoundarySum *sums)
 {
   if (update->whichflag == 2) return;
 
@@ -251,55 +269,63 @@ void FixSPHWall::set_boundary(Engine &engine, const BoundarySum *sums)
     if (!(sum.weight > 0.0)) continue;
     const double norm = 1.0 / sum.weight;
 
-    double r[3], to_fluid[3], acceleration[3], wall_there[3];
+    double r[3], acceleration[3];
     from_point(i, r);
     motion->acceleration_at(r, acceleration);
-
-    // velocity of the wall, as a rigid body, where the velocity of the fluid is known
-
-    for (int d = 0; d < 3; d++) to_fluid[d] = -sum.r[d] * norm;
-    MathExtra::cross3(w, to_fluid, wall_there);
 
     atom->rho[i] = sum.rho * norm;
     atom->vfrac[i] = particle.vol = atom->rmass[i] / atom->rho[i];
     double pressure = sum.pressure * norm;
     for (int d = 0; d < 3; d++)
-      pressure -= atom->rho[i] * (gravity[d] - acceleration[d]) * to_fluid[d];
+      pressure += sum.rho * norm * (gravity[d] - acceleration[d]) * sum.r[d] * norm;
     particle.g = pressure * particle.vol * particle.vol;
     engine.zeta_term[i] = sum.zeta_term * norm;
-    for (int d = 0; d < 3; d++) {
-      const double relative = sum.u[d] * norm - (particle.u[d] + wall_there[d]);
-      particle.u[d] += slip ? relative : -relative;
-    }
-    if (engine.spin && spin != RATE)
-      for (int d = 0; d < 3; d++) {
-        const double fluid = sum.w[d] * norm;
-        engine.spin[i].w[d] = (spin == FREE) ? fluid : 2.0 * w[d] - fluid;
-      }
+    extend_motion(surfaces[i], sum, particle, engine.spin ? engine.spin + i : nullptr);
   }
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   velocity and spin of the fluid go on behind the surface as its condition says
+------------------------------------------------------------------------- */
 
-void FixSPHWall::set_boundary_spin(Engine &engine, const BoundarySum *sums, double **vorticity)
+void FixSPHWall::extend_motion(const Surface &surface, const BoundarySum &sum, Particle &particle,
+                               SPHDissipation::Spin *omega) const
 {
-  double w[3];
-  motion->angular_velocity(w);
-  for (int i = 0; i < atom->nlocal; i++) {
-    const BoundarySum &sum = sums[i];
-    if (!(atom->mask[i] & groupbit) || !(sum.weight > 0.0)) continue;
-    for (int d = 0; d < 3; d++) {
-      const double surface = w[d] + rate * (0.5 * vorticity[i][d] / sum.weight - w[d]);
-      engine.spin[i].w[d] = 2.0 * surface - sum.w[d] / sum.weight;
-    }
+  const double norm = 1.0 / sum.weight;
+  const double stretch = std::max(CLOSEST_MEAN * surface.spacing / (norm * sum.d), 1.0);
+  const double norm_d = norm * stretch;
+  const DistanceMeans distance = {norm_d * sum.d, norm_d * stretch * sum.d2,
+                                  norm_d * stretch * stretch * sum.d3};
+  const double *const normal = surface.normal;
+  const double depth = surface.depth;
+
+  // across the surface the velocity is zero, with a slope that is zero where the fluid sticks: the
+  // image of the mean is enough, and does not ask for a smaller time step
+
+  const double mirrored = std::min(depth / distance.d, 1.0);
+  const double across = MathExtra::dot3(sum.u, normal) * norm;
+  const double across_d = MathExtra::dot3(sum.ud, normal) * norm_d;
+  double slope[3];
+  for (int d = 0; d < 3; d++) {
+    const double u = sum.u[d] * norm - across * normal[d];
+    const double ud = sum.ud[d] * norm_d - across_d * normal[d];
+    const Extension along = slip ? distance.free(u, ud) : distance.stuck(u, ud);
+    slope[d] = slip ? distance.straight_slope(u, ud) : along.slope;
+    particle.u[d] += along.behind(depth) - mirrored * across * normal[d];
   }
-}
+  if (!omega) return;
 
-/* ---------------------------------------------------------------------- */
+  // the vorticity relative to the wall is normal x slope
 
-bool FixSPHWall::boundary_vorticity() const
-{
-  return spin == RATE;
+  double surface_spin[3] = {0.0, 0.0, 0.0};
+  if (spin == RATE) MathExtra::cross3(normal, slope, surface_spin);
+  for (int d = 0; d < 3; d++) {
+    const double at_surface = 0.5 * rate * surface_spin[d];
+    const double s = sum.w[d] * norm - at_surface;
+    const double sd = sum.wd[d] * norm_d - at_surface * distance.d;
+    const Extension beyond = (spin == FREE) ? distance.free(s, sd) : distance.stuck(s, sd);
+    omega->w[d] += at_surface + beyond.behind(depth);
+  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -57,10 +57,9 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   double memory_usage() override;
 
   int boundary_bit() const override { return groupbit; }
-  bool boundary_vorticity() const override;
-  void set_boundary(SPHDissipation::Engine &, const SPHDissipation::BoundarySum *) override;
-  void set_boundary_spin(SPHDissipation::Engine &, const SPHDissipation::BoundarySum *,
-                         double **) override;
+  void move_surface(SPHDissipation::Surface *, bool) override;
+  void set_boundary(SPHDissipation::Engine &, const SPHDissipation::Surface *,
+                    const SPHDissipation::BoundarySum *) override;
 
  private:
   enum Spin { ZERO, RATE, FREE };
@@ -78,6 +77,8 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
   void from_point(int, double *) const;
   void set_velocity();
+  void extend_motion(const SPHDissipation::Surface &, const SPHDissipation::BoundarySum &,
+                     SPHDissipation::Particle &, SPHDissipation::Spin *) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -18,21 +18,36 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   class Engine;
+  struct Particle;
+  struct Spin;
+
+  // Where the surface is, seen from a boundary particle w
+
+  struct Surface {
+    double normal[3];    // toward the fluid; zero: unknown
+    double depth;        // distance of w from the surface
+    double spacing;      // of the particles
+    double omega[3];     // angular velocity of the rigid body that w belongs to
+  };
 
   // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
   // particles f of V_f W(r_wf) times the quantity, S. Adami et al., J. Comput. Phys. 231, 7057 (2012)
   // of a fluid particle: weight is the part of its support that boundary particles fill, filled that
   // of a support of a few particle spacings, or of its own if that is smaller
+  // relative: to the velocity that the rigid body of w has at f; d: distance of f from the surface
 
   struct BoundarySum {
     double weight;       // 1
-    double u[3];         // velocity
     double r[3];         // x_w - x_f
     double rho;          // density
     double pressure;     // p + zeta V cdot (bulk density), p (otherwise)
     double zeta_term;    // zeta V cdot
     double filled;       // fluid particles only
-    double w[3];         // spin (micropolar)
+    double d, d2, d3;    // d, d^2, d^3
+    double u[3];         // relative velocity
+    double ud[3];        // relative velocity times d
+    double w[3];         // relative spin (micropolar)
+    double wd[3];        // relative spin times d (micropolar)
   };
 
   // What a fix does between the two passes of the pair style whose particles are not fluid, but
@@ -41,18 +56,17 @@ namespace SPHDissipation {
 
   class Boundary {
    public:
-    virtual int boundary_bit() const = 0;           // bit of the group of its particles
-    virtual bool boundary_vorticity() const = 0;    // spins depend on the vorticity of the fluid
+    virtual int boundary_bit() const = 0;    // bit of the group of its particles
+
+    // set Surface::omega of its owned and ghost particles; turn their normals by the motion of the
+    // last step if they date from before it
+
+    virtual void move_surface(Surface *, bool before) = 0;
 
     // set what its owned particles bring into the pair forces, from the sums over the fluid around
     // them: u, vol and g of Engine::particle, Engine::zeta_term and, if there are spins, Engine::spin
 
-    virtual void set_boundary(Engine &, const BoundarySum *) = 0;
-
-    // set Engine::spin, with the vorticity of the fluid summed up like the rest, weighted with the
-    // kernel; only if boundary_vorticity()
-
-    virtual void set_boundary_spin(Engine &, const BoundarySum *, double **vorticity) = 0;
+    virtual void set_boundary(Engine &, const Surface *, const BoundarySum *) = 0;
 
    protected:
     ~Boundary() = default;    // nobody deletes a fix through this

@@ -15,14 +15,17 @@
 
 #include "atom.h"
 #include "error.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "sph_dissipation_boundary.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_extension.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_vorticity.h"
+#include "sph_dissipation_surface.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +41,7 @@ BoundaryStage::BoundaryStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
                              const FluidModel &model, const std::string &style) :
     Stage(lmp, engine, exchange),
     sum(nullptr), model(model), style(style), group_bits(0), rows_bits(0), nmax(0),
-    vorticity(new VorticityStage(lmp, engine, exchange))
+    surface(new SurfaceStage(lmp, engine, exchange)), surface_step(-1)
 {
 }
 
@@ -47,7 +50,7 @@ BoundaryStage::BoundaryStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
 BoundaryStage::~BoundaryStage()
 {
   memory->sfree(sum);
-  delete vorticity;
+  delete surface;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -89,38 +92,52 @@ void BoundaryStage::run(NeighList *list)
     memory->sfree(sum);
     sum = (BoundarySum *) memory->smalloc(nmax * sizeof(BoundarySum), "sph:boundary_sum");
   }
+  const bool found = (neighbor->ago == 0 || group_bits != rows_bits);
+  if (found) find_rows(list);
   find_pairs(list);
+  if (found) surface->run(group_bits, pairs);
+  const bool before = (!found && surface_step != update->ntimestep);
+  surface_step = update->ntimestep;
+  for (auto boundary : boundaries) boundary->move_surface(surface->surface, before);
+
   accumulate();
   const Field sums = field(sum, &sum->weight, offsetof(BoundarySum, w) / sizeof(double));
   if (engine.has_spin())
-    exchange.reverse({sums, field(sum, sum->w, 3)});
+    exchange.reverse({sums, field(sum, sum->w, 6)});
   else
     exchange.reverse({sums});
   check();
+  for (auto boundary : boundaries) boundary->set_boundary(engine, surface->surface, sum);
 
-  bool needs_vorticity = false;
-  for (auto boundary : boundaries) {
-    boundary->set_boundary(engine, sum);
-    needs_vorticity = needs_vorticity || boundary->boundary_vorticity();
-  }
-
-  // ghost atoms of the fluid get what they have already; the weight is for the vorticity
+  // ghost atoms of the fluid get what they have already
 
   Particle *const particle = engine.particle;
   const Field state = field(particle, particle->u, 3),
               pressure = field(particle, &particle->vol, 2);
-  const Field zeta_term = {engine.zeta_term, 1, 1}, weight = field(sum, &sum->weight, 1);
+  const Field zeta_term = {engine.zeta_term, 1, 1};
   if (engine.has_spin())
-    exchange.forward({state, pressure, zeta_term, weight, field(engine.spin, engine.spin->w, 3)});
+    exchange.forward({state, pressure, zeta_term, field(engine.spin, engine.spin->w, 3)});
   else
     exchange.forward({state, pressure, zeta_term});
-  if (!needs_vorticity || !engine.has_spin()) return;
+}
 
-  vorticity->run(list, group_bits, pairs, sum);
-  for (auto boundary : boundaries)
-    if (boundary->boundary_vorticity())
-      boundary->set_boundary_spin(engine, sum, vorticity->vorticity);
-  exchange.forward({field(engine.spin, engine.spin->w, 3)});
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::find_rows(NeighList *list)
+{
+  const int *const mask = atom->mask;
+  rows_bits = group_bits;
+  set_near();
+  rows.clear();
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const bool wall = mask[i] & group_bits;
+    for (int jj = 0; jj < list->numneigh[i]; jj++)
+      if (static_cast<bool>(mask[list->firstneigh[i][jj] & NEIGHMASK] & group_bits) != wall) {
+        rows.push_back(ii);
+        break;
+      }
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -148,21 +165,6 @@ void BoundaryStage::set_near()
 void BoundaryStage::find_pairs(NeighList *list)
 {
   const int *const mask = atom->mask;
-  if (neighbor->ago == 0 || group_bits != rows_bits) {
-    rows_bits = group_bits;
-    set_near();
-    rows.clear();
-    for (int ii = 0; ii < list->inum; ii++) {
-      const int i = list->ilist[ii];
-      const bool wall = mask[i] & group_bits;
-      for (int jj = 0; jj < list->numneigh[i]; jj++)
-        if (static_cast<bool>(mask[list->firstneigh[i][jj] & NEIGHMASK] & group_bits) != wall) {
-          rows.push_back(ii);
-          break;
-        }
-    }
-  }
-
   pairs.clear();
   const LoopData &all = engine.pairs();
   for (const int ii : rows) {
@@ -171,7 +173,7 @@ void BoundaryStage::find_pairs(NeighList *list)
     for (bigint entry = all.first[ii]; entry < all.first[ii] + all.count[ii]; entry++) {
       const int j = all.neighbor[entry];
       if (static_cast<bool>(mask[j] & group_bits) == wall) continue;
-      pairs.push_back({wall ? j : i, wall ? i : j, entry, 0.0});
+      pairs.push_back({wall ? j : i, wall ? i : j, entry});
     }
   }
 }
@@ -188,25 +190,40 @@ void BoundaryStage::accumulate()
   const LoopData &all = engine.pairs();
 
   with_kernel(engine.kernel_form(), [&](auto k) {
-    for (auto &pair : pairs) {
+    for (const auto &pair : pairs) {
       const Particle &f = engine.particle[pair.fluid];
       const Particle &w = engine.particle[pair.wall];
-      double r[3], rsq = 0.0;
+      const Surface &s = surface->surface[pair.wall];
+      double r[3], turn[3], rsq = 0.0, normal_r = 0.0;
       for (int d = 0; d < 3; d++) {
         r[d] = w.x[d] - f.x[d];
         rsq += r[d] * r[d];
+        normal_r += s.normal[d] * r[d];
       }
       const double distance = sqrt(rsq);
       const double kernel_weight = all.weight_norm * k.shape(distance / all.support);
-      const double weight = pair.weight = f.vol * kernel_weight;
+      const double weight = f.vol * kernel_weight;
+      const double height = std::max(-s.depth - normal_r, CLOSEST * s.spacing);
+      const double weight_d = weight * height;
+      MathExtra::cross3(s.omega, r, turn);
 
       BoundarySum &total = sum[pair.wall];
       total.weight += weight;
+      total.d += weight_d;
+      total.d2 += weight_d * height;
+      total.d3 += weight_d * height * height;
       for (int d = 0; d < 3; d++) {
-        total.u[d] += weight * f.u[d];
+        const double relative = f.u[d] - w.u[d] + turn[d];
         total.r[d] += weight * r[d];
-        if (has_spin) total.w[d] += weight * engine.spin[pair.fluid].w[d];
+        total.u[d] += weight * relative;
+        total.ud[d] += weight_d * relative;
       }
+      if (has_spin)
+        for (int d = 0; d < 3; d++) {
+          const double relative = engine.spin[pair.fluid].w[d] - s.omega[d];
+          total.w[d] += weight * relative;
+          total.wd[d] += weight_d * relative;
+        }
       total.rho += weight * rho[pair.fluid];
       total.pressure += kernel_weight * f.g / f.vol;
       total.zeta_term += weight * engine.zeta_term[pair.fluid];
@@ -239,5 +256,5 @@ void BoundaryStage::check() const
 double BoundaryStage::memory_usage() const
 {
   return (double) nmax * sizeof(BoundarySum) + (double) pairs.capacity() * sizeof(BoundaryPair) +
-      (double) rows.capacity() * sizeof(int) + vorticity->memory_usage();
+      (double) rows.capacity() * sizeof(int) + surface->memory_usage();
 }

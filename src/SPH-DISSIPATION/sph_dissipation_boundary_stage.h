@@ -24,15 +24,14 @@ namespace SPHDissipation {
 
   class Boundary;
   class FluidModel;
-  class VorticityStage;
+  class SurfaceStage;
   struct BoundarySum;
 
   // a pair of a fluid and a boundary particle inside the support
 
   struct BoundaryPair {
     int fluid, wall;
-    bigint entry;     // of the pairs of the engine
-    double weight;    // V_fluid W
+    bigint entry;    // of the pairs of the engine
   };
 
   // Boundary particles get the velocity, volume, pressure and spin that act in the pair forces
@@ -42,7 +41,7 @@ namespace SPHDissipation {
     BoundaryStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &,
                   const std::string &style);
     ~BoundaryStage() override;
-    static constexpr int FORWARD = 10, REVERSE = 18;    // values per atom
+    static constexpr int FORWARD = 9, REVERSE = 23;    // values per atom
 
     void add(Boundary *);       // no effect if it is there
     void remove(Boundary *);    // no effect if it is not there
@@ -58,10 +57,9 @@ namespace SPHDissipation {
 
     double memory_usage() const override;
 
+   private:
     BoundarySum *sum;                   // of owned and ghost atoms
     std::vector<BoundaryPair> pairs;    // of this step
-
-   private:
     const FluidModel &model;
     const std::string style;    // of the pair style, for messages
     std::vector<Boundary *> boundaries;
@@ -81,9 +79,11 @@ namespace SPHDissipation {
     std::vector<NearKernel> near;
 
     int nmax;
-    VorticityStage *vorticity;
+    SurfaceStage *surface;
+    bigint surface_step;    // that the normals of the surface are for
 
     void set_near();
+    void find_rows(NeighList *);
     void find_pairs(NeighList *);
     void accumulate();
     void check() const;

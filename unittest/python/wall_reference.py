@@ -116,6 +116,50 @@ def harmonic(a):
     return np.divide(2.0 * a[:, None] * a, total, out=np.zeros_like(total), where=total != 0.0)
 
 
+def surface_of(model, x_from, dist, F, solid, fluid, volume):
+    """Normal and depth of each wall particle; x_from[i, j] points from i to j.
+
+    The outer layer is what a Gaussian does not find surrounded and what looks at the fluid; the depth is the mean over
+    the planes that touch it.
+    """
+    n, at = model.dim, np.flatnonzero(solid)
+    spacing = volume ** (1 / n)
+    normal, depth = np.zeros((len(solid), 3)), np.zeros(len(solid))
+    planes = {}
+    for i in at:
+        near = at[dist[i, at] < min(model.support, 3.0 * spacing[i])]
+        width = 0.7 * spacing[i]
+        gauss = volume[near] * np.exp(-dist[i, near] ** 2 / (2 * width ** 2)) / (2 * pi * width ** 2) ** (n / 2)
+        inward = gauss @ x_from[i, near]
+        side = F[i, fluid] @ x_from[i, fluid]
+        if gauss.sum() < 0.85 and inward @ side < 0.0:
+            planes[i] = -inward / np.linalg.norm(inward), (gauss.sum() - 0.5) * np.sqrt(2 * pi) * width
+    for i in at:
+        near = [j for j in planes if dist[i, j] < model.support]
+        if not near:
+            depth[i] = 0.45 * spacing[i]
+            continue
+        share = (dist[i, near] ** 2 + (0.25 * spacing[i]) ** 2) ** -4.0
+        share /= share.sum()
+        depth[i] = max(0.0, sum(w * (planes[j][0] @ x_from[i, j] + planes[j][1]) for w, j in zip(share, near)))
+        mean = sum(w * planes[j][0] for w, j in zip(share, near))
+        normal[i] = mean / np.linalg.norm(mean)
+    return normal, depth
+
+
+def beyond(kind, depth, d, q, weight):
+    """What a field q of the fluid at distances d is at the given depth behind the surface, where q ("zero") or its
+    derivative ("flat") vanishes: the other one and the second derivative from the moments of q, the third moment of d
+    a tenth larger."""
+    m1, m2, m3 = (weight @ d ** k for k in (1, 2, 3))
+    moments = np.array([weight @ q, (weight * d) @ q])
+    if kind == "zero":
+        slope, bend = np.linalg.solve([[m1, m2], [m2, 1.1 * m3]], moments)
+        return -slope * depth + bend * depth ** 2, slope
+    level, bend = np.linalg.solve([[1.0, m2], [m1, 1.1 * m3]], moments)
+    return level + bend * depth ** 2, (moments[1] - m1 * moments[0]) / (1.1 * m2 - m1 ** 2)
+
+
 def forces(model, state, walls):
     """Forces, torques, and all that leads to them."""
     n, x, number = model.dim, state.x, len(state.x)
@@ -170,33 +214,31 @@ def forces(model, state, walls):
     static[solid] = np.where(wet, static_mean + head, 0.0)[solid]
     viscous[solid] = np.where(wet, viscous_mean, 0.0)[solid]
 
-    # the velocity of the fluid relative to that of the rigid body which the wall is
+    # behind the surface, velocity and spin of the fluid relative to the rigid body which the wall is
+    reference = np.array([mass / one.rho0 for mass, one in zip(state.mass, own)])
+    normal, depth = surface_of(model, -r, dist, F, solid, fluid, reference)
     virtual = u.copy()
     for wall, at in zip(walls, in_wall):
-        relative = mean(u * fluid[:, None])[at] - wall.velocity_at(x[at] - centre[at])
-        relative[~wet[at]] = 0.0
-        virtual[at] = u[at] + (relative if wall.slip == "free" else -relative)
-
-    # vorticity of the fluid from the fluid around, for the walls whose spin follows it
+        spin[at] = wall_spin[at]
+        for i in at[wet[at]]:
+            near = np.flatnonzero(weight[i])
+            share = weight[i, near] / total[i]
+            spacing = reference[i] ** (1 / n)
+            d = np.maximum(-r[i, near] @ normal[i] - depth[i], 0.25 * spacing)
+            d *= max(0.45 * spacing / (share @ d), 1.0)
+            relative = u[near] - wall.velocity_at(x[i] - r[i, near])
+            across = relative @ normal[i]
+            along = relative - np.outer(across, normal[i])
+            q, slope = beyond("flat" if wall.slip == "free" else "zero", depth[i], d, along, share)
+            virtual[i] += q - min(depth[i] / (share @ d), 1.0) * (share @ across) * normal[i]
+            relative = spin[near] - wall.omega
+            if wall.spin == "free":
+                spin[i] += beyond("flat", depth[i], d, relative, share)[0]
+            else:
+                alpha = 0.0 if wall.spin == "zero" else wall.spin
+                edge = 0.5 * alpha * np.cross(normal[i], slope)
+                spin[i] += edge + beyond("zero", depth[i], d, relative - edge, share)[0]
     uu = virtual[:, None] - virtual
-    VF = np.where(fluid, vol * F, 0.0)
-    moment = np.einsum("ij,ija,ijb->iab", VF, r, r)[:, :n, :n]
-    slope = np.linalg.pinv(moment) @ np.einsum("ij,ija,ijb->iab", VF, r, uu)[:, :n]
-    vorticity = np.zeros((number, 3))
-    vorticity[:, 2] = slope[:, 0, 1] - slope[:, 1, 0]
-    if n == 3:
-        vorticity[:, 0] = slope[:, 1, 2] - slope[:, 2, 1]
-        vorticity[:, 1] = slope[:, 2, 0] - slope[:, 0, 2]
-    spin_mean, vorticity_mean = mean(spin * fluid[:, None]), mean(vorticity * fluid[:, None])
-    for wall, at in zip(walls, in_wall):
-        if wall.spin == "free":
-            spin[at] = spin_mean[at]
-        else:
-            alpha = 0.0 if wall.spin == "zero" else wall.spin
-            surface = wall_spin[at] + alpha * (0.5 * vorticity_mean[at] - wall_spin[at])
-            spin[at] = 2.0 * surface - spin_mean[at]
-        dry = at[~wet[at]]
-        spin[dry] = wall_spin[dry]
 
     # pair forces
     VV = vol[:, None] * vol

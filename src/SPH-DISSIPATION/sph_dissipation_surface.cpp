@@ -1,0 +1,182 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_surface.h"
+
+#include "atom.h"
+#include "math_const.h"
+#include "math_extra.h"
+#include "memory.h"
+#include "sph_dissipation_boundary.h"
+#include "sph_dissipation_boundary_stage.h"
+#include "sph_dissipation_cells.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
+#include "sph_dissipation_extension.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+// in particle spacings: width and cutoff of the Gaussian that finds the outer layer; on lattices its
+// sums are as good as integrals
+
+static constexpr double WIDTH = 0.7;
+static constexpr double CUTOFF = 3.0;
+
+// filled part of space around a particle: half at the surface, 0.67 to 0.79 in the outer layer of
+// lattices, and at least 0.87 in the next one
+
+static constexpr double OUTER = 0.85;
+
+/* ---------------------------------------------------------------------- */
+
+SurfaceStage::SurfaceStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
+    Stage(lmp, engine, exchange), surface(nullptr), nmax(0)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+SurfaceStage::~SurfaceStage()
+{
+  memory->sfree(surface);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SurfaceStage::run(int bits, const std::vector<BoundaryPair> &pairs)
+{
+  if (nmax < atom->nmax) {
+    nmax = atom->nmax;
+    memory->sfree(surface);
+    surface = (Surface *) memory->smalloc(nmax * sizeof(Surface), "sph:surface");
+  }
+
+  const int nall = atom->nlocal + atom->nghost;
+  memset(surface, 0, nall * sizeof(Surface));
+  find_sides(pairs);
+
+  const int dim = engine.dimension();
+  std::vector<int> owned, all, outer;
+  double spacing = 0.0;
+  for (int i = 0; i < nall; i++) {
+    if (!(atom->mask[i] & bits)) continue;
+    const double own = pow(engine.particle[i].vol, 1.0 / dim);
+    surface[i].spacing = own;
+    spacing = std::max(spacing, own);
+    all.push_back(i);
+    if (i < atom->nlocal) owned.push_back(i);
+  }
+
+  const double support = engine.pairs().support;
+  const double radius = (spacing > 0.0) ? std::min(support, CUTOFF * spacing) : support;
+  find_outer_layer(Cells(atom->x, all, radius), owned);
+  const Field normal = field(surface, surface->normal, 3),
+              depth = field(surface, &surface->depth, 1);
+  exchange.forward({normal, depth});
+
+  for (const int i : all)
+    if (MathExtra::lensq3(surface[i].normal) > 0.0) outer.push_back(i);
+  find_depth(Cells(atom->x, outer, 0.5 * support), owned);
+  exchange.forward({normal, depth});
+}
+
+/* ----------------------------------------------------------------------
+   a vector toward the fluid, as the normal of a boundary particle; zero out of its reach
+------------------------------------------------------------------------- */
+
+void SurfaceStage::find_sides(const std::vector<BoundaryPair> &pairs)
+{
+  for (const auto &pair : pairs) {
+    const double *const f = engine.particle[pair.fluid].x, *const w = engine.particle[pair.wall].x;
+    const double slope = engine.pairs().slope[pair.entry];
+    for (int d = 0; d < 3; d++) surface[pair.wall].normal[d] += slope * (f[d] - w[d]);
+  }
+  exchange.reverse({field(surface, surface->normal, 3)});
+}
+
+/* ----------------------------------------------------------------------
+   In the outer layer of a plane wall, the filled part is 1/2 + b g(0)/2 with the distance b
+   between layers and the Gaussian g across the wall: half of space is filled without the
+   layer, and half of the layer is missing.  The surface is b/2 away.
+   Particles of other layers, and those that turn their back to the fluid, get no normal.
+------------------------------------------------------------------------- */
+
+void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &owned)
+{
+  const double support = engine.pairs().support;
+  const int dim = engine.dimension();
+  for (const int i : owned) {
+    Surface &s = surface[i];
+    const double width = WIDTH * s.spacing;
+    const double norm = pow(width * sqrt(MathConst::MY_2PI), -dim);
+    double filled = 0.0, inward[3] = {0.0, 0.0, 0.0};
+    cells.near(
+        atom->x[i], std::min(support, CUTOFF * s.spacing), [&](int j, const double *r, double rsq) {
+          const double part = engine.particle[j].vol * norm * exp(-0.5 * rsq / (width * width));
+          filled += part;
+          for (int d = 0; d < 3; d++) inward[d] += part * r[d];
+        });
+    const bool outer = filled < OUTER && MathExtra::dot3(inward, s.normal) < 0.0;
+    const double length = MathExtra::len3(inward);
+    for (int d = 0; d < 3; d++) s.normal[d] = outer ? -inward[d] / length : 0.0;
+    s.depth = (filled - 0.5) * width * sqrt(MathConst::MY_2PI);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   mean over the tangential planes of the outer layer, each weighted by the inverse eighth
+   power of its distance; those far away on a curved surface or round a corner do not matter.
+   A particle without any has its image at the place of the fluid's mean.
+------------------------------------------------------------------------- */
+
+void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
+{
+  const double support = engine.pairs().support;
+  std::vector<Surface> found;
+  found.reserve(owned.size());
+  for (const int i : owned) {
+    Surface s = surface[i];
+    const double soft = CLOSEST * s.spacing;
+    double weights = 0.0, depth = 0.0, normal[3] = {0.0, 0.0, 0.0};
+    cells.near(atom->x[i], support, [&](int j, const double *r, double rsq) {
+      const Surface &plane = surface[j];
+      const double inverse = 1.0 / (rsq + soft * soft);
+      const double weight = inverse * inverse * inverse * inverse;
+      weights += weight;
+      depth += weight * (MathExtra::dot3(plane.normal, r) + plane.depth);
+      for (int d = 0; d < 3; d++) normal[d] += weight * plane.normal[d];
+    });
+    const double length = MathExtra::len3(normal);
+    if (length > 0.0) {
+      s.depth = std::max(depth / weights, 0.0);
+      for (int d = 0; d < 3; d++) s.normal[d] = normal[d] / length;
+    } else {
+      s.depth = CLOSEST_MEAN * s.spacing;
+      s.normal[0] = s.normal[1] = s.normal[2] = 0.0;
+    }
+    found.push_back(s);
+  }
+  for (std::size_t k = 0; k < owned.size(); k++) surface[owned[k]] = found[k];
+}
+
+/* ---------------------------------------------------------------------- */
+
+double SurfaceStage::memory_usage() const
+{
+  return (double) nmax * sizeof(Surface);
+}

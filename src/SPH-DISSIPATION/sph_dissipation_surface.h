@@ -1,0 +1,56 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_SURFACE_H
+#define LMP_SPH_DISSIPATION_SURFACE_H
+
+#include "sph_dissipation_stage.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  struct BoundaryPair;
+  struct Surface;
+  class Cells;
+
+  // Where the surface of the boundary is, seen from each of its particles: from the arrangement of
+  // the boundary particles alone, on those sides where there is fluid
+
+  class SurfaceStage : public Stage {
+   public:
+    SurfaceStage(class LAMMPS *, Engine &, Exchange &);
+    ~SurfaceStage() override;
+    static constexpr int FORWARD = 4, REVERSE = 3;    // values per atom
+
+    // when the neighbor list is new: normal, depth and spacing of the owned and ghost atoms with one
+    // of these bits, from the volumes of Engine::particle; omega is for the boundary to set
+    void run(int bits, const std::vector<BoundaryPair> &);
+
+    double memory_usage() const override;
+
+    Surface *surface;    // of owned and ghost atoms
+
+   private:
+    int nmax;
+
+    void find_sides(const std::vector<BoundaryPair> &);
+    void find_outer_layer(const Cells &, const std::vector<int> &);
+    void find_depth(const Cells &, const std::vector<int> &);
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
