@@ -278,7 +278,8 @@ void FixSPHWall::set_boundary(Engine &engine, const Surface *surfaces, const Bou
     double pressure = sum.pressure * norm;
     for (int d = 0; d < 3; d++)
       pressure += sum.rho * norm * (gravity[d] - acceleration[d]) * sum.r[d] * norm;
-    particle.g = pressure * particle.vol * particle.vol;
+    const double c_inv = particle.vol / engine.weight(i);
+    particle.g = pressure * c_inv * c_inv;
     engine.zeta_term[i] = sum.zeta_term * norm;
     extend_motion(surfaces[i], sum, particle, engine.spin ? engine.spin + i : nullptr);
   }

@@ -316,6 +316,7 @@ void PairSPHBulk::derive_coeffs()
   stale = false;
   const int n = atom->ntypes;
   std::vector<PairCoeff> pair_coeffs((n + 1) * (n + 1));
+  std::vector<double> rho0(n + 1);
 
   for (int i = 1; i <= n; i++) {
     model->mix(i);
@@ -323,11 +324,13 @@ void PairSPHBulk::derive_coeffs()
       if (!model->coeffs[i].other && !model->coeffs[j].other) check_pair(i, j);
       pair_coeffs[i * (n + 1) + j] = pair_coeffs[j * (n + 1) + i] = pair_coefficients(i, j);
     }
+    rho0[i] = reference_density(i);
     model->set_bulk(i, intrinsic_kappa_of(i, i));
   }
 
   const Settings &choice = model->choice;
-  engine->setup(choice.kernel, dim, support, choice.shear, choice.bulk, pair_coeffs, n);
+  engine->setup(choice.kernel, dim, support, choice.shear, choice.bulk, choice.volume, pair_coeffs,
+                rho0);
 }
 
 /* ----------------------------------------------------------------------

@@ -40,8 +40,8 @@ namespace SPHDissipation {
     double weight;       // 1
     double r[3];         // x_w - x_f
     double rho;          // density
-    double pressure;     // p + zeta V cdot (bulk density), p (otherwise)
-    double zeta_term;    // zeta V cdot
+    double pressure;     // p + zeta cdot/c (bulk density), p (otherwise)
+    double zeta_term;    // zeta cdot/c
     double filled;       // fluid particles only
     double d, d2, d3;    // d, d^2, d^3
     double u[3];         // relative velocity

@@ -225,7 +225,8 @@ void BoundaryStage::accumulate()
           total.wd[d] += weight_d * relative;
         }
       total.rho += weight * rho[pair.fluid];
-      total.pressure += kernel_weight * f.g / f.vol;
+      const double w_f = engine.weight(pair.fluid);
+      total.pressure += kernel_weight * w_f * w_f * f.g / f.vol;
       total.zeta_term += weight * engine.zeta_term[pair.fluid];
       sum[pair.fluid].weight += w.vol * kernel_weight;
       const NearKernel &wall = near[pair.wall];

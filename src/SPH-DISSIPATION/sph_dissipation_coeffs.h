@@ -67,6 +67,16 @@ namespace SPHDissipation {
     return (bulk == Bulk::DENSITY) ? "density" : (bulk == Bulk::VOLUME) ? "volume" : "none";
   }
 
+  // number: c_i = sum_j W, V_i = 1/c_i                                         P1 (5)
+  // mass:   c_i = sum_j w_j W, V_i = w_i/c_i with the reference volume w_i = m_i/rho0 of particle i
+
+  enum class Volume { NUMBER, MASS };
+
+  inline const char *volume_name(Volume volume)
+  {
+    return (volume == Volume::MASS) ? "mass" : "number";
+  }
+
   // prefactor of the shear term per unit mu, in dimension n; mean_radius = integral of r W
 
   inline double shear_factor(Shear shear, int n, double mean_radius)

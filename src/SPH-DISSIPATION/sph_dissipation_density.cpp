@@ -54,10 +54,12 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
   double *const vfrac = atom->vfrac;
   const int nall = atom->nlocal + atom->nghost;
   for (int i = 0; i < nall; i++) {
-    engine.particle[i].vol = 1.0 / density[i].c;
+    const double weight = engine.weight(i);
+    engine.particle[i].vol = weight / density[i].c;
     if (shared && model.coeffs[type[i]].other) continue;
-    rho[i] = rmass[i] * density[i].c;
-    drho[i] = rmass[i] * density[i].cdot;
+    const double mass = rmass[i] / weight;
+    rho[i] = mass * density[i].c;
+    drho[i] = mass * density[i].cdot;
     vfrac[i] = engine.particle[i].vol;
   }
 }

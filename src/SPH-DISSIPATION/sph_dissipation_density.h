@@ -21,8 +21,8 @@ namespace SPHDissipation {
 
   class FluidModel;
 
-  // Pass 1: number density c and its rate of all particles, then their volume V = 1/c, their mass
-  // density rho = m c and drho = m dc/dt.  P1 (5), (6)
+  // Pass 1: density c of the reference volumes w, for w = 1 of the number of particles, and its rate;
+  // then the volume V = w/c, the mass density rho = m/V and its rate.  P1 (5), (6)
 
   class DensityStage : public Stage {
    public:

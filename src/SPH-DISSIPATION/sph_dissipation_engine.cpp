@@ -19,6 +19,7 @@
 #include "memory.h"
 #include "neigh_list.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -32,8 +33,9 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
     zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
     density_loop(nullptr), force_loop(nullptr), data(), kernel(Kernel::WENDLAND_C2), dim(0),
-    shear(Shear::NONE), bulk(Bulk::NONE), self_weight(0.0), nlocal_forces(-1), nghost_forces(-1),
-    nmax(0), imax(0), pair_max(0)
+    shear(Shear::NONE), bulk(Bulk::NONE), volume(Volume::NUMBER), self_weight(0.0),
+    weights(nullptr), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0), imax(0),
+    pair_max(0)
 {
   choose_loops("auto");
 }
@@ -49,6 +51,7 @@ Engine::~Engine()
   memory->sfree(torque);
   memory->sfree(zeta_term);
   memory->sfree(divergence);
+  memory->destroy(weights);
   memory->sfree(data.first);
   memory->sfree(data.count);
   memory->sfree(data.neighbor);
@@ -81,14 +84,18 @@ bool Engine::choose_loops(const std::string &simd)
 /* ---------------------------------------------------------------------- */
 
 void Engine::setup(Kernel kernel_in, int n, double support, Shear shear_in, Bulk bulk_in,
-                   const std::vector<PairCoeff> &coeff_in, int ntypes)
+                   Volume volume_in, const std::vector<PairCoeff> &coeff_in,
+                   const std::vector<double> &rho0_in)
 {
+  const int ntypes = static_cast<int>(rho0_in.size()) - 1;
+  volume = volume_in;
+  rho0 = rho0_in;
   kernel = kernel_in;
   dim = n;
   bulk = bulk_in;
   shear = shear_in;
   coeff = coeff_in;
-  density_loop = loops->density(kernel);
+  density_loop = loops->density(kernel, volume);
 
   data.coeff = coeff.data();
   data.ntypes_1 = ntypes + 1;
@@ -103,7 +110,8 @@ void Engine::setup(Kernel kernel_in, int n, double support, Shear shear_in, Bulk
         data.uniform = false;
       if (c.along_r != 0.0 || c.along_u != 0.0 || c.xi1 != 0.0 || c.xi2 != 0.0) inviscid = false;
     }
-  force_loop = loops->forces((inviscid && shear != Shear::MICROPOLAR) ? Shear::NONE : shear, bulk);
+  force_loop =
+      loops->forces((inviscid && shear != Shear::MICROPOLAR) ? Shear::NONE : shear, bulk, volume);
 
   data.support = support;
   self_weight = kernel_weight(kernel, n, 0.0, support);
@@ -165,6 +173,30 @@ void Engine::grow_pairs(NeighList *list)
   data.slope = (double *) memory->smalloc(pair_max * sizeof(double), "sph:slope");
 }
 
+/* ----------------------------------------------------------------------
+   reference volumes of owned and ghost atoms; the first term of each sum, the particle itself
+------------------------------------------------------------------------- */
+
+void Engine::set_weights()
+{
+  if (volume == Volume::NUMBER) {
+    data.weight = nullptr;
+    return;
+  }
+  if (nmax_weights < nmax) {
+    nmax_weights = nmax;
+    memory->destroy(weights);
+    memory->create(weights, nmax + BLOCK, "sph:weight");
+  }
+  const int nall = atom->nlocal + atom->nghost;
+  for (int i = 0; i < nall; i++) {
+    weights[i] = atom->rmass[i] / rho0[atom->type[i]];
+    density[i].c *= weights[i];
+  }
+  std::fill_n(weights + nall, BLOCK, 0.0);
+  data.weight = weights;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void Engine::accumulate_density(NeighList *list, double **vest, double **omegaest)
@@ -199,6 +231,8 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     zeta_term[i] = 0.0;
     if (has_spin()) spin[i] = Spin();
   }
+
+  set_weights();
 
   data.inum = list->inum;
   data.ilist = list->ilist;
@@ -246,6 +280,7 @@ double Engine::memory_usage() const
 {
   double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 2 * sizeof(double);
   if (has_spin()) per_atom += sizeof(Spin) + sizeof(TorqueSum);
-  return nmax * per_atom + (double) imax * (sizeof(bigint) + sizeof(int)) +
+  return nmax * per_atom + (double) nmax_weights * sizeof(double) +
+      (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double));
 }

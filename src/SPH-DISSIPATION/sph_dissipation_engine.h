@@ -41,8 +41,8 @@ namespace SPHDissipation {
   struct Particle {
     double x[3];    // position
     double u[3];    // velocity extrapolated to the end of the step
-    double vol;     // V = 1/c
-    double g;       // p V^2 + zeta V^3 cdot (bulk density), p V^2 (otherwise)
+    double vol;     // V = w/c
+    double g;       // (p + zeta cdot/c) / c^2 (bulk density), p/c^2 (otherwise)
   };
 
   // number density and its rate: what pass 1 accumulates
@@ -98,7 +98,8 @@ namespace SPHDissipation {
     int spare;                   // index of the first spare particle
     const Spin *spin;            // owned and ghost (micropolar)
     const int *type;             // read if the coefficients differ between types
-    const double *zeta_term;     // zeta V cdot of each particle (bulk volume)
+    const double *zeta_term;     // zeta cdot/c of each particle (bulk volume)
+    const double *weight;        // w, owned and ghost (volume mass); nullptr if all are 1
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
     DensitySum *density;         // owned and ghost, accumulated by pass 1
     ForceSum *force;             // owned and ghost, accumulated by pass 2
@@ -127,8 +128,8 @@ namespace SPHDissipation {
 
   struct LoopSet {
     const char *name;
-    Loop (*density)(Kernel);
-    Loop (*forces)(Shear, Bulk);
+    Loop (*density)(Kernel, Volume);
+    Loop (*forces)(Shear, Bulk, Volume);
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
@@ -148,8 +149,9 @@ namespace SPHDissipation {
 
     // choose the form of the loops; n = dimension of the kernel
     // coeff = of the pair terms, for types 0 to ntypes of i, of j within
-    void setup(Kernel, int n, double support, Shear, Bulk, const std::vector<PairCoeff> &coeff,
-               int ntypes);
+    // rho0 = reference density by type, from 1, for the reference volumes m/rho0 (volume mass)
+    void setup(Kernel, int n, double support, Shear, Bulk, Volume,
+               const std::vector<PairCoeff> &coeff, const std::vector<double> &rho0);
 
     // pass 1: particle[] from atom->x and vest, spin[] from omegaest (micropolar), which are zero
     // where these are nullptr; density[] of owned atoms (with the particle itself) and the
@@ -169,6 +171,9 @@ namespace SPHDissipation {
     Kernel kernel_form() const { return kernel; }
     Shear shear_form() const { return shear; }
     Bulk bulk_form() const { return bulk; }
+    // reference volume of a particle, owned or ghost
+    double weight(int i) const { return data.weight ? data.weight[i] : 1.0; }
+
     bool has_spin() const { return shear == Shear::MICROPOLAR; }
 
     double memory_usage() const;
@@ -178,7 +183,7 @@ namespace SPHDissipation {
     DensitySum *density;
     ForceSum *force;
     TorqueSum *torque;     // micropolar only
-    double *zeta_term;     // zeta V cdot, set by the caller on owned and ghost atoms
+    double *zeta_term;     // zeta cdot/c, set by the caller on owned and ghost atoms
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     Spin *spin;            // micropolar only
 
@@ -187,17 +192,21 @@ namespace SPHDissipation {
     Loop density_loop, force_loop;
     LoopData data;
     std::vector<PairCoeff> coeff;
+    std::vector<double> rho0;    // by type
     Kernel kernel;
     int dim;    // of the kernel
     Shear shear;
     Bulk bulk;
+    Volume volume;
     double self_weight;    // W(0)
+    double *weights;       // reference volumes of atoms (volume mass)
 
     int nlocal_forces, nghost_forces;    // # of atoms that force[] is of
-    int nmax, imax;
+    int nmax, nmax_weights, imax;
     bigint pair_max;
 
     void grow_atoms();
+    void set_weights();
     void grow_pairs(NeighList *);
   };
 

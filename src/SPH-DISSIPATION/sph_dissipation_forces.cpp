@@ -54,15 +54,16 @@ void ForceStage::run(NeighList *list, PairTally *tally)
 }
 
 /* ----------------------------------------------------------------------
-   heat of the bulk term: zeta V^3 cdot^2 of the particle (density);
-   zeta V^2 cdot D with D summed by pairs, also on ghost atoms (volume)
+   heat of the bulk term: zeta V (cdot/c)^2 of the particle (density);
+   zeta V cdot/c D with D summed by pairs, also on ghost atoms (volume)
 ------------------------------------------------------------------------- */
 
 double ForceStage::bulk_heat(int i) const
 {
-  const double vol = engine.particle[i].vol;
-  if (engine.bulk_form() == Bulk::VOLUME) return engine.zeta_term[i] * vol * engine.divergence[i];
-  return (i < atom->nlocal) ? engine.zeta_term[i] * vol * vol * engine.density[i].cdot : 0.0;
+  const double amplitude = engine.zeta_term[i] * engine.particle[i].vol;
+  if (engine.bulk_form() == Bulk::VOLUME) return amplitude * engine.divergence[i];
+  if (i >= atom->nlocal) return 0.0;
+  return amplitude * engine.density[i].cdot * engine.particle[i].vol / engine.weight(i);
 }
 
 /* ---------------------------------------------------------------------- */

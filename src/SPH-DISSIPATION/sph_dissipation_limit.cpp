@@ -67,8 +67,10 @@ void LimitStage::run(NeighList *list)
       if (rsq == 0.0) continue;
       const PairCoeff &c = pairs.coeff[type[i] * pairs.ntypes_1 + type[j]];
       const double pair = pairs.slope[entry] * rsq / central_weight(shear, c, sqrt(rsq));
-      bound[i] += particle[i].vol * particle[i].vol / particle[j].vol * pair;
-      bound[j] += particle[j].vol * particle[j].vol / particle[i].vol * pair;
+      const double ratio =
+          particle[i].vol * engine.weight(j) / (particle[j].vol * engine.weight(i));
+      bound[i] += ratio * ratio * particle[j].vol * pair;
+      bound[j] += particle[i].vol * pair / (ratio * ratio);
     }
   }
 

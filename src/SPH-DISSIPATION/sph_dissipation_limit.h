@@ -20,7 +20,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   // How negative the coefficient of the bulk term of a particle may be:
-  //   B_i = V_i^2 sum_j F r^2 / (V_j a_ij),
+  //   B_i = sum_j (c_j/c_i)^2 V_j F r^2 / a_ij,
   // where a_ij F V_i V_j is what the shear term puts before (u.e)^2.  The total dissipation is
   // non-negative for any velocities if zeta_i B_i >= -1/2 for all particles (theory page).
 

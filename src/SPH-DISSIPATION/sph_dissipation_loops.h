@@ -46,10 +46,19 @@ namespace SPHDissipation {
       return reinterpret_cast<double *>(row);
     }
 
-    // pass 1: c_i = sum_j W, cdot_i = -sum_j F r_ij.u_ij
+    // one number of each of LANES particles
+
+    inline Vec gather(const double *from, const int *i)
+    {
+      double lane[LANES];
+      for (int l = 0; l < LANES; l++) lane[l] = from[i[l]];
+      return load(lane);
+    }
+
+    // pass 1: c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED
     // leaves the pairs inside the support for pass 2
 
-    template <class K> void density_loop(LoopData &data)
+    template <class K, bool WEIGHTED> void density_loop(LoopData &data)
     {
       const Particle *const particle = data.particle;
       const Vec support_sq = all(data.support * data.support);
@@ -82,9 +91,16 @@ namespace SPHDissipation {
 
           const Vec q = square_root(rsq) * support_inv;
           const Vec f = data.slope_norm * K::slope(q);
-          const Vec sums[2] = {if_bits(inside, data.weight_norm * K::shape(q)),
-                               if_bits(inside, -f * approach)};
-          for (int c = 0; c < 2; c++) total[c] += sums[c];
+          Vec sums[2] = {if_bits(inside, data.weight_norm * K::shape(q)),
+                         if_bits(inside, -f * approach)};
+          if constexpr (WEIGHTED) {
+            const Vec weight = gather(data.weight, j);
+            for (int c = 0; c < 2; c++) {
+              total[c] += weight * sums[c];
+              sums[c] *= data.weight[i];
+            }
+          } else
+            for (int c = 0; c < 2; c++) total[c] += sums[c];
           add_2_columns<WIDTH<DensitySum>>(numbers(data.density), j, sums);
 
           pack(slope + n, f, inside);
@@ -154,7 +170,7 @@ namespace SPHDissipation {
     // which it heats; the form P1 (18) acts through g and heats by cdot
     // MICROPOLAR: torques, too; half of the torque of a pair force to each partner, P3 (12), (18)
 
-    template <Shear SHEAR, bool VOLUME> void force_loop(LoopData &data)
+    template <Shear SHEAR, bool VOLUME, bool WEIGHTED> void force_loop(LoopData &data)
     {
       constexpr bool SPIN = (SHEAR == Shear::MICROPOLAR);
       constexpr bool ALONG_R =
@@ -199,6 +215,7 @@ namespace SPHDissipation {
           const Vec approach = dx * ux + dy * uy + dz * uz;
           Vec heat = all(0.0);
           Vec central = (pi.g + g) * slope;
+          if constexpr (WEIGHTED) central *= data.weight[i] * gather(data.weight, j);
 
           if ((ALONG_R || ALONG_U) && !data.uniform) coeff.load(data, i, j, n - k);
 
@@ -211,9 +228,7 @@ namespace SPHDissipation {
             heat = 0.5 * drag * approach;
           }
           if constexpr (VOLUME) {
-            double zeta_term[LANES];
-            for (int l = 0; l < LANES; l++) zeta_term[l] = data.zeta_term[j[l]];
-            central += (zeta_term_i + load(zeta_term)) * vv_slope;
+            central += (zeta_term_i + gather(data.zeta_term, j)) * vv_slope;
             const Vec flux = slope * approach;
             total_flux += flux * vol;
             add_column<1>(data.divergence, j, -pi.vol * flux);
@@ -288,45 +303,57 @@ namespace SPHDissipation {
       }
     }
 
-    inline Loop choose_density_loop(Kernel kernel)
+    template <bool WEIGHTED> Loop choose_kernel(Kernel kernel)
     {
       switch (kernel) {
         case Kernel::WENDLAND_C4:
-          return density_loop<WendlandC4>;
+          return density_loop<WendlandC4, WEIGHTED>;
         case Kernel::WENDLAND_C6:
-          return density_loop<WendlandC6>;
+          return density_loop<WendlandC6, WEIGHTED>;
         case Kernel::CUBIC:
-          return density_loop<CubicSpline>;
+          return density_loop<CubicSpline, WEIGHTED>;
         case Kernel::QUINTIC:
-          return density_loop<QuinticSpline>;
+          return density_loop<QuinticSpline, WEIGHTED>;
         case Kernel::LUCY:
-          return density_loop<Lucy>;
+          return density_loop<Lucy, WEIGHTED>;
         default:
-          return density_loop<WendlandC2>;
+          return density_loop<WendlandC2, WEIGHTED>;
       }
     }
 
-    template <bool VOLUME> Loop choose_shear(Shear shear)
+    template <bool VOLUME, bool WEIGHTED> Loop choose_shear(Shear shear)
     {
       switch (shear) {
         case Shear::MG:
-          return force_loop<Shear::MG, VOLUME>;
+          return force_loop<Shear::MG, VOLUME, WEIGHTED>;
         case Shear::MG_FR:
-          return force_loop<Shear::MG_FR, VOLUME>;
+          return force_loop<Shear::MG_FR, VOLUME, WEIGHTED>;
         case Shear::MORRIS:
-          return force_loop<Shear::MORRIS, VOLUME>;
+          return force_loop<Shear::MORRIS, VOLUME, WEIGHTED>;
         case Shear::ESPANOL:
-          return force_loop<Shear::ESPANOL, VOLUME>;
+          return force_loop<Shear::ESPANOL, VOLUME, WEIGHTED>;
         case Shear::MICROPOLAR:
-          return force_loop<Shear::MICROPOLAR, VOLUME>;
+          return force_loop<Shear::MICROPOLAR, VOLUME, WEIGHTED>;
         default:
-          return force_loop<Shear::NONE, VOLUME>;
+          return force_loop<Shear::NONE, VOLUME, WEIGHTED>;
       }
     }
 
-    inline Loop choose_force_loop(Shear shear, Bulk bulk)
+    inline Loop choose_density_loop(Kernel kernel, Volume volume)
     {
-      return (bulk == Bulk::VOLUME) ? choose_shear<true>(shear) : choose_shear<false>(shear);
+      return (volume == Volume::MASS) ? choose_kernel<true>(kernel) : choose_kernel<false>(kernel);
+    }
+
+    template <bool WEIGHTED> Loop choose_bulk(Shear shear, Bulk bulk)
+    {
+      return (bulk == Bulk::VOLUME) ? choose_shear<true, WEIGHTED>(shear)
+                                    : choose_shear<false, WEIGHTED>(shear);
+    }
+
+    inline Loop choose_force_loop(Shear shear, Bulk bulk, Volume volume)
+    {
+      return (volume == Volume::MASS) ? choose_bulk<true>(shear, bulk)
+                                      : choose_bulk<false>(shear, bulk);
     }
 
   }    // namespace LOOPS

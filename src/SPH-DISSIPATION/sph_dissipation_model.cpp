@@ -32,7 +32,7 @@ using namespace SPHDissipation;
 
 Settings::Settings() :
     kernel(Kernel::WENDLAND_C2), eos(Eos::LINEAR), shear(Shear::MG), bulk(Bulk::DENSITY), dim(0),
-    limit(Limit::NO)
+    limit(Limit::NO), volume(Volume::NUMBER)
 {
 }
 
@@ -127,7 +127,7 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
   for (int iarg = 0; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
     if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "bulk" &&
-        keyword != "limit" && keyword != "simd" &&
+        keyword != "volume" && keyword != "limit" && keyword != "simd" &&
         (keyword != "shear" || default_shear != Shear::MG))
       error->all(FLERR, place(arg[iarg]), "Unknown pair_style {} keyword: {}", style, keyword);
     if (iarg + 2 > narg)
@@ -159,6 +159,9 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
       if (!choose(choice.bulk, word,
                   {{"density", Bulk::DENSITY}, {"volume", Bulk::VOLUME}, {"none", Bulk::NONE}}))
         unknown("bulk form");
+    } else if (keyword == "volume") {
+      if (!choose(choice.volume, word, {{"number", Volume::NUMBER}, {"mass", Volume::MASS}}))
+        unknown("volume");
     } else if (keyword == "limit") {
       if (!choose(choice.limit, word,
                   {{"no", Limit::NO}, {"count", Limit::COUNT}, {"yes", Limit::YES}}))
@@ -392,7 +395,8 @@ double FluidModel::common_support(int **setflag) const
 
 std::string FluidModel::summary(int dim, double support) const
 {
-  return fmt::format("kernel {}, dim {}, eos {}, shear {}, bulk {}, support radius {:g}",
+  return fmt::format("kernel {}, dim {}, eos {}, shear {}, bulk {}, volume {}, support radius {:g}",
                      kernel_name(choice.kernel), dim, eos_name(choice.eos),
-                     shear_name(choice.shear), bulk_name(choice.bulk), support);
+                     shear_name(choice.shear), bulk_name(choice.bulk), volume_name(choice.volume),
+                     support);
 }

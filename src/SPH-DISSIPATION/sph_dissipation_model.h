@@ -40,6 +40,7 @@ namespace SPHDissipation {
     Bulk bulk;
     int dim;    // 0: dimension of the simulation
     Limit limit;
+    Volume volume;
   };
 
   // what pair_coeff I I sets and what follows from it

@@ -98,6 +98,7 @@ void FluidModel::write_settings(FILE *fp) const
   put(fp, static_cast<int>(choice.bulk));
   put(fp, choice.dim);
   put(fp, static_cast<int>(choice.limit));
+  put(fp, static_cast<int>(choice.volume));
 }
 
 /* ----------------------------------------------------------------------
@@ -124,6 +125,7 @@ void FluidModel::read_settings(FILE *fp, Shear default_shear)
   choice.bulk = static_cast<Bulk>(read.integer("bulk", 0, static_cast<int>(Bulk::VOLUME)));
   choice.dim = read.integer("dim", 0, 3);
   choice.limit = static_cast<Limit>(read.integer("limit", 0, static_cast<int>(Limit::YES)));
+  choice.volume = static_cast<Volume>(read.integer("volume", 0, static_cast<int>(Volume::MASS)));
 }
 
 /* ----------------------------------------------------------------------

@@ -54,8 +54,8 @@ bigint PressureStage::run(const double *bound, int not_fluid)
       engine.zeta_term[i] = particle.g = 0.0;
       continue;
     }
-    const double vol = particle.vol;
-    const double cdot = engine.density[i].cdot;
+    const double c_inv = particle.vol / engine.weight(i);
+    const double rate = engine.density[i].cdot * c_inv;
 
     double zeta = coeff.zeta;
     if (bound && zeta * bound[i] < -0.5) {
@@ -63,11 +63,10 @@ bigint PressureStage::run(const double *bound, int not_fluid)
       if (cut_off) zeta = -0.5 / bound[i];
     }
 
-    const double pressure_term = pressure(eos, coeff.eos, rho[i], esph[i] / rmass[i]) * vol * vol;
-    const double zeta_term = zeta * vol * cdot;
-    engine.zeta_term[i] = zeta_term;
-    particle.g = by_density ? pressure_term + zeta_term * vol * vol : pressure_term;
-    if (i < nlocal) desph[i] += pressure_term * cdot;
+    const double p = pressure(eos, coeff.eos, rho[i], esph[i] / rmass[i]);
+    engine.zeta_term[i] = zeta * rate;
+    particle.g = (by_density ? p + engine.zeta_term[i] : p) * c_inv * c_inv;
+    if (i < nlocal) desph[i] += p * particle.vol * rate;
   }
   return nbeyond;
 }

@@ -146,6 +146,12 @@ Configuration free_drop(int dim, unsigned seed)
   return config;
 }
 
+Configuration by_mass(Configuration config)
+{
+  config.volume_by_mass = true;
+  return config;
+}
+
 void add_spins(Configuration &config, unsigned seed)
 {
   Random random(seed);

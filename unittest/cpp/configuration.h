@@ -31,6 +31,7 @@ struct Configuration {
   std::vector<double> mass, energy;    // energy of the whole particle
   std::vector<int> type;               // from 1
   std::vector<double> spin;            // 3 per particle of a micropolar fluid, otherwise empty
+  bool volume_by_mass = false;         // volumes from reference volumes m/rho0
 
   int size() const { return static_cast<int>(mass.size()); }
   int box_dim() const { return dim == 3 ? 3 : 2; }
@@ -65,6 +66,10 @@ Configuration free_drop(int dim, unsigned seed);
 
 void set_rigid_motion(Configuration &config, const std::array<double, 3> &translation,
                       const std::array<double, 3> &omega);
+
+// The same particles with volumes from reference volumes
+
+Configuration by_mass(Configuration config);
 
 // Random spins, along z unless dim is 3
 

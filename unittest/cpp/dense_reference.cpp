@@ -225,6 +225,9 @@ System::System(const Model &_model, const Box &box, const Particles &particles) 
   for (int k = 0; k < n; k++)
     if (box.periodic[k]) range[k] = static_cast<int>(1.0L + model.support * inverse.row(k).norm());
 
+  w = Vector::Ones(N);
+  if (model.volume_by_mass)
+    for (int i = 0; i < N; i++) w(i) = atoms.mass[i] / model.fluids[atoms.type[i] - 1].rho0;
   c = Vector::Zero(N);
   cdot = Vector::Zero(N);
   for (int i = 0; i < N; i++) {
@@ -242,7 +245,7 @@ System::System(const Model &_model, const Box &box, const Particles &particles) 
             }
             if (rsq >= model.support * model.support) continue;
             const Real dist = std::sqrt(rsq);
-            c(i) += kernel.W(dist);
+            c(i) += w(j) * kernel.W(dist);
             if (dist == 0.0L) continue;    // the particle itself, or another one at the same point
             pairs.push_back({i, j, Eigen::Map<const Vector>(r, n), dist, kernel.F(dist)});
           }
@@ -250,7 +253,7 @@ System::System(const Model &_model, const Box &box, const Particles &particles) 
       }
     }
   }
-  V = c.cwiseInverse();
+  V = w.cwiseQuotient(c);
   cdot = density_rate_rows() * velocity();
 }
 
@@ -273,8 +276,9 @@ Sparse System::density_rate_rows() const
   std::vector<Eigen::Triplet<Real>> entries;
   for (const auto &p : pairs) {
     for (int a = 0; a < n; a++) {
-      entries.emplace_back(p.i, n * p.i + a, -p.F * p.r(a));
-      entries.emplace_back(p.i, n * p.j + a, p.F * p.r(a));
+      const Real entry = w(p.j) * p.F * p.r(a);
+      entries.emplace_back(p.i, n * p.i + a, -entry);
+      entries.emplace_back(p.i, n * p.j + a, entry);
     }
   }
   Sparse rows(N, N * n);
@@ -285,7 +289,7 @@ Sparse System::density_rate_rows() const
 Vector System::density() const
 {
   Vector rho(N);
-  for (int i = 0; i < N; i++) rho(i) = atoms.mass[i] * c(i);
+  for (int i = 0; i < N; i++) rho(i) = atoms.mass[i] / V(i);
   return rho;
 }
 
@@ -342,14 +346,14 @@ Vector System::elastic_energy(const std::string &eos) const
 
 Vector System::conservative_force(const std::string &eos) const
 {
-  // -dE/dr, E = sum m e(rho): the rows of cdot are also the gradients of the c_k
-  const Vector weight = -pressure(eos).cwiseProduct(V).cwiseProduct(V);
+  // -dE/dr, E = sum m e(rho), dE = sum p V/c dc: the rows of cdot are also the gradients of the c_k
+  const Vector weight = -pressure(eos).cwiseProduct(V).cwiseQuotient(c);
   return density_rate_rows().transpose() * weight;
 }
 
 Vector System::compression_power(const std::string &eos) const
 {
-  return pressure(eos).cwiseProduct(V).cwiseProduct(V).cwiseProduct(cdot);
+  return pressure(eos).cwiseProduct(V).cwiseQuotient(c).cwiseProduct(cdot);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -524,8 +528,7 @@ Micropolar System::micropolar() const
     for (int k = 0; k < 3; k++) {
       (*heat[k])(p.i) += 0.5L * local.dot(forms[k] * local);
       for (int a = 0; a < width; a++)
-        for (int b = 0; b < width; b++)
-          result.R(columns[a], columns[b]) += 0.5L * forms[k](a, b);
+        for (int b = 0; b < width; b++) result.R(columns[a], columns[b]) += 0.5L * forms[k](a, b);
     }
   }
   const Vector total = -(result.R * q);
@@ -540,13 +543,13 @@ Real System::bulk_amplitude(int k, const std::string &form, const std::string &s
 {
   const Real z = zeta(atoms.type[k], shear_form);
   if (form == "none") return 0.0L;
-  if (form == "density") return z * V(k) * V(k) * V(k);
-  if (form == "volume") return z * V(k);
+  if (form == "density") return z * V(k) / (c(k) * c(k));
+  if (form == "volume") return z / c(k);
   throw std::invalid_argument("bulk " + form);
 }
 
 // With w = F V_i V_j a (u.e)^2 the shear dissipation of a pair, the Cauchy-Schwarz inequality says
-// V^3 cdot^2 <= (sum of w) (sum of V^3 F^2 r^2 / (F V_i V_j a)): each pair can make up for both of
+// V (cdot/c)^2 <= (sum of w) (sum of V/c^2 w_j^2 F^2 r^2 / (F V_i V_j a)): each pair can make up for both of
 // its particles if the zeta of each is above minus half of the inverse of the last sum.
 
 Vector System::zeta_limit(const std::string &shear_form) const
@@ -554,7 +557,8 @@ Vector System::zeta_limit(const std::string &shear_form) const
   Vector sum = Vector::Zero(N);
   for (const auto &p : pairs) {
     const Real along = p.r.dot(shear_block(p, shear_form) * p.r) / p.r.squaredNorm();
-    sum(p.i) += V(p.i) * V(p.i) * V(p.i) * p.F * p.F * p.r.squaredNorm() / along;
+    const Real share = w(p.j) * p.F / c(p.i);
+    sum(p.i) += V(p.i) * share * share * p.r.squaredNorm() / along;
   }
   return -0.5L * sum.cwiseInverse();
 }
@@ -624,10 +628,10 @@ Matrix System::virial(const std::string &eos, const std::string &shear_form,
   Matrix result = Matrix::Zero(6, N);
   for (const auto &pair : pairs) {
     const int i = pair.i, j = pair.j;
-    const Real weight = bulk_form == "volume" ? V(i) * V(j) : 1.0L;
-    Real central = p(i) * V(i) * V(i) + p(j) * V(j) * V(j);
-    central += weight * bulk_amplitude(i, bulk_form, shear_form) * cdot(i);
-    central += weight * bulk_amplitude(j, bulk_form, shear_form) * cdot(j);
+    const bool by_pair = bulk_form == "volume";
+    Real central = w(j) * p(i) * V(i) / c(i) + w(i) * p(j) * V(j) / c(j);
+    central += (by_pair ? V(i) * V(j) : w(j)) * bulk_amplitude(i, bulk_form, shear_form) * cdot(i);
+    central += (by_pair ? V(i) * V(j) : w(i)) * bulk_amplitude(j, bulk_form, shear_form) * cdot(j);
     const SmallVector f = central * pair.F * pair.r -
         shear_block(pair, shear_form) * (atoms.v.col(i) - atoms.v.col(j));
     for (int k = 0; k < 6; k++)

@@ -118,6 +118,7 @@ struct Model {
   std::string kernel = "wendland/c2";
   int n = 3;
   Real support = 1.0;
+  bool volume_by_mass = false;    // reference volumes w = m/rho0, else w = 1
   std::vector<Fluid> fluids;
   std::map<std::pair<int, int>, Real> mu_unlike;    // explicit shear viscosity of two types
   std::vector<SpinFluid> spins;                     // one per type of a micropolar fluid, or none
@@ -146,14 +147,14 @@ class System {
   System(const Model &model, const Box &box, const Particles &particles);
 
   int size() const { return N; }
-  const Vector &numden() const { return c; }
-  const Vector &dnumden() const { return cdot; }
+  Vector numden() const { return c.cwiseQuotient(w); }    // 1/V and its rate
+  Vector dnumden() const { return cdot.cwiseQuotient(w); }
   const Vector &volume() const { return V; }
   Vector density() const;
   Vector pressure(const std::string &eos) const;
   Vector elastic_energy(const std::string &eos) const;    // per particle
   Vector conservative_force(const std::string &eos) const;
-  Vector compression_power(const std::string &eos) const;    // p V^2 cdot, per particle
+  Vector compression_power(const std::string &eos) const;    // p V cdot/c, per particle
 
   Viscous shear(const std::string &form) const;
   Micropolar micropolar() const;
@@ -173,7 +174,7 @@ class System {
   Real zeta(int type, const std::string &shear_form) const;
   Real mu(int itype, int jtype) const;
 
-  Vector velocity() const;          // all velocities stacked
+  Vector velocity() const;             // all velocities stacked
   Vector velocity_and_spin() const;    // and all spins behind them
 
  private:
@@ -198,7 +199,7 @@ class System {
   Real mean_distance;
   int N, n;
   std::vector<Pair> pairs;
-  Vector c, cdot, V;
+  Vector w, c, cdot, V;    // c = sum of w_j W, V = w/c
 };
 
 }    // namespace DenseReference

@@ -29,6 +29,7 @@ DenseReference::Model test_model(const Configuration &config, const std::string 
   model.kernel = kernel;
   model.n = config.dim;
   model.support = config.support;
+  model.volume_by_mass = config.volume_by_mass;
   model.fluids = test_fluids();
   model.mu_unlike[{1, 3}] = 0.45;
   return model;

@@ -193,7 +193,8 @@ void LammpsDriver::pair_style(const DenseReference::Model &model, const std::str
   const bool micropolar = !model.spins.empty();
   command("pair_style sph/" + std::string(micropolar ? "micropolar" : "bulk") + " kernel " +
           model.kernel + " dim " + std::to_string(model.n) + " eos " + eos +
-          (micropolar ? "" : " shear " + shear) + " bulk " + bulk + " simd " + simd + " " + keywords);
+          (micropolar ? "" : " shear " + shear) + " bulk " + bulk + " simd " + simd +
+          (model.volume_by_mass ? " volume mass " : " ") + keywords);
   auto spin_words = [](const DenseReference::SpinFluid &spin, bool named) {
     return std::string(named ? " mu_r " : " ") + exact(spin.mu_r) + (named ? " gamma1 " : " ") +
         exact(spin.gamma1) + (named ? " gamma2 " : " ") + exact(spin.gamma2);

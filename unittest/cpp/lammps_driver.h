@@ -29,8 +29,8 @@ class LAMMPS;
 struct Computed {
   std::vector<double> force;    // 3 per particle
   std::vector<double> desph, numden, dnumden, volume, density, energy;
-  std::vector<double> torque;              // 3 per particle, micropolar fluids only
-  std::vector<double> power;               // dissipation: shear, bulk, vortex, spin; likewise
+  std::vector<double> torque;    // 3 per particle, micropolar fluids only
+  std::vector<double> power;     // dissipation: shear, bulk, vortex, spin; likewise
   std::vector<double> atom_energy, atom_virial;    // virial: 6 per particle
   double beyond_limit = 0.0;    // number of particles with too negative a bulk coefficient
   double total_energy = 0.0, total_virial[6] = {};

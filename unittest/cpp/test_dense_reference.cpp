@@ -130,8 +130,10 @@ TEST(DenseReferenceKernel, slope)
 
 TEST(DenseReference, conservative_force_is_minus_gradient_of_energy)
 {
-  for (int dim = 1; dim <= 3; dim++) {
-    const Configuration config = small_drop(dim, 7 + dim);
+  for (int run = 0; run < 6; run++) {    // three dimensions, volumes by number and by mass
+    const int dim = 1 + run % 3;
+    Configuration config = small_drop(dim, 7 + dim);
+    if (run >= 3) config = by_mass(config);
     for (const auto &kernel : kernel_names()) {
       const Model model = test_model(config, kernel);
       for (const auto &eos : {"linear", "tait"}) {

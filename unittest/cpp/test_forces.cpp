@@ -101,6 +101,20 @@ TEST(Forces, all_forms_3d)
                 {newton(true), newton(false)});
 }
 
+// masses of one type that differ by up to 2.3 times
+
+TEST(Forces, volume_by_mass)
+{
+  Layout tiled;
+  tiled.tiled = true;
+  for (int dim = 1; dim <= 3; dim++) {
+    check_layouts(by_mass(periodic_fluid(dim, false, 104 + dim)), {"wendland/c2", "quintic"},
+                  ALL_EOS, {newton(true), newton(false), tiled});
+    check_layouts(by_mass(free_drop(dim, 114 + dim)), {"wendland/c4"}, {"tait"},
+                  {newton(true), newton(false)});
+  }
+}
+
 TEST(Forces, free_drops)
 {
   for (int dim = 1; dim <= 3; dim++)
@@ -170,8 +184,10 @@ TEST(Forces, intrinsic_bulk_viscosity_and_one_fluid)
 TEST(Forces, limit_on_negative_bulk_coefficients)
 {
   Record record;
-  for (int dim = 1; dim <= 3; dim++) {
-    const Configuration config = periodic_fluid(dim, false, 190 + dim);
+  for (int run = 0; run < 6; run++) {    // three dimensions, volumes by number and by mass
+    const int dim = 1 + run % 3;
+    Configuration config = periodic_fluid(dim, false, 190 + dim);
+    if (run >= 3) config = by_mass(config);
     Model model = test_model(config, "wendland/c2");
     for (auto &fluid : model.fluids) fluid.kappa = 0.0L;
     const auto expected = reference(config, model);

@@ -162,6 +162,13 @@ TEST(Micropolar, ideal_gas_drops_and_triclinic_boxes)
   }
 }
 
+TEST(Micropolar, volume_by_mass)
+{
+  for (int dim = 2; dim <= 3; dim++)
+    check(by_mass(spinning_fluid(dim, false, 225 + dim)), {"wendland/c2"}, TWO_EOS,
+          {"density", "volume"}, {newton(true), newton(false)});
+}
+
 TEST(Micropolar, processor_grids_tiles_and_instruction_sets)
 {
   const std::string n = std::to_string(LammpsDriver::ranks());
@@ -491,8 +498,8 @@ TEST(Micropolar, effective_viscosities_of_the_reference)
     const System system(model, box, particles);
     const auto m = system.micropolar();
     return static_cast<double>(
-        (m.central + m.vortex + m.spin + system.bulk("density", "micropolar").heating)(centre) *
-        system.numden()(centre));
+        (m.central + m.vortex + m.spin +
+         system.bulk("density", "micropolar").heating)(centre) *system.numden()(centre));
   };
   // spin in fluid at rest: 4 mu_r
   EXPECT_NEAR(dissipation(), 0.6, 0.02 * 0.6);

@@ -74,6 +74,16 @@ TEST(Virial, periodic_fluids)
   if (LammpsDriver::rank() == 0) record.print();
 }
 
+TEST(Virial, volume_by_mass)
+{
+  Record record;
+  for (int dim = 1; dim <= 3; dim++)
+    for (const bool newton : {true, false})
+      check_virial(by_mass(periodic_fluid(dim, false, 205 + dim)), "wendland/c2", {"tait"}, newton,
+                   record);
+  if (LammpsDriver::rank() == 0) record.print();
+}
+
 TEST(Virial, triclinic_boxes)
 {
   Record record;
