@@ -417,6 +417,7 @@ void PairSPHBulk::announce()
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", fluid_style,
                      model->summary(dim, support), engine->instruction_set(), table.text(),
                      state.table());
+    check_sizes(lmp, fluid_style, *model, boundary->bits());
     state.warn(list, fluid_style, crowding_requested);
   }
   announced = true;

@@ -184,6 +184,32 @@ void SPHDissipation::check_masses(LAMMPS *lmp, const std::string &style, const F
 
 /* ---------------------------------------------------------------------- */
 
+void SPHDissipation::check_sizes(LAMMPS *lmp, const std::string &style, const FluidModel &model,
+                                 int boundary_bits)
+{
+  if (model.choice.volume != Volume::NUMBER) return;
+  constexpr double FAR = 1.0e300, TOLERATED = 1.1;
+  Atom *atom = lmp->atom;
+  const int n = atom->ntypes;
+  std::vector<double> extent(2 * (n + 1), -FAR), all(2 * (n + 1));    // largest m, -m by type
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int type = atom->type[i];
+    if (model.coeffs[type].other || (atom->mask[i] & boundary_bits)) continue;
+    extent[2 * type] = std::max(extent[2 * type], atom->rmass[i]);
+    extent[2 * type + 1] = std::max(extent[2 * type + 1], -atom->rmass[i]);
+  }
+  MPI_Allreduce(extent.data(), all.data(), 2 * (n + 1), MPI_DOUBLE, MPI_MAX, lmp->world);
+  for (int type = 1; type <= n; type++)
+    if (all[2 * type] > -TOLERATED * all[2 * type + 1] && lmp->comm->me == 0)
+      lmp->error->warning(FLERR,
+                          "Pair style {}: masses of type {} differ by a factor of {:.3g}, and with "
+                          "volume number neighbors of different size get wrong volumes; use volume "
+                          "mass if it is their sizes that differ, not their densities",
+                          style, type, -all[2 * type] / all[2 * type + 1]);
+}
+
+/* ---------------------------------------------------------------------- */
+
 void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const FluidModel &model,
                                     int boundary_bits)
 {

@@ -47,6 +47,10 @@ namespace SPHDissipation {
 
   void check_masses(LAMMPS *, const std::string &style, const FluidModel &);
 
+  // warning about particles of one fluid whose sizes differ, if their volumes are those of equal ones
+
+  void check_sizes(LAMMPS *, const std::string &style, const FluidModel &, int boundary_bits);
+
   // warnings about a fluid that exerts no forces: no internal energy with an equation of state that
   // needs it, no neighbors inside the support.  Particles with one of boundary_bits in their mask are
   // no fluid.

@@ -140,3 +140,29 @@ undump {volume}
     number, mass = lammps.frame("number.dump"), lammps.frame("mass.dump")
     for name in ("fx", "fy", "tqz"):
         assert relative(number[name] - mass[name], number[name]) < 1e-12, name
+
+
+@pytest.mark.parametrize("volume, ratio, warned", [("number", 1.3, True), ("number", 1.05, False),
+                                                   ("mass", 1.3, False)])
+def test_warning_of_unequal_masses(tmp_path, volume, ratio, warned):
+    lammps = Lammps(tmp_path)
+    particles = lattice(2, 12)
+    particles.mass = np.where(np.arange(len(particles)) % 2 == 0, 1.0, ratio)
+    particles.write(lammps.path("box.data"))
+    result = lammps(header(2) + "read_data box.data\n" + fluid(2, f"volume {volume}") + INTEGRATE + "run 0\nrun 0\n",
+                    ranks=2)
+    found = [line for line in result.warnings if "use volume mass" in line]
+    assert len(found) == (1 if warned else 0)
+    if warned:
+        assert "masses of type 1 differ by a factor of 1.3" in found[0]
+
+
+@pytest.mark.parametrize("volume", ["number", "mass"])
+def test_restart_holds_the_volume(tmp_path, volume):
+    lammps = Lammps(tmp_path)
+    two_sizes(2, 12).write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\n" + fluid(2, f"volume {volume}") + INTEGRATE + "run 0\n"
+           "write_restart box.restart\n" + dump("first.dump") + "run 0\n")
+    lammps("read_restart box.restart\n" + INTEGRATE + dump("second.dump") + "run 0\n", ranks=2)
+    first, second = lammps.frame("first.dump"), lammps.frame("second.dump")
+    assert relative(first["f"] - second["f"], first["f"]) < 1e-13
