@@ -228,7 +228,7 @@ def lattice(dim, cells, spacing=1.0):
                      np.ones(number, dtype=int), lo, hi)
 
 
-def disordered(dim, cells, seed=1, jitter=0.2, speed=0.5, ntypes=1, tilt=None):
+def disordered(dim, cells, seed=1, jitter=0.2, speed=0.5, ntypes=1, tilt=None, spread=0.1):
     """A lattice with random displacements, velocities, masses, energies and types."""
     random = np.random.default_rng(seed)
     particles = lattice(dim, cells)
@@ -237,7 +237,7 @@ def disordered(dim, cells, seed=1, jitter=0.2, speed=0.5, ntypes=1, tilt=None):
     shift[:, :dim] = random.uniform(-jitter, jitter, (number, dim))
     particles.x = particles.x + shift
     particles.v[:, :dim] = random.normal(0.0, speed, (number, dim))
-    particles.mass = random.uniform(0.9, 1.1, number)
+    particles.mass = random.uniform(1.0 - spread, 1.0 + spread, number)
     particles.esph = particles.mass * random.uniform(4.0, 6.0, number)
     particles.type = random.integers(1, ntypes + 1, number)
     if tilt is not None:

@@ -32,9 +32,8 @@ def deck(**changes):
 
 @pytest.fixture
 def box(lammps):
-    for particles, name in ((disordered(2, 10, ntypes=2), "box.data"), (disordered(3, 6, ntypes=2), "box3.data")):
-        particles.mass = 1.0 + 0.4 * (particles.mass - 1.0)  # of one size, no warning
-        particles.write(lammps.path(name))
+    disordered(2, 10, ntypes=2, spread=0.04).write(lammps.path("box.data"))
+    disordered(3, 6, ntypes=2, spread=0.04).write(lammps.path("box3.data"))
     return lammps
 
 

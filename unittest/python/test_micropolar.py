@@ -447,10 +447,10 @@ BAD = [
 
 @pytest.fixture
 def box(lammps):
-    write(disordered(2, 10, ntypes=2), lammps.path("box.data"))
-    write(disordered(3, 6, ntypes=2), lammps.path("box3.data"))
-    write(disordered(2, 10, ntypes=2), lammps.path("zero.data"), inertia=0.0)
-    write(disordered(2, 10, ntypes=2), lammps.path("negative.data"), inertia=-0.1)
+    write(disordered(2, 10, ntypes=2, spread=0.04), lammps.path("box.data"))
+    write(disordered(3, 6, ntypes=2, spread=0.04), lammps.path("box3.data"))
+    write(disordered(2, 10, ntypes=2, spread=0.04), lammps.path("zero.data"), inertia=0.0)
+    write(disordered(2, 10, ntypes=2, spread=0.04), lammps.path("negative.data"), inertia=-0.1)
     return lammps
 
 
