@@ -69,7 +69,8 @@ int FixSPHBulk::keyword_argument(int iarg, int narg, char **arg)
 
 int FixSPHBulk::setmask()
 {
-  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE;
+  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | MIN_PRE_FORCE |
+      FINAL_INTEGRATE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -94,6 +95,11 @@ void FixSPHBulk::init()
     error->all(FLERR, "Fix {} density requires pair style {}", style, style);
   if (shift_speed > 0.0 && update->whichflag != 2) {
     if (!pair) error->all(FLERR, "Fix {} shift requires pair style {}", style, style);
+    if (!pair->compute_flag)
+      error->all(FLERR,
+                 "Fix {} shift needs the forces of pair style {}, which pair_modify compute no "
+                 "leaves out",
+                 style, style);
     pair->request_crowding();
   }
 
@@ -147,8 +153,7 @@ void FixSPHBulk::warn_not_integrated()
   bigint count = 0, all;
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
-    if (!(atom->mask[i] & integrated) && pair->setflag[type][type] && !pair->is_boundary(i))
-      count++;
+    if (!(atom->mask[i] & integrated) && pair->has_type(type) && !pair->is_boundary(i)) count++;
   }
   MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
 
@@ -168,15 +173,20 @@ void FixSPHBulk::warn_not_integrated()
 
 void FixSPHBulk::setup_pre_exchange()
 {
-  if (!first_instance) return;
-  for (int i = 0; i < atom->nlocal; i++) reset_extrapolation(i);
+  if (first_instance) reset_extrapolation(0, atom->nlocal, 0);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHBulk::reset_extrapolation(int i)
+void FixSPHBulk::reset_extrapolation(int from, int to, int except)
 {
-  for (int d = 0; d < 3; d++) atom->vest[i][d] = remap_v_flag ? 0.0 : atom->v[i][d];
+  double **v = atom->v;
+  double **vest = atom->vest;
+  const double keep = remap_v_flag ? 0.0 : 1.0;
+  for (int i = from; i < to; i++) {
+    if (atom->mask[i] & except) continue;
+    for (int d = 0; d < 3; d++) vest[i][d] = keep * v[i][d];
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -186,10 +196,12 @@ void FixSPHBulk::reset_extrapolation(int i)
 
 void FixSPHBulk::set_arrays(int i)
 {
-  if (first_instance) reset_extrapolation(i);
+  if (first_instance) reset_extrapolation(i, i + 1, 0);
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   of a run, or of a minimization
+------------------------------------------------------------------------- */
 
 void FixSPHBulk::setup_pre_force(int /*vflag*/)
 {
@@ -197,7 +209,7 @@ void FixSPHBulk::setup_pre_force(int /*vflag*/)
     pair->set_mean_density(groupbit);
     density_done = 1;
   }
-  add_remapped_velocity();
+  if (update->whichflag == 1) add_remapped_velocity();
 }
 
 /* ----------------------------------------------------------------------
@@ -263,10 +275,7 @@ void FixSPHBulk::shift_particles()
 void FixSPHBulk::post_integrate()
 {
   if (!first_instance || (integrated_groups & 1)) return;
-
-  int *mask = atom->mask;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (!(mask[i] & integrated_groups)) reset_extrapolation(i);
+  reset_extrapolation(0, atom->nlocal, integrated_groups);
 }
 
 /* ---------------------------------------------------------------------- */

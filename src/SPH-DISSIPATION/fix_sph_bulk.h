@@ -53,9 +53,10 @@ class FixSPHBulk : public Fix {
   // # of words of the keyword at arg[iarg] that all integrators of this kind have
   int keyword_argument(int iarg, int narg, char **arg);
 
-  // extrapolated quantities of a particle at the start of a run, when it arrives, or if no such fix
-  // integrates it
-  virtual void reset_extrapolation(int);
+  // extrapolated quantities of particles from the first number to before the second, but those with
+  // a bit of the third in their mask: at the start of a run, when they arrive, or if no such fix
+  // integrates them
+  virtual void reset_extrapolation(int, int, int);
 
  private:
   void check_integrated_once();

@@ -55,6 +55,16 @@ FixSPHMicropolar::FixSPHMicropolar(LAMMPS *lmp, int narg, char **arg) :
 
 /* ---------------------------------------------------------------------- */
 
+void FixSPHMicropolar::init()
+{
+  FixSPHBulk::init();
+  if (inertia_flag && !force->pair_match(style, 1))
+    error->all(FLERR, "Fix {} inertia requires pair style {}, which gives the volumes", style,
+               style);
+}
+
+/* ---------------------------------------------------------------------- */
+
 void FixSPHMicropolar::setup(int vflag)
 {
   set_inertia();
@@ -128,11 +138,15 @@ void FixSPHMicropolar::check_inertia() const
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHMicropolar::reset_extrapolation(int i)
+void FixSPHMicropolar::reset_extrapolation(int from, int to, int except)
 {
-  FixSPHBulk::reset_extrapolation(i);
+  FixSPHBulk::reset_extrapolation(from, to, except);
+  double **omega = atom->omega;
   double **omegaest = spinning()->omegaest;
-  for (int d = 0; d < 3; d++) omegaest[i][d] = atom->omega[i][d];
+  for (int i = from; i < to; i++) {
+    if (atom->mask[i] & except) continue;
+    for (int d = 0; d < 3; d++) omegaest[i][d] = omega[i][d];
+  }
 }
 
 /* ---------------------------------------------------------------------- */

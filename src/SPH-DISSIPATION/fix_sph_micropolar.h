@@ -30,6 +30,7 @@ namespace LAMMPS_NS {
 class FixSPHMicropolar : public FixSPHBulk {
  public:
   FixSPHMicropolar(class LAMMPS *, int, char **);
+  void init() override;
   void setup(int) override;
   void initial_integrate(int) override;
   void pre_force(int) override;
@@ -41,7 +42,7 @@ class FixSPHMicropolar : public FixSPHBulk {
   void set_inertia();
 
  protected:
-  void reset_extrapolation(int) override;
+  void reset_extrapolation(int, int, int) override;
 
  private:
   int inertia_flag;    // 1: the keyword is there, I = factor V^(2/n) + offset

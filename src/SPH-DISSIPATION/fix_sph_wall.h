@@ -62,13 +62,13 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
                     const SPHDissipation::BoundarySum *) override;
 
  private:
-  enum Spin { ZERO, RATE, FREE };
+  enum SpinCondition { ZERO, RATE, FREE };
 
   SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
   SPHDissipation::Exclusions *exclusions;
   double gravity[3];
   bool move, slip;
-  Spin spin;
+  SpinCondition spin;
   double rate;     // alpha of spin rate
   bool checked;    // the thickness, in the first run
 

@@ -36,6 +36,7 @@
 #include "sph_dissipation_pressure.h"
 #include "sph_dissipation_state.h"
 #include "sph_dissipation_stress.h"
+#include "sph_dissipation_surface.h"
 #include "sph_dissipation_table.h"
 #include "update.h"
 
@@ -79,7 +80,12 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
     announced(false), stale(false), warned_step(0.0), engine(new Engine(lmp)),
     crowding_requested(false)
 {
-  exchange = new Exchange(lmp, this, BoundaryStage::FORWARD, BoundaryStage::REVERSE);
+  exchange =
+      new Exchange(lmp, this,
+                   std::max({DensityStage::FORWARD, LimitStage::FORWARD, SurfaceStage::FORWARD,
+                             BoundaryStage::FORWARD, FluidState::FORWARD}),
+                   std::max({DensityStage::REVERSE, LimitStage::REVERSE, SurfaceStage::REVERSE,
+                             BoundaryStage::REVERSE, CrowdingStage::REVERSE, FluidState::REVERSE}));
   density = new DensityStage(lmp, *engine, *exchange, *model);
   limit = new LimitStage(lmp, *engine, *exchange);
   pressure = new PressureStage(lmp, *engine, *exchange, *model);
@@ -358,6 +364,11 @@ double PairSPHBulk::reference_density(int type) const
   return model->coeffs[type].eos.rho0;
 }
 
+bool PairSPHBulk::has_type(int type) const
+{
+  return !model->coeffs[type].other;
+}
+
 void PairSPHBulk::check_pair(int i, int j)
 {
   if (model->choice.shear == Shear::NONE && model->viscosity(0, i, j) != 0.0)
@@ -384,6 +395,7 @@ Columns PairSPHBulk::viscous_steps(int i, int j, double hsq, double rho) const
 
 void PairSPHBulk::announce()
 {
+  if (!compute_flag) return;    // pair_modify compute no
   double speed = 0.0, fastest;
   for (int i = 0; i < atom->nlocal; i++) {
     const double *const v = atom->v[i];
@@ -440,11 +452,20 @@ void PairSPHBulk::announce()
 
 void PairSPHBulk::set_mean_density(int groupbit)
 {
+  constexpr int MOST = 100;
+  constexpr double CLOSE = 1.0e-12;
   check_masses(lmp, fluid_style, *model);
-  density->run(list, nullptr, nullptr);
+
+  // with volume mass, the volumes depend on the masses of the neighbors of other types
+
   FluidState state(lmp, *engine, *exchange, *model);
-  state.run(list, groupbit, boundary->bits());
-  state.scale_masses(fluid_style);
+  std::vector<double> factor(atom->ntypes + 1, 1.0);
+  for (int k = 0; k < MOST; k++) {
+    density->run(list, nullptr, nullptr);
+    state.run(list, groupbit, boundary->bits());
+    if (state.scale_masses(factor) < CLOSE) break;
+  }
+  state.report_masses(factor, fluid_style);
 }
 
 /* ----------------------------------------------------------------------
@@ -454,7 +475,7 @@ void PairSPHBulk::set_mean_density(int groupbit)
 
 double PairSPHBulk::init_one(int i, int j)
 {
-  if (model->adopt()) announced = false;
+  if (i == 1 && j == 1 && model->adopt()) announced = false;
   stale = true;
   if (i != j && model->is_mixed(i, j)) did_mix = true;
   return support;

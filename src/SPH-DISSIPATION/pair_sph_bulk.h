@@ -101,6 +101,7 @@ class PairSPHBulk : public Pair {
   double support_radius() const { return support; }
   int dimension() const { return dim; }    // of the kernel
   double reference_density(int) const;     // of a type
+  bool has_type(int) const;                // particles of a type are of this fluid
 
  protected:
   class StressTally;

@@ -32,8 +32,8 @@ namespace SPHDissipation {
 
   // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
   // particles f of V_f W(r_wf) times the quantity, S. Adami et al., J. Comput. Phys. 231, 7057 (2012)
-  // of a fluid particle: weight is the part of its support that boundary particles fill, filled that
-  // of a support of a few particle spacings, or of its own if that is smaller
+  // of a fluid particle: filled is the part of a support of a few particle spacings, or of its own if
+  // that is smaller, that boundary particles fill
   // relative: to the velocity that the rigid body of w has at f; d: distance of f from the surface
 
   struct BoundarySum {

@@ -228,7 +228,6 @@ void BoundaryStage::accumulate()
       const double w_f = engine.weight(pair.fluid);
       total.pressure += kernel_weight * w_f * w_f * f.g / f.vol;
       total.zeta_term += weight * engine.zeta_term[pair.fluid];
-      sum[pair.fluid].weight += w.vol * kernel_weight;
       const NearKernel &wall = near[pair.wall];
       const double q = distance * wall.scale;
       if (q < 1.0) sum[pair.fluid].filled += wall.norm * k.shape(q);
@@ -257,5 +256,6 @@ void BoundaryStage::check() const
 double BoundaryStage::memory_usage() const
 {
   return (double) nmax * sizeof(BoundarySum) + (double) pairs.capacity() * sizeof(BoundaryPair) +
-      (double) rows.capacity() * sizeof(int) + surface->memory_usage();
+      (double) rows.capacity() * sizeof(int) + (double) near.capacity() * sizeof(NearKernel) +
+      surface->memory_usage();
 }

@@ -240,7 +240,6 @@ void SPHDissipation::check_neighbors(LAMMPS *lmp, const std::string &style, cons
                                      double support)
 {
   const LoopData &pairs = engine.pairs();
-  if (!pairs.ilist) return;    // pair_modify compute no
   Atom *atom = lmp->atom;
   auto is_fluid = [&](int i) {
     return !model.coeffs[atom->type[i]].other && !(atom->mask[i] & boundary_bits);

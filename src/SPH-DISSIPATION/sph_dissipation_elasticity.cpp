@@ -30,7 +30,7 @@ using MathConst::MY_PI;
 
 /* ----------------------------------------------------------------------
    Shear gamma s k, with unit vectors k and s at right angles, moves a neighbor at r by
-   gamma s (k.r): d2c/dgamma2 = -sum_j [F (k.r)^2 + F'/r (k.r)^2 (s.r)^2]
+   gamma s (k.r): d2c/dgamma2 = -sum_j w_j [F (k.r)^2 + F'/r (k.r)^2 (s.r)^2]
    here the sums over the products of components of r, xx yy zz yz xz xy
 ------------------------------------------------------------------------- */
 
@@ -60,7 +60,7 @@ void LatticeStrain::run(NeighList *list, const std::vector<double> &weight)
         const double derivative =
             pairs.slope_norm * (k.slope(to) - k.slope(from)) / (to - from) / (pairs.support * dist);
         for (const int one : {i, j}) {
-          const double each = weight[one] / engine.density[one].c;
+          const double each = weight[one] * engine.weight(i + j - one) / engine.density[one].c;
           Sum &sum = my_sums[type[one]];
           for (int a = 0; a < 6; a++) {
             sum.second[a] -= each * pairs.slope[entry] * product[a];

@@ -22,10 +22,12 @@
 #include <vector>
 
 // GCC and Clang, and what is built on them, can compile single functions for other instruction sets
-// than the rest of LAMMPS.  NVIDIA's compilers call themselves GCC, too, but cannot.
+// than the rest of LAMMPS.  NVIDIA's compilers call themselves GCC, too, but cannot; MinGW's GCC does
+// not align the stack for their registers (GCC bug 54412).
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__EDG__) && !defined(__NVCC__) && \
-    !defined(__NVCOMPILER) && !defined(__PGI) && !defined(SPH_DISSIPATION_NO_SIMD)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__EDG__) && !defined(__NVCC__) &&         \
+    !defined(__NVCOMPILER) && !defined(__PGI) && !(defined(__MINGW32__) && !defined(__clang__)) && \
+    !defined(SPH_DISSIPATION_NO_SIMD)
 #define SPH_DISSIPATION_DISPATCH
 #endif
 

@@ -50,7 +50,7 @@ void FluidState::run(NeighList *list, int group_in, int not_fluid_in)
 }
 
 /* ----------------------------------------------------------------------
-   A particle at a free surface has R |sum_j F r_ij| / c between 1.4 and 2.4, for R of 2.5 to 6
+   A particle at a free surface has R |sum_j w_j F r_ij| / c between 1.4 and 2.4, for R of 2.5 to 6
    spacings in 1 to 3 dimensions; one inside 0 on lattices and below 1 if disordered.  No
    particle of full support has such a one in reach.
 ------------------------------------------------------------------------- */
@@ -73,8 +73,8 @@ void FluidState::find_full_support(NeighList *list)
   each_pair([&](int i, int j, double slope) {
     for (int d = 0; d < 3; d++) {
       const double pull = slope * (particle[i].x[d] - particle[j].x[d]);
-      lopsided[3 * i + d] += pull;
-      lopsided[3 * j + d] -= pull;
+      lopsided[3 * i + d] += engine.weight(j) * pull;
+      lopsided[3 * j + d] -= engine.weight(i) * pull;
     }
   });
   exchange.reverse({{lopsided.data(), 3, 3}});
@@ -157,17 +157,32 @@ double FluidState::mean_pressure(int type) const
   return mean.pressure / mean.count;
 }
 
-/* ----------------------------------------------------------------------
-   the number density of the particles does not depend on their masses
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void FluidState::scale_masses(const std::string &fix_style)
+double FluidState::scale_masses(std::vector<double> &factor) const
 {
-  std::vector<double> factor(atom->ntypes + 1, 1.0);
+  std::vector<double> next(atom->ntypes + 1, 1.0);
+  double largest = 0.0;
   for (int type = 1; type <= atom->ntypes; type++) {
     if (!has_type(type)) continue;
-    factor[type] = model.coeffs[type].eos.rho0 / mean_density(type);
-    if (comm->me != 0) continue;
+    next[type] = model.coeffs[type].eos.rho0 / mean_density(type);
+    factor[type] *= next[type];
+    largest = std::max(largest, fabs(next[type] - 1.0));
+  }
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    if ((atom->mask[i] & group) && !(atom->mask[i] & not_fluid))
+      atom->rmass[i] *= next[atom->type[i]];
+  return largest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidState::report_masses(const std::vector<double> &factor,
+                               const std::string &fix_style) const
+{
+  if (comm->me != 0) return;
+  for (int type = 1; type <= atom->ntypes; type++) {
+    if (!has_type(type)) continue;
     utils::logmesg(lmp, "Fix {}: masses of type {} times {:.8g} for the mean density rho0\n",
                    fix_style, type, factor[type]);
     if (!has_full_support(type))
@@ -176,10 +191,6 @@ void FluidState::scale_masses(const std::string &fix_style)
                      "are too large for the inside of a fluid",
                      fix_style, type);
   }
-
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
-    if ((atom->mask[i] & group) && !(atom->mask[i] & not_fluid))
-      atom->rmass[i] *= factor[atom->type[i]];
 }
 
 /* ---------------------------------------------------------------------- */

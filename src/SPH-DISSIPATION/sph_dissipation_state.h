@@ -51,9 +51,14 @@ namespace SPHDissipation {
     void warn(NeighList *, const std::string &fix_style, bool evened_out);
 
     // masses of the owned and ghost particles of run(), times one factor for each type, so that the
-    // mean density of the type is rho0
+    // mean density of the type is rho0 if the volumes do not depend on masses; factor[type] is
+    // multiplied by it.  Returns the largest |factor - 1|.
 
-    void scale_masses(const std::string &fix_style);
+    double scale_masses(std::vector<double> &factor) const;
+
+    // what the masses were multiplied with, in the log
+
+    void report_masses(const std::vector<double> &factor, const std::string &fix_style) const;
 
    private:
     enum Set { ALL, FULL, NSET };

@@ -42,6 +42,20 @@ static constexpr double CUTOFF = 3.0;
 
 static constexpr double OUTER = 0.85;
 
+// directions that are the rest of vectors that cancel each other mean nothing: shortest rest, as part
+// of the vectors
+
+static constexpr double REST = 0.1;
+
+// 1 inside of a sphere, going to zero smoothly at its surface, on which particles of lattices lie
+
+static double edge(double rsq, double radius)
+{
+  constexpr double WITHIN = 0.97;
+  const double part = (1.0 - rsq / (radius * radius)) / (1.0 - WITHIN);
+  return (part < 1.0) ? part * part * (3.0 - 2.0 * part) : 1.0;
+}
+
 /* ---------------------------------------------------------------------- */
 
 SurfaceStage::SurfaceStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
@@ -124,15 +138,17 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
     Surface &s = surface[i];
     const double width = WIDTH * s.spacing;
     const double norm = pow(width * sqrt(MathConst::MY_2PI), -dim);
+    const double radius = std::min(support, CUTOFF * s.spacing);
     double filled = 0.0, inward[3] = {0.0, 0.0, 0.0};
-    cells.near(
-        atom->x[i], std::min(support, CUTOFF * s.spacing), [&](int j, const double *r, double rsq) {
-          const double part = engine.particle[j].vol * norm * exp(-0.5 * rsq / (width * width));
-          filled += part;
-          for (int d = 0; d < 3; d++) inward[d] += part * r[d];
-        });
-    const bool outer = filled < OUTER && MathExtra::dot3(inward, s.normal) < 0.0;
+    cells.near(atom->x[i], radius, [&](int j, const double *r, double rsq) {
+      const double part =
+          engine.particle[j].vol * norm * exp(-0.5 * rsq / (width * width)) * edge(rsq, radius);
+      filled += part;
+      for (int d = 0; d < 3; d++) inward[d] += part * r[d];
+    });
     const double length = MathExtra::len3(inward);
+    const bool outer = filled < OUTER && length > REST * REST * width &&
+        MathExtra::dot3(inward, s.normal) < -REST * REST * length * MathExtra::len3(s.normal);
     for (int d = 0; d < 3; d++) s.normal[d] = outer ? -inward[d] / length : 0.0;
     s.depth = (filled - 0.5) * width * sqrt(MathConst::MY_2PI);
   }
@@ -141,7 +157,8 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
 /* ----------------------------------------------------------------------
    mean over the tangential planes of the outer layer, each weighted by the inverse eighth
    power of its distance; those far away on a curved surface or round a corner do not matter.
-   A particle without any has its image at the place of the fluid's mean.
+   A particle without any, or half way between two opposite ones, has its image at the place of
+   the fluid's mean.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
@@ -156,13 +173,13 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
     cells.near(atom->x[i], support, [&](int j, const double *r, double rsq) {
       const Surface &plane = surface[j];
       const double inverse = 1.0 / (rsq + soft * soft);
-      const double weight = inverse * inverse * inverse * inverse;
+      const double weight = inverse * inverse * inverse * inverse * edge(rsq, support);
       weights += weight;
       depth += weight * (MathExtra::dot3(plane.normal, r) + plane.depth);
       for (int d = 0; d < 3; d++) normal[d] += weight * plane.normal[d];
     });
     const double length = MathExtra::len3(normal);
-    if (length > 0.0) {
+    if (length > REST * weights) {
       s.depth = std::max(depth / weights, 0.0);
       for (int d = 0; d < 3; d++) s.normal[d] = normal[d] / length;
     } else {

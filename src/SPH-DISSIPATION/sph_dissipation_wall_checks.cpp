@@ -25,9 +25,12 @@
 #include "neighbor.h"
 #include "pair_hybrid.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_cells.h"
+#include "sph_dissipation_checks.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -46,14 +49,12 @@ void SPHDissipation::check_wall_particles(LAMMPS *lmp, const Fix *fix)
 
   for (const auto &other : lmp->modify->get_fix_list()) {
     if (!other->time_integrate || other == fix) continue;
-    tagint shared = -1, shared_all;    // all are 0 with atom_modify id no
-    for (int i = 0; i < atom->nlocal; i++)
-      if ((atom->mask[i] & fix->groupbit) && (atom->mask[i] & other->groupbit))
-        shared = atom->tag[i];
-    MPI_Allreduce(&shared, &shared_all, 1, MPI_LMP_TAGINT, MPI_MAX, lmp->world);
-    if (shared_all >= 0)
-      lmp->error->all(FLERR, "Particle {} of the wall of fix {} {} is also moved by fix {} {}",
-                      shared_all, fix->id, fix->style, other->id, other->style);
+    const auto shared = first_particle(lmp, [&](int i) {
+      return (atom->mask[i] & fix->groupbit) && (atom->mask[i] & other->groupbit);
+    });
+    if (!shared.empty())
+      lmp->error->all(FLERR, "Fix {}: {} of the wall of fix {} {} is also moved by fix {} {}",
+                      fix->style, shared, fix->id, fix->style, other->id, other->style);
   }
 }
 
@@ -133,7 +134,7 @@ void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Pai
 
   std::vector<Kind> solid, fluid;
   for (const Kind &kind : all_kinds(lmp)) {
-    const bool has_coefficients = pair->setflag[kind.type][kind.type];
+    const bool has_coefficients = pair->has_type(kind.type);
     if (kind.mask & fix->groupbit) {
       if (!has_coefficients)
         lmp->error->all(FLERR,
@@ -170,7 +171,8 @@ void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Pai
    warn if the wall does not fill the support of the fluid at its surface.  The first
    layer is what has fluid at the distance of the particle spacing; how deep the wall
    goes below it, as seen within the support radius, must be that minus one spacing.
-   The neighbor lists have no pairs of wall particles, hence the bins.
+   The neighbor lists have no pairs of wall particles, hence the cells.
+   warn if the masses do not fit the distances, for the spacing is that of the masses
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_wall_thickness(LAMMPS *lmp, const Fix *fix, const PairSPHBulk *pair)
@@ -181,57 +183,34 @@ void SPHDissipation::check_wall_thickness(LAMMPS *lmp, const Fix *fix, const Pai
   const double support = pair->support_radius();
   const int dim = pair->dimension();
 
-  double lo[3];
-  bigint nbin[3];
-  for (int d = 0; d < 3; d++) {
-    double hi = lo[d] = nall ? x[0][d] : 0.0;
-    for (int i = 0; i < nall; i++) {
-      lo[d] = std::min(lo[d], x[i][d]);
-      hi = std::max(hi, x[i][d]);
-    }
-    nbin[d] = static_cast<bigint>((hi - lo[d]) / support) + 1;
-  }
-  auto bin_of = [&](int i, int d) {
-    return static_cast<bigint>((x[i][d] - lo[d]) / support);
-  };
-  std::vector<int> head(nbin[0] * nbin[1] * nbin[2], -1), next(nall);
-  for (int i = 0; i < nall; i++) {
-    int &first = head[(bin_of(i, 2) * nbin[1] + bin_of(i, 1)) * nbin[0] + bin_of(i, 0)];
-    next[i] = first;
-    first = i;
-  }
+  std::vector<int> everything(nall);
+  std::iota(everything.begin(), everything.end(), 0);
+  const Cells cells(x, everything, support);
 
   // for each particle j within the support radius of particle i
 
   auto for_neighbors = [&](int i, auto &&function) {
-    bigint from[3], to[3];
-    for (int d = 0; d < 3; d++) {
-      from[d] = std::max(bin_of(i, d) - 1, bigint(0));
-      to[d] = std::min(bin_of(i, d) + 1, nbin[d] - 1);
-    }
-    for (bigint c = from[2]; c <= to[2]; c++)
-      for (bigint b = from[1]; b <= to[1]; b++)
-        for (bigint a = from[0]; a <= to[0]; a++)
-          for (int j = head[(c * nbin[1] + b) * nbin[0] + a]; j >= 0; j = next[j]) {
-            double r[3];
-            MathExtra::sub3(x[j], x[i], r);
-            const double rsq = MathExtra::lensq3(r);
-            if (j != i && rsq < support * support) function(j, r, sqrt(rsq));
-          }
+    cells.near(x[i], support, [&](int j, const double *r, double rsq) {
+      if (j != i) function(j, r, sqrt(rsq));
+    });
   };
 
   double worst[2] = {0.0, 0.0}, worst_all[2];    // spacing - depth, spacing over depth of bad ones
+  double sum[2] = {0.0, 0.0}, sum_all[2];        // of particles, of nearest particle over spacing
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & fix->groupbit)) continue;
     const double spacing = pow(atom->rmass[i] / pair->reference_density(atom->type[i]), 1.0 / dim);
 
-    double nearest = support, normal[3] = {0.0, 0.0, 0.0};
+    double nearest = support, normal[3] = {0.0, 0.0, 0.0}, closest = support;
     for_neighbors(i, [&](int j, const double *r, double distance) {
+      closest = std::min(closest, distance);
       if (pair->is_boundary(j)) return;
       nearest = std::min(nearest, distance);
       const double weight = (support - distance) * (support - distance) / distance;
       for (int d = 0; d < 3; d++) normal[d] += weight * r[d];
     });
+    sum[0] += 1.0;
+    sum[1] += closest / spacing;
     if (nearest > 1.25 * spacing || !(MathExtra::len3(normal) > 0.0)) continue;
     MathExtra::norm3(normal);
 
@@ -252,4 +231,15 @@ void SPHDissipation::check_wall_thickness(LAMMPS *lmp, const Fix *fix, const Pai
         "The wall of fix {} {} is thinner than the support radius {:g}, by {:.3g}: it "
         "needs {:g} layers of particles",
         fix->id, fix->style, support, worst_all[0], worst_all[1]);
+
+  // on lattices the nearest particle is 1 to 1.12 spacings away
+
+  MPI_Allreduce(sum, sum_all, 2, MPI_DOUBLE, MPI_SUM, lmp->world);
+  const double ratio = sum_all[1] / sum_all[0];
+  if ((ratio < 0.6 || ratio > 1.6) && lmp->comm->me == 0)
+    lmp->error->warning(
+        FLERR,
+        "The masses of the wall of fix {} {} are those of particles {:.2g} times as "
+        "far apart as they are: a mass should be rho0 of its type times the volume",
+        fix->id, fix->style, 1.0 / ratio);
 }

@@ -211,3 +211,76 @@ def test_needs_pair_style_and_masses(lammps):
                   ["density requires pair style sph/bulk"], 1)
     walls.refused(lammps, header(2) + "lattice sq 1.0\nregion B block 0 8 0 8 -0.5 0.5\ncreate_box 1 B\ncreate_atoms 1 box\n"
                   + fluid(2) + DENSITY + "run 0\n", ["mass must be > 0"], 2)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_density_rho0_with_reference_volumes(lammps, ranks):
+    """volume mass: walls keep their masses, two types have masses that depend on each other."""
+    text = """
+units lj
+dimension 2
+atom_style sph/bulk
+lattice sq 1.0 origin 0.5 0.5 0
+region box block 0 12 0 18 -0.5 0.5
+create_box 3 box
+create_atoms 1 box
+region floor block INF INF INF 3 INF INF
+region lid block INF INF 15 INF INF INF
+region upper block INF INF 9 15 INF INF
+set region floor type 3
+set region lid type 3
+set region upper type 2
+group fluid type 1 2
+group walls type 3
+displace_atoms fluid random 0.1 0.1 0 4711
+set type 1 mass 3.0
+set type 2 mass 0.2
+set type 3 mass 1.0
+pair_style sph/bulk volume mass
+pair_coeff * * 1.0 10.0 0.5 2.0 3.0
+pair_coeff 2 2 0.5 10.0 0.5 2.0 3.0
+fix 1 fluid sph/bulk density rho0
+fix W walls sph/wall
+run 0
+"""
+    log = lammps(text, ranks=ranks).log
+    for type_ in (1, 2):
+        row = re.search(rf"^  {type_} +\d+ +\d+ +\| (\S+)", log, re.MULTILINE)
+        assert abs(float(row[1]) - 1.0) < 2e-6, log
+
+
+@pytest.mark.parametrize("volume", ["number", "mass"])
+@pytest.mark.parametrize("scale", [0.1, 10.0])
+def test_state_in_other_lengths(lammps, volume, scale):
+    """The same drop with another length and mass: the same numbers of full support, density and spread."""
+    def rows(factor):
+        particles = drop(2, 8.0, seed=3)
+        replace(particles, x=factor * particles.x, mass=factor**2 * particles.mass, esph=factor**2 * particles.esph,
+                lo=factor * particles.lo, hi=factor * particles.hi).write(lammps.path("drop.data"))
+        log = lammps(header(2, boundary=free(2)) + "read_data drop.data\n"
+                     + fluid(2, f"volume {volume}", support=3.0 * factor) + INTEGRATE + "run 0\n").log
+        return re.search(r"^  1 +(\d+) +(\d+) +\| (\S+) +(\S+)", log, re.MULTILINE).groups()
+
+    here, there = rows(1.0), rows(scale)
+    assert 0 < int(here[1]) < int(here[0])
+    assert here == there
+
+
+def test_minimize_first(lammps):
+    """The masses are set by a minimization, too, if it comes first."""
+    lammps("""
+units lj
+dimension 2
+atom_style sph/bulk
+lattice hex 1.0
+region box block 0 8 0 6 -0.5 0.5
+create_box 1 box
+create_atoms 1 box
+set group all mass 2.0
+pair_style sph/bulk
+pair_coeff * * 1.0 10.0 0.5 2.0 3.0
+fix 1 all sph/bulk density rho0
+minimize 0.0 1e-8 10 10
+write_dump all custom x.dump id mass modify format float %.17g
+""")
+    assert np.abs(lammps.frame("x.dump")["mass"] - 1.0).max() < 0.02

@@ -116,6 +116,12 @@ def harmonic(a):
     return np.divide(2.0 * a[:, None] * a, total, out=np.zeros_like(total), where=total != 0.0)
 
 
+def fading(dist, radius):
+    """1 up to close to the radius, then a smooth step down to 0."""
+    t = np.clip((1.0 - (dist / radius) ** 2) / 0.03, 0.0, 1.0)
+    return 3 * t ** 2 - 2 * t ** 3
+
+
 def surface_of(model, x_from, dist, F, solid, fluid, volume):
     """Normal and depth of each wall particle; x_from[i, j] points from i to j.
 
@@ -127,23 +133,29 @@ def surface_of(model, x_from, dist, F, solid, fluid, volume):
     normal, depth = np.zeros((len(solid), 3)), np.zeros(len(solid))
     planes = {}
     for i in at:
-        near = at[dist[i, at] < min(model.support, 3.0 * spacing[i])]
+        radius = min(model.support, 3.0 * spacing[i])
+        near = at[dist[i, at] < radius]
         width = 0.7 * spacing[i]
         gauss = volume[near] * np.exp(-dist[i, near] ** 2 / (2 * width ** 2)) / (2 * pi * width ** 2) ** (n / 2)
+        gauss *= fading(dist[i, near], radius)
         inward = gauss @ x_from[i, near]
         side = F[i, fluid] @ x_from[i, fluid]
-        if gauss.sum() < 0.85 and inward @ side < 0.0:
+        if (gauss.sum() < 0.85 and np.linalg.norm(inward) > 0.01 * width
+                and inward @ side < -0.01 * np.linalg.norm(inward) * np.linalg.norm(side)):
             planes[i] = -inward / np.linalg.norm(inward), (gauss.sum() - 0.5) * np.sqrt(2 * pi) * width
     for i in at:
         near = [j for j in planes if dist[i, j] < model.support]
         if not near:
             depth[i] = 0.45 * spacing[i]
             continue
-        share = (dist[i, near] ** 2 + (0.25 * spacing[i]) ** 2) ** -4.0
+        share = (dist[i, near] ** 2 + (0.25 * spacing[i]) ** 2) ** -4.0 * fading(dist[i, near], model.support)
         share /= share.sum()
         depth[i] = max(0.0, sum(w * (planes[j][0] @ x_from[i, j] + planes[j][1]) for w, j in zip(share, near)))
         mean = sum(w * planes[j][0] for w, j in zip(share, near))
-        normal[i] = mean / np.linalg.norm(mean)
+        if np.linalg.norm(mean) < 0.1:  # half way between two surfaces
+            depth[i] = 0.45 * spacing[i]
+        else:
+            normal[i] = mean / np.linalg.norm(mean)
     return normal, depth
 
 
