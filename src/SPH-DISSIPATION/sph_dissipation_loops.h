@@ -37,18 +37,18 @@ namespace SPHDissipation {
 
     template <class Row> constexpr int WIDTH = sizeof(Row) / sizeof(double);
 
-    template <class Row> inline const double *numbers(const Row *row)
+    template <class Row> SPH_INLINE const double *numbers(const Row *row)
     {
       return reinterpret_cast<const double *>(row);
     }
-    template <class Row> inline double *numbers(Row *row)
+    template <class Row> SPH_INLINE double *numbers(Row *row)
     {
       return reinterpret_cast<double *>(row);
     }
 
     // one number of each of LANES particles
 
-    inline Vec gather(const double *from, const int *i)
+    SPH_INLINE Vec gather(const double *from, const int *i)
     {
       double lane[LANES];
       for (int l = 0; l < LANES; l++) lane[l] = from[i[l]];
@@ -126,12 +126,12 @@ namespace SPHDissipation {
     struct Coeff {
       Vec along_r, along_u, xi1, xi2;
 
-      inline Coeff(const PairCoeff &pair) :
+      SPH_INLINE Coeff(const PairCoeff &pair) :
           along_r(all(pair.along_r)), along_u(all(pair.along_u)), xi1(all(pair.xi1)),
           xi2(all(pair.xi2))
       {
       }
-      inline void load(const LoopData &data, int i, const int *j, int n)
+      SPH_INLINE void load(const LoopData &data, int i, const int *j, int n)
       {
         const PairCoeff *const coeff = data.coeff + data.type[i] * data.ntypes_1;
         double column[4][LANES];

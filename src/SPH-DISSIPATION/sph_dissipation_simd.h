@@ -39,11 +39,11 @@ namespace SPHDissipation {
 
     // row number i of N doubles
 
-    template <int N> inline const double *at(const double *row, int i)
+    template <int N> SPH_INLINE const double *at(const double *row, int i)
     {
       return row + N * static_cast<bigint>(i);
     }
-    template <int N> inline double *at(double *row, int i)
+    template <int N> SPH_INLINE double *at(double *row, int i)
     {
       return row + N * static_cast<bigint>(i);
     }
@@ -53,45 +53,45 @@ namespace SPHDissipation {
     constexpr int LANES = 8;
     typedef __m512d Vec;
 
-    inline Vec all(double a)
+    SPH_INLINE Vec all(double a)
     {
       return _mm512_set1_pd(a);
     }
-    inline Vec load(const double *from)
+    SPH_INLINE Vec load(const double *from)
     {
       return _mm512_loadu_pd(from);
     }
-    inline void store(double *to, Vec a)
+    SPH_INLINE void store(double *to, Vec a)
     {
       _mm512_storeu_pd(to, a);
     }
-    inline Vec square_root(Vec a)
+    SPH_INLINE Vec square_root(Vec a)
     {
       return _mm512_sqrt_pd(a);
     }
-    inline Vec if_positive(Vec a, Vec value)
+    SPH_INLINE Vec if_positive(Vec a, Vec value)
     {
       return _mm512_maskz_mov_pd(_mm512_cmp_pd_mask(a, _mm512_setzero_pd(), _CMP_GT_OQ), value);
     }
-    inline int bits_below(Vec a, Vec bound)
+    SPH_INLINE int bits_below(Vec a, Vec bound)
     {
       return _mm512_cmp_pd_mask(a, bound, _CMP_LT_OQ);
     }
-    inline Vec if_bits(int bits, Vec value)
+    SPH_INLINE Vec if_bits(int bits, Vec value)
     {
       return _mm512_maskz_mov_pd(static_cast<__mmask8>(bits), value);
     }
-    inline void pack(double *to, Vec a, int bits)
+    SPH_INLINE void pack(double *to, Vec a, int bits)
     {
       _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(bits), a));
     }
-    inline void pack(int *to, const int *from, int bits)
+    SPH_INLINE void pack(int *to, const int *from, int bits)
     {
       const __m256i a = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from));
       _mm256_storeu_si256(reinterpret_cast<__m256i *>(to),
                           _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), a));
     }
-    inline void copy_neighbors(int *to, const int *from, int n, int fill)
+    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int fill)
     {
       const __m256i fills =
           _mm256_add_epi32(_mm256_set1_epi32(fill), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
@@ -102,27 +102,27 @@ namespace SPHDissipation {
                             _mm256_mask_and_epi32(fills, there, j, _mm256_set1_epi32(NEIGHMASK)));
       }
     }
-    inline int count_bits(int bits)
+    SPH_INLINE int count_bits(int bits)
     {
       return __builtin_popcount(bits);
     }
-    inline double sum(Vec a)
+    SPH_INLINE double sum(Vec a)
     {
       const __m256d half = _mm512_castpd512_pd256(a) + _mm512_extractf64x4_pd(a, 1);
       const __m128d pair = _mm256_castpd256_pd128(half) + _mm256_extractf128_pd(half, 1);
       return _mm_cvtsd_f64(pair) + _mm_cvtsd_f64(_mm_unpackhi_pd(pair, pair));
     }
-    inline void prefetch(const void *p)
+    SPH_INLINE void prefetch(const void *p)
     {
       _mm_prefetch(static_cast<const char *>(p), _MM_HINT_T0);
     }
-    inline Vec load_halves(const double *lower, const double *upper)
+    SPH_INLINE Vec load_halves(const double *lower, const double *upper)
     {
       return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(lower)),
                                 _mm256_loadu_pd(upper), 1);
     }
 
-    template <int N> inline void load_4_columns(const double *row, const int *i, Vec *column)
+    template <int N> SPH_INLINE void load_4_columns(const double *row, const int *i, Vec *column)
     {
       const Vec a = load_halves(at<N>(row, i[0]), at<N>(row, i[2]));
       const Vec b = load_halves(at<N>(row, i[1]), at<N>(row, i[3]));
@@ -136,16 +136,16 @@ namespace SPHDissipation {
       column[3] = _mm512_shuffle_f64x2(ab_odd, cd_odd, 0xdd);
     }
 
-    inline void add_256(double *to, __m256d a)
+    SPH_INLINE void add_256(double *to, __m256d a)
     {
       _mm256_storeu_pd(to, _mm256_loadu_pd(to) + a);
     }
-    inline void add_128(double *to, __m128d a)
+    SPH_INLINE void add_128(double *to, __m128d a)
     {
       _mm_storeu_pd(to, _mm_loadu_pd(to) + a);
     }
 
-    template <int N> inline void add_4_columns(double *row, const int *i, const Vec *column)
+    template <int N> SPH_INLINE void add_4_columns(double *row, const int *i, const Vec *column)
     {
       const Vec even01 = _mm512_unpacklo_pd(column[0], column[1]);
       const Vec even23 = _mm512_unpacklo_pd(column[2], column[3]);
@@ -167,7 +167,7 @@ namespace SPHDissipation {
       add_256(at<N>(row, i[7]), _mm512_extractf64x4_pd(rows57, 1));
     }
 
-    template <int N> inline void add_2_columns(double *row, const int *i, const Vec *column)
+    template <int N> SPH_INLINE void add_2_columns(double *row, const int *i, const Vec *column)
     {
       const Vec even = _mm512_unpacklo_pd(column[0], column[1]);
       const Vec odd = _mm512_unpackhi_pd(column[0], column[1]);
@@ -186,32 +186,32 @@ namespace SPHDissipation {
     constexpr int LANES = 4;
     typedef __m256d Vec;
 
-    inline Vec all(double a)
+    SPH_INLINE Vec all(double a)
     {
       return _mm256_set1_pd(a);
     }
-    inline Vec load(const double *from)
+    SPH_INLINE Vec load(const double *from)
     {
       return _mm256_loadu_pd(from);
     }
-    inline void store(double *to, Vec a)
+    SPH_INLINE void store(double *to, Vec a)
     {
       _mm256_storeu_pd(to, a);
     }
-    inline Vec square_root(Vec a)
+    SPH_INLINE Vec square_root(Vec a)
     {
       return _mm256_sqrt_pd(a);
     }
-    inline Vec if_positive(Vec a, Vec value)
+    SPH_INLINE Vec if_positive(Vec a, Vec value)
     {
       return _mm256_and_pd(_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GT_OQ), value);
     }
-    inline int bits_below(Vec a, Vec bound)
+    SPH_INLINE int bits_below(Vec a, Vec bound)
     {
       return _mm256_movemask_pd(_mm256_cmp_pd(a, bound, _CMP_LT_OQ));
     }
 
-    inline Vec if_bits(int bits, Vec value)
+    SPH_INLINE Vec if_bits(int bits, Vec value)
     {
       const __m256i lane_bit = _mm256_setr_epi64x(1, 2, 4, 8);
       const __m256i lanes = _mm256_and_si256(_mm256_set1_epi64x(bits), lane_bit);
@@ -228,13 +228,13 @@ namespace SPHDissipation {
         {4, 5, 6, 7, 0, 1, 2, 3}, {0, 1, 4, 5, 6, 7, 2, 3}, {2, 3, 4, 5, 6, 7, 0, 1},
         {0, 1, 2, 3, 4, 5, 6, 7}};
 
-    inline void pack(double *to, Vec a, int bits)
+    SPH_INLINE void pack(double *to, Vec a, int bits)
     {
       const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i *>(PACK[bits]));
       const __m256 packed = _mm256_permutevar8x32_ps(_mm256_castpd_ps(a), order);
       _mm256_storeu_pd(to, _mm256_castps_pd(packed));
     }
-    inline void pack(int *to, const int *from, int bits)
+    SPH_INLINE void pack(int *to, const int *from, int bits)
     {
       int n = 0;
       for (int l = 0; l < LANES; l++) {
@@ -243,26 +243,26 @@ namespace SPHDissipation {
       }
     }
 
-    inline void copy_neighbors(int *to, const int *from, int n, int fill)
+    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int fill)
     {
       for (int k = 0; k < n; k++) to[k] = from[k] & NEIGHMASK;
       for (int l = 0; l < LANES; l++) to[n + l] = fill + l;
     }
-    inline int count_bits(int bits)
+    SPH_INLINE int count_bits(int bits)
     {
       return __builtin_popcount(bits);
     }
-    inline double sum(Vec a)
+    SPH_INLINE double sum(Vec a)
     {
       const __m128d pair = _mm256_castpd256_pd128(a) + _mm256_extractf128_pd(a, 1);
       return _mm_cvtsd_f64(pair) + _mm_cvtsd_f64(_mm_unpackhi_pd(pair, pair));
     }
-    inline void prefetch(const void *p)
+    SPH_INLINE void prefetch(const void *p)
     {
       _mm_prefetch(static_cast<const char *>(p), _MM_HINT_T0);
     }
 
-    inline void transpose(Vec &a, Vec &b, Vec &c, Vec &d)
+    SPH_INLINE void transpose(Vec &a, Vec &b, Vec &c, Vec &d)
     {
       const Vec ab_even = _mm256_unpacklo_pd(a, b), cd_even = _mm256_unpacklo_pd(c, d);
       const Vec ab_odd = _mm256_unpackhi_pd(a, b), cd_odd = _mm256_unpackhi_pd(c, d);
@@ -272,13 +272,13 @@ namespace SPHDissipation {
       d = _mm256_permute2f128_pd(ab_odd, cd_odd, 0x31);
     }
 
-    template <int N> inline void load_4_columns(const double *row, const int *i, Vec *column)
+    template <int N> SPH_INLINE void load_4_columns(const double *row, const int *i, Vec *column)
     {
       for (int l = 0; l < LANES; l++) column[l] = load(at<N>(row, i[l]));
       transpose(column[0], column[1], column[2], column[3]);
     }
 
-    template <int N> inline void add_4_columns(double *row, const int *i, const Vec *column)
+    template <int N> SPH_INLINE void add_4_columns(double *row, const int *i, const Vec *column)
     {
       Vec r[4] = {column[0], column[1], column[2], column[3]};
       transpose(r[0], r[1], r[2], r[3]);
@@ -288,12 +288,12 @@ namespace SPHDissipation {
       }
     }
 
-    inline void add_128(double *to, __m128d a)
+    SPH_INLINE void add_128(double *to, __m128d a)
     {
       _mm_storeu_pd(to, _mm_loadu_pd(to) + a);
     }
 
-    template <int N> inline void add_2_columns(double *row, const int *i, const Vec *column)
+    template <int N> SPH_INLINE void add_2_columns(double *row, const int *i, const Vec *column)
     {
       const Vec even = _mm256_unpacklo_pd(column[0], column[1]);
       const Vec odd = _mm256_unpackhi_pd(column[0], column[1]);
@@ -308,65 +308,65 @@ namespace SPHDissipation {
     constexpr int LANES = 1;
     typedef double Vec;
 
-    inline Vec all(double a)
+    SPH_INLINE Vec all(double a)
     {
       return a;
     }
-    inline Vec load(const double *from)
+    SPH_INLINE Vec load(const double *from)
     {
       return *from;
     }
-    inline void store(double *to, Vec a)
+    SPH_INLINE void store(double *to, Vec a)
     {
       *to = a;
     }
-    inline Vec square_root(Vec a)
+    SPH_INLINE Vec square_root(Vec a)
     {
       return std::sqrt(a);
     }
-    inline Vec if_positive(Vec a, Vec value)
+    SPH_INLINE Vec if_positive(Vec a, Vec value)
     {
       return (a > 0.0) ? value : 0.0;
     }
-    inline int bits_below(Vec a, Vec bound)
+    SPH_INLINE int bits_below(Vec a, Vec bound)
     {
       return (a < bound) ? 1 : 0;
     }
-    inline Vec if_bits(int bits, Vec value)
+    SPH_INLINE Vec if_bits(int bits, Vec value)
     {
       return bits ? value : 0.0;
     }
-    inline void pack(double *to, Vec a, int)
+    SPH_INLINE void pack(double *to, Vec a, int)
     {
       *to = a;
     }
-    inline void pack(int *to, const int *from, int)
+    SPH_INLINE void pack(int *to, const int *from, int)
     {
       *to = *from;
     }
-    inline void copy_neighbors(int *to, const int *from, int n, int fill)
+    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int fill)
     {
       for (int k = 0; k < n; k++) to[k] = from[k] & NEIGHMASK;
       for (int l = 0; l < LANES; l++) to[n + l] = fill + l;
     }
-    inline int count_bits(int bits)
+    SPH_INLINE int count_bits(int bits)
     {
       return bits;
     }
-    inline double sum(Vec a)
+    SPH_INLINE double sum(Vec a)
     {
       return a;
     }
-    inline void prefetch(const void *) {}
-    template <int N> inline void load_4_columns(const double *row, const int *i, Vec *column)
+    SPH_INLINE void prefetch(const void *) {}
+    template <int N> SPH_INLINE void load_4_columns(const double *row, const int *i, Vec *column)
     {
       for (int c = 0; c < 4; c++) column[c] = at<N>(row, *i)[c];
     }
-    template <int N> inline void add_4_columns(double *row, const int *i, const Vec *column)
+    template <int N> SPH_INLINE void add_4_columns(double *row, const int *i, const Vec *column)
     {
       for (int c = 0; c < 4; c++) at<N>(row, *i)[c] += column[c];
     }
-    template <int N> inline void add_2_columns(double *row, const int *i, const Vec *column)
+    template <int N> SPH_INLINE void add_2_columns(double *row, const int *i, const Vec *column)
     {
       for (int c = 0; c < 2; c++) at<N>(row, *i)[c] += column[c];
     }
@@ -375,7 +375,7 @@ namespace SPHDissipation {
 
     // the same for all instruction sets
 
-    template <int N> inline void add_column(double *row, const int *i, Vec column)
+    template <int N> SPH_INLINE void add_column(double *row, const int *i, Vec column)
     {
       double lane[LANES];
       store(lane, column);
