@@ -249,7 +249,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
 
 /* ----------------------------------------------------------------------
    Fickian particle shifting: velocity U R crowding, at most U/2, on top of the own one,
-   S. J. Lind et al., J. Comput. Phys. 231, 1499 (2012); P. N. Sun et al. (2017), see the engine
+   S. J. Lind et al., J. Comput. Phys. 231, 1499 (2012); P. N. Sun et al. (2017), see CrowdingStage
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::shift_particles()
