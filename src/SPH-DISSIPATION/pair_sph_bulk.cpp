@@ -33,6 +33,7 @@
 #include "sph_dissipation_kernel.h"
 #include "sph_dissipation_limit.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_pressure.h"
 #include "sph_dissipation_state.h"
 #include "sph_dissipation_stress.h"
@@ -83,12 +84,13 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
   exchange =
       new Exchange(lmp, this,
                    std::max({DensityStage::FORWARD, LimitStage::FORWARD, SurfaceStage::FORWARD,
-                             BoundaryStage::FORWARD, FluidState::FORWARD}),
+                             OpenStage::FORWARD, BoundaryStage::FORWARD, FluidState::FORWARD}),
                    std::max({DensityStage::REVERSE, LimitStage::REVERSE, SurfaceStage::REVERSE,
                              BoundaryStage::REVERSE, CrowdingStage::REVERSE, FluidState::REVERSE}));
   density = new DensityStage(lmp, *engine, *exchange, *model);
   limit = new LimitStage(lmp, *engine, *exchange);
   pressure = new PressureStage(lmp, *engine, *exchange, *model);
+  open = new OpenStage(lmp, *engine, *exchange);
   boundary = new BoundaryStage(lmp, *engine, *exchange, *model, fluid_style);
   crowd = new CrowdingStage(lmp, *engine, *exchange);
   forces = new ForceStage(lmp, *engine, *exchange);
@@ -116,6 +118,7 @@ PairSPHBulk::~PairSPHBulk()
   delete density;
   delete limit;
   delete pressure;
+  delete open;
   delete boundary;
   delete crowd;
   delete forces;
@@ -146,9 +149,11 @@ void PairSPHBulk::compute(int eflag, int vflag)
   if (limited) limit->run(list);
   if (!boundary->empty()) boundary->set_reference_volume();
   const bigint nbeyond = pressure->run(limited ? limit->bound : nullptr, boundary->bits());
+  if (!open->empty()) open->run();
   if (!boundary->empty()) boundary->run(list);
   if (crowding_requested) crowd->run(list);
   forces->run(list, tally);
+  if (!open->empty()) open->sum_impacts(list);
 
   pvector[0] = static_cast<double>(nbeyond);
   if (eflag_either) tally_energy();
@@ -159,7 +164,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
 
 void PairSPHBulk::tally_energy()
 {
-  const double energy = pressure->elastic_energy(eflag_atom ? eatom : nullptr, boundary->bits());
+  const double energy = pressure->elastic_energy(eflag_atom ? eatom : nullptr, not_fluid());
   if (eflag_global) eng_vdwl += energy;
 }
 
@@ -189,6 +194,27 @@ void PairSPHBulk::remove_boundary(Boundary *one)
 
 /* ---------------------------------------------------------------------- */
 
+void PairSPHBulk::add_open_zone(OpenZone *zone)
+{
+  open->add(zone);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::remove_open_zone(OpenZone *zone)
+{
+  open->remove(zone);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int PairSPHBulk::not_fluid() const
+{
+  return boundary->bits() | open->bits();
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool PairSPHBulk::is_boundary(int i) const
 {
   return atom->mask[i] & boundary->bits();
@@ -212,7 +238,7 @@ bool PairSPHBulk::has_forces() const
 
 void PairSPHBulk::heating(double *heat, double *power) const
 {
-  forces->heating(heat, power, boundary->bits());
+  forces->heating(heat, power, not_fluid());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -424,12 +450,12 @@ void PairSPHBulk::announce()
   if (!announced) {
     warned_step = 0.0;
     FluidState state(lmp, *engine, *exchange, *model);
-    state.run(list, 1, boundary->bits());
+    state.run(list, 1, not_fluid());
     if (comm->me == 0)
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", fluid_style,
                      model->summary(dim, support), engine->instruction_set(), table.text(),
                      state.table());
-    check_sizes(lmp, fluid_style, *model, boundary->bits());
+    check_sizes(lmp, fluid_style, *model, not_fluid());
     state.warn(list, fluid_style, crowding_requested);
   }
   announced = true;
@@ -444,8 +470,8 @@ void PairSPHBulk::announce()
                      update->dt, smallest, fluid_style);
   }
 
-  check_energies(lmp, fluid_style, *model, boundary->bits());
-  check_neighbors(lmp, fluid_style, *model, *engine, boundary->bits(), dim, support);
+  check_energies(lmp, fluid_style, *model, not_fluid());
+  check_neighbors(lmp, fluid_style, *model, *engine, not_fluid(), dim, support);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -462,8 +488,8 @@ void PairSPHBulk::set_mean_density(int groupbit)
   std::vector<double> factor(atom->ntypes + 1, 1.0);
   for (int k = 0; k < MOST; k++) {
     density->run(list, nullptr, nullptr);
-    state.run(list, groupbit, boundary->bits());
-    if (state.scale_masses(factor) < CLOSE) break;
+    state.run(list, groupbit, not_fluid());
+    if (state.scale_masses(factor, open->bits()) < CLOSE) break;
   }
   state.report_masses(factor, fluid_style);
 }
@@ -554,5 +580,5 @@ void PairSPHBulk::unpack_reverse_comm(int n, int *list, double *buf)
 double PairSPHBulk::memory_usage()
 {
   return Pair::memory_usage() + engine->memory_usage() + limit->memory_usage() +
-      boundary->memory_usage() + crowd->memory_usage();
+      open->memory_usage() + boundary->memory_usage() + crowd->memory_usage();
 }

@@ -34,6 +34,8 @@ namespace SPHDissipation {
   class FluidModel;
   class ForceStage;
   class LimitStage;
+  class OpenStage;
+  class OpenZone;
   class PressureStage;
   struct PairCoeff;
   enum class Shear;
@@ -92,6 +94,12 @@ class PairSPHBulk : public Pair {
   void remove_boundary(SPHDissipation::Boundary *);
   bool is_boundary(int i) const;    // owned or ghost particle
 
+  // the same for particles of the fluid with a prescribed state, where it enters or leaves
+
+  void add_open_zone(SPHDissipation::OpenZone *);
+  void remove_open_zone(SPHDissipation::OpenZone *);
+  int not_fluid() const;    // bits of the groups of all boundaries and open zones
+
   // from the init() of a fix, in every run: it shifts particles to where they are less crowded.
   // Then crowding() of an owned particle, 1/length, points there.
 
@@ -102,6 +110,7 @@ class PairSPHBulk : public Pair {
   int dimension() const { return dim; }    // of the kernel
   double reference_density(int) const;     // of a type
   bool has_type(int) const;                // particles of a type are of this fluid
+  const SPHDissipation::FluidModel &fluid() const { return *model; }
 
  protected:
   class StressTally;
@@ -121,6 +130,7 @@ class PairSPHBulk : public Pair {
   SPHDissipation::DensityStage *density;
   SPHDissipation::LimitStage *limit;
   SPHDissipation::PressureStage *pressure;
+  SPHDissipation::OpenStage *open;
   SPHDissipation::BoundaryStage *boundary;
   SPHDissipation::CrowdingStage *crowd;
   SPHDissipation::ForceStage *forces;

@@ -269,9 +269,75 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 
 /* ---------------------------------------------------------------------- */
 
+void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum *torque_out)
+{
+  const std::size_t end = some.neighbor.size();
+  some.neighbor.resize(end + 3 * BLOCK, data.spare);    // pass 2 looks ahead
+  LoopData part = data;
+  part.inum = static_cast<int>(some.rows.size());
+  part.ilist = some.rows.data();
+  part.first = some.first.data();
+  part.count = some.count.data();
+  part.neighbor = some.neighbor.data();
+  part.slope = some.slope.data();
+  part.force = force_out;
+  part.torque = torque_out;
+  part.tally = nullptr;
+  std::vector<double> unused;
+  if (bulk == Bulk::VOLUME) {
+    unused.resize((std::size_t) atom->nlocal + atom->nghost + BLOCK);
+    part.divergence = unused.data();
+  }
+  force_loop(part);
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool Engine::has_forces() const
 {
   return nlocal_forces == atom->nlocal && nghost_forces == atom->nghost;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSubset::begin()
+{
+  rows.clear();
+  count.clear();
+  first.clear();
+  neighbor.clear();
+  slope.clear();
+}
+
+void PairSubset::add_row(int i)
+{
+  rows.push_back(i);
+  first.push_back(static_cast<bigint>(neighbor.size()));
+}
+
+void PairSubset::add(int j, double slope_ij)
+{
+  neighbor.push_back(j);
+  slope.push_back(slope_ij);
+}
+
+void PairSubset::end_row(int spare)
+{
+  const auto n = static_cast<int>(static_cast<bigint>(neighbor.size()) - first.back());
+  if (n == 0) {
+    rows.pop_back();
+    first.pop_back();
+    return;
+  }
+  count.push_back(n);
+  for (int l = 0; neighbor.size() % BLOCK; l++) add(spare + l, 0.0);
+}
+
+double PairSubset::memory_usage() const
+{
+  return static_cast<double>((rows.capacity() + count.capacity() + neighbor.capacity()) *
+                                 sizeof(int) +
+                             first.capacity() * sizeof(bigint) + slope.capacity() * sizeof(double));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -145,6 +145,24 @@ namespace SPHDissipation {
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
 
+  // Some of the pairs that pass 1 has found, in the form that pass 2 works off: begin(); for each
+  // row add_row(), add() its pairs, end_row()
+
+  class PairSubset {
+   public:
+    void begin();
+    void add_row(int i);
+    void add(int j, double slope);
+    void end_row(int spare);    // fills up the last block
+    double memory_usage() const;
+
+   private:
+    friend class Engine;
+    std::vector<int> rows, count, neighbor;
+    std::vector<bigint> first;
+    std::vector<double> slope;
+  };
+
   // Pair engine of the particle fluid styles: number density and its rate in one loop over the
   // neighbor list, forces and heating in a second one.  Between them the stages of the pair style set
   // what pass 2 reads.
@@ -172,6 +190,10 @@ namespace SPHDissipation {
     // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller
     // on owned and ghost atoms
     void accumulate_forces(NeighList *, PairTally *);
+
+    // forces, torques and heat of those pairs alone, added to arrays with room for the spare
+    // particles; after pass 2
+    void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *);
 
     bool has_forces() const;    // force[] is of the owned and ghost atoms that are there now
 

@@ -93,6 +93,36 @@ namespace SPHDissipation {
     return b / par.rho0 * power + b * (1.0 / rho - 1.0 / par.rho0) + background;
   }
 
+  // density at pressure p; of the ideal gas: at internal energy e per mass
+
+  inline double density_at(Eos eos, const EosParams &par, double p, double e)
+  {
+    switch (eos) {
+      case Eos::TAIT: {
+        const double b = par.rho0 * par.c0 * par.c0 / par.gamma;
+        return par.rho0 * std::pow((p - par.pb) / b + 1.0, 1.0 / par.gamma);
+      }
+      case Eos::IDEAL:
+        return (p - par.pb) / ((par.gamma - 1.0) * e);
+      default:
+        return par.rho0 + (p - par.pb) / (par.c0 * par.c0);
+    }
+  }
+
+  // speed of sound at density rho, c^2 = dp/drho at constant entropy
+
+  inline double sound_speed(Eos eos, const EosParams &par, double rho, double e)
+  {
+    switch (eos) {
+      case Eos::TAIT:
+        return par.c0 * std::sqrt(tait_power(rho / par.rho0, par.gamma) * par.rho0 / rho);
+      case Eos::IDEAL:
+        return std::sqrt(par.gamma * (par.gamma - 1.0) * e);
+      default:
+        return par.c0;
+    }
+  }
+
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS
 #endif

@@ -159,7 +159,7 @@ double FluidState::mean_pressure(int type) const
 
 /* ---------------------------------------------------------------------- */
 
-double FluidState::scale_masses(std::vector<double> &factor) const
+double FluidState::scale_masses(std::vector<double> &factor, int also) const
 {
   std::vector<double> next(atom->ntypes + 1, 1.0);
   double largest = 0.0;
@@ -170,7 +170,7 @@ double FluidState::scale_masses(std::vector<double> &factor) const
     largest = std::max(largest, fabs(next[type] - 1.0));
   }
   for (int i = 0; i < atom->nlocal + atom->nghost; i++)
-    if ((atom->mask[i] & group) && !(atom->mask[i] & not_fluid))
+    if ((atom->mask[i] & also) || ((atom->mask[i] & group) && !(atom->mask[i] & not_fluid)))
       atom->rmass[i] *= next[atom->type[i]];
   return largest;
 }

@@ -50,11 +50,11 @@ namespace SPHDissipation {
 
     void warn(NeighList *, const std::string &fix_style, bool evened_out);
 
-    // masses of the owned and ghost particles of run(), times one factor for each type, so that the
-    // mean density of the type is rho0 if the volumes do not depend on masses; factor[type] is
-    // multiplied by it.  Returns the largest |factor - 1|.
+    // masses of the owned and ghost particles of run(), and of those with a bit of also, times one
+    // factor for each type, so that the mean density of the type is rho0 if the volumes do not depend
+    // on masses; factor[type] is multiplied by it.  Returns the largest |factor - 1|.
 
-    double scale_masses(std::vector<double> &factor) const;
+    double scale_masses(std::vector<double> &factor, int also) const;
 
     // what the masses were multiplied with, in the log
 

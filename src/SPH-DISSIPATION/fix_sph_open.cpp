@@ -1,0 +1,757 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "fix_sph_open.h"
+
+#include "atom.h"
+#include "atom_vec_sph_micropolar.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_sph_bulk.h"
+#include "force.h"
+#include "group.h"
+#include "math_extra.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "pair_sph_bulk.h"
+#include "sph_dissipation_characteristics.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_open_ledger.h"
+#include "sph_dissipation_open_plane.h"
+#include "sph_dissipation_open_rows.h"
+#include "sph_dissipation_open_samples.h"
+#include "sph_dissipation_open_values.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using namespace SPHDissipation;
+
+static constexpr double NODES = 3.0;          // of the plane, per support radius
+static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
+
+// the vector of the fix, after the ledger
+
+enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), rows(nullptr),
+    ledger(nullptr), pair(nullptr), condition(LAGGED), order(-1), averaging_time(0.0), area(0.0),
+    supersonic(false), totals_known(false), totals(new double[NVECTOR]), restart_state(nullptr)
+{
+  if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
+  const std::string owner = fmt::format("Fix {}", style);
+  plane = new OpenPlane(lmp, owner);
+  values = new OpenValues(lmp, owner);
+  samples = new OpenSamples(lmp, *plane);
+  rows = new OpenRows(lmp, owner, *plane, groupbit);
+  ledger = new OpenLedger(lmp);
+
+  fluid_group = group->find(arg[3]);
+  if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, arg[3]);
+  fluidbit = group->bitmask[fluid_group];
+  plane->set(arg + 4);
+  for (int iarg = 11; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
+  check_keywords();
+
+  if (atom->tag_enable == 0) error->all(FLERR, "Fix {} requires atom IDs", style);
+  for (const int g : {igroup, fluid_group})
+    if (group->dynamic[g])
+      error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[g]);
+  if (fluid_group == 0 || igroup == 0 || fluid_group == igroup)
+    error->all(FLERR,
+               "Fix {}: the groups of the zone and of the fluid must be two, neither of them all: "
+               "particles that cross the plane change from one to the other",
+               style);
+
+  time_integrate = 1;
+  restart_global = 1;
+  vector_flag = 1;
+  size_vector = NVECTOR;
+  global_freq = 1;
+  extvector = 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHOpen::keyword_argument(int iarg, int narg, char **arg)
+{
+  const std::string keyword = arg[iarg];
+  auto needs = [&](int n) {
+    if (iarg + n >= narg)
+      utils::missing_cmd_args(FLERR, fmt::format("fix {} {}", style, keyword), error);
+  };
+  auto positive = [&](double &number) {
+    needs(1);
+    number = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    if (!(number > 0.0))
+      error->all(FLERR, "Fix {} {} must be > 0, not {}", style, keyword, arg[iarg + 1]);
+    return 2;
+  };
+  auto take = [&](OpenValues::Quantity first, int n) {
+    needs(1);
+    values->forget(first, n);
+    if (strcmp(arg[iarg + 1], "inside") == 0) return 2;
+    needs(n);
+    for (int k = 0; k < n; k++)
+      values->set(static_cast<OpenValues::Quantity>(first + k), arg[iarg + 1 + k]);
+    return n + 1;
+  };
+
+  if (keyword == "velocity") return take(OpenValues::VX, 3);
+  if (keyword == "density") return take(OpenValues::RHO, 1);
+  if (keyword == "pressure") return take(OpenValues::P, 1);
+  if (keyword == "energy") return take(OpenValues::ENERGY, 1);
+  if (keyword == "spin") return take(OpenValues::WX, 3);
+  if (keyword == "average") return positive(averaging_time);
+  if (keyword == "area") return positive(area);
+  needs(1);
+  const std::string word = arg[iarg + 1];
+  if (keyword == "spacing") {
+    double spacing;
+    const int n = positive(spacing);
+    rows->set_spacing(spacing);
+    return n;
+  }
+  if (keyword == "region") {
+    plane->set_region(arg[iarg + 1]);
+    return 2;
+  }
+  if (keyword == "order") {
+    order = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+    if (order != 0 && order != 1)
+      error->all(FLERR, "Fix {} order must be 0 or 1, not {}", style, order);
+    return 2;
+  }
+  if (keyword == "condition") {
+    if (word == "lagged")
+      condition = LAGGED;
+    else if (word == "characteristic")
+      condition = CHARACTERISTIC;
+    else if (word == "fixed")
+      condition = FIXED;
+    else
+      error->all(FLERR, "Unknown fix {} condition: {}", style, word);
+    return 2;
+  }
+  error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
+  return 0;
+}
+
+/* ----------------------------------------------------------------------
+   what would have no effect, or leaves something open
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::check_keywords()
+{
+  const bool density = values->given(OpenValues::RHO);
+  if (density && values->given(OpenValues::P))
+    error->all(FLERR,
+               "Fix {}: density and pressure cannot both be given, one follows from the other",
+               style);
+  if (order >= 0 && (condition != FIXED || (given_velocity() && given_state())))
+    error->all(FLERR, "Fix {} order is for values from inside with condition fixed only", style);
+  if (averaging_time > 0.0 && (condition == FIXED || (given_velocity() && given_state())))
+    error->all(
+        FLERR,
+        "Fix {} average is for values from inside with condition lagged or characteristic only",
+        style);
+  if (condition != FIXED && !given_velocity() && !given_state())
+    error->all(FLERR, "Fix {} condition {} needs a velocity, a density, or a pressure", style,
+               condition == LAGGED ? "lagged" : "characteristic");
+  if (area > 0.0 && !density)
+    error->all(FLERR, "Fix {} area needs a density, from which the distance of particles follows",
+               style);
+  if (values->given(OpenValues::WX) && !atom->omega)
+    error->all(FLERR, "Fix {} spin requires atom style sph/micropolar", style);
+  order = std::max(order, 0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHOpen::~FixSPHOpen()
+{
+  if (auto *fluid = PairSPHBulk::find(force)) fluid->remove_open_zone(this);
+  delete ledger;
+  delete rows;
+  delete samples;
+  delete values;
+  delete plane;
+  delete[] totals;
+  delete[] restart_state;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHOpen::setmask()
+{
+  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_INTEGRATE | FINAL_INTEGRATE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::init()
+{
+  pair = PairSPHBulk::find(force);
+  if (!pair) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix {} does not support run_style respa", style);
+  if (update->whichflag == 2)
+    error->all(FLERR, "Fix {} cannot be used in a minimization: its particles have a velocity",
+               style);
+  pair->add_open_zone(this);
+  check_groups();
+
+  const double support = pair->support_radius();
+  plane->init(support / NODES);
+  values->init();
+  if (area > 0.0)
+    rows->set_distance([this](int i) {
+      return atom->rmass[i] / (area * (*values)(OpenValues::RHO, i));
+    });
+
+  double slowest = 1.0e300;
+  for (int type = 1; type <= atom->ntypes; type++)
+    if (pair->has_type(type)) slowest = std::min(slowest, pair->fluid().coeffs[type].eos.c0);
+  const double crossing = support / slowest;
+  samples->init(averaging_time > 0.0 ? averaging_time : AVERAGING * crossing,
+                10.0 * (plane->length / support + 1.0) * crossing);
+  if (restart_state) {
+    const auto *state = reinterpret_cast<double *>(restart_state);
+    const auto nstate = static_cast<int>(state[0]);
+    ledger->restart(state + 1);
+    rows->unpack(state + 1 + OpenLedger::NVALUE);
+    const int before = 1 + OpenLedger::NVALUE + OpenRows::NSTATE;
+    if (!samples->unpack(state + before, nstate - before) && comm->me == 0)
+      error->warning(FLERR,
+                     "Fix {} {}: the plane is not that of the restart file, waves that had "
+                     "left through it are forgotten",
+                     style, id);
+    delete[] restart_state;
+    restart_state = nullptr;
+  }
+  rows->init(support);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::check_groups()
+{
+  bigint number[2] = {0, 0}, all[2];    // in the zone, in both groups
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    number[0]++;
+    if (atom->mask[i] & fluidbit) number[1]++;
+    if (!pair->has_type(atom->type[i]))
+      error->one(FLERR, "Fix {}: particle {} of type {} is not of the fluid", style, atom->tag[i],
+                 atom->type[i]);
+  }
+  MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (!all[0])
+    error->all(FLERR,
+               "Fix {}: group {} is empty; the zone must be filled with particles of the fluid",
+               style, group->names[igroup]);
+  if (all[1])
+    error->all(FLERR, "Fix {}: {} particles are in both groups {} and {}", style, all[1],
+               group->names[igroup], group->names[fluid_group]);
+
+  for (const auto &other : modify->get_fix_list()) {
+    if (other == this || !other->time_integrate) continue;
+    bigint count = 0, total;
+    for (int i = 0; i < atom->nlocal; i++)
+      if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) count++;
+    MPI_Allreduce(&count, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    if (total)
+      error->all(
+          FLERR,
+          "Fix {}: {} particles of group {} are also moved by fix {} of style {}; that should "
+          "be a fix of group {}",
+          style, total, group->names[igroup], other->id, other->style, group->names[fluid_group]);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   particles of the fluid are in front of the plane, those of the zone behind it
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::check_places()
+{
+  bigint number[3] = {0, 0, 0}, all[3];    // fluid behind, zone in front, others in the zone
+  int others = 0;
+  for (const auto &fix : modify->get_fix_by_style("^sph/open$"))
+    if (fix != this) others |= fix->groupbit;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double height = plane->height(atom->x[i]);
+    const bool behind = height < 0.0 && height > -plane->length && !plane->beside(atom->x[i]);
+    if ((atom->mask[i] & fluidbit) && behind) number[0]++;
+    if ((atom->mask[i] & groupbit) && height >= 0.0) number[1]++;
+    if ((atom->mask[i] & others) && behind) number[2]++;
+  }
+  MPI_Allreduce(number, all, 3, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all[0] || all[1])
+    error->all(
+        FLERR,
+        "Fix {}: {} particles of the fluid are behind the plane and {} of the zone in front of "
+        "it, seen along the normal, which must point into the fluid",
+        style, all[0], all[1]);
+  if (all[2])
+    error->all(FLERR,
+               "Fix {}: {} particles of other open zones are in this one; limit it by the keyword "
+               "region",
+               style, all[2]);
+}
+
+/* ----------------------------------------------------------------------
+   A particle of the zone needs a full support as long as the fluid sees it, and rows may be shorter
+   by one spacing and by what the fluid moves between two neighbor lists
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::check_length()
+{
+  const double least = 2.0 * pair->support_radius() + rows->largest_spacing() + neighbor->skin;
+  if (plane->length < least)
+    error->all(FLERR,
+               "Fix {}: the zone must be at least {:g} long, not {:g}: two support radii, the "
+               "distance of two particles, and the neighbor skin",
+               style, least, plane->length);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixSPHOpen::time() const
+{
+  return update->atime + static_cast<double>(update->ntimestep - update->atimestep) * update->dt;
+}
+
+bool FixSPHOpen::given_velocity() const
+{
+  return values->given(OpenValues::VX);
+}
+
+bool FixSPHOpen::given_state() const
+{
+  return values->given(OpenValues::RHO) || values->given(OpenValues::P);
+}
+
+const EosParams &FixSPHOpen::eos(int i) const
+{
+  return pair->fluid().coeffs[atom->type[i]].eos;
+}
+
+double FixSPHOpen::zone_height(const double *x) const
+{
+  return plane->height(x);
+}
+
+/* ----------------------------------------------------------------------
+   internal energy per mass, which the ideal gas needs
+------------------------------------------------------------------------- */
+
+double FixSPHOpen::energy(int i) const
+{
+  if (values->given(OpenValues::ENERGY)) return (*values)(OpenValues::ENERGY, i);
+  return atom->esph[i] / atom->rmass[i];
+}
+
+/* ----------------------------------------------------------------------
+   what is prescribed, or the average of what the fluid had, at a particle of zone or fluid
+------------------------------------------------------------------------- */
+
+FixSPHOpen::Reference FixSPHOpen::reference(int i) const
+{
+  const Eos form = pair->fluid().choice.eos;
+  const double e = energy(i);
+  Reference ref;
+  if (values->given(OpenValues::RHO)) {
+    ref.rho = (*values)(OpenValues::RHO, i);
+    ref.p = pressure(form, eos(i), ref.rho, e);
+  } else {
+    double u[3];
+    ref.p = pressure(form, eos(i), eos(i).rho0, e);
+    if (values->given(OpenValues::P))
+      ref.p = (*values)(OpenValues::P, i);
+    else if (samples->any())
+      samples->average(atom->x[i], u, ref.p);
+    ref.rho = density_at(form, eos(i), ref.p, e);
+  }
+  ref.c = sound_speed(form, eos(i), ref.rho, e);
+  return ref;
+}
+
+/* ----------------------------------------------------------------------
+   the same of the velocity out of the fluid
+------------------------------------------------------------------------- */
+
+double FixSPHOpen::outward_velocity(int i) const
+{
+  double u[3];
+  if (given_velocity())
+    for (int d = 0; d < 3; d++)
+      u[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::VX + d), i);
+  else {
+    double p;
+    std::copy_n(atom->v[i], 3, u);
+    if (samples->any()) samples->average(atom->x[i], u, p);
+  }
+  return -MathExtra::dot3(u, plane->normal);
+}
+
+/* ----------------------------------------------------------------------
+   the wave at a particle of the zone: that of now, or the one that has come as far by now
+------------------------------------------------------------------------- */
+
+double FixSPHOpen::wave(int i, const Reference &ref, double out) const
+{
+  const double *const x = atom->x[i];
+  double lag = 0.0;
+  if (condition == LAGGED) {
+    const NodeSum sum = samples->at(x);
+    const double inside = (sum.weight > 0.0) ? sum.d / sum.weight : 0.0;
+    lag = (inside - plane->height(x)) / std::max(ref.c + out, 0.1 * ref.c);
+  }
+  return samples->wave(x, time() - lag);
+}
+
+/* ----------------------------------------------------------------------
+   velocity of a particle of the zone; along the plane, what leaves keeps its own one
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::velocity(int i, double *u) const
+{
+  const double *const normal = plane->normal;
+  double prescribed[3];
+  for (int d = 0; d < 3; d++)
+    prescribed[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::VX + d), i);
+
+  if (condition == FIXED) {
+    if (given_velocity()) {
+      std::copy_n(prescribed, 3, u);
+      return;
+    }
+    const NodeSum sum = samples->at(atom->x[i]);
+    std::copy_n(atom->v[i], 3, u);
+    if (!(sum.weight > 0.0)) return;
+    for (int d = 0; d < 3; d++)
+      u[d] = continued(sum, sum.u[d], sum.ud[d], plane->height(atom->x[i]), order);
+    return;
+  }
+
+  const Reference ref = reference(i);
+  const double out = outward_velocity(i);
+  const double now = out + wave_velocity(ref.rho * ref.c, wave(i, ref, out));
+  std::copy_n((given_velocity() && out < 0.0) ? prescribed : atom->v[i], 3, u);
+  const double change = -now - MathExtra::dot3(u, normal);
+  for (int d = 0; d < 3; d++) u[d] += change * normal[d];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::setup_pre_exchange()
+{
+  check_places();
+  values->evaluate(igroup);
+  if (given_velocity())
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (!(atom->mask[i] & groupbit)) continue;
+      double u[3];
+      velocity(i, u);
+      for (int d = 0; d < 3; d++) atom->v[i][d] = atom->vest[i][d] = u[d];
+      set_spin(i);
+    }
+  check_length();
+  pre_exchange();
+}
+
+/* ----------------------------------------------------------------------
+   the first half of the step has the forces of its start; particles of the zone are where the
+   velocity of then brings them
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::initial_integrate(int /*vflag*/)
+{
+  ledger->advance(0.5 * update->dt);
+  totals_known = false;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit)
+      for (int d = 0; d < 3; d++) atom->x[i][d] += update->dt * atom->v[i][d];
+}
+
+/* ----------------------------------------------------------------------
+   ... and then where the mean velocity of the step brings them
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::post_integrate()
+{
+  values->evaluate(igroup);
+  double farthest = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    double *const x = atom->x[i], *const v = atom->v[i];
+    if (atom->mask[i] & groupbit) {
+      double u[3], mean[3];
+      velocity(i, u);
+      set_spin(i);
+      for (int d = 0; d < 3; d++) {
+        mean[d] = 0.5 * (v[d] + u[d]);
+        x[d] += update->dt * (mean[d] - v[d]);
+        v[d] = atom->vest[i][d] = u[d];
+      }
+      farthest = std::max(farthest, fabs(MathExtra::dot3(mean, plane->normal)) * update->dt);
+      if (plane->height(x) >= 0.0) enter(i, mean);
+    } else if (atom->mask[i] & fluidbit) {
+      const double height = plane->height(x);
+      if (height < 0.0 && height >= -plane->length && !plane->beside(x)) leave(i);
+    }
+  }
+  rows->note_motion(farthest);
+}
+
+/* ----------------------------------------------------------------------
+   the second half of the step is that of the fluid, with the forces at its end
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::enter(int i, const double *v)
+{
+  atom->mask[i] = (atom->mask[i] & ~groupbit) | fluidbit;
+  std::copy_n(v, 3, atom->v[i]);
+  desph_before()[i] = 0.0;
+  ledger->carry(OpenLedger::IN, i, v, atom->esph[i]);
+}
+
+/* ----------------------------------------------------------------------
+   the first half was that of the fluid, which has extrapolated the internal energy to the end
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::leave(int i)
+{
+  atom->mask[i] = (atom->mask[i] & ~fluidbit) | groupbit;
+  atom->esph[i] -= 0.5 * update->dt * desph_before()[i];
+  ledger->carry(OpenLedger::OUT, i, atom->v[i], atom->esph[i]);
+  std::copy_n(atom->vest[i], 3, atom->v[i]);
+}
+
+/* ----------------------------------------------------------------------
+   what enters brings its spin and its internal energy
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::set_spin(int i)
+{
+  if (values->given(OpenValues::ENERGY) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
+    atom->esph[i] = atom->rmass[i] * (*values)(OpenValues::ENERGY, i);
+  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  if (!avec) return;
+  double *const omega = atom->omega[i];
+  if (values->given(OpenValues::WX) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
+    for (int d = 0; d < 3; d++)
+      omega[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::WX + d), i);
+  std::copy_n(omega, 3, avec->omegaest[i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double *FixSPHOpen::desph_before() const
+{
+  auto *avec = dynamic_cast<AtomVecSPHBulk *>(atom->style_match("sph/bulk"));
+  if (!avec) avec = dynamic_cast<AtomVecSPHBulk *>(atom->style_match("sph/micropolar"));
+  return avec->desph_before;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::pre_exchange()
+{
+  rows->renew([this](const std::vector<int> &created) {
+    if (!values->vary()) return;
+    values->evaluate(igroup);
+    for (const int i : created) {
+      double u[3];
+      velocity(i, u);
+      for (int d = 0; d < 3; d++) atom->v[i][d] = atom->vest[i][d] = u[d];
+      set_spin(i);
+    }
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::final_integrate()
+{
+  ledger->advance(0.5 * update->dt);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::set_impact(const OpenImpact &impact)
+{
+  ledger->set_impact(impact);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::set_state(Engine &engine)
+{
+  sample(engine);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) set_pressure(engine, i);
+}
+
+/* ----------------------------------------------------------------------
+   variables are needed for the zone and for the fluid near its plane, which is in its group for a
+   moment
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::sample(Engine &engine)
+{
+  const double support = pair->support_radius();
+  std::vector<int> near;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & fluidbit)) continue;
+    const double height = plane->height(atom->x[i]);
+    if (height >= 0.0 && height < support && !plane->beside(atom->x[i])) near.push_back(i);
+  }
+  for (const int i : near) atom->mask[i] |= groupbit;
+  values->evaluate(igroup);
+  for (const int i : near) atom->mask[i] &= ~groupbit;
+
+  samples->begin();
+  for (const int i : near) add_sample(engine, i);
+  samples->finish(time());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::add_sample(Engine &engine, int i)
+{
+  const Particle &particle = engine.particle[i];
+  const double support = pair->support_radius();
+  const double height = plane->height(particle.x);
+  const double p =
+      pressure(pair->fluid().choice.eos, eos(i), atom->rho[i], atom->esph[i] / atom->rmass[i]);
+  double wave = 0.0;
+  if (condition != FIXED) {
+    const Reference ref = reference(i);
+    const double out = outward_velocity(i);
+    const bool known = samples->any();
+    const double du =
+        (given_velocity() || known) ? -MathExtra::dot3(particle.u, plane->normal) - out : 0.0;
+    const double dp = (given_state() || known) ? p - ref.p : 0.0;
+    wave = outgoing_wave(ref.rho * ref.c, du, dp);
+  }
+  with_kernel(engine.kernel_form(), [&](auto k) {
+    plane->near(particle.x, support, [&](int node, double beside_sq) {
+      const double q = sqrt(height * height + beside_sq) / support;
+      if (q >= 1.0) return;
+      const double weight = particle.vol * k.shape(q);
+      NodeSum &sum = samples->sum(node);
+      sum.weight += weight;
+      sum.d += weight * height;
+      sum.d2 += weight * height * height;
+      sum.wave += weight * wave;
+      sum.p += weight * p;
+      sum.pd += weight * height * p;
+      for (int d = 0; d < 3; d++) {
+        sum.u[d] += weight * particle.u[d];
+        sum.ud[d] += weight * height * particle.u[d];
+      }
+    });
+    return 0;
+  });
+}
+
+/* ----------------------------------------------------------------------
+   the bulk term of a particle of the zone is its own: it has a full support where it counts
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::set_pressure(Engine &engine, int i)
+{
+  const Eos form = pair->fluid().choice.eos;
+  Reference ref = reference(i);
+  if (condition == FIXED) {
+    const NodeSum sum = samples->at(atom->x[i]);
+    if (!given_state() && sum.weight > 0.0) {
+      ref.p = continued(sum, sum.p, sum.pd, plane->height(atom->x[i]), order);
+      ref.rho = density_at(form, eos(i), ref.p, energy(i));
+    }
+  } else {
+    const double dp = wave_pressure(wave(i, ref, outward_velocity(i)));
+    ref.p += dp;
+    ref.rho = (form == Eos::IDEAL) ? ref.rho + dp / (ref.c * ref.c)
+                                   : density_at(form, eos(i), ref.p, 0.0);
+  }
+
+  Particle &particle = engine.particle[i];
+  atom->rho[i] = ref.rho;
+  atom->vfrac[i] = particle.vol = atom->rmass[i] / ref.rho;
+  const double c_inv = particle.vol / engine.weight(i);
+  if (engine.bulk_form() == Bulk::DENSITY) ref.p += engine.zeta_term[i];
+  particle.g = ref.p * c_inv * c_inv;
+}
+
+/* ----------------------------------------------------------------------
+   the ledger, see OpenLedger; number of particles of the zone; mean pressure and velocity of the fluid
+   at the plane
+------------------------------------------------------------------------- */
+
+double FixSPHOpen::compute_vector(int n)
+{
+  if (!totals_known) {
+    ledger->total(totals);
+    double count = 0.0;
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) count += 1.0;
+    MPI_Allreduce(&count, totals + COUNT, 1, MPI_DOUBLE, MPI_SUM, world);
+    samples->mean_at_plane(totals + PRESSURE, totals + VELOCITY);
+    totals_known = true;
+  }
+  return totals[n];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::write_restart(FILE *fp)
+{
+  double head[1 + OpenLedger::NVALUE + OpenRows::NSTATE];
+  ledger->total(head + 1);
+  rows->pack(head + 1 + OpenLedger::NVALUE);
+  if (comm->me != 0) return;
+  std::vector<double> state(head, head + 1 + OpenLedger::NVALUE + OpenRows::NSTATE);
+  const std::vector<double> waves = samples->pack();
+  state.insert(state.end(), waves.begin(), waves.end());
+  state[0] = static_cast<double>(state.size());
+  const int size = static_cast<int>(state.size() * sizeof(double));
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(state.data(), sizeof(double), state.size(), fp);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::restart(char *buf)
+{
+  const auto size = static_cast<std::size_t>(reinterpret_cast<double *>(buf)[0]) * sizeof(double);
+  delete[] restart_state;
+  restart_state = new char[size];
+  memcpy(restart_state, buf, size);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixSPHOpen::memory_usage()
+{
+  return samples->memory_usage();
+}

@@ -1,0 +1,112 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(sph/open,FixSPHOpen);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_SPH_OPEN_H
+#define LMP_FIX_SPH_OPEN_H
+
+#include "fix.h"
+
+#include "sph_dissipation_open_stage.h"
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+  class OpenLedger;
+  class OpenPlane;
+  class OpenRows;
+  class OpenSamples;
+  class OpenValues;
+  struct EosParams;
+}    // namespace SPHDissipation
+
+// Open zone for the fluids sph/bulk and sph/micropolar: moves its particles, gives them the state that
+// is prescribed or that the fluid has, lets them into the fluid and out of it, keeps account of it.
+// M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
+
+class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
+ public:
+  FixSPHOpen(class LAMMPS *, int, char **);
+  ~FixSPHOpen() override;
+  int setmask() override;
+  void init() override;
+  void setup_pre_exchange() override;
+  void initial_integrate(int) override;
+  void post_integrate() override;
+  void pre_exchange() override;
+  void final_integrate() override;
+  double compute_vector(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  double memory_usage() override;
+
+  int zone_bit() const override { return groupbit; }
+  int fluid_bit() const override { return fluidbit; }
+  double zone_height(const double *) const override;
+  void set_state(SPHDissipation::Engine &) override;
+  void set_impact(const SPHDissipation::OpenImpact &) override;
+
+ private:
+  enum Condition { LAGGED, CHARACTERISTIC, FIXED };
+
+  struct Reference {
+    double p, rho, c;    // pressure, density, sound speed
+  };
+
+  SPHDissipation::OpenPlane *plane;
+  SPHDissipation::OpenValues *values;
+  SPHDissipation::OpenSamples *samples;
+  SPHDissipation::OpenRows *rows;
+  SPHDissipation::OpenLedger *ledger;
+  class PairSPHBulk *pair;
+  int fluid_group, fluidbit;
+  Condition condition;
+  int order;                // of values from inside, condition fixed
+  double averaging_time;    // 0: by the support radius
+  double area;              // of the cross section of a row; 0: rows have a spacing
+  bool supersonic;          // has been warned of
+  bool totals_known;
+  double *totals;
+  char *restart_state;    // until init()
+
+  int keyword_argument(int, int, char **);
+  void check_keywords();
+  void check_groups();
+  void check_places();
+  void check_length();
+  double time() const;
+  bool given_velocity() const;
+  bool given_state() const;
+  const SPHDissipation::EosParams &eos(int i) const;
+  double energy(int i) const;
+  Reference reference(int i) const;
+  double outward_velocity(int i) const;
+  double wave(int i, const Reference &, double out) const;
+  void velocity(int i, double *u) const;
+  void enter(int i, const double *v);
+  void leave(int i);
+  void set_spin(int i);
+  double *desph_before() const;
+  void sample(SPHDissipation::Engine &);
+  void add_sample(SPHDissipation::Engine &, int i);
+  void set_pressure(SPHDissipation::Engine &, int i);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

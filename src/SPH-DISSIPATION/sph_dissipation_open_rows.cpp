@@ -1,0 +1,383 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_open_rows.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "math_extra.h"
+#include "modify.h"
+#include "sph_dissipation_open_plane.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+static constexpr double FAR = 1.0e300;
+static constexpr double STRAIGHT = 0.01;    // of a row, sideways, over the size of a particle
+
+// what is beside the line along the normal through from, and how far it is ahead
+
+namespace {
+struct Offset {
+  double beside, ahead;
+};
+
+Offset offset(Domain *domain, const OpenPlane &plane, const double *from, const double *to)
+{
+  double image[3], r[3];
+  domain->closest_image(from, to, image);
+  MathExtra::sub3(image, from, r);
+  const double ahead = MathExtra::dot3(r, plane.normal);
+  return {sqrt(std::max(MathExtra::lensq3(r) - ahead * ahead, 0.0)), ahead};
+}
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+OpenRows::OpenRows(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane, int groupbit) :
+    Pointers(lmp), owner(owner), plane(plane), groupbit(groupbit), given_spacing(0.0), spacing(0.0),
+    half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenRows::init(double support_in)
+{
+  support = support_in;
+  unknown_end = true;
+  if (spacing == 0.0 || half_width == 0.0) find_rows();
+  if (given_spacing > 0.0) spacing = given_spacing;
+  if (!by_distance() && spacing == 0.0)
+    error->all(FLERR,
+               "{}: cannot find the distance of the particles in a row, for none stands straight "
+               "behind the one nearest to the plane; give it by the keyword spacing",
+               owner);
+}
+
+/* ----------------------------------------------------------------------
+   seen from the particle nearest to the plane: distance of the next one straight behind it, and of
+   the nearest row.  Half of that is how far a particle of a row may be beside it.
+------------------------------------------------------------------------- */
+
+void OpenRows::find_rows()
+{
+  struct {
+    double height;
+    int proc;
+  } mine = {-FAR, comm->me}, front;
+  int front_i = -1;
+  double size = FAR, all_size;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double height = plane.height(atom->x[i]);
+    if (height > mine.height) {
+      mine.height = height;
+      front_i = i;
+    }
+  }
+  MPI_Allreduce(&mine, &front, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  double x[3] = {0.0, 0.0, 0.0};
+  if (front.proc == comm->me && front_i >= 0) std::copy_n(atom->x[front_i], 3, x);
+  MPI_Bcast(x, 3, MPI_DOUBLE, front.proc, world);
+
+  // the nearest neighbor tells the size of a particle
+
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const Offset to = offset(domain, plane, x, atom->x[i]);
+    const double r = sqrt(to.beside * to.beside + to.ahead * to.ahead);
+    if (r > 0.0) size = std::min(size, r);
+  }
+  MPI_Allreduce(&size, &all_size, 1, MPI_DOUBLE, MPI_MIN, world);
+
+  double nearest[2] = {FAR, FAR}, all[2];    // behind, beside
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const Offset to = offset(domain, plane, x, atom->x[i]);
+    if (to.beside > STRAIGHT * all_size)
+      nearest[1] = std::min(nearest[1], to.beside);
+    else if (to.ahead < 0.0)
+      nearest[0] = std::min(nearest[0], -to.ahead);
+  }
+  MPI_Allreduce(nearest, all, 2, MPI_DOUBLE, MPI_MIN, world);
+  const bool in_order = all[0] < FAR;
+  if (in_order) spacing = all[0];
+  half_width = 0.5 * ((in_order && all[1] < FAR) ? all[1] : all_size);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double OpenRows::largest_spacing() const
+{
+  if (!by_distance()) return spacing;
+  double largest = 0.0, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) largest = std::max(largest, distance(i));
+  MPI_Allreduce(&largest, &all, 1, MPI_DOUBLE, MPI_MAX, world);
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenRows::renew(const Refresh &refresh)
+{
+  const bigint nblocal = atom->nlocal;
+  bigint natoms;
+  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
+  atom->nghost = 0;
+  atom->avec->clear_bonus();
+  remove_beyond();
+
+  // since the last time, no row can have come farther from the end than this
+
+  const double largest = largest_spacing();
+  double moved_all;
+  MPI_Allreduce(&moved, &moved_all, 1, MPI_DOUBLE, MPI_MAX, world);
+  moved = 0.0;
+  if (!unknown_end && plane.length - moved_all - largest < support)
+    error->all(FLERR,
+               "{}: the fluid moved by {:g} between two neighbor lists, so that the zone of length "
+               "{:g} ran empty; build them more often or make the zone longer",
+               owner, moved_all, plane.length);
+  const Band band = gather_band(unknown_end ? plane.length : moved_all + 2.5 * largest);
+  unknown_end = false;
+
+  std::vector<int> last = last_ones(band);
+  while (fill(last, band, refresh)) {}
+
+  bigint change = atom->nlocal - nblocal;
+  MPI_Allreduce(&change, &natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  atom->natoms += natoms;
+  if (atom->map_style != Atom::MAP_NONE) {
+    atom->map_init();
+    atom->map_set();
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenRows::remove_beyond()
+{
+  for (int i = atom->nlocal - 1; i >= 0; i--) {
+    highest = std::max(highest, atom->tag[i]);
+    if (!(atom->mask[i] & groupbit) || plane.height(atom->x[i]) >= -plane.length) continue;
+    atom->avec->copy(atom->nlocal - 1, i, 1);
+    atom->nlocal--;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   particles, not only of the zone, between its end and this distance from there
+------------------------------------------------------------------------- */
+
+OpenRows::Band OpenRows::gather_band(double depth) const
+{
+  std::vector<double> mine;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const x = atom->x[i];
+    const bool of_zone = atom->mask[i] & groupbit;
+    const double height = plane.height(x);
+    if (height < -plane.length || height > depth - plane.length) continue;
+    if (!of_zone && plane.beside(x)) continue;
+    mine.insert(mine.end(), {x[0], x[1], x[2], of_zone ? 1.0 : 0.0});
+  }
+
+  int n = static_cast<int>(mine.size()), total = 0;
+  std::vector<int> counts(comm->nprocs), starts(comm->nprocs);
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int p = 0; p < comm->nprocs; p++) {
+    starts[p] = total;
+    total += counts[p];
+  }
+  std::vector<double> all(total);
+  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
+                 world);
+
+  Band band;
+  band.at_node.resize(plane.nnodes());
+  for (int k = 0; k < total / 4; k++) {
+    band.x.insert(band.x.end(), &all[4 * k], &all[4 * k] + 3);
+    band.of_zone.push_back(all[4 * k + 3] > 0.0);
+    band.at_node[nearest_node(&all[4 * k])].push_back(k);
+  }
+  return band;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int OpenRows::nearest_node(const double *x) const
+{
+  OpenPlane::Corner corner[OpenPlane::CORNERS];
+  plane.corners(x, corner);
+  return std::max_element(corner, corner + OpenPlane::CORNERS,
+                          [](const OpenPlane::Corner &a, const OpenPlane::Corner &b) {
+                            return a.weight < b.weight;
+                          })
+      ->node;
+}
+
+/* ----------------------------------------------------------------------
+   owned particles that move into the fluid and have none behind them in their row
+------------------------------------------------------------------------- */
+
+std::vector<int> OpenRows::last_ones(const Band &band) const
+{
+  std::vector<int> last;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const x = atom->x[i];
+    if (!(atom->mask[i] & groupbit)) continue;
+    if (!(MathExtra::dot3(atom->v[i], plane.normal) > 0.0)) continue;
+    if (plane.height(x) - step(i) < -plane.length) continue;
+    bool behind = false;
+    plane.near(x, half_width + plane.node_distance(), [&](int node, double) {
+      for (const int k : band.at_node[node]) {
+        if (!band.of_zone[k]) continue;
+        const Offset to = offset(domain, plane, x, &band.x[3 * k]);
+        behind = behind || (to.beside < half_width && to.ahead < 0.0);
+      }
+    });
+    if (!behind) last.push_back(i);
+  }
+  return last;
+}
+
+/* ----------------------------------------------------------------------
+   one new particle behind each of the last ones, which it replaces in the list; false if there was
+   none on any processor
+   the mass between two particles of a row is that of one: with distances that depend on the place
+   it is the harmonic mean of theirs, to second order
+------------------------------------------------------------------------- */
+
+bool OpenRows::fill(std::vector<int> &last, const Band &band, const Refresh &refresh)
+{
+  constexpr int CORRECTIONS = 3;
+  last.erase(std::remove_if(last.begin(), last.end(),
+                            [&](int i) {
+                              return plane.height(atom->x[i]) - step(i) < -plane.length;
+                            }),
+             last.end());
+  int n = static_cast<int>(last.size()), all;
+  MPI_Allreduce(&n, &all, 1, MPI_INT, MPI_SUM, world);
+  if (!all) return false;
+
+  const std::vector<tagint> tags = new_tags(last);
+  std::vector<int> created;
+  for (int k = 0; k < n; k++) {
+    const int i = last[k], j = atom->nlocal;
+    if (j == atom->nmax) atom->avec->grow(0);
+    atom->avec->copy(i, j, 0);
+    atom->nlocal++;
+    atom->tag[j] = tags[k];
+    for (int d = 0; d < 3; d++) atom->x[j][d] -= step(i) * plane.normal[d];
+    modify->create_attribute(j);
+    created.push_back(j);
+  }
+
+  refresh(created);
+  if (by_distance())
+    for (int turn = 0; turn < CORRECTIONS; turn++) {
+      for (int k = 0; k < n; k++) {
+        const int i = last[k], j = created[k];
+        const double mean = 2.0 / (1.0 / distance(i) + 1.0 / distance(j));
+        for (int d = 0; d < 3; d++) atom->x[j][d] = atom->x[i][d] - mean * plane.normal[d];
+      }
+      refresh(created);
+    }
+
+  for (const int j : created) check_seat(atom->x[j], band);
+  last = created;
+  return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenRows::check_seat(double *x, const Band &band) const
+{
+  constexpr double APART = 0.5;    // of the width of a row
+  double unit[3] = {x[0], x[1], x[2]};
+  if (domain->triclinic) domain->x2lamda(x, unit);
+  const double *const lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
+  const double *const hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
+  for (int d = 0; d < domain->dimension; d++)
+    if (!domain->periodicity[d] && (unit[d] < lo[d] || unit[d] >= hi[d]))
+      error->one(FLERR,
+                 "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",
+                 owner, x[0], x[1], x[2]);
+  plane.near(x, half_width + plane.node_distance(), [&](int node, double) {
+    for (const int k : band.at_node[node]) {
+      const Offset to = offset(domain, plane, x, &band.x[3 * k]);
+      const double r = sqrt(to.beside * to.beside + to.ahead * to.ahead);
+      if (r < APART * half_width)
+        error->one(FLERR, "{}: at {:g} {:g} {:g}, where a particle enters, there is another one",
+                   owner, x[0], x[1], x[2]);
+    }
+  });
+}
+
+/* ----------------------------------------------------------------------
+   in the order of the tags of the particles in front, on whatever processor they are
+------------------------------------------------------------------------- */
+
+std::vector<tagint> OpenRows::new_tags(const std::vector<int> &last) const
+{
+  int n = static_cast<int>(last.size()), total = 0;
+  std::vector<tagint> mine;
+  for (const int i : last) mine.push_back(atom->tag[i]);
+  std::vector<int> counts(comm->nprocs), starts(comm->nprocs);
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int p = 0; p < comm->nprocs; p++) {
+    starts[p] = total;
+    total += counts[p];
+  }
+  std::vector<tagint> all(total);
+  MPI_Allgatherv(mine.data(), n, MPI_LMP_TAGINT, all.data(), counts.data(), starts.data(),
+                 MPI_LMP_TAGINT, world);
+  std::sort(all.begin(), all.end());
+
+  tagint most = highest, first;
+  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
+  MPI_Allreduce(&most, &first, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (first >= MAXTAGINT - total)
+    error->all(FLERR, "{}: too many particles have entered for their IDs", owner);
+
+  for (auto &tag : mine)
+    tag = first + 1 +
+        static_cast<tagint>(std::lower_bound(all.begin(), all.end(), tag) - all.begin());
+  return mine;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenRows::pack(double *buf) const
+{
+  tagint all;
+  MPI_Allreduce(&highest, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  buf[0] = spacing;
+  buf[1] = half_width;
+  buf[2] = static_cast<double>(all);
+}
+
+void OpenRows::unpack(const double *buf)
+{
+  spacing = buf[0];
+  half_width = buf[1];
+  highest = static_cast<tagint>(buf[2]);
+}

@@ -1,0 +1,89 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_OPEN_ROWS_H
+#define LMP_SPH_DISSIPATION_OPEN_ROWS_H
+
+#include "pointers.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  class OpenPlane;
+
+  // The far end of an open zone.  Its particles stand in rows along the normal of the plane.  Behind
+  // the last one of a row that moves on comes a copy of it, those beyond the end are deleted: before
+  // neighbor lists are built anew, with results that do not depend on the number of processors.
+
+  class OpenRows : protected Pointers {
+   public:
+    OpenRows(class LAMMPS *, const std::string &owner, const OpenPlane &, int groupbit);
+
+    void set_spacing(double a) { given_spacing = a; }
+
+    // distance of an owned particle from the next one of its row; instead of a spacing
+    typedef std::function<double(int i)> Distance;
+    void set_distance(Distance f) { distance = std::move(f); }
+    bool by_distance() const { return static_cast<bool>(distance); }
+
+    // finds distance and width of the rows, from the particles of the zone, if they are not known
+    void init(double support);
+    double largest_spacing() const;    // now
+
+    // particles have moved along the normal, by this at most, since renew()
+    void note_motion(double most) { moved += most; }
+
+    // deletes and creates; refresh(those) is called with owned particles that are new, or have moved,
+    // to set their velocities and to make their distances known
+    typedef std::function<void(const std::vector<int> &)> Refresh;
+    void renew(const Refresh &refresh);
+
+    static constexpr int NSTATE = 3;
+    void pack(double *) const;    // for the restart file
+    void unpack(const double *);
+
+   private:
+    const std::string owner;
+    const OpenPlane &plane;
+    const int groupbit;
+    double given_spacing, spacing, half_width, support;
+    double moved;
+    tagint highest;      // tag that was ever given
+    bool unknown_end;    // how far the rows reach is to be found out
+    Distance distance;
+
+    struct Band {               // particles near the end, of all processors
+      std::vector<double> x;    // 3 each
+      std::vector<char> of_zone;
+      std::vector<std::vector<int>> at_node;    // of the plane
+    };
+
+    double step(int i) const { return distance ? distance(i) : spacing; }
+    void find_rows();
+    void remove_beyond();
+    Band gather_band(double depth) const;
+    int nearest_node(const double *x) const;
+    std::vector<int> last_ones(const Band &) const;
+    bool fill(std::vector<int> &last, const Band &, const Refresh &);
+    void check_seat(double *x, const Band &) const;
+    std::vector<tagint> new_tags(const std::vector<int> &last) const;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

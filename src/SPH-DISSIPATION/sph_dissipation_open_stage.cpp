@@ -1,0 +1,189 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_open_stage.h"
+
+#include "atom.h"
+#include "force.h"
+#include "math_extra.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "sph_dissipation_exchange.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+static constexpr double NEITHER = -1.0;
+
+/* ---------------------------------------------------------------------- */
+
+void OpenStage::add(OpenZone *zone)
+{
+  remove(zone);
+  zones.push_back(zone);
+  zone_bits |= zone->zone_bit();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenStage::remove(OpenZone *zone)
+{
+  zones.erase(std::remove(zones.begin(), zones.end(), zone), zones.end());
+  zone_bits = 0;
+  for (const auto &one : zones) zone_bits |= one->zone_bit();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenStage::run()
+{
+  for (auto zone : zones) zone->set_state(engine);
+  set_places();
+  Particle *const particle = engine.particle;
+  exchange.forward({field(particle, &particle->vol, 2), {place.data(), 1, 1}});
+  update_ghosts();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenStage::set_places()
+{
+  place.resize(atom->nlocal + atom->nghost);
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int mask = atom->mask[i];
+    place[i] = NEITHER;
+    for (std::size_t k = 0; k < zones.size(); k++) {
+      if (mask & zones[k]->fluid_bit()) place[i] = 0.0;
+      if (mask & zones[k]->zone_bit()) {
+        place[i] = static_cast<double>(k + 1);
+        break;
+      }
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   density and group of ghost atoms, as their owners have them
+------------------------------------------------------------------------- */
+
+void OpenStage::update_ghosts()
+{
+  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) {
+    if (place[i] == NEITHER) continue;
+    int &mask = atom->mask[i];
+    if (place[i] > 0.0) {
+      const OpenZone *const zone = zones[static_cast<int>(place[i]) - 1];
+      mask = (mask & ~zone->fluid_bit()) | zone->zone_bit();
+      atom->vfrac[i] = engine.particle[i].vol;
+      atom->rho[i] = atom->rmass[i] / atom->vfrac[i];
+    } else
+      for (const auto &zone : zones)
+        if (mask & zone->zone_bit()) mask = (mask & ~zone->zone_bit()) | zone->fluid_bit();
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenStage::sum_impacts(NeighList *list)
+{
+  if (neighbor->ago == 0 || rows.size() != zones.size()) find_rows(list);
+  for (std::size_t k = 0; k < zones.size(); k++) zones[k]->set_impact(impact(list, k));
+}
+
+/* ----------------------------------------------------------------------
+   the particles of a pair of fluid and zone are on both sides of the plane
+------------------------------------------------------------------------- */
+
+void OpenStage::find_rows(NeighList *list)
+{
+  const double reach = engine.pairs().support + neighbor->skin;
+  rows.assign(zones.size(), {});
+  for (int ii = 0; ii < list->inum; ii++)
+    for (std::size_t k = 0; k < zones.size(); k++)
+      if (fabs(zones[k]->zone_height(atom->x[list->ilist[ii]])) < reach) rows[k].push_back(ii);
+}
+
+/* ----------------------------------------------------------------------
+   A pair gives its particle of the fluid force, couple, half of the heat of shear and spin, and
+   the part P V w_j (-F r.u) / c of the work of the pressure that its V has
+------------------------------------------------------------------------- */
+
+OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
+{
+  const LoopData &all = engine.pairs();
+  const double zone = static_cast<double>(k + 1);
+  const Particle *const particle = engine.particle;
+  const bool by_volume = (engine.bulk_form() == Bulk::VOLUME);
+
+  // with newton off, what a pair of two processors gives to the ghost atom is known to its owner
+
+  const int mine = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+
+  OpenImpact total = OpenImpact();
+  pairs.begin();
+  for (const int ii : rows[k]) {
+    const int i = list->ilist[ii];
+    pairs.add_row(i);
+    for (bigint entry = all.first[ii]; entry < all.first[ii] + all.count[ii]; entry++) {
+      const int j = all.neighbor[entry];
+      if (!(place[i] == zone && place[j] == 0.0) && !(place[j] == zone && place[i] == 0.0))
+        continue;
+      pairs.add(j, all.slope[entry]);
+      const int fluid = (place[i] == 0.0) ? i : j, other = (place[i] == 0.0) ? j : i;
+      if (fluid >= mine) continue;
+      const Particle &f = particle[fluid], &z = particle[other];
+      double flux = 0.0;
+      for (int d = 0; d < 3; d++) flux += all.slope[entry] * (f.x[d] - z.x[d]) * (f.u[d] - z.u[d]);
+      total.power -= engine.weight(fluid) * engine.weight(other) * f.g * flux;
+      if (by_volume) total.power -= engine.zeta_term[fluid] * f.vol * z.vol * flux;
+    }
+    pairs.end_row(all.spare);
+  }
+
+  const bigint nrow = (bigint) atom->nlocal + atom->nghost + BLOCK;
+  forces.assign(nrow, ForceSum());
+  if (engine.has_spin()) torques.assign(nrow, TorqueSum());
+  engine.accumulate_forces(pairs, forces.data(), torques.data());
+
+  for (int i = 0; i < mine; i++) {
+    if (place[i] != 0.0) continue;
+    const double *const f = forces[i].f;
+    double moment[3];
+    MathExtra::cross3(particle[i].x, f, moment);
+    for (int d = 0; d < 3; d++) {
+      total.force[d] += f[d];
+      total.torque[d] += moment[d];
+      total.power += f[d] * particle[i].u[d];
+    }
+    total.power += forces[i].heat;
+    if (!engine.has_spin()) continue;
+    for (int d = 0; d < 3; d++) {
+      total.torque[d] += torques[i].t[d];
+      total.power += torques[i].t[d] * engine.spin[i].w[d];
+    }
+    total.power += torques[i].heat_vortex + torques[i].heat_spin;
+  }
+  return total;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double OpenStage::memory_usage() const
+{
+  return pairs.memory_usage() +
+      static_cast<double>(place.capacity() * sizeof(double) + forces.capacity() * sizeof(ForceSum) +
+                          torques.capacity() * sizeof(TorqueSum));
+}

@@ -1,0 +1,92 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_OPEN_STAGE_H
+#define LMP_SPH_DISSIPATION_OPEN_STAGE_H
+
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_stage.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // What a zone does to the fluid in one force computation
+
+  struct OpenImpact {
+    double force[3], torque[3];    // torque about the origin, of forces and couples
+    double power;                  // work and heat
+  };
+
+  // What a fix does between the two passes whose particles are fluid with a prescribed state, as it
+  // enters or leaves.  The fix hands itself to PairSPHBulk::add_open_zone() in its init() and takes
+  // itself back when it is deleted.
+
+  class OpenZone {
+   public:
+    virtual int zone_bit() const = 0;     // bit of the group of its particles
+    virtual int fluid_bit() const = 0;    // bit of the group of the fluid that ends there
+    virtual double zone_height(const double *x) const = 0;    // distance from its plane
+
+    // set density and pressure of its owned particles: vol and g of Engine::particle
+    virtual void set_state(Engine &) = 0;
+
+    // sums of this processor, for each force computation
+    virtual void set_impact(const OpenImpact &) = 0;
+
+   protected:
+    ~OpenZone() = default;    // nobody deletes a fix through this
+  };
+
+  // Particles of open zones get the density and pressure that act in the pair forces; what the zones
+  // do to the fluid is summed up, from the pairs of a particle of a zone and one of the fluid
+
+  class OpenStage : public Stage {
+   public:
+    using Stage::Stage;
+    static constexpr int FORWARD = 3;    // values per atom
+
+    void add(OpenZone *);       // no effect if it is there
+    void remove(OpenZone *);    // no effect if it is not there
+    bool empty() const { return zones.empty(); }
+    int bits() const { return zone_bits; }    // of the groups of all zones
+
+    void run();                       // after the pressures, before those of boundaries
+    void sum_impacts(NeighList *);    // after pass 2
+    double memory_usage() const override;
+
+   private:
+    std::vector<OpenZone *> zones;
+    int zone_bits = 0;
+
+    // 0: fluid, k: in zone k - 1, -1: neither; owned and ghost, for groups change between the
+    // borders of two neighbor lists
+    std::vector<double> place;
+
+    std::vector<std::vector<int>> rows;    // of the neighbor list, near the plane of each zone
+
+    PairSubset pairs;    // of fluid and one zone
+    std::vector<ForceSum> forces;
+    std::vector<TorqueSum> torques;
+
+    void set_places();
+    void update_ghosts();
+    void find_rows(NeighList *);
+    OpenImpact impact(NeighList *, std::size_t);
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

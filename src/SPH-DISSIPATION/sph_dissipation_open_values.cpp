@@ -1,0 +1,98 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_open_values.h"
+
+#include "atom.h"
+#include "error.h"
+#include "group.h"
+#include "input.h"
+#include "modify.h"
+#include "update.h"
+#include "variable.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+OpenValues::OpenValues(LAMMPS *lmp, const std::string &owner) :
+    Pointers(lmp), owner(owner), number(), any_variable(false)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenValues::set(Quantity k, const char *word)
+{
+  Value &one = value[k];
+  one = Value();
+  one.given = true;
+  if (utils::strmatch(word, "^v_"))
+    one.name = word + 2;
+  else
+    number[k] = one.number = utils::numeric(FLERR, word, false, lmp);
+  any_variable = any_variable || !one.name.empty();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenValues::forget(Quantity k, int n)
+{
+  for (int q = k; q < k + n; q++) value[q] = Value();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenValues::init()
+{
+  for (auto &one : value) {
+    if (one.name.empty()) continue;
+    one.variable = input->variable->find(one.name.c_str());
+    if (one.variable < 0) error->all(FLERR, "Variable {} for {} does not exist", one.name, owner);
+    one.by_atom = input->variable->atomstyle(one.variable);
+    if (!one.by_atom && !input->variable->equalstyle(one.variable))
+      error->all(FLERR, "Variable {} for {} is neither of equal style nor of atom style", one.name,
+                 owner);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenValues::evaluate(int igroup)
+{
+  if (!any_variable) return;
+  const int groupbit = group->bitmask[igroup];
+  const int nlocal = atom->nlocal;
+  modify->clearstep_compute();
+  for (int k = 0; k < NQUANTITY; k++) {
+    const Value &one = value[k];
+    if (one.name.empty()) continue;
+    if (!one.by_atom) {
+      number[k] = input->variable->compute_equal(one.variable);
+      if (!std::isfinite(number[k]))
+        error->all(FLERR, "{}: variable {} is {} at step {}", owner, one.name, number[k],
+                   update->ntimestep);
+      continue;
+    }
+    column[k].resize(atom->nmax);
+    input->variable->compute_atom(one.variable, igroup, column[k].data(), 1, 0);
+    for (int i = 0; i < nlocal; i++)
+      if ((atom->mask[i] & groupbit) && !std::isfinite(column[k][i]))
+        error->one(FLERR, "{}: variable {} is {} for particle {} at step {}", owner, one.name,
+                   column[k][i], atom->tag[i], update->ntimestep);
+  }
+  modify->addstep_compute(update->ntimestep + 1);
+}
