@@ -43,7 +43,7 @@ using namespace FixConst;
 using namespace SPHDissipation;
 
 static constexpr double NODES = 3.0;          // of the plane, per support radius
-static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
+static constexpr double AVERAGING = 200.0;    // default time, support radii over sound speed
 
 // the vector of the fix, after the ledger
 
