@@ -44,6 +44,9 @@ class FixSPHBulk : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
+  // a particle joins the group within a step, after the first half of the kick
+  virtual void arrive(int i);
+
  protected:
   double dtv, dtf;
   int density_done;    // the masses were set, in this run or before a restart

@@ -106,14 +106,25 @@ void FixSPHMicropolar::pre_force(int vflag)
 void FixSPHMicropolar::set_inertia_of_arrivals()
 {
   if (!inertia_flag) return;
-  const auto *pair = PairSPHBulk::find(force);
-  double *const inertia = spinning()->inertia;
-  const double power = 2.0 / domain->dimension;
   for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && !(inertia[i] > 0.0)) {
-      const double volume = atom->rmass[i] / pair->reference_density(atom->type[i]);
-      inertia[i] = factor * pow(volume, power) + offset;
-    }
+    if (atom->mask[i] & groupbit) set_inertia_of(i);
+}
+
+void FixSPHMicropolar::arrive(int i)
+{
+  FixSPHBulk::arrive(i);
+  if (inertia_flag) set_inertia_of(i);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHMicropolar::set_inertia_of(int i)
+{
+  double &inertia = spinning()->inertia[i];
+  if (inertia > 0.0) return;
+  const auto *pair = PairSPHBulk::find(force);
+  const double volume = atom->rmass[i] / pair->reference_density(atom->type[i]);
+  inertia = factor * pow(volume, 2.0 / domain->dimension) + offset;
 }
 
 /* ----------------------------------------------------------------------

@@ -37,6 +37,7 @@ class FixSPHMicropolar : public FixSPHBulk {
   void final_integrate() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  void arrive(int) override;
 
   // in setup(), once the volumes are known, of this fix or of one that needs the inertia
   void set_inertia();
@@ -51,6 +52,7 @@ class FixSPHMicropolar : public FixSPHBulk {
 
   class AtomVecSPHMicropolar *spinning() const;
   void set_inertia_of_arrivals();
+  void set_inertia_of(int i);    // unless it has one
   void check_inertia() const;
   void integrate_spin(bool);
 };

@@ -47,14 +47,17 @@ static constexpr double AVERAGING = 200.0;    // default time, support radii ove
 
 // the vector of the fix, after the ledger
 
+static constexpr int NHEAD = 1 + OpenLedger::NVALUE + OpenRows::NSTATE + 1;    // of restart files
+
 enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
 /* ---------------------------------------------------------------------- */
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), rows(nullptr),
-    ledger(nullptr), pair(nullptr), condition(LAGGED), order(-1), averaging_time(0.0), area(0.0),
-    supersonic(false), totals_known(false), totals(new double[NVECTOR]), restart_state(nullptr)
+    ledger(nullptr), pair(nullptr), integrator(nullptr), fluid_name(arg[3]), fluidbit(0),
+    condition(LAGGED), order(-1), averaging_time(0.0), area(0.0), clock(0.0), supersonic(false),
+    totals_known(false), totals(new double[NVECTOR]), restart_state(nullptr)
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -64,17 +67,13 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   rows = new OpenRows(lmp, owner, *plane, groupbit);
   ledger = new OpenLedger(lmp);
 
-  fluid_group = group->find(arg[3]);
-  if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, arg[3]);
-  fluidbit = group->bitmask[fluid_group];
+  const int fluid_group = group->find(fluid_name);
+  if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, fluid_name);
   plane->set(arg + 4);
   for (int iarg = 11; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
   check_keywords();
 
   if (atom->tag_enable == 0) error->all(FLERR, "Fix {} requires atom IDs", style);
-  for (const int g : {igroup, fluid_group})
-    if (group->dynamic[g])
-      error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[g]);
   if (fluid_group == 0 || igroup == 0 || fluid_group == igroup)
     error->all(FLERR,
                "Fix {}: the groups of the zone and of the fluid must be two, neither of them all: "
@@ -218,6 +217,7 @@ void FixSPHOpen::init()
                style);
   pair->add_open_zone(this);
   check_groups();
+  check_integrator();
 
   const double support = pair->support_radius();
   plane->init(support / NODES);
@@ -236,9 +236,9 @@ void FixSPHOpen::init()
   if (restart_state) {
     const auto *state = reinterpret_cast<double *>(restart_state);
     const auto nstate = static_cast<int>(state[0]);
-    ledger->restart(state + 1);
     rows->unpack(state + 1 + OpenLedger::NVALUE);
-    const int before = 1 + OpenLedger::NVALUE + OpenRows::NSTATE;
+    clock = state[1 + OpenLedger::NVALUE + OpenRows::NSTATE];
+    const int before = NHEAD;
     if (!samples->unpack(state + before, nstate - before) && comm->me == 0)
       error->warning(FLERR,
                      "Fix {} {}: the plane is not that of the restart file, waves that had "
@@ -254,6 +254,16 @@ void FixSPHOpen::init()
 
 void FixSPHOpen::check_groups()
 {
+  const int fluid_group = group->find(fluid_name);
+  if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, fluid_name);
+  fluidbit = group->bitmask[fluid_group];
+  for (const int g : {igroup, fluid_group})
+    if (group->dynamic[g])
+      error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[g]);
+  if (atom->firstgroupname)
+    error->all(FLERR, "Fix {} cannot be used with atom_modify first: groups change within a step",
+               style);
+
   bigint number[2] = {0, 0}, all[2];    // in the zone, in both groups
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
@@ -270,7 +280,7 @@ void FixSPHOpen::check_groups()
                style, group->names[igroup]);
   if (all[1])
     error->all(FLERR, "Fix {}: {} particles are in both groups {} and {}", style, all[1],
-               group->names[igroup], group->names[fluid_group]);
+               group->names[igroup], fluid_name);
 
   for (const auto &other : modify->get_fix_list()) {
     if (other == this || !other->time_integrate) continue;
@@ -283,8 +293,26 @@ void FixSPHOpen::check_groups()
           FLERR,
           "Fix {}: {} particles of group {} are also moved by fix {} of style {}; that should "
           "be a fix of group {}",
-          style, total, group->names[igroup], other->id, other->style, group->names[fluid_group]);
+          style, total, group->names[igroup], other->id, other->style, fluid_name);
   }
+}
+
+/* ----------------------------------------------------------------------
+   what enters is in the group of the fluid and in no other one that it was not in before
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::check_integrator()
+{
+  integrator = nullptr;
+  for (const auto &other : modify->get_fix_list()) {
+    auto *const candidate = dynamic_cast<FixSPHBulk *>(other);
+    if (candidate && (group->bitmask[candidate->igroup] == fluidbit)) integrator = candidate;
+  }
+  if (!integrator)
+    error->all(FLERR,
+               "Fix {}: there is no fix sph/bulk or sph/micropolar of group {}, so that nothing "
+               "moves what enters",
+               style, fluid_name);
 }
 
 /* ----------------------------------------------------------------------
@@ -293,15 +321,16 @@ void FixSPHOpen::check_groups()
 
 void FixSPHOpen::check_places()
 {
-  bigint number[3] = {0, 0, 0}, all[3];    // fluid behind, zone in front, others in the zone
+  bigint number[3] = {0, 0, 0}, all[3];           // fluid behind, zone in front, others in the zone
+  const double slack = 1.0e-6 * plane->length;    // particles may be placed on the plane
   int others = 0;
   for (const auto &fix : modify->get_fix_by_style("^sph/open$"))
     if (fix != this) others |= fix->groupbit;
   for (int i = 0; i < atom->nlocal; i++) {
     const double height = plane->height(atom->x[i]);
-    const bool behind = height < 0.0 && height > -plane->length && !plane->beside(atom->x[i]);
+    const bool behind = height < -slack && height > -plane->length && !plane->beside(atom->x[i]);
     if ((atom->mask[i] & fluidbit) && behind) number[0]++;
-    if ((atom->mask[i] & groupbit) && height >= 0.0) number[1]++;
+    if ((atom->mask[i] & groupbit) && height > slack) number[1]++;
     if ((atom->mask[i] & others) && behind) number[2]++;
   }
   MPI_Allreduce(number, all, 3, MPI_LMP_BIGINT, MPI_SUM, world);
@@ -335,11 +364,6 @@ void FixSPHOpen::check_length()
 
 /* ---------------------------------------------------------------------- */
 
-double FixSPHOpen::time() const
-{
-  return update->atime + static_cast<double>(update->ntimestep - update->atimestep) * update->dt;
-}
-
 bool FixSPHOpen::given_velocity() const
 {
   return values->given(OpenValues::VX);
@@ -355,9 +379,14 @@ const EosParams &FixSPHOpen::eos(int i) const
   return pair->fluid().coeffs[atom->type[i]].eos;
 }
 
-double FixSPHOpen::zone_height(const double *x) const
+/* ----------------------------------------------------------------------
+   a zone with fluid at its sides has pairs with it all along
+------------------------------------------------------------------------- */
+
+bool FixSPHOpen::zone_near(const double *x, double reach) const
 {
-  return plane->height(x);
+  const double height = plane->height(x);
+  return height < reach && height > -reach - (plane->limited() ? plane->length : 0.0);
 }
 
 /* ----------------------------------------------------------------------
@@ -426,7 +455,7 @@ double FixSPHOpen::wave(int i, const Reference &ref, double out) const
     const double inside = (sum.weight > 0.0) ? sum.d / sum.weight : 0.0;
     lag = (inside - plane->height(x)) / std::max(ref.c + out, 0.1 * ref.c);
   }
-  return samples->wave(x, time() - lag);
+  return samples->wave(x, clock - lag);
 }
 
 /* ----------------------------------------------------------------------
@@ -487,6 +516,7 @@ void FixSPHOpen::setup_pre_exchange()
 void FixSPHOpen::initial_integrate(int /*vflag*/)
 {
   ledger->advance(0.5 * update->dt);
+  clock += update->dt;
   totals_known = false;
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit)
@@ -512,7 +542,7 @@ void FixSPHOpen::post_integrate()
         x[d] += update->dt * (mean[d] - v[d]);
         v[d] = atom->vest[i][d] = u[d];
       }
-      farthest = std::max(farthest, fabs(MathExtra::dot3(mean, plane->normal)) * update->dt);
+      farthest = std::max(farthest, MathExtra::dot3(mean, plane->normal) * update->dt);
       if (plane->height(x) >= 0.0) enter(i, mean);
     } else if (atom->mask[i] & fluidbit) {
       const double height = plane->height(x);
@@ -520,6 +550,7 @@ void FixSPHOpen::post_integrate()
     }
   }
   rows->note_motion(farthest);
+  totals_known = false;
 }
 
 /* ----------------------------------------------------------------------
@@ -530,7 +561,7 @@ void FixSPHOpen::enter(int i, const double *v)
 {
   atom->mask[i] = (atom->mask[i] & ~groupbit) | fluidbit;
   std::copy_n(v, 3, atom->v[i]);
-  desph_before()[i] = 0.0;
+  integrator->arrive(i);
   ledger->carry(OpenLedger::IN, i, v, atom->esph[i]);
 }
 
@@ -544,6 +575,7 @@ void FixSPHOpen::leave(int i)
   atom->esph[i] -= 0.5 * update->dt * desph_before()[i];
   ledger->carry(OpenLedger::OUT, i, atom->v[i], atom->esph[i]);
   std::copy_n(atom->vest[i], 3, atom->v[i]);
+  if (auto *avec = spinning()) std::copy_n(avec->omegaest[i], 3, atom->omega[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -554,7 +586,7 @@ void FixSPHOpen::set_spin(int i)
 {
   if (values->given(OpenValues::ENERGY) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
     atom->esph[i] = atom->rmass[i] * (*values)(OpenValues::ENERGY, i);
-  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  auto *avec = spinning();
   if (!avec) return;
   double *const omega = atom->omega[i];
   if (values->given(OpenValues::WX) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
@@ -564,6 +596,11 @@ void FixSPHOpen::set_spin(int i)
 }
 
 /* ---------------------------------------------------------------------- */
+
+AtomVecSPHMicropolar *FixSPHOpen::spinning() const
+{
+  return dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+}
 
 double *FixSPHOpen::desph_before() const
 {
@@ -593,6 +630,7 @@ void FixSPHOpen::pre_exchange()
 void FixSPHOpen::final_integrate()
 {
   ledger->advance(0.5 * update->dt);
+  totals_known = false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -609,6 +647,7 @@ void FixSPHOpen::set_state(Engine &engine)
   sample(engine);
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) set_pressure(engine, i);
+  totals_known = false;
 }
 
 /* ----------------------------------------------------------------------
@@ -631,7 +670,31 @@ void FixSPHOpen::sample(Engine &engine)
 
   samples->begin();
   for (const int i : near) add_sample(engine, i);
-  samples->finish(time());
+  samples->finish(clock);
+  if (neighbor->ago == 0) check_speed(engine, near);
+}
+
+/* ----------------------------------------------------------------------
+   no sound comes back from where the fluid leaves faster than sound: nothing can be prescribed there
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::check_speed(Engine &engine, const std::vector<int> &near)
+{
+  if (supersonic || (condition == FIXED && !given_velocity() && !given_state())) return;
+  bigint count = 0, all;
+  for (const int i : near) {
+    const double c =
+        sound_speed(pair->fluid().choice.eos, eos(i), atom->rho[i], atom->esph[i] / atom->rmass[i]);
+    if (-MathExtra::dot3(engine.particle[i].u, plane->normal) > c) count++;
+  }
+  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (!all) return;
+  supersonic = true;
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {} {}: {} particles leave faster than sound at step {}, where only "
+                   "condition fixed with velocity, density and pressure from inside is right",
+                   style, id, all, update->ntimestep);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -695,6 +758,10 @@ void FixSPHOpen::set_pressure(Engine &engine, int i)
                                    : density_at(form, eos(i), ref.p, 0.0);
   }
 
+  if (!(ref.rho > 0.0))
+    error->one(FLERR, "Fix {} {}: particle {} would have density {:g} and pressure {:g} at step {}",
+               style, id, atom->tag[i], ref.rho, ref.p, update->ntimestep);
+
   Particle &particle = engine.particle[i];
   atom->rho[i] = ref.rho;
   atom->vfrac[i] = particle.vol = atom->rmass[i] / ref.rho;
@@ -726,11 +793,11 @@ double FixSPHOpen::compute_vector(int n)
 
 void FixSPHOpen::write_restart(FILE *fp)
 {
-  double head[1 + OpenLedger::NVALUE + OpenRows::NSTATE];
-  ledger->total(head + 1);
-  rows->pack(head + 1 + OpenLedger::NVALUE);
+  std::vector<double> state(NHEAD);
+  ledger->total(&state[1]);
+  rows->pack(&state[1 + OpenLedger::NVALUE]);
+  state[NHEAD - 1] = clock;
   if (comm->me != 0) return;
-  std::vector<double> state(head, head + 1 + OpenLedger::NVALUE + OpenRows::NSTATE);
   const std::vector<double> waves = samples->pack();
   state.insert(state.end(), waves.begin(), waves.end());
   state[0] = static_cast<double>(state.size());
@@ -747,6 +814,7 @@ void FixSPHOpen::restart(char *buf)
   delete[] restart_state;
   restart_state = new char[size];
   memcpy(restart_state, buf, size);
+  ledger->restart(reinterpret_cast<double *>(restart_state) + 1);
 }
 
 /* ---------------------------------------------------------------------- */

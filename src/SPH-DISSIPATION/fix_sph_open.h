@@ -24,6 +24,9 @@ FixStyle(sph/open,FixSPHOpen);
 
 #include "sph_dissipation_open_stage.h"
 
+#include <string>
+#include <vector>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class OpenLedger;
@@ -56,7 +59,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
 
   int zone_bit() const override { return groupbit; }
   int fluid_bit() const override { return fluidbit; }
-  double zone_height(const double *) const override;
+  bool zone_near(const double *, double) const override;
   void set_state(SPHDissipation::Engine &) override;
   void set_impact(const SPHDissipation::OpenImpact &) override;
 
@@ -73,11 +76,14 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   SPHDissipation::OpenRows *rows;
   SPHDissipation::OpenLedger *ledger;
   class PairSPHBulk *pair;
-  int fluid_group, fluidbit;
+  class FixSPHBulk *integrator;    // of the fluid
+  std::string fluid_name;          // of its group
+  int fluidbit;
   Condition condition;
   int order;                // of values from inside, condition fixed
   double averaging_time;    // 0: by the support radius
   double area;              // of the cross section of a row; 0: rows have a spacing
+  double clock;             // time of the zone, which no command sets back
   bool supersonic;          // has been warned of
   bool totals_known;
   double *totals;
@@ -86,9 +92,9 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   int keyword_argument(int, int, char **);
   void check_keywords();
   void check_groups();
+  void check_integrator();
   void check_places();
   void check_length();
-  double time() const;
   bool given_velocity() const;
   bool given_state() const;
   const SPHDissipation::EosParams &eos(int i) const;
@@ -100,7 +106,9 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void enter(int i, const double *v);
   void leave(int i);
   void set_spin(int i);
+  class AtomVecSPHMicropolar *spinning() const;
   double *desph_before() const;
+  void check_speed(SPHDissipation::Engine &, const std::vector<int> &near);
   void sample(SPHDissipation::Engine &);
   void add_sample(SPHDissipation::Engine &, int i);
   void set_pressure(SPHDissipation::Engine &, int i);

@@ -269,7 +269,8 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum *torque_out)
+void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum *torque_out,
+                               double *divergence_out)
 {
   const std::size_t end = some.neighbor.size();
   some.neighbor.resize(end + 3 * BLOCK, data.spare);    // pass 2 looks ahead
@@ -282,12 +283,8 @@ void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum 
   part.slope = some.slope.data();
   part.force = force_out;
   part.torque = torque_out;
+  part.divergence = divergence_out;
   part.tally = nullptr;
-  std::vector<double> unused;
-  if (bulk == Bulk::VOLUME) {
-    unused.resize((std::size_t) atom->nlocal + atom->nghost + BLOCK);
-    part.divergence = unused.data();
-  }
   force_loop(part);
 }
 

@@ -156,6 +156,13 @@ namespace SPHDissipation {
     void end_row(int spare);    // fills up the last block
     double memory_usage() const;
 
+    // function(i) for all particles of the pairs, for some of them several times, and spare ones
+    template <class Function> void visit(Function &&function) const
+    {
+      for (const int i : rows) function(i);
+      for (const int j : neighbor) function(j);
+    }
+
    private:
     friend class Engine;
     std::vector<int> rows, count, neighbor;
@@ -191,9 +198,9 @@ namespace SPHDissipation {
     // on owned and ghost atoms
     void accumulate_forces(NeighList *, PairTally *);
 
-    // forces, torques and heat of those pairs alone, added to arrays with room for the spare
-    // particles; after pass 2
-    void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *);
+    // forces, torques, heat and divergence of those pairs alone, added to arrays with room for the
+    // spare particles; after pass 2
+    void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *, double *divergence);
 
     bool has_forces() const;    // force[] is of the owned and ghost atoms that are there now
 

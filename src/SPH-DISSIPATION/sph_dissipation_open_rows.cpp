@@ -63,6 +63,7 @@ void OpenRows::init(double support_in)
 {
   support = support_in;
   unknown_end = true;
+  interrupt_ids();
   if (spacing == 0.0 || half_width == 0.0) find_rows();
   if (given_spacing > 0.0) spacing = given_spacing;
   if (!by_distance() && spacing == 0.0)
@@ -70,6 +71,32 @@ void OpenRows::init(double support_in)
                "{}: cannot find the distance of the particles in a row, for none stands straight "
                "behind the one nearest to the plane; give it by the keyword spacing",
                owner);
+}
+
+/* ----------------------------------------------------------------------
+   Dumps that are sorted by ID take it that IDs which are consecutive when a run begins stay the same
+   as long as there are as many of them (Dump::init() and Dump::sort() of LAMMPS).  So they must not
+   be: a particle of the zone gets the next free one.
+------------------------------------------------------------------------- */
+
+void OpenRows::interrupt_ids()
+{
+  if (!atom->tag_consecutive()) return;
+  tagint mine = 0, last;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) mine = std::max(mine, atom->tag[i]);
+  MPI_Allreduce(&mine, &last, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  const auto next = static_cast<tagint>(atom->natoms) + 1;
+
+  const bool mapped = (atom->map_style != Atom::MAP_NONE);
+  if (mapped) atom->map_clear();
+  atom->nghost = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->tag[i] == last) atom->tag[i] = next;
+  if (mapped) {
+    atom->map_init();
+    atom->map_set();
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -102,8 +129,7 @@ void OpenRows::find_rows()
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const Offset to = offset(domain, plane, x, atom->x[i]);
-    const double r = sqrt(to.beside * to.beside + to.ahead * to.ahead);
+    const double r = distance_between(x, atom->x[i]);
     if (r > 0.0) size = std::min(size, r);
   }
   MPI_Allreduce(&size, &all_size, 1, MPI_DOUBLE, MPI_MIN, world);
@@ -129,8 +155,14 @@ double OpenRows::largest_spacing() const
 {
   if (!by_distance()) return spacing;
   double largest = 0.0, all;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit) largest = std::max(largest, distance(i));
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    if (!(distance(i) > 0.0))
+      error->one(FLERR,
+                 "{}: the density of particle {} gives {:g} as the distance from the next one",
+                 owner, atom->tag[i], distance(i));
+    largest = std::max(largest, distance(i));
+  }
   MPI_Allreduce(&largest, &all, 1, MPI_DOUBLE, MPI_MAX, world);
   return all;
 }
@@ -146,6 +178,8 @@ void OpenRows::renew(const Refresh &refresh)
   atom->avec->clear_bonus();
   remove_beyond();
 
+  if (by_distance()) refresh({});    // particles have changed places
+
   // since the last time, no row can have come farther from the end than this
 
   const double largest = largest_spacing();
@@ -158,6 +192,7 @@ void OpenRows::renew(const Refresh &refresh)
                "{:g} ran empty; build them more often or make the zone longer",
                owner, moved_all, plane.length);
   const Band band = gather_band(unknown_end ? plane.length : moved_all + 2.5 * largest);
+  if (unknown_end) check_alone(band);
   unknown_end = false;
 
   std::vector<int> last = last_ones(band);
@@ -303,8 +338,42 @@ bool OpenRows::fill(std::vector<int> &last, const Band &band, const Refresh &ref
     }
 
   for (const int j : created) check_seat(atom->x[j], band);
+  for (const tagint tag : tags) highest = std::max(highest, tag);
   last = created;
   return true;
+}
+
+/* ----------------------------------------------------------------------
+   what is not of the zone is beside it
+------------------------------------------------------------------------- */
+
+void OpenRows::check_alone(const Band &band) const
+{
+  bigint count = 0, all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    bool alone = true;
+    const double *const x = atom->x[i];
+    plane.near(x, half_width + plane.node_distance(), [&](int node, double) {
+      for (const int k : band.at_node[node])
+        if (!band.of_zone[k] && distance_between(x, &band.x[3 * k]) < half_width) alone = false;
+    });
+    if (!alone) count++;
+  }
+  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all)
+    error->all(FLERR,
+               "{}: {} particles of the zone overlap with others, such as those of a wall, which "
+               "must be beside it",
+               owner, all);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double OpenRows::distance_between(const double *a, const double *b) const
+{
+  const Offset to = offset(domain, plane, a, b);
+  return sqrt(to.beside * to.beside + to.ahead * to.ahead);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -322,13 +391,10 @@ void OpenRows::check_seat(double *x, const Band &band) const
                  "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",
                  owner, x[0], x[1], x[2]);
   plane.near(x, half_width + plane.node_distance(), [&](int node, double) {
-    for (const int k : band.at_node[node]) {
-      const Offset to = offset(domain, plane, x, &band.x[3 * k]);
-      const double r = sqrt(to.beside * to.beside + to.ahead * to.ahead);
-      if (r < APART * half_width)
+    for (const int k : band.at_node[node])
+      if (distance_between(x, &band.x[3 * k]) < APART * half_width)
         error->one(FLERR, "{}: at {:g} {:g} {:g}, where a particle enters, there is another one",
                    owner, x[0], x[1], x[2]);
-    }
   });
 }
 

@@ -73,12 +73,15 @@ namespace SPHDissipation {
     };
 
     double step(int i) const { return distance ? distance(i) : spacing; }
+    void interrupt_ids();
     void find_rows();
     void remove_beyond();
     Band gather_band(double depth) const;
     int nearest_node(const double *x) const;
     std::vector<int> last_ones(const Band &) const;
     bool fill(std::vector<int> &last, const Band &, const Refresh &);
+    double distance_between(const double *, const double *) const;
+    void check_alone(const Band &) const;
     void check_seat(double *x, const Band &) const;
     std::vector<tagint> new_tags(const std::vector<int> &last) const;
   };

@@ -66,7 +66,8 @@ void OpenSamples::begin()
 }
 
 /* ----------------------------------------------------------------------
-   a force computation that is repeated, at the start of a run, replaces what it found before
+   a force computation that is repeated, at the start of a run, replaces what it found before; the
+   averages have that time already
 ------------------------------------------------------------------------- */
 
 void OpenSamples::finish(double time)
@@ -74,8 +75,12 @@ void OpenSamples::finish(double time)
   my_sums = sums;
   MPI_Allreduce(my_sums.data(), sums.data(), NSUM * plane.nnodes(), MPI_DOUBLE, MPI_SUM, world);
 
-  while (!history.empty() && history.back().time >= time) history.pop_back();
-  update_means(history.empty() ? 0.0 : time - history.back().time);
+  bool repeated = false;
+  while (!history.empty() && history.back().time >= time) {
+    history.pop_back();
+    repeated = !history.empty();
+  }
+  if (!repeated) update_means(history.empty() ? 0.0 : time - history.back().time);
 
   history.push_back({time, std::vector<double>(sums.size(), 0.0)});
   for (std::size_t n = 0; n < sums.size(); n++)

@@ -30,6 +30,29 @@ static constexpr double NEITHER = -1.0;
 
 /* ---------------------------------------------------------------------- */
 
+void OpenImpact::add(const Particle &particle, const ForceSum &sum)
+{
+  double moment[3];
+  MathExtra::cross3(particle.x, sum.f, moment);
+  for (int d = 0; d < 3; d++) {
+    force[d] += sum.f[d];
+    torque[d] += moment[d];
+    power += sum.f[d] * particle.u[d];
+  }
+  power += sum.heat;
+}
+
+void OpenImpact::add(const Spin &spin, const TorqueSum &sum)
+{
+  for (int d = 0; d < 3; d++) {
+    torque[d] += sum.t[d];
+    power += sum.t[d] * spin.w[d];
+  }
+  power += sum.heat_vortex + sum.heat_spin;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void OpenStage::add(OpenZone *zone)
 {
   remove(zone);
@@ -113,7 +136,7 @@ void OpenStage::find_rows(NeighList *list)
   rows.assign(zones.size(), {});
   for (int ii = 0; ii < list->inum; ii++)
     for (std::size_t k = 0; k < zones.size(); k++)
-      if (fabs(zones[k]->zone_height(atom->x[list->ilist[ii]])) < reach) rows[k].push_back(ii);
+      if (zones[k]->zone_near(atom->x[list->ilist[ii]], reach)) rows[k].push_back(ii);
 }
 
 /* ----------------------------------------------------------------------
@@ -153,29 +176,21 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
     pairs.end_row(all.spare);
   }
 
-  const bigint nrow = (bigint) atom->nlocal + atom->nghost + BLOCK;
-  forces.assign(nrow, ForceSum());
-  if (engine.has_spin()) torques.assign(nrow, TorqueSum());
-  engine.accumulate_forces(pairs, forces.data(), torques.data());
+  const std::size_t nrow = (std::size_t) atom->nlocal + atom->nghost + BLOCK;
+  forces.resize(std::max(forces.size(), nrow));
+  divergence.resize(forces.size());
+  if (engine.has_spin()) torques.resize(forces.size());
+  engine.accumulate_forces(pairs, forces.data(), torques.data(), divergence.data());
 
-  for (int i = 0; i < mine; i++) {
-    if (place[i] != 0.0) continue;
-    const double *const f = forces[i].f;
-    double moment[3];
-    MathExtra::cross3(particle[i].x, f, moment);
-    for (int d = 0; d < 3; d++) {
-      total.force[d] += f[d];
-      total.torque[d] += moment[d];
-      total.power += f[d] * particle[i].u[d];
+  pairs.visit([&](int i) {
+    if (i < mine && place[i] == 0.0) {
+      total.add(particle[i], forces[i]);
+      if (engine.has_spin()) total.add(engine.spin[i], torques[i]);
     }
-    total.power += forces[i].heat;
-    if (!engine.has_spin()) continue;
-    for (int d = 0; d < 3; d++) {
-      total.torque[d] += torques[i].t[d];
-      total.power += torques[i].t[d] * engine.spin[i].w[d];
-    }
-    total.power += torques[i].heat_vortex + torques[i].heat_spin;
-  }
+    forces[i] = ForceSum();
+    divergence[i] = 0.0;
+    if (engine.has_spin()) torques[i] = TorqueSum();
+  });
   return total;
 }
 
@@ -185,5 +200,6 @@ double OpenStage::memory_usage() const
 {
   return pairs.memory_usage() +
       static_cast<double>(place.capacity() * sizeof(double) + forces.capacity() * sizeof(ForceSum) +
-                          torques.capacity() * sizeof(TorqueSum));
+                          torques.capacity() * sizeof(TorqueSum) +
+                          divergence.capacity() * sizeof(double));
 }

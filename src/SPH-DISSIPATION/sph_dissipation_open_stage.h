@@ -27,6 +27,10 @@ namespace SPHDissipation {
   struct OpenImpact {
     double force[3], torque[3];    // torque about the origin, of forces and couples
     double power;                  // work and heat
+
+    // what acts on a particle of the fluid
+    void add(const Particle &, const ForceSum &);
+    void add(const Spin &, const TorqueSum &);
   };
 
   // What a fix does between the two passes whose particles are fluid with a prescribed state, as it
@@ -37,7 +41,8 @@ namespace SPHDissipation {
    public:
     virtual int zone_bit() const = 0;     // bit of the group of its particles
     virtual int fluid_bit() const = 0;    // bit of the group of the fluid that ends there
-    virtual double zone_height(const double *x) const = 0;    // distance from its plane
+    // whether a particle at x may have pairs across the border of zone and fluid, of this length
+    virtual bool zone_near(const double *x, double reach) const = 0;
 
     // set density and pressure of its owned particles: vol and g of Engine::particle
     virtual void set_state(Engine &) = 0;
@@ -77,8 +82,11 @@ namespace SPHDissipation {
     std::vector<std::vector<int>> rows;    // of the neighbor list, near the plane of each zone
 
     PairSubset pairs;    // of fluid and one zone
+
+    // of these pairs; all zero but within impact(), which works in proportion to the pairs
     std::vector<ForceSum> forces;
     std::vector<TorqueSum> torques;
+    std::vector<double> divergence;
 
     void set_places();
     void update_ghosts();

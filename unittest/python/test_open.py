@@ -1,0 +1,224 @@
+"""fix sph/open: a stream that passes undisturbed, on any number of ranks; restarts; flow that reverses."""
+
+import numpy as np
+import pytest
+
+from helpers import relative
+from open_boundaries import SKIN, Channel, account, columns, dump
+
+U = 0.1
+
+
+def stream(place):
+    return np.tile([U, 0.0, 0.0], (len(place), 1))
+
+
+CHANNELS = {
+    "square": dict(kind="sq"),
+    "hexagonal": dict(kind="hex"),
+    "rows across": dict(kind="hexrows", zone=9.0),
+    "down": dict(kind="hex", direction=(0, -1)),
+    "oblique": dict(kind="sq", direction=(np.cos(0.5), -np.sin(0.5)), box="triclinic"),
+    "oblique, hexagonal": dict(kind="hex", direction=(np.cos(0.3), -np.sin(0.3)), box="triclinic"),
+    "3d": dict(dim=3, direction=(0, 0, 1), support=2.5, zone=7.0, width=6, length=8),
+}
+
+
+# ---------------------------------------------------------------------------------------------
+# a uniform stream
+
+
+@pytest.mark.parametrize("outlet", ["density 1.0", "density 1.0 condition characteristic", "condition fixed"])
+@pytest.mark.parametrize("name", CHANNELS)
+def test_uniform_stream(lammps, name, outlet):
+    """After ten flow-throughs, for all outlets at the square lattice, for the default on all lattices."""
+    if outlet != "density 1.0" and name not in ("square", "oblique"):
+        pytest.skip("covered by the other lattices")
+    channel = Channel(**CHANNELS[name])
+    steps = int(10 * channel.length / U / 0.25)
+    lammps(channel.text(lammps, f"velocity {channel.vector(U)}", outlet, velocity=stream, timestep=0.25)
+           + dump("out.dump", steps) + f"thermo_style custom step {columns('in', 'out')}\n"
+           f"thermo_modify norm no format float %.17g\nthermo {steps}\nrun {steps}\n")
+    first, last = lammps.frames("out.dump")
+    assert len(np.intersect1d(first["id"], last["id"])) == 0, "a particle of the start is still there"
+    (table,) = lammps.results[-1].thermo()
+    assert table["f_in[1]"][-1] > 9 * len(first["id"]) * channel.length / (channel.length + 2 * channel.zone)
+    errors = (np.abs(last["v"] - U * channel.along).max() / U, np.abs(last["c_RHO"] - 1.0).max())
+    print("velocity, density", *errors)
+    assert max(errors) < 1e-10
+
+
+@pytest.mark.parametrize("name", CHANNELS)
+def test_stream_does_not_depend_on_the_number_of_ranks(lammps, name):
+    """Tags and positions of each particle, also of the many that came in the run; newton on and off."""
+    channel = Channel(**CHANNELS[name])
+    steps = int(1.5 * channel.length / U / 0.25)
+    frames = []
+    for ranks, newton in ((1, "on"), (2, "off"), (4, "on"), (4, "off")):
+        lammps(channel.text(lammps, f"velocity {channel.vector(U)}", "density 1.0", velocity=stream, timestep=0.25,
+                            newton=newton) + dump("out.dump", steps) + f"run {steps}\n", ranks=ranks)
+        frames.append(lammps.frame("out.dump"))
+    assert frames[0]["id"].max() > 1.2 * len(frames[0]["id"])
+    for frame in frames[1:]:
+        assert (frame["id"] == frames[0]["id"]).all()
+        difference = np.abs(np.stack([frame["x"] - frames[0]["x"], frame["v"] - frames[0]["v"]])).max()
+        print(f"{difference:.2e}")
+        assert difference < 1e-11
+
+
+def wavy(channel, size=0.02):
+    """A stream with eddies, everywhere but in the zones."""
+    def velocity(place):
+        s, t = 2 * np.pi * place[:, 0] / channel.length, 2 * np.pi * place[:, 1] / channel.width
+        inside = (place[:, 0] > 0) & (place[:, 0] < channel.length)
+        swirl = np.column_stack([np.sin(s) * np.cos(t), -np.cos(s) * np.sin(t), 0 * s])
+        return stream(place) + size * inside[:, None] * swirl
+    return velocity
+
+
+@pytest.mark.parametrize("condition", ["", "condition characteristic", "condition fixed order 1"])
+def test_eddies_do_not_depend_on_the_number_of_ranks(lammps, condition):
+    """A flow that varies along the planes and in time, as long as round-off has not grown."""
+    channel = Channel(kind="hex", length=20)
+    frames = []
+    for ranks, newton in ((1, "on"), (2, "on"), (4, "off")):
+        lammps(channel.text(lammps, f"velocity {channel.vector(U)} {condition.replace(' order 1', '')}",
+                            ("density 1.0 " if "order" not in condition else "velocity inside ") + condition,
+                            velocity=wavy(channel), newton=newton)
+               + dump("out.dump", 300) + "run 300\n", ranks=ranks)
+        frames.append(lammps.frame("out.dump"))
+    assert np.ptp(frames[0]["vy"]) > 0.003
+    for frame in frames[1:]:
+        assert (frame["id"] == frames[0]["id"]).all()
+        difference = np.abs(np.stack([frame["x"] - frames[0]["x"], frame["v"] - frames[0]["v"]])).max()
+        print(f"{difference:.2e}")
+        assert difference < 1e-11
+
+
+def test_rows_of_given_area(lammps):
+    """The distance of particles that enter follows from density and area; here it is that of the lattice."""
+    channel = Channel()
+    steps = int(3 * channel.length / U / 0.25)
+    text = channel.text(lammps, f"velocity {channel.vector(U)} density 1.0 area 1.0", "density 1.0", velocity=stream,
+                        timestep=0.25, integrate="")
+    mass = lattice_mass(lammps)
+    lammps(text.replace("fix in", f"set group all mass {mass!r}\nfix in").replace("area 1.0", f"area {mass!r}")
+           + dump("out.dump", steps) + f"run {steps}\n")
+    last = lammps.frame("out.dump")
+    assert np.abs(last["v"] - U * channel.along).max() < 1e-10 * U
+    assert np.abs(last["c_RHO"] - 1.0).max() < 1e-10
+
+
+def lattice_mass(lammps):
+    """Of a particle of the square lattice with density 1 as the kernel sums it up."""
+    lammps(Channel().text(lammps, "velocity 0 0 0", "density 1.0") + dump("mass.dump", 1) + "run 0\n")
+    return float(lammps.frame("mass.dump")["mass"][0])
+
+
+# ---------------------------------------------------------------------------------------------
+# restarts, run commands
+
+def unsteady(lammps, channel, **keywords):
+    return channel.text(lammps, f"velocity {channel.vector(U)} average 40", "density 1.0", velocity=wavy(channel), **keywords)
+
+
+def after_read(channel):
+    return ("fix 1 fluid sph/bulk density rho0\n"
+            f"fix in {channel.plane('in')} velocity {channel.vector(U)} average 40\nfix out {channel.plane('out')} density 1.0\n"
+            f"timestep 0.3\nneighbor {SKIN} bin\n")
+
+
+LEDGER = f"thermo_style custom step {columns('in', 'out', entries=32)}\nthermo_modify norm no format float %.17g\nthermo 40\n"
+
+
+@pytest.mark.parametrize("before, after", [(1, 1), (2, 4), (4, 1)])
+@pytest.mark.parametrize("steps", [37, 200])
+def test_restart(lammps, before, after, steps):
+    """Equals a second run command; nothing is lost or doubled; the accounts and the waves go on."""
+    channel = Channel(kind="hex", length=20)
+    lammps(unsteady(lammps, channel) + f"run {steps}\nwrite_restart state.restart\n" + dump("whole.dump", 100) + LEDGER
+           + "run 100\n", ranks=before)
+    lammps("read_restart state.restart\n" + after_read(channel) + dump("parts.dump", 100) + LEDGER + "run 100\n",
+           ranks=after)
+    for whole, parts in zip(lammps.frames("whole.dump"), lammps.frames("parts.dump"), strict=True):
+        assert (whole["id"] == parts["id"]).all() and (whole["mass"] == parts["mass"]).all()
+        assert np.abs(whole["x"] - parts["x"]).max() < 1e-12
+        assert np.abs(whole["v"] - parts["v"]).max() < 1e-13
+    whole, parts = (result.thermo()[-1] for result in lammps.results[-2:])
+    for key in whole:
+        assert np.abs(whole[key] - parts[key]).max() < 1e-11 * max(np.abs(whole[key]).max(), 1.0), key
+    assert whole["f_in[1]"][-1] > whole["f_in[1]"][0] > 0
+
+
+def test_restart_is_close_to_the_run_without_it(lammps):
+    """What differs is the extrapolated velocity at the start of a run: of second order in the time step."""
+    differences = []
+    for halve in (1, 2):
+        channel = Channel(kind="hex", length=20)
+        text = unsteady(lammps, channel, timestep=0.3 / halve)
+        lammps(text + dump("whole.dump", 100 * halve) + f"run {100 * halve}\n")
+        lammps(text + f"run {50 * halve}\nwrite_restart state.restart\n")
+        lammps("read_restart state.restart\n" + after_read(channel).replace("0.3\n", f"{0.3 / halve}\n")
+               + dump("parts.dump", 100 * halve) + f"run {50 * halve}\n")
+        whole, parts = lammps.frame("whole.dump"), lammps.frame("parts.dump")
+        assert (whole["id"] == parts["id"]).all()
+        differences.append(np.abs(whole["v"] - parts["v"]).max() / U)
+    print(differences)
+    assert differences[0] < 1e-4 and differences[1] < 0.35 * differences[0]
+
+
+@pytest.mark.parametrize("runs", ["run 100 pre no\nrun 100 pre no\n", "run 200 every 40 NULL\n", "run 200\n"])
+def test_run_commands_without_setup(lammps, runs):
+    """run pre no and run every go on as one run does."""
+    channel = Channel(kind="hex", length=20)
+    lammps(unsteady(lammps, channel) + "run 50\n" + dump("one.dump", 250) + "run 200 pre no\n")
+    lammps(unsteady(lammps, channel) + "run 50\n" + dump("two.dump", 250) + runs.replace("run 200\n", "run 200 pre no\n"))
+    one, two = lammps.frame("one.dump"), lammps.frame("two.dump")
+    assert (one["id"] == two["id"]).all()
+    assert np.abs(one["x"] - two["x"]).max() < 1e-12
+
+
+@pytest.mark.parametrize("pause", ["run 0\nrun 0\n", "reset_timestep 0\n", "timestep 0.3\n", "write_restart x.restart\n",
+                                   "write_data x.data\n", "balance 1.0 shift x 5 1.1\n"])
+def test_pause(lammps, pause):
+    """Nothing of these is an event for the zones: what they remember, in particular, is not of this clock."""
+    channel = Channel(kind="hex", length=20)
+    frames = []
+    for commands in ("", pause):
+        lammps(unsteady(lammps, channel) + "run 60\n" + commands + dump("out.dump", 100) + LEDGER + "run 100\n", ranks=2)
+        frames.append((lammps.frame("out.dump"), lammps.results[-1].thermo()[-1]))
+    (one, table), (two, other) = frames
+    assert (one["id"] == two["id"]).all()
+    assert np.abs(one["x"] - two["x"]).max() < 1e-12
+    for key in table:
+        if key != "Step":
+            assert np.abs(table[key][-1] - other[key][-1]) < 1e-11 * max(np.abs(table[key][-1]), 1.0), key
+
+
+# ---------------------------------------------------------------------------------------------
+# flow that reverses
+
+@pytest.mark.parametrize("ranks", [1, 4])
+@pytest.mark.parametrize("kind", ["sq", "hex"])
+def test_flow_that_reverses_four_times(lammps, kind, ranks):
+    """Two periods of a plug that goes to and fro by more than the zone is long."""
+    channel = Channel(kind=kind)
+    period = 200.0
+    steps = int(2 * period / 0.25)
+    shift = channel.particles()
+    velocity = f"variable U equal {0.4}*cos(2*PI*step*dt/{period})\n"
+    lammps(channel.text(lammps, "velocity v_U 0 0", "velocity v_U 0 0 density 1.0", timestep=0.25, before=velocity,
+                        velocity=lambda place: np.tile([0.4, 0, 0], (len(place), 1)), after_read="")
+           .replace("fix in", f"variable A equal -0.4*2*PI/{period}*sin(2*PI*step*dt/{period})*mass(all)/count(all)\n"
+                    "fix A fluid addforce v_A 0 0\nfix in")
+           + dump("out.dump", steps // 8) + "variable n equal count(fluid)\nvariable m equal mass(fluid)\n"
+           f"thermo_style custom step v_n v_m {columns('in', 'out')}\nthermo_modify norm no format float %.17g\n"
+           f"thermo {steps // 8}\nrun {steps}\n", ranks=ranks)
+    (table,) = lammps.results[-1].thermo()
+    print(table["v_n"], table["f_in[1]"], table["f_in[11]"])
+    assert table["v_n"][-1] == table["v_n"][0] and abs(table["v_m"][-1] - table["v_m"][0]) < 1e-12 * table["v_m"][0]
+    assert min(table["f_in[1]"][-1], table["f_in[11]"][-1], table["f_out[1]"][-1], table["f_out[11]"][-1]) > 2 * 8 * channel.zone
+    frames = lammps.frames("out.dump")
+    for one in frames:
+        assert len(np.unique(one["id"])) == len(one["id"])
+    assert np.abs(frames[-1]["c_RHO"] - 1.0).max() < 1e-3
