@@ -30,6 +30,7 @@ using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 static constexpr double FAR = 1.0e300;
+static constexpr double ROUND_OFF = 1.0e-9;    // of lengths
 static constexpr double STRAIGHT = 0.01;    // of a row, sideways, over the size of a particle
 
 // what is beside the line along the normal through from, and how far it is ahead
@@ -97,6 +98,15 @@ void OpenRows::interrupt_ids()
     atom->map_init();
     atom->map_set();
   }
+}
+
+/* ----------------------------------------------------------------------
+   a layer of a lattice that comes there comes as a whole, on any number of processors
+------------------------------------------------------------------------- */
+
+double OpenRows::end() const
+{
+  return -(1.0 + ROUND_OFF) * plane.length;
 }
 
 /* ----------------------------------------------------------------------
@@ -213,7 +223,7 @@ void OpenRows::remove_beyond()
 {
   for (int i = atom->nlocal - 1; i >= 0; i--) {
     highest = std::max(highest, atom->tag[i]);
-    if (!(atom->mask[i] & groupbit) || plane.height(atom->x[i]) >= -plane.length) continue;
+    if (!(atom->mask[i] & groupbit) || plane.height(atom->x[i]) >= end()) continue;
     atom->avec->copy(atom->nlocal - 1, i, 1);
     atom->nlocal--;
   }
@@ -230,7 +240,7 @@ OpenRows::Band OpenRows::gather_band(double depth) const
     const double *const x = atom->x[i];
     const bool of_zone = atom->mask[i] & groupbit;
     const double height = plane.height(x);
-    if (height < -plane.length || height > depth - plane.length) continue;
+    if (height < end() || height > depth - plane.length) continue;
     if (!of_zone && plane.beside(x)) continue;
     mine.insert(mine.end(), {x[0], x[1], x[2], of_zone ? 1.0 : 0.0});
   }
@@ -280,7 +290,7 @@ std::vector<int> OpenRows::last_ones(const Band &band) const
     const double *const x = atom->x[i];
     if (!(atom->mask[i] & groupbit)) continue;
     if (!(MathExtra::dot3(atom->v[i], plane.normal) > 0.0)) continue;
-    if (plane.height(x) - step(i) < -plane.length) continue;
+    if (plane.height(x) - step(i) < end()) continue;
     bool behind = false;
     plane.near(x, half_width + plane.node_distance(), [&](int node, double) {
       for (const int k : band.at_node[node]) {
@@ -306,7 +316,7 @@ bool OpenRows::fill(std::vector<int> &last, const Band &band, const Refresh &ref
   constexpr int CORRECTIONS = 3;
   last.erase(std::remove_if(last.begin(), last.end(),
                             [&](int i) {
-                              return plane.height(atom->x[i]) - step(i) < -plane.length;
+                              return plane.height(atom->x[i]) - step(i) < end();
                             }),
              last.end());
   int n = static_cast<int>(last.size()), all;

@@ -73,6 +73,7 @@ namespace SPHDissipation {
     };
 
     double step(int i) const { return distance ? distance(i) : spacing; }
+    double end() const;    // height where the zone ends
     void interrupt_ids();
     void find_rows();
     void remove_beyond();

@@ -62,7 +62,7 @@ void OpenSamples::init(double averaging_time_in, double memory_in)
 
 void OpenSamples::begin()
 {
-  std::fill(sums.begin(), sums.end(), NodeSum());
+  std::fill(my_sums.begin(), my_sums.end(), NodeSum());
 }
 
 /* ----------------------------------------------------------------------
@@ -72,7 +72,6 @@ void OpenSamples::begin()
 
 void OpenSamples::finish(double time)
 {
-  my_sums = sums;
   MPI_Allreduce(my_sums.data(), sums.data(), NSUM * plane.nnodes(), MPI_DOUBLE, MPI_SUM, world);
 
   bool repeated = false;

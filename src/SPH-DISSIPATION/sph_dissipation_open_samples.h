@@ -48,9 +48,10 @@ namespace SPHDissipation {
 
     void init(double averaging_time, double memory);    // memory: longest lag, time units
 
-    // sums of this step: begin(); add() for each owned particle of the fluid; finish()
+    // sums of this step: begin(); sum() for each owned particle of the fluid; finish(), until which
+    // what is asked for below is that of the step before
     void begin();
-    NodeSum &sum(int node) { return sums[node]; }
+    NodeSum &sum(int node) { return my_sums[node]; }
     void finish(double time);
 
     // at the place of a zone particle on the plane

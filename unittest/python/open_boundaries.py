@@ -8,7 +8,7 @@ from helpers import Particles
 
 SPACING = {"sq": (1.0, 1.0), "hex": (np.sqrt(2 / np.sqrt(3)), np.sqrt(np.sqrt(3) / 2)),
            "hexrows": (np.sqrt(np.sqrt(3) / 2), np.sqrt(2 / np.sqrt(3)))}
-SKIN = 0.5
+SKIN = 0.53  # not a multiple of what a stream travels in a step: then lists are built in the same step on all processors
 
 
 def frame(direction, dim=2):
@@ -105,14 +105,25 @@ class Channel:
 
     def text(self, lammps, inlet, outlet, velocity=None, coeff="1.0 1.0 0.1 0.2 {R}", style="sph/bulk", options="",
              newton="on", integrate="density rho0", timestep=0.3, name="box.data", wall="slip free", before="",
-             esph=0.0, mass=1.0, after_read=""):
-        self.particles(velocity, mass, esph).write(lammps.path(name))
+             esph=0.0, mass=1.0, spin=0.0, after_read=""):
+        write(self.particles(velocity, mass, esph), lammps.path(name), style, spin)
         walls = f"fix W wall sph/wall {wall}\n" if self.box == "walls" else ""
         return (f"units lj\ndimension {self.dim}\nboundary {self.boundary}\nnewton {newton}\natom_style {style}\n{before}"
                 f"read_data {name}\n{self.groups()}{after_read}pair_style {style} {options}\n"
                 f"pair_coeff * * {coeff.format(R=self.support)}\nneighbor {SKIN} bin\n{walls}"
                 f"fix 1 fluid {style} {integrate}\nfix in {self.plane('in')} {inlet}\nfix out {self.plane('out')} {outlet}\n"
                 f"timestep {timestep}\nthermo_modify norm no format float %.17g\n")
+
+
+def write(particles, path, style, spin):
+    """A data file, for sph/micropolar with the same spin for all particles and no moment of inertia."""
+    particles.write(path)
+    if style == "sph/bulk":
+        return
+    head, atoms, velocities = re.split(r"Atoms.*\n\n|\nVelocities\n\n", path.read_text())
+    lines = [line.split() for line in atoms.splitlines() if line]
+    path.write_text(head + f"Atoms # {style}\n\n" + "".join(" ".join(w[:3] + ["0.0"] + w[3:]) + "\n" for w in lines)
+                    + "\nVelocities\n\n" + "".join(f"{line} 0.0 0.0 {spin!r}\n" for line in velocities.splitlines()))
 
 
 def dump(name, every, fields=""):

@@ -84,10 +84,10 @@ def test_eddies_do_not_depend_on_the_number_of_ranks(lammps, condition):
     for ranks, newton in ((1, "on"), (2, "on"), (4, "off")):
         lammps(channel.text(lammps, f"velocity {channel.vector(U)} {condition.replace(' order 1', '')}",
                             ("density 1.0 " if "order" not in condition else "velocity inside ") + condition,
-                            velocity=wavy(channel), newton=newton)
+                            velocity=wavy(channel), newton=newton, coeff="1.0 1.0 0.02 0.05 {R}")
                + dump("out.dump", 300) + "run 300\n", ranks=ranks)
         frames.append(lammps.frame("out.dump"))
-    assert np.ptp(frames[0]["vy"]) > 0.003
+    assert np.ptp(frames[0]["vy"]) > 0.001
     for frame in frames[1:]:
         assert (frame["id"] == frames[0]["id"]).all()
         difference = np.abs(np.stack([frame["x"] - frames[0]["x"], frame["v"] - frames[0]["v"]])).max()
@@ -99,9 +99,9 @@ def test_rows_of_given_area(lammps):
     """The distance of particles that enter follows from density and area; here it is that of the lattice."""
     channel = Channel()
     steps = int(3 * channel.length / U / 0.25)
+    mass = lattice_mass(lammps)
     text = channel.text(lammps, f"velocity {channel.vector(U)} density 1.0 area 1.0", "density 1.0", velocity=stream,
                         timestep=0.25, integrate="")
-    mass = lattice_mass(lammps)
     lammps(text.replace("fix in", f"set group all mass {mass!r}\nfix in").replace("area 1.0", f"area {mass!r}")
            + dump("out.dump", steps) + f"run {steps}\n")
     last = lammps.frame("out.dump")
@@ -151,28 +151,32 @@ def test_restart(lammps, before, after, steps):
 
 
 def test_restart_is_close_to_the_run_without_it(lammps):
-    """What differs is the extrapolated velocity at the start of a run: of second order in the time step."""
+    """What differs is the velocity of the zones, which know what the fluid does in the step that begins but not in the one
+    that ends: of first order in the time step.  Lists are built at the same steps, for what enters stands behind the last
+    one of its row as that is then."""
     differences = []
     for halve in (1, 2):
         channel = Channel(kind="hex", length=20)
-        text = unsteady(lammps, channel, timestep=0.3 / halve)
+        lists = f"neigh_modify every {5 * halve} delay 0 check no\n"
+        text = unsteady(lammps, channel, timestep=0.3 / halve) + lists
         lammps(text + dump("whole.dump", 100 * halve) + f"run {100 * halve}\n")
         lammps(text + f"run {50 * halve}\nwrite_restart state.restart\n")
-        lammps("read_restart state.restart\n" + after_read(channel).replace("0.3\n", f"{0.3 / halve}\n")
+        lammps("read_restart state.restart\n" + after_read(channel).replace("0.3\n", f"{0.3 / halve}\n") + lists
                + dump("parts.dump", 100 * halve) + f"run {50 * halve}\n")
         whole, parts = lammps.frame("whole.dump"), lammps.frame("parts.dump")
-        assert (whole["id"] == parts["id"]).all()
-        differences.append(np.abs(whole["v"] - parts["v"]).max() / U)
+        common, one, two = np.intersect1d(whole["id"], parts["id"], return_indices=True)
+        assert len(common) > 0.95 * len(whole["id"])
+        differences.append(np.abs(whole["v"][one] - parts["v"][two]).max() / U)
     print(differences)
-    assert differences[0] < 1e-4 and differences[1] < 0.35 * differences[0]
+    assert differences[0] < 5e-4 and differences[1] < 0.6 * differences[0]
 
 
-@pytest.mark.parametrize("runs", ["run 100 pre no\nrun 100 pre no\n", "run 200 every 40 NULL\n", "run 200\n"])
+@pytest.mark.parametrize("runs", ["run 50\nrun 100 pre no\nrun 100 pre no\n", "run 250 pre no every 40 NULL\n"])
 def test_run_commands_without_setup(lammps, runs):
     """run pre no and run every go on as one run does."""
     channel = Channel(kind="hex", length=20)
-    lammps(unsteady(lammps, channel) + "run 50\n" + dump("one.dump", 250) + "run 200 pre no\n")
-    lammps(unsteady(lammps, channel) + "run 50\n" + dump("two.dump", 250) + runs.replace("run 200\n", "run 200 pre no\n"))
+    lammps(unsteady(lammps, channel) + dump("one.dump", 250) + "run 250\n")
+    lammps(unsteady(lammps, channel) + dump("two.dump", 250) + runs)
     one, two = lammps.frame("one.dump"), lammps.frame("two.dump")
     assert (one["id"] == two["id"]).all()
     assert np.abs(one["x"] - two["x"]).max() < 1e-12
@@ -185,7 +189,7 @@ def test_pause(lammps, pause):
     channel = Channel(kind="hex", length=20)
     frames = []
     for commands in ("", pause):
-        lammps(unsteady(lammps, channel) + "run 60\n" + commands + dump("out.dump", 100) + LEDGER + "run 100\n", ranks=2)
+        lammps(unsteady(lammps, channel) + "run 60\n" + commands + dump("out.dump", 20) + LEDGER + "run 100\n", ranks=2)
         frames.append((lammps.frame("out.dump"), lammps.results[-1].thermo()[-1]))
     (one, table), (two, other) = frames
     assert (one["id"] == two["id"]).all()
