@@ -282,6 +282,10 @@ void FixSPHOpen::check_groups()
     error->all(FLERR, "Fix {}: {} particles are in both groups {} and {}", style, all[1],
                group->names[igroup], fluid_name);
 
+  for (const auto &other : modify->get_fix_by_style("^sph/open$"))
+    if (other != this && other->igroup == igroup)
+      error->all(FLERR, "Fix {} {}: group {} has the zone of fix {} already", style, id,
+                 group->names[igroup], other->id);
   for (const auto &other : modify->get_fix_list()) {
     if (other == this || !other->time_integrate) continue;
     bigint count = 0, total;

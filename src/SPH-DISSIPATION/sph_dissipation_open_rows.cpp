@@ -31,7 +31,7 @@ using namespace SPHDissipation;
 
 static constexpr double FAR = 1.0e300;
 static constexpr double ROUND_OFF = 1.0e-9;    // of lengths
-static constexpr double STRAIGHT = 0.01;    // of a row, sideways, over the size of a particle
+static constexpr double STRAIGHT = 0.01;       // of a row, sideways, over the size of a particle
 
 // what is beside the line along the normal through from, and how far it is ahead
 
@@ -54,7 +54,7 @@ Offset offset(Domain *domain, const OpenPlane &plane, const double *from, const 
 
 OpenRows::OpenRows(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane, int groupbit) :
     Pointers(lmp), owner(owner), plane(plane), groupbit(groupbit), given_spacing(0.0), spacing(0.0),
-    half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true)
+    half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true), unknown_sides(true)
 {
 }
 
@@ -65,7 +65,8 @@ void OpenRows::init(double support_in)
   support = support_in;
   unknown_end = true;
   interrupt_ids();
-  if (spacing == 0.0 || half_width == 0.0) find_rows();
+  unknown_sides = (spacing == 0.0 || half_width == 0.0);
+  if (unknown_sides) find_rows();
   if (given_spacing > 0.0) spacing = given_spacing;
   if (!by_distance() && spacing == 0.0)
     error->all(FLERR,
@@ -202,8 +203,8 @@ void OpenRows::renew(const Refresh &refresh)
                "{:g} ran empty; build them more often or make the zone longer",
                owner, moved_all, plane.length);
   const Band band = gather_band(unknown_end ? plane.length : moved_all + 2.5 * largest);
-  if (unknown_end) check_alone(band);
-  unknown_end = false;
+  if (unknown_sides) check_alone(band);
+  unknown_end = unknown_sides = false;
 
   std::vector<int> last = last_ones(band);
   while (fill(last, band, refresh)) {}

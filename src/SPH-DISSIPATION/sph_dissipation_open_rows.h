@@ -62,8 +62,9 @@ namespace SPHDissipation {
     const int groupbit;
     double given_spacing, spacing, half_width, support;
     double moved;
-    tagint highest;      // tag that was ever given
-    bool unknown_end;    // how far the rows reach is to be found out
+    tagint highest;        // tag that was ever given
+    bool unknown_end;      // how far the rows reach is to be found out
+    bool unknown_sides;    // so is whether there is something else among them
     Distance distance;
 
     struct Band {               // particles near the end, of all processors

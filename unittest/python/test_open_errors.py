@@ -1,0 +1,181 @@
+"""fix sph/open: what is wrong with an input is said, on any number of ranks."""
+
+import re
+
+import pytest
+
+from open_boundaries import Channel, errors
+
+U = 0.1
+INLET, OUTLET = f"velocity {U} 0 0", "density 1.0"
+
+
+def refused(lammps, message, inlet=INLET, outlet=OUTLET, ranks=(1, 4), run="run 100\n", channel=None, edit=None, **keywords):
+    channel = channel or Channel()
+    text = channel.text(lammps, inlet, outlet, velocity=lambda place: place * 0 + [U, 0, 0], **keywords) + run
+    for number in ranks:
+        result = lammps(edit(text) if edit else text, ranks=number, check=False, timeout=60)
+        assert result.code != 0, "accepted"
+        assert re.search(message, errors(result)), errors(result) or result.output[-800:]
+
+
+# ---------------------------------------------------------------------------------------------
+# keywords
+
+
+@pytest.mark.parametrize("inlet, message", [
+    ("velocity 0.1 0", "missing arg|Illegal fix sph/open|variable|Unknown|Expected"),
+    ("velocity 0.1 0 0 speed 3", "Unknown fix sph/open keyword: speed"),
+    ("velocity 0.1 0 0 density 1.0 pressure 0.0", "density and pressure cannot both be given"),
+    ("velocity 0.1 0 0 order 1", "order is for values from inside with condition fixed"),
+    ("velocity 0.1 0 0 density 1.0 average 5", "average is for values from inside"),
+    ("velocity 0.1 0 0 condition fixed average 5", "average is for values from inside"),
+    ("velocity inside", "needs a velocity, a density, or a pressure"),
+    ("velocity 0.1 0 0 area 1.0", "area needs a density"),
+    ("velocity 0.1 0 0 spin 0 0 1", "spin requires atom style sph/micropolar"),
+    ("velocity 0.1 0 0 spacing 0", "spacing must be > 0"),
+    ("velocity 0.1 0 0 average -1", "average must be > 0"),
+    ("velocity 0.1 0 0 condition sideways", "Unknown fix sph/open condition: sideways"),
+    ("velocity 0.1 0 0 order 2", "order must be 0 or 1"),
+    ("velocity 0.1 0 0 region nowhere", "region nowhere does not exist"),
+    ("velocity v_none 0 0", "Variable none for .*sph/open does not exist"),
+    ("velocity v_word 0 0", "neither of equal style nor of atom style"),
+    ("velocity v_nan 0 0", "variable nan is -?nan"),
+    ("velocity v_nanatom 0 0", "variable nanatom is -?nan for particle"),
+    ("velocity 0.1 0 0 density v_late area 1.0", "variable late is|distance from the next one|would have density"),
+    ("velocity 0.1 0 0 density -1.0", "would have density|density"),
+    ("velocity 0.1 0 0 pressure -2.0", "would have density"),
+])
+def test_keywords(lammps, inlet, message):
+    variables = ("variable word string x\nvariable nan equal 0.0*exp(1000.0)\nvariable nanatom atom 0.0*exp(-1000.0*x)\n"
+                 "variable late equal 1.0-0.5*step\n")
+    refused(lammps, message, inlet=inlet, before=variables)
+
+
+def test_variable_that_becomes_nan_in_the_run(lammps):
+    refused(lammps, "variable late is -?nan at step 51", inlet="velocity v_late 0 0",
+            before="variable late equal 0.1+0.0*exp(1000.0*(step>50))\n", run="run 100\n")
+
+
+@pytest.mark.parametrize("change, message", [
+    (("8.0 velocity", "-8.0 velocity"), "length must be > 0"),
+    (("in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0", "in sph/open fluid 0.0 0.0 0.0 0.0 0.0 0.0"), "must not be zero"),
+    (("in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0", "in sph/open fluid 0.0 0.0 0.0 1.0 0.0 1.0"), "must lie in the xy plane"),
+    (("in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0", "in sph/open fluid 0.0 0.0 0.0 -1.0 0.0 0.0"),
+     "the plane .* which must point into the fluid"),
+    (("in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0", "in sph/open fluid 0.0 0.0 0.0 1.0 0.2 0.0"), "periodic in y and the plane crosses"),
+    (("in sph/open fluid 0.0 0.0 0.0 1.0", "in sph/open fluid 3.0 0.0 0.0 1.0"), "of the fluid are behind the plane"),
+    (("in sph/open fluid", "in sph/open liquid"), "group liquid does not exist"),
+    (("in sph/open fluid", "in sph/open in"), "must be two"),
+    (("in sph/open fluid", "in sph/open all"), "must be two"),
+    (("fix out out", "fix out in"), "has the zone of fix (in|out) already"),
+    (("fix 1 fluid", "fix 1 all"), "are also moved by fix 1 of style sph/bulk|both integrate"),
+    (("fix 1 fluid", "fix 2 in nve\nfix 1 fluid"), "are also moved by fix 2 of style nve"),
+    (("fix 1 fluid sph/bulk density rho0", ""), "requires fix sph/bulk"),
+    (("fix 1 fluid", "group wet union fluid\nfix 1 wet"), "no fix sph/bulk or sph/micropolar of group fluid"),
+    (("fix 1 fluid", "group fluid dynamic all every 10\nfix 1 fluid"), "dynamic group fluid"),
+    (("fix in in", "group in dynamic all every 10\nfix in in"), "dynamic group in"),
+    (("run 100", "group fluid dynamic all every 10\nrun 100"), "dynamic group fluid"),
+    (("boundary f p p", "boundary s p p"), "must not be shrink-wrapped across the zone, use boundary f for x"),
+    (("boundary f p p", "boundary m p p"), "must not be shrink-wrapped across the zone, use boundary f for x"),
+    (("fix in in", "fix D all deform 1 y erate 0.01\nfix in in"), "cannot be used with fix deform"),
+    (("atom_style sph/bulk", "atom_style sph/bulk\natom_modify id no"), "requires atom IDs|atom IDs|atom ID"),
+    (("atom_style sph/bulk", "atom_style sph/bulk\natom_modify map yes first fluid"), "atom_modify first"),
+    (("run 100", "run_style respa 2 2\nrun 100"), "respa"),
+    (("run 100", "minimize 0 1e-6 10 10"), "cannot be used in a minimization"),
+    (("fix in in", "delete_atoms group in\nfix in in"), "group in is empty"),
+    (("group in id", "group fluid id 1:10\ngroup in id"), "are in both groups in and fluid"),
+    (("pair_style sph/bulk", "pair_style zero 3.0\npair_coeff * *\n#"), "requires pair style|pair_coeff|Incorrect"),
+    (("run 100", "pair_style zero 3.0\npair_coeff * *\nrun 100"), "requires pair style"),
+    (("run 100", "group in clear\nrun 100"), "group in is empty"),
+])
+def test_setup(lammps, change, message):
+    before, after = change
+    def edit(text):
+        assert before in text
+        return text.replace(before, after)
+    refused(lammps, message, edit=edit)
+
+
+# ---------------------------------------------------------------------------------------------
+# zones
+
+
+def test_zone_too_short(lammps):
+    """The message says how long it must be: two supports, one spacing, the skin."""
+    channel = Channel()
+    channel.zone = 7.4
+    refused(lammps, r"the zone must be at least 7\.53 long, not 7\.4", channel=channel)
+
+
+def test_zone_that_overlaps_another(lammps):
+    second = "region top block INF 0 4 INF INF INF\ngroup top region top\ngroup in subtract in top\n"
+    def edit(text):
+        text = text.replace("pair_style", second.replace("group in subtract in top", "group low subtract in top") + "pair_style")
+        return text.replace("fix in in", "fix in low").replace("fix out", "fix top top sph/open fluid 0 0 0 1 0 0 8 velocity 0.1 0 0\nfix out")
+    refused(lammps, "particles of other open zones are in this one; limit it by the keyword region", edit=edit)
+
+
+def test_zone_that_overlaps_a_wall(lammps):
+    """A particle of a solid between those of the zone."""
+    for place in ("-4.3 3.6 0", "-4.05 3.8 0"):
+        refused(lammps, "overlap with others|inside a wall", edit=lambda text: text.replace(
+            "pair_style", f"create_atoms 1 single {place} units box\ngroup solid id 257\nset group solid mass 1.0\npair_style").replace(
+            "fix in", "fix S solid sph/wall\nfix in", 1))
+
+
+def test_zone_group_with_walls(lammps):
+    channel = Channel(box="walls")
+    refused(lammps, "moved by fix", channel=channel, edit=lambda text: text.replace("pair_style", "group in union in wall\npair_style"))
+
+
+def test_particle_on_top_of_another(lammps):
+    """A row of the zone whose place at its end is taken when it moves on."""
+    refused(lammps, "at -7.[0-9]* 3.5 0, where a particle enters, there is another one", edit=lambda text: text.replace(
+        "pair_style", "region end block INF -7.2 3 4 INF INF\ngroup solid region end\ngroup in subtract in solid\npair_style").replace(
+        "group in subtract in solid", "group inlet subtract in solid").replace("fix in in", "fix S solid sph/wall\nfix in inlet", 1)
+        .replace("density rho0", ""))
+
+
+def test_zone_beyond_the_box(lammps):
+    refused(lammps, "the zone reaches beyond the box, where a particle enters", edit=lambda text: text.replace(
+        "in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0 8.0", "in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0 12.0"))
+
+
+def test_inflow_faster_than_the_zone_is_long(lammps):
+    refused(lammps, "the zone of length 8 ran empty; build them more often or make the zone longer", ranks=(1, 4),
+            edit=lambda text: text.replace("neighbor 0.53 bin", "neighbor 0.53 bin\nneigh_modify every 1000 delay 0 check no"),
+            run="run 3000\n", before="thermo_modify lost ignore\n")
+
+
+def test_particles_of_no_order(lammps):
+    refused(lammps, "cannot find the distance of the particles in a row", edit=lambda text: text.replace(
+        "pair_style", "displace_atoms in random 0.3 0.3 0 4711\npair_style"))
+
+
+def test_type_that_is_no_fluid(lammps):
+    channel = Channel()
+    refused(lammps, "is not of the fluid|All pair coeffs|not set", channel=channel, edit=lambda text: text.replace(
+        "read_data box.data", "read_data box.data extra/atom/types 1\nset atom 1*5 type 2").replace(
+        "pair_style sph/bulk", "pair_style hybrid sph/bulk zero 3.0").replace("pair_coeff * * ", "pair_coeff * 2 zero\npair_coeff 1 1 sph/bulk "))
+
+
+# ---------------------------------------------------------------------------------------------
+# warnings
+
+
+def test_supersonic_outflow(lammps):
+    """Once, however many particles and steps there are; nothing is said where everything comes from inside."""
+    for outlet, number in (("density 1.0", 1), ("density 1.0 condition characteristic", 1), ("density 1.0 condition fixed", 1),
+                           ("condition fixed", 0)):
+        channel = Channel()
+        for ranks in (1, 4):
+            result = lammps(channel.text(lammps, "velocity 1.5 0 0 density 1.0 condition fixed", outlet, timestep=0.05,
+                                         velocity=lambda place: place * 0 + [1.5, 0, 0]) + "run 40\nrun 40\n", ranks=ranks)
+            assert len(re.findall("WARNING.*leave faster than sound", result.log)) == number
+
+
+def test_no_warning_of_subsonic_flow(lammps):
+    channel = Channel()
+    result = lammps(channel.text(lammps, INLET, OUTLET, velocity=lambda place: place * 0 + [U, 0, 0], timestep=0.25) + "run 100\n")
+    assert "WARNING" not in result.log, result.warnings
