@@ -45,9 +45,17 @@ using namespace SPHDissipation;
 static constexpr double NODES = 3.0;          // of the plane, per support radius
 static constexpr double AVERAGING = 200.0;    // default time, support radii over sound speed
 
-// the vector of the fix, after the ledger
+// in restart files: size, ledger, rows, clock, point and normal of the plane; then the waves
 
-static constexpr int NHEAD = 1 + OpenLedger::NVALUE + OpenRows::NSTATE + 1;    // of restart files
+enum {
+  LEDGER = 1,
+  ROWS = LEDGER + OpenLedger::NVALUE,
+  CLOCK = ROWS + OpenRows::NSTATE,
+  PLANE,
+  NHEAD = PLANE + 6
+};
+
+// the vector of the fix, after the ledger
 
 enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
@@ -55,9 +63,9 @@ enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), rows(nullptr),
-    ledger(nullptr), pair(nullptr), integrator(nullptr), fluid_name(arg[3]), fluidbit(0),
-    condition(LAGGED), order(-1), averaging_time(0.0), area(0.0), clock(0.0), supersonic(false),
-    totals_known(false), totals(new double[NVECTOR]), restart_state(nullptr)
+    ledger(nullptr), pair(nullptr), integrator(nullptr), fluidbit(0), condition(LAGGED), order(-1),
+    averaging_time(0.0), area(0.0), clock(0.0), supersonic(false), totals_known(false),
+    totals(new double[NVECTOR]), restart_state(nullptr)
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -67,6 +75,7 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   rows = new OpenRows(lmp, owner, *plane, groupbit);
   ledger = new OpenLedger(lmp);
 
+  fluid_name = arg[3];
   const int fluid_group = group->find(fluid_name);
   if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, fluid_name);
   plane->set(arg + 4);
@@ -233,21 +242,30 @@ void FixSPHOpen::init()
   const double crossing = support / slowest;
   samples->init(averaging_time > 0.0 ? averaging_time : AVERAGING * crossing,
                 10.0 * (plane->length / support + 1.0) * crossing);
-  if (restart_state) {
-    const auto *state = reinterpret_cast<double *>(restart_state);
-    const auto nstate = static_cast<int>(state[0]);
-    rows->unpack(state + 1 + OpenLedger::NVALUE);
-    clock = state[1 + OpenLedger::NVALUE + OpenRows::NSTATE];
-    const int before = NHEAD;
-    if (!samples->unpack(state + before, nstate - before) && comm->me == 0)
+  if (restart_state) unpack_restart();
+  rows->init(support);
+}
+
+/* ----------------------------------------------------------------------
+   what the zone remembers of rows and waves is of its plane
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::unpack_restart()
+{
+  const auto *const state = reinterpret_cast<double *>(restart_state);
+  rows->unpack(state + ROWS);
+  clock = state[CLOCK];
+  if (!plane->is_at(state + PLANE) ||
+      !samples->unpack(state + NHEAD, static_cast<int>(state[0]) - NHEAD)) {
+    rows->forget();
+    if (comm->me == 0)
       error->warning(FLERR,
                      "Fix {} {}: the plane is not that of the restart file, waves that had "
                      "left through it are forgotten",
                      style, id);
-    delete[] restart_state;
-    restart_state = nullptr;
   }
-  rows->init(support);
+  delete[] restart_state;
+  restart_state = nullptr;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -798,9 +816,11 @@ double FixSPHOpen::compute_vector(int n)
 void FixSPHOpen::write_restart(FILE *fp)
 {
   std::vector<double> state(NHEAD);
-  ledger->total(&state[1]);
-  rows->pack(&state[1 + OpenLedger::NVALUE]);
-  state[NHEAD - 1] = clock;
+  ledger->total(&state[LEDGER]);
+  rows->pack(&state[ROWS]);
+  state[CLOCK] = clock;
+  std::copy_n(plane->point, 3, &state[PLANE]);
+  std::copy_n(plane->normal, 3, &state[PLANE + 3]);
   if (comm->me != 0) return;
   const std::vector<double> waves = samples->pack();
   state.insert(state.end(), waves.begin(), waves.end());
@@ -818,7 +838,7 @@ void FixSPHOpen::restart(char *buf)
   delete[] restart_state;
   restart_state = new char[size];
   memcpy(restart_state, buf, size);
-  ledger->restart(reinterpret_cast<double *>(restart_state) + 1);
+  ledger->restart(reinterpret_cast<double *>(restart_state) + LEDGER);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -91,6 +91,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
 
   int keyword_argument(int, int, char **);
   void check_keywords();
+  void unpack_restart();
   void check_groups();
   void check_integrator();
   void check_places();

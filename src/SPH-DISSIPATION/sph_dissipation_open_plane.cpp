@@ -76,6 +76,15 @@ bool OpenPlane::beside(const double *x) const
 
 /* ---------------------------------------------------------------------- */
 
+bool OpenPlane::is_at(const double *place) const
+{
+  for (int d = 0; d < 3; d++)
+    if (place[d] != point[d] || place[3 + d] != normal[d]) return false;
+  return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void OpenPlane::check_box() const
 {
   for (int d = 0; d < domain->dimension; d++)

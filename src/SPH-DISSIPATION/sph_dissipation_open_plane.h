@@ -43,6 +43,7 @@ namespace SPHDissipation {
           (x[2] - point[2]) * normal[2];
     }
     bool beside(const double *x) const;    // beyond the sides of the zone
+    bool is_at(const double *) const;      // this point, with this normal after it
     bool limited() const { return region; }
 
     int nnodes() const { return count[0] * count[1]; }

@@ -55,6 +55,7 @@ namespace SPHDissipation {
     static constexpr int NSTATE = 3;
     void pack(double *) const;    // for the restart file
     void unpack(const double *);
+    void forget() { spacing = half_width = 0.0; }
 
    private:
     const std::string owner;

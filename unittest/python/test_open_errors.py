@@ -65,6 +65,7 @@ def test_variable_that_becomes_nan_in_the_run(lammps):
      "the plane .* which must point into the fluid"),
     (("in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0", "in sph/open fluid 0.0 0.0 0.0 1.0 0.2 0.0"), "periodic in y and the plane crosses"),
     (("in sph/open fluid 0.0 0.0 0.0 1.0", "in sph/open fluid 3.0 0.0 0.0 1.0"), "of the fluid are behind the plane"),
+    (("fix in in", "fix X in sph/open\nfix in in"), "Illegal fix sph/open command: missing argument"),
     (("in sph/open fluid", "in sph/open liquid"), "group liquid does not exist"),
     (("in sph/open fluid", "in sph/open in"), "must be two"),
     (("in sph/open fluid", "in sph/open all"), "must be two"),

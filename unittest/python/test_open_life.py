@@ -1,0 +1,212 @@
+"""fix sph/open together with others: walls, spin, variables, regions, several zones, types, gases; from its definition to its end."""
+
+import numpy as np
+import pytest
+
+from open_boundaries import Channel, account, columns, dump
+from test_open import U, lattice_mass, stream, unsteady, wavy
+from test_open_ledger import PLANE, agitated, assert_balance, keywords, output
+
+
+def last_column(lammps, name, column):
+    return lammps.frame(name).columns[column]
+
+
+# ---------------------------------------------------------------------------------------------
+# what enters
+
+
+def test_zones_beside_walls(lammps):
+    """A stream between walls that let it slip, over three lengths: what is left is that its lattice moves past theirs."""
+    channel = Channel(box="walls", width=10)
+    steps = int(3 * channel.length / U / 0.25)
+    lammps(channel.text(lammps, f"velocity {channel.vector(U)}", "density 1.0", velocity=lambda p: stream(p) * (p[:, 1:2] > 0)
+                        * (p[:, 1:2] < channel.width), timestep=0.25)
+           + dump("out.dump", steps) + "variable n equal count(fluid)\nthermo_style custom step v_n\nthermo 100\n"
+           f"thermo_modify norm no\nrun {steps}\n")
+    frame = lammps.frame("out.dump")
+    wet = (frame["x"][:, 1] > 0) & (frame["x"][:, 1] < channel.width)
+    error = np.abs(frame["v"][wet] - U * channel.along).max() / U
+    count = lammps.results[-1].thermo()[-1]["v_n"]
+    print("velocity", error, "particles", count.min(), count.max())
+    assert error < 0.02
+    assert np.abs(count - count[0]).max() <= channel.width
+
+
+@pytest.mark.parametrize("ranks", [1, 4])
+def test_spin_is_carried_in(lammps, ranks):
+    """Without friction between spin and flow, each particle keeps what it brought; it has a moment of inertia."""
+    channel = Channel()
+    lammps(channel.text(lammps, f"velocity {channel.vector(U)} spin 0 0 v_w", "density 1.0", velocity=stream, spin=0.2,
+                        before="variable w atom 0.3+0.01*y\n",
+                        **{**keywords("sph/micropolar"), "coeff": "1.0 1.0 0.1 0.2 0 0 0 {R}"})
+           + dump("out.dump", 800, "omegaz") + "run 800\n", ranks=ranks)
+    frame = lammps.frame("out.dump")
+    new = frame["id"] > 257
+    assert new.sum() > 100
+    np.testing.assert_allclose(frame["omegaz"][new], 0.3 + 0.01 * frame["x"][new, 1], rtol=1e-12)
+    kept = (frame["id"] > 64) & (frame["id"] <= 256) & (frame["x"][:, 0] > 14)
+    assert kept.any() and (frame["omegaz"][kept] == 0.2).all()
+
+
+@pytest.mark.parametrize("ranks", [1, 4])
+def test_velocity_that_depends_on_time_and_place(lammps, ranks):
+    """Particles of the zone have it at the end of each step, when it is and where they are, to the second order of the step."""
+    channel = Channel()
+    lammps(channel.text(lammps, "velocity v_u v_v 0 condition fixed", "density 1.0", timestep=0.25, velocity=stream,
+                        before="variable u atom 0.1+0.05*sin(0.3*step*dt)*cos(2*PI*y/8)\nvariable v equal 0.02*sin(0.5*step*dt)\n")
+           + dump("out.dump", 20, "v_u") + "run 400\n", ranks=ranks)
+    for frame in lammps.frames("out.dump"):
+        zone = frame["x"][:, 0] < 0.0
+        time = 0.25 * frame.step
+        want = 0.1 + 0.05 * np.sin(0.3 * time) * np.cos(2 * np.pi * frame["x"][zone, 1] / 8)
+        assert np.abs(frame["v"][zone, 0] - want).max() < 2e-5
+        assert np.abs(frame["v"][zone, 1] - 0.02 * np.sin(0.5 * time)).max() < 1e-13
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_types_enter_in_their_rows(lammps, ranks):
+    channel = Channel()
+    lammps(channel.text(lammps, f"velocity {channel.vector(U)}", "density 1.0", velocity=stream, timestep=0.25)
+           .replace("read_data box.data", "read_data box.data extra/atom/types 1\nregion high block INF INF 4 INF INF INF\n"
+                    "set region high type 2").replace("thermo_modify", "pair_coeff 2 2 1.0 1.0 0.3 0.6 3.0\nthermo_modify")
+           + dump("out.dump", 1000, "type") + "run 1000\n", ranks=ranks)
+    frame = lammps.frame("out.dump")
+    assert (frame["type"] == np.where(frame["x"][:, 1] > 4, 2, 1)).all()
+    assert (frame["id"] > 257).sum() > 150
+    assert np.abs(frame["v"] - U * channel.along).max() < 1e-10 * U
+
+
+@pytest.mark.parametrize("condition", ["lagged", "characteristic", "fixed"])
+def test_ideal_gas(lammps, condition):
+    """Warm gas in motion: as uniform as what enters, but for round-off, which its pressure lets grow on a lattice."""
+    channel = Channel()
+    steps = int( channel.length / U / 0.1)
+    mass = lattice_mass(lammps)
+    lammps(channel.text(lammps, f"velocity {channel.vector(U)} energy 2.5 condition {condition}", f"pressure 1.0 condition {condition}",
+                        velocity=stream, timestep=0.1, options="eos ideal", esph=2.5 * mass, mass=mass, integrate="")
+           + "compute e all property/atom esph\n" + dump("out.dump", steps, "c_e") + f"run {steps}\n")
+    frame = lammps.frame("out.dump")
+    errors = (np.abs(frame["v"] - U * channel.along).max() / U, np.abs(frame["c_RHO"] - 1.0).max(),
+              np.abs(frame["c_e"] / mass / 2.5 - 1.0).max())
+    print(errors)
+    assert max(errors) < 1e-7
+
+
+# ---------------------------------------------------------------------------------------------
+# where the zones are
+
+
+@pytest.mark.parametrize("ranks", [1, 4])
+def test_zone_with_fluid_at_its_side(lammps, ranks):
+    """A region ends the zone; its particles act on fluid beside it, too, and the account has that."""
+    channel = Channel(width=16)
+    split = ("region half block INF 0 8 INF INF INF\ngroup beside region half\ngroup wet union fluid beside\n"
+             "group inlet subtract in beside\n")
+    text = channel.text(lammps, f"velocity {channel.vector(U)} region low", "density 1.0", velocity=agitated(channel), timestep=0.25,
+                        after_read="region low block INF INF 0 8 INF INF\n" + split, integrate="")
+    text = text.replace("fix 1 fluid", "fix 1 wet").replace("fix in in sph/open fluid", "fix in inlet sph/open wet").replace(
+        "sph/open fluid", "sph/open wet")
+    lammps(text + output(channel, "sph/bulk").replace("fluid", "wet") + "run 200\n", ranks=ranks)
+    (table,) = lammps.results[-1].thermo()
+    assert np.abs(table["f_in[22]"]).max() > 1e-3
+    assert_balance(table, ("n", "m", "px", "py"))
+
+
+def cross(lammps, ranks, steps):
+    """A square of fluid with a zone at each side: two inlets, two outlets."""
+    grid = np.arange(-9, 21) + 0.5
+    x, y = (a.ravel() for a in np.meshgrid(grid, grid))
+    parts = {"fluid": (x > 0) & (x < 12) & (y > 0) & (y < 12), "left": (x < 0) & (y > 0) & (y < 12), "right": (x > 12) & (y > 0) & (y < 12),
+             "low": (y < 0) & (x > 0) & (x < 12), "high": (y > 12) & (x > 0) & (x < 12)}
+    lines, groups, n = [], "", 0
+    for name, mask in parts.items():
+        groups += f"group {name} id {n + 1}:{n + mask.sum()}\n"
+        lines += [f"{n + k + 1} 1 1.0 0.0 {a + 0.1} {b + 0.1} 0.0" for k, (a, b) in enumerate(zip(x[mask], y[mask]))]
+        n += mask.sum()
+    lammps.path("box.data").write_text(f"\n\n{n} atoms\n1 atom types\n\n-11 23 xlo xhi\n-11 23 ylo yhi\n-0.5 0.5 zlo zhi\n\n"
+                                       "Atoms # sph/bulk\n\n" + "\n".join(lines) + "\n")
+    zones = {"left": "0 0 0 1 0 0 9 velocity 0.08 0 0", "low": "0 0 0 0 1 0 9 velocity 0 0.08 0",
+             "right": "12 0 0 -1 0 0 9 density 1.0", "high": "0 12 0 0 -1 0 9 density 1.0"}
+    fixes = "".join(f"fix {name} {name} sph/open fluid {words}\n" for name, words in zones.items())
+    channel = Channel(box="free")
+    lammps("units lj\ndimension 2\nboundary f f p\natom_style sph/bulk\nread_data box.data\n" + groups
+           + "pair_style sph/bulk\npair_coeff * * 1.0 1.0 0.1 0.2 3.0\nneighbor 0.53 bin\nfix 1 fluid sph/bulk density rho0\n"
+           + fixes + "timestep 0.25\n" + dump("out.dump", steps) + output(channel, "sph/bulk").replace(
+               columns("in", "out"), columns(*zones)) + f"run {steps}\n", ranks=ranks)
+    return lammps.frame("out.dump"), lammps.results[-1].thermo()[0], tuple(zones)
+
+
+def test_four_zones(lammps):
+    (one, table, zones), (other, _, _) = cross(lammps, 1, 200), cross(lammps, 4, 200)
+    assert (one["id"] == other["id"]).all() and len(np.unique(one["id"])) == len(one["id"])
+    assert np.abs(one["x"] - other["x"]).max() < 1e-10
+    names = {"n": "v_n", "m": "v_m", "px": "v_px", "py": "v_py", "lz": "c_L[3]"}
+    for name, column in names.items():
+        change = account(table, name, zones)
+        assert np.abs(table[column] - table[column][0] - change).max() < 1e-12 * max(np.abs(table[column]).max(), 100.0), name
+    assert min(table[f"f_{zone}[1]"][-1] for zone in ("left", "low")) > 20
+
+
+# ---------------------------------------------------------------------------------------------
+# LAMMPS around it
+
+
+@pytest.mark.parametrize("before, after", [("atom_modify map array\n", ""), ("atom_modify map hash\n", ""), ("", "comm_style tiled\nbalance 1.0 rcb\n"),
+                                           ("", "fix B all balance 20 1.0 shift xy 5 1.1\n"), ("", "neigh_modify every 7 delay 0 check no\n"),
+                                           ("atom_modify sort 10 1.0\n", ""), ("", "fix D all property/atom i_mark ghost yes\n")])
+def test_settings_that_do_not_matter(lammps, before, after):
+    """To a uniform stream."""
+    channel = Channel(kind="hex")
+    lammps(channel.text(lammps, f"velocity {channel.vector(U)}", "density 1.0", velocity=stream, timestep=0.25, before=before)
+           + after + dump("out.dump", 2000) + "run 2000\n", ranks=2)
+    frame = lammps.frame("out.dump")
+    assert frame["id"].max() > 600 and len(np.unique(frame["id"])) == len(frame["id"])
+    assert np.abs(frame["v"] - U * channel.along).max() < 1e-10 * U
+    assert np.abs(frame["c_RHO"] - 1.0).max() < 1e-10
+
+
+def test_results_before_the_first_run(lammps):
+    channel = Channel()
+    result = lammps(channel.text(lammps, f"velocity {channel.vector(U)}", "density 1.0")
+                    + "print \"first: $(f_in[1]) $(f_in[21]) $(f_out[28]) $(f_in[29]) $(f_in[32])\"\nrun 0\nprint \"then: $(f_in[28])\"\n")
+    assert "first: 0 0 64 0 0" in result.log and "then: 64" in result.log
+
+
+def test_fix_comes_and_goes(lammps):
+    """Defined anew in the middle of a stream, with the zone where it is then; without it, its particles stay."""
+    channel = Channel()
+    inlet = f"fix in {channel.plane('in')} velocity {channel.vector(U)}\n"
+    lammps(channel.text(lammps, f"velocity {channel.vector(U)}", "density 1.0", velocity=stream, timestep=0.25)
+           + "run 333\nunfix in\n" + inlet + dump("out.dump", 700) + "run 367\nunfix in\nunfix out\nrun 0\n"
+           "fix 2 in sph/bulk\nfix 3 out sph/bulk\nrun 100\n")
+    frame = lammps.frames("out.dump")[0]
+    assert np.abs(frame["v"] - U * channel.along).max() < 1e-10 * U and np.abs(frame["c_RHO"] - 1.0).max() < 1e-10
+
+
+@pytest.mark.parametrize("commands", ["pair_style none\nunfix in\nunfix out\n", "clear\n", "unfix in\nunfix out\nclear\n",
+                                      "pair_style sph/bulk\npair_coeff * * 1.0 1.0 0.1 0.2 3.0\nrun 20\n",
+                                      "pair_style sph/bulk\npair_coeff * * 1.0 1.0 0.1 0.2 3.0\nunfix in\nunfix out\nrun 20\n",
+                                      "unfix out\ngroup out delete\n", "run 20 pre no\nunfix in\nrun 20 pre no\n"])
+def test_pair_style_and_fix_come_and_go(lammps, commands):
+    channel = Channel()
+    lammps(channel.text(lammps, f"velocity {channel.vector(U)}", "density 1.0", velocity=wavy(channel)) + "run 20\n" + commands)
+
+
+def test_new_pair_style_feels_the_zones(lammps):
+    channel = Channel(length=20)
+    frames = []
+    for again in ("", "pair_style sph/bulk\npair_coeff * * 1.0 1.0 0.1 0.2 3.0\n"):
+        lammps(unsteady(lammps, channel) + "run 50\n" + again + dump("out.dump", 50) + "run 50\n")
+        frames.append(lammps.frame("out.dump"))
+    assert np.abs(frames[0]["v"] - frames[1]["v"]).max() < 1e-13
+
+
+def test_restart_with_another_plane(lammps):
+    """What is known of the other plane is forgotten, and that is said."""
+    channel = Channel(width=8)
+    lammps(unsteady(lammps, channel) + "run 50\nwrite_restart state.restart\n")
+    result = lammps("read_restart state.restart\nfix 1 fluid sph/bulk density rho0\n"
+                    f"fix out {channel.plane('in')} velocity {channel.vector(U)} spacing 1\nfix in {channel.plane('out')} density 1.0 spacing 1\n"
+                    "timestep 0.25\nrun 10\n")
+    assert result.log.count("the plane is not that of the restart file") == 2
