@@ -63,9 +63,9 @@ enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), rows(nullptr),
-    ledger(nullptr), pair(nullptr), integrator(nullptr), fluidbit(0), condition(LAGGED), order(-1),
-    averaging_time(0.0), area(0.0), clock(0.0), supersonic(false), totals_known(false),
-    totals(new double[NVECTOR]), restart_state(nullptr)
+    ledger(nullptr), pair(nullptr), integrator(nullptr), avec(nullptr), spinning(nullptr),
+    fluidbit(0), condition(LAGGED), order(-1), averaging_time(0.0), area(0.0), clock(0.0),
+    supersonic(false), totals_known(false), totals(new double[NVECTOR]), restart_state(nullptr)
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -210,7 +210,7 @@ FixSPHOpen::~FixSPHOpen()
 
 int FixSPHOpen::setmask()
 {
-  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_INTEGRATE | FINAL_INTEGRATE;
+  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -225,6 +225,8 @@ void FixSPHOpen::init()
     error->all(FLERR, "Fix {} cannot be used in a minimization: its particles have a velocity",
                style);
   pair->add_open_zone(this);
+  spinning = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  avec = spinning ? spinning : dynamic_cast<AtomVecSPHBulk *>(atom->style_match("sph/bulk"));
   check_groups();
   check_integrator();
 
@@ -425,7 +427,7 @@ double FixSPHOpen::energy(int i) const
    what is prescribed, or the average of what the fluid had, at a particle of zone or fluid
 ------------------------------------------------------------------------- */
 
-FixSPHOpen::Reference FixSPHOpen::reference(int i) const
+FixSPHOpen::Reference FixSPHOpen::reference(int i, const OpenPlane::Spot &spot) const
 {
   const Eos form = pair->fluid().choice.eos;
   const double e = energy(i);
@@ -439,7 +441,7 @@ FixSPHOpen::Reference FixSPHOpen::reference(int i) const
     if (values->given(OpenValues::P))
       ref.p = (*values)(OpenValues::P, i);
     else if (samples->any())
-      samples->average(atom->x[i], u, ref.p);
+      samples->average(spot, u, ref.p);
     ref.rho = density_at(form, eos(i), ref.p, e);
   }
   ref.c = sound_speed(form, eos(i), ref.rho, e);
@@ -450,7 +452,7 @@ FixSPHOpen::Reference FixSPHOpen::reference(int i) const
    the same of the velocity out of the fluid
 ------------------------------------------------------------------------- */
 
-double FixSPHOpen::outward_velocity(int i) const
+double FixSPHOpen::outward_velocity(int i, const OpenPlane::Spot &spot) const
 {
   double u[3];
   if (given_velocity())
@@ -459,7 +461,7 @@ double FixSPHOpen::outward_velocity(int i) const
   else {
     double p;
     std::copy_n(atom->v[i], 3, u);
-    if (samples->any()) samples->average(atom->x[i], u, p);
+    if (samples->any()) samples->average(spot, u, p);
   }
   return -MathExtra::dot3(u, plane->normal);
 }
@@ -468,16 +470,13 @@ double FixSPHOpen::outward_velocity(int i) const
    the wave at a particle of the zone: that of now, or the one that has come as far by now
 ------------------------------------------------------------------------- */
 
-double FixSPHOpen::wave(int i, const Reference &ref, double out) const
+double FixSPHOpen::wave(int i, const OpenPlane::Spot &spot, const Reference &ref, double out) const
 {
-  const double *const x = atom->x[i];
   double lag = 0.0;
-  if (condition == LAGGED) {
-    const NodeSum sum = samples->at(x);
-    const double inside = (sum.weight > 0.0) ? sum.d / sum.weight : 0.0;
-    lag = (inside - plane->height(x)) / std::max(ref.c + out, 0.1 * ref.c);
-  }
-  return samples->wave(x, clock - lag);
+  if (condition == LAGGED)
+    lag =
+        (samples->distance(spot) - plane->height(atom->x[i])) / std::max(ref.c + out, 0.1 * ref.c);
+  return samples->wave(spot, clock - lag);
 }
 
 /* ----------------------------------------------------------------------
@@ -487,6 +486,7 @@ double FixSPHOpen::wave(int i, const Reference &ref, double out) const
 void FixSPHOpen::velocity(int i, double *u) const
 {
   const double *const normal = plane->normal;
+  const OpenPlane::Spot spot = plane->spot(atom->x[i]);
   double prescribed[3];
   for (int d = 0; d < 3; d++)
     prescribed[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::VX + d), i);
@@ -496,7 +496,7 @@ void FixSPHOpen::velocity(int i, double *u) const
       std::copy_n(prescribed, 3, u);
       return;
     }
-    const NodeSum sum = samples->at(atom->x[i]);
+    const NodeSum sum = samples->at(spot);
     std::copy_n(atom->v[i], 3, u);
     if (!(sum.weight > 0.0)) return;
     for (int d = 0; d < 3; d++)
@@ -504,9 +504,9 @@ void FixSPHOpen::velocity(int i, double *u) const
     return;
   }
 
-  const Reference ref = reference(i);
-  const double out = outward_velocity(i);
-  const double now = out + wave_velocity(ref.rho * ref.c, wave(i, ref, out));
+  const Reference ref = reference(i, spot);
+  const double out = outward_velocity(i, spot);
+  const double now = out + wave_velocity(ref.rho * ref.c, wave(i, spot, ref, out));
   std::copy_n((given_velocity() && out < 0.0) ? prescribed : atom->v[i], 3, u);
   const double change = -now - MathExtra::dot3(u, normal);
   for (int d = 0; d < 3; d++) u[d] += change * normal[d];
@@ -531,6 +531,26 @@ void FixSPHOpen::setup_pre_exchange()
 }
 
 /* ----------------------------------------------------------------------
+   particles stay what they are in number and order from one neighbor list to the next
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::setup_pre_force(int /*vflag*/)
+{
+  const double reach = pair->support_radius() + neighbor->skin;
+  members.clear();
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit) || ((atom->mask[i] & fluidbit) && zone_near(atom->x[i], reach)))
+      members.push_back(i);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::pre_force(int vflag)
+{
+  if (neighbor->ago == 0) setup_pre_force(vflag);
+}
+
+/* ----------------------------------------------------------------------
    the first half of the step has the forces of its start; particles of the zone are where the
    velocity of then brings them
 ------------------------------------------------------------------------- */
@@ -540,7 +560,7 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
   ledger->advance(0.5 * update->dt);
   clock += update->dt;
   totals_known = false;
-  for (int i = 0; i < atom->nlocal; i++)
+  for (const int i : members)
     if (atom->mask[i] & groupbit)
       for (int d = 0; d < 3; d++) atom->x[i][d] += update->dt * atom->v[i][d];
 }
@@ -553,7 +573,7 @@ void FixSPHOpen::post_integrate()
 {
   values->evaluate(igroup);
   double farthest = 0.0;
-  for (int i = 0; i < atom->nlocal; i++) {
+  for (const int i : members) {
     double *const x = atom->x[i], *const v = atom->v[i];
     if (atom->mask[i] & groupbit) {
       double u[3], mean[3];
@@ -594,10 +614,10 @@ void FixSPHOpen::enter(int i, const double *v)
 void FixSPHOpen::leave(int i)
 {
   atom->mask[i] = (atom->mask[i] & ~fluidbit) | groupbit;
-  atom->esph[i] -= 0.5 * update->dt * desph_before()[i];
+  atom->esph[i] -= 0.5 * update->dt * avec->desph_before[i];
   ledger->carry(OpenLedger::OUT, i, atom->v[i], atom->esph[i]);
   std::copy_n(atom->vest[i], 3, atom->v[i]);
-  if (auto *avec = spinning()) std::copy_n(avec->omegaest[i], 3, atom->omega[i]);
+  if (spinning) std::copy_n(spinning->omegaest[i], 3, atom->omega[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -608,27 +628,12 @@ void FixSPHOpen::set_spin(int i)
 {
   if (values->given(OpenValues::ENERGY) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
     atom->esph[i] = atom->rmass[i] * (*values)(OpenValues::ENERGY, i);
-  auto *avec = spinning();
-  if (!avec) return;
+  if (!spinning) return;
   double *const omega = atom->omega[i];
   if (values->given(OpenValues::WX) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
     for (int d = 0; d < 3; d++)
       omega[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::WX + d), i);
-  std::copy_n(omega, 3, avec->omegaest[i]);
-}
-
-/* ---------------------------------------------------------------------- */
-
-AtomVecSPHMicropolar *FixSPHOpen::spinning() const
-{
-  return dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
-}
-
-double *FixSPHOpen::desph_before() const
-{
-  auto *avec = dynamic_cast<AtomVecSPHBulk *>(atom->style_match("sph/bulk"));
-  if (!avec) avec = dynamic_cast<AtomVecSPHBulk *>(atom->style_match("sph/micropolar"));
-  return avec->desph_before;
+  std::copy_n(omega, 3, spinning->omegaest[i]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -667,7 +672,7 @@ void FixSPHOpen::set_impact(const OpenImpact &impact)
 void FixSPHOpen::set_state(Engine &engine)
 {
   sample(engine);
-  for (int i = 0; i < atom->nlocal; i++)
+  for (const int i : members)
     if (atom->mask[i] & groupbit) set_pressure(engine, i);
   totals_known = false;
 }
@@ -681,7 +686,7 @@ void FixSPHOpen::sample(Engine &engine)
 {
   const double support = pair->support_radius();
   std::vector<int> near;
-  for (int i = 0; i < atom->nlocal; i++) {
+  for (const int i : members) {
     if (!(atom->mask[i] & fluidbit)) continue;
     const double height = plane->height(atom->x[i]);
     if (height >= 0.0 && height < support && !plane->beside(atom->x[i])) near.push_back(i);
@@ -730,8 +735,9 @@ void FixSPHOpen::add_sample(Engine &engine, int i)
       pressure(pair->fluid().choice.eos, eos(i), atom->rho[i], atom->esph[i] / atom->rmass[i]);
   double wave = 0.0;
   if (condition != FIXED) {
-    const Reference ref = reference(i);
-    const double out = outward_velocity(i);
+    const OpenPlane::Spot spot = plane->spot(particle.x);
+    const Reference ref = reference(i, spot);
+    const double out = outward_velocity(i, spot);
     const bool known = samples->any();
     const double du =
         (given_velocity() || known) ? -MathExtra::dot3(particle.u, plane->normal) - out : 0.0;
@@ -766,15 +772,16 @@ void FixSPHOpen::add_sample(Engine &engine, int i)
 void FixSPHOpen::set_pressure(Engine &engine, int i)
 {
   const Eos form = pair->fluid().choice.eos;
-  Reference ref = reference(i);
+  const OpenPlane::Spot spot = plane->spot(atom->x[i]);
+  Reference ref = reference(i, spot);
   if (condition == FIXED) {
-    const NodeSum sum = samples->at(atom->x[i]);
+    const NodeSum sum = samples->at(spot);
     if (!given_state() && sum.weight > 0.0) {
       ref.p = continued(sum, sum.p, sum.pd, plane->height(atom->x[i]), order);
       ref.rho = density_at(form, eos(i), ref.p, energy(i));
     }
   } else {
-    const double dp = wave_pressure(wave(i, ref, outward_velocity(i)));
+    const double dp = wave_pressure(wave(i, spot, ref, outward_velocity(i, spot)));
     ref.p += dp;
     ref.rho = (form == Eos::IDEAL) ? ref.rho + dp / (ref.c * ref.c)
                                    : density_at(form, eos(i), ref.p, 0.0);

@@ -22,6 +22,7 @@ FixStyle(sph/open,FixSPHOpen);
 
 #include "fix.h"
 
+#include "sph_dissipation_open_plane.h"
 #include "sph_dissipation_open_stage.h"
 
 #include <string>
@@ -30,7 +31,6 @@ FixStyle(sph/open,FixSPHOpen);
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class OpenLedger;
-  class OpenPlane;
   class OpenRows;
   class OpenSamples;
   class OpenValues;
@@ -48,8 +48,10 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;
+  void setup_pre_force(int) override;
   void initial_integrate(int) override;
   void post_integrate() override;
+  void pre_force(int) override;
   void pre_exchange() override;
   void final_integrate() override;
   double compute_vector(int) override;
@@ -77,14 +79,17 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   SPHDissipation::OpenLedger *ledger;
   class PairSPHBulk *pair;
   class FixSPHBulk *integrator;    // of the fluid
-  std::string fluid_name;          // of its group
+  class AtomVecSPHBulk *avec;
+  class AtomVecSPHMicropolar *spinning;    // the same, or nullptr
+  std::string fluid_name;                  // of its group
   int fluidbit;
   Condition condition;
-  int order;                // of values from inside, condition fixed
-  double averaging_time;    // 0: by the support radius
-  double area;              // of the cross section of a row; 0: rows have a spacing
-  double clock;             // time of the zone, which no command sets back
-  bool supersonic;          // has been warned of
+  int order;                   // of values from inside, condition fixed
+  double averaging_time;       // 0: by the support radius
+  double area;                 // of the cross section of a row; 0: rows have a spacing
+  std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
+  double clock;                // time of the zone, which no command sets back
+  bool supersonic;             // has been warned of
   bool totals_known;
   double *totals;
   char *restart_state;    // until init()
@@ -100,15 +105,13 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   bool given_state() const;
   const SPHDissipation::EosParams &eos(int i) const;
   double energy(int i) const;
-  Reference reference(int i) const;
-  double outward_velocity(int i) const;
-  double wave(int i, const Reference &, double out) const;
+  Reference reference(int i, const SPHDissipation::OpenPlane::Spot &) const;
+  double outward_velocity(int i, const SPHDissipation::OpenPlane::Spot &) const;
+  double wave(int i, const SPHDissipation::OpenPlane::Spot &, const Reference &, double out) const;
   void velocity(int i, double *u) const;
   void enter(int i, const double *v);
   void leave(int i);
   void set_spin(int i);
-  class AtomVecSPHMicropolar *spinning() const;
-  double *desph_before() const;
   void check_speed(SPHDissipation::Engine &, const std::vector<int> &near);
   void sample(SPHDissipation::Engine &);
   void add_sample(SPHDissipation::Engine &, int i);

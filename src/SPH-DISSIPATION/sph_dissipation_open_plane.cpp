@@ -202,24 +202,30 @@ double OpenPlane::along(int k, const double *x) const
 
 int OpenPlane::wrap(int k, int n) const
 {
-  if (!periodic[k]) return std::min(std::max(n, 0), count[k] - 1);
+  if (n >= 0 && n < count[k]) return n;
+  if (!periodic[k]) return (n < 0) ? 0 : count[k] - 1;
   return (n % count[k] + count[k]) % count[k];
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenPlane::corners(const double *x, Corner *corner) const
+OpenPlane::Spot OpenPlane::spot(const double *x) const
 {
-  int n[2];
+  int n[2], sides[2];
   double part[2];
   for (int k = 0; k < 2; k++) {
+    sides[k] = (count[k] == 1) ? 1 : 2;
     const double at = (count[k] == 1) ? 0.0 : along(k, x) / step[k];
     n[k] = static_cast<int>(std::floor(at));
     part[k] = at - n[k];
   }
-  for (int c = 0; c < CORNERS; c++) {
-    const int up[2] = {c & 1, c >> 1};
-    corner[c].node = wrap(1, n[1] + up[1]) * count[0] + wrap(0, n[0] + up[0]);
-    corner[c].weight = (up[0] ? part[0] : 1.0 - part[0]) * (up[1] ? part[1] : 1.0 - part[1]);
-  }
+  Spot spot;
+  spot.n = 0;
+  for (int m = 0; m < sides[1]; m++)
+    for (int l = 0; l < sides[0]; l++) {
+      spot.node[spot.n] = wrap(1, n[1] + m) * count[0] + wrap(0, n[0] + l);
+      spot.weight[spot.n] = (m ? part[1] : 1.0 - part[1]) * (l ? part[0] : 1.0 - part[0]);
+      spot.n++;
+    }
+  return spot;
 }

@@ -54,12 +54,12 @@ namespace SPHDissipation {
     template <class Function> void near(const double *x, double radius, Function &&function) const;
 
     // the nodes around the place of x on the plane and their weights, whose sum is 1
-    static constexpr int CORNERS = 4;
-    struct Corner {
-      int node;
-      double weight;
+    struct Spot {
+      int n;
+      int node[4];
+      double weight[4];
     };
-    void corners(const double *x, Corner *) const;
+    Spot spot(const double *x) const;
 
     double point[3], normal[3], length;
 

@@ -271,13 +271,8 @@ OpenRows::Band OpenRows::gather_band(double depth) const
 
 int OpenRows::nearest_node(const double *x) const
 {
-  OpenPlane::Corner corner[OpenPlane::CORNERS];
-  plane.corners(x, corner);
-  return std::max_element(corner, corner + OpenPlane::CORNERS,
-                          [](const OpenPlane::Corner &a, const OpenPlane::Corner &b) {
-                            return a.weight < b.weight;
-                          })
-      ->node;
+  const OpenPlane::Spot spot = plane.spot(x);
+  return spot.node[std::max_element(spot.weight, spot.weight + spot.n) - spot.weight];
 }
 
 /* ----------------------------------------------------------------------

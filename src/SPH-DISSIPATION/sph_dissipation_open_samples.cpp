@@ -104,61 +104,64 @@ void OpenSamples::update_means(double elapsed)
 
 /* ---------------------------------------------------------------------- */
 
-NodeSum OpenSamples::at(const double *x) const
+NodeSum OpenSamples::at(const Spot &spot) const
 {
-  OpenPlane::Corner corner[OpenPlane::CORNERS];
-  plane.corners(x, corner);
   NodeSum total = NodeSum();
   auto *const to = reinterpret_cast<double *>(&total);
-  for (const auto &one : corner) {
-    const auto *const from = reinterpret_cast<const double *>(&sums[one.node]);
-    for (int k = 0; k < NSUM; k++) to[k] += one.weight * from[k];
+  for (int c = 0; c < spot.n; c++) {
+    const auto *const from = reinterpret_cast<const double *>(&sums[spot.node[c]]);
+    for (int k = 0; k < NSUM; k++) to[k] += spot.weight[c] * from[k];
   }
   return total;
 }
 
 /* ---------------------------------------------------------------------- */
 
-double OpenSamples::wave(const double *x, double time) const
+double OpenSamples::distance(const Spot &spot) const
 {
-  if (history.empty()) return 0.0;
-  OpenPlane::Corner corner[OpenPlane::CORNERS];
-  plane.corners(x, corner);
   double total = 0.0, weight = 0.0;
-  for (const auto &one : corner) {
-    const double part = one.weight * sums[one.node].weight;
-    if (!(part > 0.0)) continue;
-    total += part * node_wave(one.node, time);
-    weight += part;
+  for (int c = 0; c < spot.n; c++) {
+    total += spot.weight[c] * sums[spot.node[c]].d;
+    weight += spot.weight[c] * sums[spot.node[c]].weight;
   }
   return (weight > 0.0) ? total / weight : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
 
-double OpenSamples::node_wave(int node, double time) const
+double OpenSamples::wave(const Spot &spot, double time) const
 {
+  if (history.empty()) return 0.0;
+
+  // between two times that are known, or the first or the last one
+
   const auto after =
       std::lower_bound(history.begin(), history.end(), time, [](const Past &past, double t) {
         return past.time < t;
       });
-  if (after == history.end()) return history.back().wave[node];
-  if (after == history.begin()) return history.front().wave[node];
-  const Past &a = *(after - 1), &b = *after;
-  const double part = (time - a.time) / (b.time - a.time);
-  return a.wave[node] + part * (b.wave[node] - a.wave[node]);
+  const Past &b = (after == history.end()) ? history.back() : *after;
+  const Past &a = (after == history.end() || after == history.begin()) ? b : *(after - 1);
+  const double part = (b.time > a.time) ? (time - a.time) / (b.time - a.time) : 0.0;
+
+  double total = 0.0, weight = 0.0;
+  for (int c = 0; c < spot.n; c++) {
+    const int node = spot.node[c];
+    const double here = spot.weight[c] * sums[node].weight;
+    total += here * (a.wave[node] + part * (b.wave[node] - a.wave[node]));
+    weight += here;
+  }
+  return (weight > 0.0) ? total / weight : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenSamples::average(const double *x, double *u, double &p) const
+void OpenSamples::average(const Spot &spot, double *u, double &p) const
 {
-  OpenPlane::Corner corner[OpenPlane::CORNERS];
-  plane.corners(x, corner);
   double total[NMEAN] = {0.0, 0.0, 0.0, 0.0}, weight = 0.0;
-  for (const auto &one : corner) {
-    const double part = one.weight * sums[one.node].weight;
-    for (int k = 0; k < NMEAN; k++) total[k] += part * mean[NMEAN * one.node + k];
+  for (int c = 0; c < spot.n; c++) {
+    const int node = spot.node[c];
+    const double part = spot.weight[c] * sums[node].weight;
+    for (int k = 0; k < NMEAN; k++) total[k] += part * mean[NMEAN * node + k];
     weight += part;
   }
   if (!(weight > 0.0)) return;

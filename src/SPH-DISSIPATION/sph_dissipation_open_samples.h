@@ -44,6 +44,8 @@ namespace SPHDissipation {
 
   class OpenSamples : protected Pointers {
    public:
+    typedef OpenPlane::Spot Spot;
+
     OpenSamples(class LAMMPS *, const OpenPlane &);
 
     void init(double averaging_time, double memory);    // memory: longest lag, time units
@@ -56,10 +58,11 @@ namespace SPHDissipation {
 
     // at the place of a zone particle on the plane
 
-    NodeSum at(const double *x) const;                            // sums of now
-    double wave(const double *x, double time) const;              // J at a time before
-    void average(const double *x, double *u, double &p) const;    // over time, of u and pressure
-    void mean_at_plane(double *p, double *u) const;               // of all nodes, now
+    NodeSum at(const Spot &) const;                            // sums of now
+    double distance(const Spot &) const;                       // mean of d
+    double wave(const Spot &, double time) const;              // J at a time before
+    void average(const Spot &, double *u, double &p) const;    // over time, of u and pressure
+    void mean_at_plane(double *p, double *u) const;            // of all nodes, now
     bool any() const { return !history.empty(); }
 
     double memory_usage() const;    // bytes
@@ -82,7 +85,6 @@ namespace SPHDissipation {
     std::deque<Past> history;    // the oldest first
 
     void update_means(double elapsed);
-    double node_wave(int node, double time) const;
   };
 
 }    // namespace SPHDissipation

@@ -85,16 +85,14 @@ void OpenStage::run()
 void OpenStage::set_places()
 {
   place.resize(atom->nlocal + atom->nghost);
+  int fluid_bits = 0;
+  for (const auto &zone : zones) fluid_bits |= zone->fluid_bit();
   for (int i = 0; i < atom->nlocal; i++) {
     const int mask = atom->mask[i];
-    place[i] = NEITHER;
-    for (std::size_t k = 0; k < zones.size(); k++) {
-      if (mask & zones[k]->fluid_bit()) place[i] = 0.0;
-      if (mask & zones[k]->zone_bit()) {
-        place[i] = static_cast<double>(k + 1);
-        break;
-      }
-    }
+    place[i] = (mask & fluid_bits) ? 0.0 : NEITHER;
+    if (!(mask & zone_bits)) continue;
+    for (std::size_t k = 0; k < zones.size(); k++)
+      if (mask & zones[k]->zone_bit()) place[i] = static_cast<double>(k + 1);
   }
 }
 
