@@ -43,7 +43,7 @@ using namespace FixConst;
 using namespace SPHDissipation;
 
 static constexpr double NODES = 3.0;          // of the plane, per support radius
-static constexpr double AVERAGING = 200.0;    // default time, support radii over sound speed
+static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
 // the vector of the fix, after the ledger
 
@@ -86,7 +86,10 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   vector_flag = 1;
   size_vector = NVECTOR;
   global_freq = 1;
-  extvector = 0;
+  extvector = -1;
+  extlist = new int[NVECTOR];
+  std::fill_n(extlist, static_cast<int>(OpenLedger::NVALUE), 1);
+  std::fill(extlist + OpenLedger::NVALUE, extlist + NVECTOR, 0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -395,6 +398,14 @@ FixSPHOpen::Reference FixSPHOpen::reference(int i) const
   return ref;
 }
 
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::prescribed_velocity(int i, double *u) const
+{
+  for (int d = 0; d < 3; d++)
+    u[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::VX + d), i);
+}
+
 /* ----------------------------------------------------------------------
    the same of the velocity out of the fluid
 ------------------------------------------------------------------------- */
@@ -403,8 +414,7 @@ double FixSPHOpen::outward_velocity(int i) const
 {
   double u[3];
   if (given_velocity())
-    for (int d = 0; d < 3; d++)
-      u[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::VX + d), i);
+    prescribed_velocity(i, u);
   else {
     double p;
     std::copy_n(atom->v[i], 3, u);
@@ -437,8 +447,7 @@ void FixSPHOpen::velocity(int i, double *u) const
 {
   const double *const normal = plane->normal;
   double prescribed[3];
-  for (int d = 0; d < 3; d++)
-    prescribed[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::VX + d), i);
+  prescribed_velocity(i, prescribed);
 
   if (condition == FIXED) {
     if (given_velocity()) {
@@ -494,7 +503,8 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   ... and then where the mean velocity of the step brings them
+   ... and then where the mean velocity of the step brings them.  Along the plane they move with the
+   velocity given, if there is one: with their own, those that leave would gather, or enter walls.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::post_integrate()
@@ -504,15 +514,19 @@ void FixSPHOpen::post_integrate()
   for (int i = 0; i < atom->nlocal; i++) {
     double *const x = atom->x[i], *const v = atom->v[i];
     if (atom->mask[i] & groupbit) {
-      double u[3], mean[3];
+      double u[3], mean[3], motion[3] = {0.0, 0.0, 0.0};
       velocity(i, u);
       set_spin(i);
+      if (given_velocity()) prescribed_velocity(i, motion);
+      for (int d = 0; d < 3; d++) mean[d] = 0.5 * (v[d] + u[d]);
+      const double across = MathExtra::dot3(mean, plane->normal);
+      const double change = across - MathExtra::dot3(motion, plane->normal);
       for (int d = 0; d < 3; d++) {
-        mean[d] = 0.5 * (v[d] + u[d]);
-        x[d] += update->dt * (mean[d] - v[d]);
+        motion[d] += change * plane->normal[d];
+        x[d] += update->dt * (motion[d] - v[d]);
         v[d] = atom->vest[i][d] = u[d];
       }
-      farthest = std::max(farthest, fabs(MathExtra::dot3(mean, plane->normal)) * update->dt);
+      farthest = std::max(farthest, fabs(across) * update->dt);
       if (plane->height(x) >= 0.0) enter(i, mean);
     } else if (atom->mask[i] & fluidbit) {
       const double height = plane->height(x);
