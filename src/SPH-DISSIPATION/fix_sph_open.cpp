@@ -386,12 +386,12 @@ FixSPHOpen::Reference FixSPHOpen::reference(int i) const
     ref.rho = (*values)(OpenValues::RHO, i);
     ref.p = pressure(form, eos(i), ref.rho, e);
   } else {
-    double u[3];
+    OpenSamples::Average inside;
     ref.p = pressure(form, eos(i), eos(i).rho0, e);
     if (values->given(OpenValues::P))
       ref.p = (*values)(OpenValues::P, i);
-    else if (samples->any())
-      samples->average(atom->x[i], u, ref.p);
+    else if (samples->any() && samples->average(atom->x[i], inside))
+      ref.p = inside.p;
     ref.rho = density_at(form, eos(i), ref.p, e);
   }
   ref.c = sound_speed(form, eos(i), ref.rho, e);
@@ -413,18 +413,19 @@ void FixSPHOpen::prescribed_velocity(int i, double *u) const
 double FixSPHOpen::outward_velocity(int i) const
 {
   double u[3];
+  OpenSamples::Average inside;
   if (given_velocity())
     prescribed_velocity(i, u);
-  else {
-    double p;
+  else if (samples->any() && samples->average(atom->x[i], inside))
+    std::copy_n(inside.u, 3, u);
+  else
     std::copy_n(atom->v[i], 3, u);
-    if (samples->any()) samples->average(atom->x[i], u, p);
-  }
   return -MathExtra::dot3(u, plane->normal);
 }
 
 /* ----------------------------------------------------------------------
-   the wave at a particle of the zone: that of now, or the one that has come as far by now
+   the wave at a particle of the zone: that of now, or the one that has come as far by now.  If one of
+   velocity and pressure is from inside, the other one is what is given in the mean over time.
 ------------------------------------------------------------------------- */
 
 double FixSPHOpen::wave(int i, const Reference &ref, double out) const
@@ -436,7 +437,10 @@ double FixSPHOpen::wave(int i, const Reference &ref, double out) const
     const double inside = (sum.weight > 0.0) ? sum.d / sum.weight : 0.0;
     lag = (inside - plane->height(x)) / std::max(ref.c + out, 0.1 * ref.c);
   }
-  return samples->wave(x, time() - lag);
+  const double now = samples->wave(x, time() - lag);
+  OpenSamples::Average inside;
+  if ((given_velocity() && given_state()) || !samples->average(x, inside)) return now;
+  return now - inside.wave;
 }
 
 /* ----------------------------------------------------------------------

@@ -92,7 +92,7 @@ void OpenSamples::update_means(double elapsed)
   const double part = history.empty() ? 1.0 : 1.0 - exp(-elapsed / averaging_time);
   for (std::size_t n = 0; n < sums.size(); n++) {
     if (!(sums[n].weight > 0.0)) continue;
-    const double now[NMEAN] = {sums[n].u[0], sums[n].u[1], sums[n].u[2], sums[n].p};
+    const double now[NMEAN] = {sums[n].u[0], sums[n].u[1], sums[n].u[2], sums[n].p, sums[n].wave};
     for (int k = 0; k < NMEAN; k++)
       mean[NMEAN * n + k] += part * (now[k] / sums[n].weight - mean[NMEAN * n + k]);
   }
@@ -147,19 +147,20 @@ double OpenSamples::node_wave(int node, double time) const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenSamples::average(const double *x, double *u, double &p) const
+bool OpenSamples::average(const double *x, Average &result) const
 {
   OpenPlane::Corner corner[OpenPlane::CORNERS];
   plane.corners(x, corner);
-  double total[NMEAN] = {0.0, 0.0, 0.0, 0.0}, weight = 0.0;
+  double total[NMEAN] = {}, weight = 0.0;
   for (const auto &one : corner) {
     const double part = one.weight * sums[one.node].weight;
     for (int k = 0; k < NMEAN; k++) total[k] += part * mean[NMEAN * one.node + k];
     weight += part;
   }
-  if (!(weight > 0.0)) return;
-  for (int d = 0; d < 3; d++) u[d] = total[d] / weight;
-  p = total[3] / weight;
+  if (!(weight > 0.0)) return false;
+  for (double &value : total) value /= weight;
+  result = {{total[0], total[1], total[2]}, total[3], total[4]};
+  return true;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -57,7 +57,10 @@ namespace SPHDissipation {
 
     NodeSum at(const double *x) const;                            // sums of now
     double wave(const double *x, double time) const;              // J at a time before
-    void average(const double *x, double *u, double &p) const;    // over time, of u and pressure
+    struct Average {
+      double u[3], p, wave;
+    };
+    bool average(const double *x, Average &) const;    // over time; false: no fluid here
     void mean_at_plane(double *p, double *u) const;               // of all nodes, now
     bool any() const { return !history.empty(); }
 
@@ -72,7 +75,7 @@ namespace SPHDissipation {
       double time;
       std::vector<double> wave;    // of the nodes
     };
-    static constexpr int NMEAN = 4;    // u and pressure
+    static constexpr int NMEAN = sizeof(Average) / sizeof(double);
 
     const OpenPlane &plane;
     double averaging_time, memory;
