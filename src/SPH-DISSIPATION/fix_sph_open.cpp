@@ -386,7 +386,7 @@ FixSPHOpen::Reference FixSPHOpen::reference(int i) const
     ref.rho = (*values)(OpenValues::RHO, i);
     ref.p = pressure(form, eos(i), ref.rho, e);
   } else {
-    OpenSamples::Average inside;
+    OpenSample inside;
     ref.p = pressure(form, eos(i), eos(i).rho0, e);
     if (values->given(OpenValues::P))
       ref.p = (*values)(OpenValues::P, i);
@@ -413,7 +413,7 @@ void FixSPHOpen::prescribed_velocity(int i, double *u) const
 double FixSPHOpen::outward_velocity(int i) const
 {
   double u[3];
-  OpenSamples::Average inside;
+  OpenSample inside;
   if (given_velocity())
     prescribed_velocity(i, u);
   else if (samples->any() && samples->average(atom->x[i], inside))
@@ -433,12 +433,10 @@ double FixSPHOpen::wave(int i, const Reference &ref, double out) const
   const double *const x = atom->x[i];
   double lag = 0.0;
   if (condition == LAGGED) {
-    const NodeSum sum = samples->at(x);
-    const double inside = (sum.weight > 0.0) ? sum.d / sum.weight : 0.0;
-    lag = (inside - plane->height(x)) / std::max(ref.c + out, 0.1 * ref.c);
+    lag = (samples->distance(x) - plane->height(x)) / std::max(ref.c + out, 0.1 * ref.c);
   }
   const double now = samples->wave(x, time() - lag);
-  OpenSamples::Average inside;
+  OpenSample inside;
   if ((given_velocity() && given_state()) || !samples->average(x, inside)) return now;
   return now - inside.wave;
 }
@@ -458,11 +456,10 @@ void FixSPHOpen::velocity(int i, double *u) const
       std::copy_n(prescribed, 3, u);
       return;
     }
-    const NodeSum sum = samples->at(atom->x[i]);
-    std::copy_n(atom->v[i], 3, u);
-    if (!(sum.weight > 0.0)) return;
-    for (int d = 0; d < 3; d++)
-      u[d] = continued(sum, sum.u[d], sum.ud[d], plane->height(atom->x[i]), order);
+    OpenSample inside;
+    const double *const x = atom->x[i];
+    const bool found = samples->now(x, plane->height(x), order, inside);
+    std::copy_n(found ? inside.u : atom->v[i], 3, u);
     return;
   }
 
@@ -671,25 +668,9 @@ void FixSPHOpen::add_sample(Engine &engine, int i)
     const double dp = (given_state() || known) ? p - ref.p : 0.0;
     wave = outgoing_wave(ref.rho * ref.c, du, dp);
   }
-  with_kernel(engine.kernel_form(), [&](auto k) {
-    plane->near(particle.x, support, [&](int node, double beside_sq) {
-      const double q = sqrt(height * height + beside_sq) / support;
-      if (q >= 1.0) return;
-      const double weight = particle.vol * k.shape(q);
-      NodeSum &sum = samples->sum(node);
-      sum.weight += weight;
-      sum.d += weight * height;
-      sum.d2 += weight * height * height;
-      sum.wave += weight * wave;
-      sum.p += weight * p;
-      sum.pd += weight * height * p;
-      for (int d = 0; d < 3; d++) {
-        sum.u[d] += weight * particle.u[d];
-        sum.ud[d] += weight * height * particle.u[d];
-      }
-    });
-    return 0;
-  });
+  samples->add(particle.x, plane->height(particle.x), particle.vol,
+               {wave, p, {particle.u[0], particle.u[1], particle.u[2]}}, engine.kernel_form(),
+               pair->support_radius());
 }
 
 /* ----------------------------------------------------------------------
@@ -701,9 +682,10 @@ void FixSPHOpen::set_pressure(Engine &engine, int i)
   const Eos form = pair->fluid().choice.eos;
   Reference ref = reference(i);
   if (condition == FIXED) {
-    const NodeSum sum = samples->at(atom->x[i]);
-    if (!given_state() && sum.weight > 0.0) {
-      ref.p = continued(sum, sum.p, sum.pd, plane->height(atom->x[i]), order);
+    OpenSample inside;
+    const double *const x = atom->x[i];
+    if (!given_state() && samples->now(x, plane->height(x), order, inside)) {
+      ref.p = inside.p;
       ref.rho = density_at(form, eos(i), ref.p, energy(i));
     }
   } else {

@@ -247,7 +247,7 @@ std::vector<int> OpenRows::last_ones(const Band &band) const
     if (!(MathExtra::dot3(atom->v[i], plane.normal) > 0.0)) continue;
     if (plane.height(x) - step(i) < -plane.length) continue;
     bool behind = false;
-    plane.near(x, half_width + plane.node_distance(), [&](int node, double) {
+    plane.near(x, half_width + plane.node_distance(), [&](int node, const double *) {
       for (const int k : band.at_node[node]) {
         if (!band.of_zone[k]) continue;
         const Offset to = offset(domain, plane, x, &band.x[3 * k]);
@@ -321,7 +321,7 @@ void OpenRows::check_seat(double *x, const Band &band) const
       error->one(FLERR,
                  "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",
                  owner, x[0], x[1], x[2]);
-  plane.near(x, half_width + plane.node_distance(), [&](int node, double) {
+  plane.near(x, half_width + plane.node_distance(), [&](int node, const double *) {
     for (const int k : band.at_node[node]) {
       const Offset to = offset(domain, plane, x, &band.x[3 * k]);
       const double r = sqrt(to.beside * to.beside + to.ahead * to.ahead);
