@@ -86,10 +86,7 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   vector_flag = 1;
   size_vector = NVECTOR;
   global_freq = 1;
-  extvector = -1;
-  extlist = new int[NVECTOR];
-  std::fill_n(extlist, static_cast<int>(OpenLedger::NVALUE), 1);
-  std::fill(extlist + OpenLedger::NVALUE, extlist + NVECTOR, 0);
+  extvector = 0;    // an account is not to be scaled by the number of atoms
 }
 
 /* ---------------------------------------------------------------------- */
