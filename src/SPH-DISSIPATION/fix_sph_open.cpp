@@ -37,12 +37,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
 
-static constexpr double NODES = 3.0;          // of the plane, per support radius
+static constexpr double NODES = 3.0;          // of the plane, per radius of what is measured there
 static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
 // the vector of the fix, after the ledger
@@ -53,8 +54,8 @@ enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), rows(nullptr),
-    ledger(nullptr), pair(nullptr), condition(LAGGED), order(-1), averaging_time(0.0), area(0.0),
-    supersonic(false), totals_known(false), totals(new double[NVECTOR]), restart_state(nullptr)
+    ledger(nullptr), pair(nullptr), condition(LAGGED), order(-1), averaging_time(0.0), radius(0.0),
+    area(0.0), supersonic(false), totals_known(false), totals(new double[NVECTOR])
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -195,7 +196,6 @@ FixSPHOpen::~FixSPHOpen()
   delete values;
   delete plane;
   delete[] totals;
-  delete[] restart_state;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -220,8 +220,14 @@ void FixSPHOpen::init()
   check_groups();
 
   const double support = pair->support_radius();
-  plane->init(support / NODES);
   values->init();
+  rows->init(support);
+
+  // a small radius, for it smooths the profile, but with a few particles
+
+  constexpr double PART = 0.6, WIDTHS = 2.2;
+  radius = std::min(support, std::max(PART * support, WIDTHS * rows->width()));
+  plane->init(radius / NODES);
   if (area > 0.0)
     rows->set_distance([this](int i) {
       return atom->rmass[i] / (area * (*values)(OpenValues::RHO, i));
@@ -233,21 +239,12 @@ void FixSPHOpen::init()
   const double crossing = support / slowest;
   samples->init(averaging_time > 0.0 ? averaging_time : AVERAGING * crossing,
                 10.0 * (plane->length / support + 1.0) * crossing);
-  if (restart_state) {
-    const auto *state = reinterpret_cast<double *>(restart_state);
-    const auto nstate = static_cast<int>(state[0]);
-    ledger->restart(state + 1);
-    rows->unpack(state + 1 + OpenLedger::NVALUE);
-    const int before = 1 + OpenLedger::NVALUE + OpenRows::NSTATE;
-    if (!samples->unpack(state + before, nstate - before) && comm->me == 0)
-      error->warning(FLERR,
-                     "Fix {} {}: the plane is not that of the restart file, waves that had "
-                     "left through it are forgotten",
-                     style, id);
-    delete[] restart_state;
-    restart_state = nullptr;
-  }
-  rows->init(support);
+  if (!waves_before.empty() && !samples->unpack(waves_before) && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {} {}: the plane is not that of the restart file, waves that had left "
+                   "through it are forgotten",
+                   style, id);
+  waves_before.clear();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -630,12 +627,11 @@ void FixSPHOpen::set_state(Engine &engine)
 
 void FixSPHOpen::sample(Engine &engine)
 {
-  const double support = pair->support_radius();
   std::vector<int> near;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & fluidbit)) continue;
     const double height = plane->height(atom->x[i]);
-    if (height >= 0.0 && height < support && !plane->beside(atom->x[i])) near.push_back(i);
+    if (height >= 0.0 && height < radius && !plane->beside(atom->x[i])) near.push_back(i);
   }
   for (const int i : near) atom->mask[i] |= groupbit;
   values->evaluate(igroup);
@@ -667,7 +663,7 @@ void FixSPHOpen::add_sample(Engine &engine, int i)
   }
   samples->add(particle.x, plane->height(particle.x), particle.vol,
                {wave, p, {particle.u[0], particle.u[1], particle.u[2]}}, engine.kernel_form(),
-               pair->support_radius());
+               radius);
 }
 
 /* ----------------------------------------------------------------------
@@ -740,10 +736,11 @@ void FixSPHOpen::write_restart(FILE *fp)
 
 void FixSPHOpen::restart(char *buf)
 {
-  const auto size = static_cast<std::size_t>(reinterpret_cast<double *>(buf)[0]) * sizeof(double);
-  delete[] restart_state;
-  restart_state = new char[size];
-  memcpy(restart_state, buf, size);
+  const auto *const state = reinterpret_cast<double *>(buf);
+  const double *const rows_state = state + 1 + OpenLedger::NVALUE;
+  ledger->restart(state + 1);
+  rows->unpack(rows_state);
+  waves_before.assign(rows_state + OpenRows::NSTATE, state + static_cast<int>(state[0]));
 }
 
 /* ---------------------------------------------------------------------- */

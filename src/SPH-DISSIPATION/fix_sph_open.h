@@ -24,6 +24,8 @@ FixStyle(sph/open,FixSPHOpen);
 
 #include "sph_dissipation_open_stage.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class OpenLedger;
@@ -77,11 +79,12 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   Condition condition;
   int order;                // of values from inside, condition fixed
   double averaging_time;    // 0: by the support radius
+  double radius;            // of the fluid that is measured at the plane
   double area;              // of the cross section of a row; 0: rows have a spacing
   bool supersonic;          // has been warned of
   bool totals_known;
   double *totals;
-  char *restart_state;    // until init()
+  std::vector<double> waves_before;    // from a restart file, until init()
 
   int keyword_argument(int, int, char **);
   void check_keywords();

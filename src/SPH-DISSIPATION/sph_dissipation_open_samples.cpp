@@ -266,14 +266,14 @@ std::vector<double> OpenSamples::pack() const
 
 /* ---------------------------------------------------------------------- */
 
-bool OpenSamples::unpack(const double *buf, int nbuf)
+bool OpenSamples::unpack(const std::vector<double> &state)
 {
   constexpr std::size_t WIDTH = sizeof(Node) / sizeof(double);
   const std::size_t n = nodes.size();
-  if (nbuf < 2 || static_cast<std::size_t>(buf[0]) != n) return false;
-  const auto npast = static_cast<std::size_t>(buf[1]);
-  if (static_cast<std::size_t>(nbuf) != 2 + n * WIDTH + npast * (1 + n)) return false;
-  buf += 2;
+  if (state.size() < 2 || static_cast<std::size_t>(state[0]) != n) return false;
+  const auto npast = static_cast<std::size_t>(state[1]);
+  if (state.size() != 2 + n * WIDTH + npast * (1 + n)) return false;
+  const double *buf = state.data() + 2;
   for (auto &node : nodes) {
     std::copy_n(buf, WIDTH, reinterpret_cast<double *>(&node));
     buf += WIDTH;

@@ -63,7 +63,7 @@ namespace SPHDissipation {
 
     // state in a restart file
     std::vector<double> pack() const;
-    bool unpack(const double *, int n);    // false if it is of other nodes
+    bool unpack(const std::vector<double> &);    // false if it is of other nodes
 
    private:
     static constexpr int NVALUE = sizeof(OpenSample) / sizeof(double);
