@@ -145,6 +145,7 @@ void OpenRows::renew(const Refresh &refresh)
   atom->nghost = 0;
   atom->avec->clear_bonus();
   remove_beyond();
+  refresh({});    // particles have changed sides, and places in memory
 
   // since the last time, no row can have come farther from the end than this
 
