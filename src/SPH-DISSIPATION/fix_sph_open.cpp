@@ -418,8 +418,7 @@ double FixSPHOpen::outward_velocity(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   the wave at a particle of the zone: that of now, or the one that has come as far by now.  If one of
-   velocity and pressure is from inside, the other one is what is given in the mean over time.
+   the wave at a particle of the zone: that of now, or the one that has come as far by now
 ------------------------------------------------------------------------- */
 
 double FixSPHOpen::wave(int i, const Reference &ref, double out) const
@@ -429,14 +428,22 @@ double FixSPHOpen::wave(int i, const Reference &ref, double out) const
   if (condition == LAGGED) {
     lag = (samples->distance(x) - plane->height(x)) / std::max(ref.c + out, 0.1 * ref.c);
   }
-  const double now = samples->wave(x, time() - lag);
-  OpenSample inside;
-  if ((given_velocity() && given_state()) || !samples->average(x, inside)) return now;
-  return now - inside.wave;
+  return samples->wave(x, time() - lag);
 }
 
 /* ----------------------------------------------------------------------
-   velocity of a particle of the zone; along the plane, what leaves keeps its own one
+   Of a quantity that is given, where the other one is from inside, only the changes of the wave: so it
+   holds in the mean over time.
+------------------------------------------------------------------------- */
+
+double FixSPHOpen::changes(int i, double wave) const
+{
+  OpenSample inside;
+  return samples->average(atom->x[i], inside) ? wave - inside.wave : wave;
+}
+
+/* ----------------------------------------------------------------------
+   velocity of a particle of the zone; along the plane, what leaves keeps its own one.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::velocity(int i, double *u) const
@@ -459,7 +466,9 @@ void FixSPHOpen::velocity(int i, double *u) const
 
   const Reference ref = reference(i);
   const double out = outward_velocity(i);
-  const double now = out + wave_velocity(ref.rho * ref.c, wave(i, ref, out));
+  double leaving = wave(i, ref, out);
+  if (given_velocity() && !given_state()) leaving = changes(i, leaving);
+  const double now = out + wave_velocity(ref.rho * ref.c, leaving);
   std::copy_n((given_velocity() && out < 0.0) ? prescribed : atom->v[i], 3, u);
   const double change = -now - MathExtra::dot3(u, normal);
   for (int d = 0; d < 3; d++) u[d] += change * normal[d];
@@ -682,7 +691,9 @@ void FixSPHOpen::set_pressure(Engine &engine, int i)
       ref.rho = density_at(form, eos(i), ref.p, energy(i));
     }
   } else {
-    const double dp = wave_pressure(wave(i, ref, outward_velocity(i)));
+    double leaving = wave(i, ref, outward_velocity(i));
+    if (!(given_velocity() && given_state())) leaving = changes(i, leaving);
+    const double dp = wave_pressure(leaving);
     ref.p += dp;
     ref.rho = (form == Eos::IDEAL) ? ref.rho + dp / (ref.c * ref.c)
                                    : density_at(form, eos(i), ref.p, 0.0);

@@ -99,6 +99,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   Reference reference(int i) const;
   double outward_velocity(int i) const;
   double wave(int i, const Reference &, double out) const;
+  double changes(int i, double wave) const;
   void prescribed_velocity(int i, double *u) const;
   void velocity(int i, double *u) const;
   void enter(int i, const double *v);

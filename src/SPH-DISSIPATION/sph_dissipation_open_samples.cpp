@@ -90,8 +90,8 @@ void OpenSamples::finish(double time)
                 MPI_SUM, world);
 
   while (!history.empty() && history.back().time >= time) history.pop_back();
-  const double part = history.empty() ? 1.0
-                                      : 1.0 - exp(-(time - history.back().time) / averaging_time);
+  const double elapsed = history.empty() ? 0.0 : time - history.back().time;
+  const double part = history.empty() ? 1.0 : 1.0 - exp(-elapsed / averaging_time);
 
   history.push_back({time, std::vector<double>(nodes.size(), 0.0)});
   for (std::size_t n = 0; n < nodes.size(); n++) {
@@ -99,7 +99,10 @@ void OpenSamples::finish(double time)
     node.weight = sums[n].weight;
     if (!(node.weight > 0.0)) continue;
     fit(sums[n], node);
-    for (int v = 0; v < NVALUE; v++) node.mean[v] += part * (node.value[v] - node.mean[v]);
+    for (int v = 0; v < NVALUE; v++) {
+      node.mean[v] += part * (node.value[v] - node.mean[v]);
+      node.mean_mean[v] += part * (node.mean[v] - node.mean_mean[v]);
+    }
     history.back().wave[n] = node.value[0];
   }
   while (history.size() > 2 && history[1].time <= time - memory) history.pop_front();
@@ -169,13 +172,17 @@ bool OpenSamples::now(const double *x, double height, int order, OpenSample &res
   return true;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   twice exponential: of what changes evenly it does not lag behind (R. G. Brown, Smoothing,
+   forecasting and prediction of discrete time series, 1963)
+------------------------------------------------------------------------- */
 
 bool OpenSamples::average(const double *x, OpenSample &result) const
 {
   double value[NVALUE] = {};
   const double total = interpolate(x, [&](int n, double weight) {
-    for (int v = 0; v < NVALUE; v++) value[v] += weight * nodes[n].mean[v];
+    for (int v = 0; v < NVALUE; v++)
+      value[v] += weight * (2.0 * nodes[n].mean[v] - nodes[n].mean_mean[v]);
   });
   if (!(total > 0.0)) return false;
   auto *const to = reinterpret_cast<double *>(&result);
