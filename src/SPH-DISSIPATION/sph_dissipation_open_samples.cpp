@@ -99,10 +99,7 @@ void OpenSamples::finish(double time)
     node.weight = sums[n].weight;
     if (!(node.weight > 0.0)) continue;
     fit(sums[n], node);
-    for (int v = 0; v < NVALUE; v++) {
-      node.mean[v] += part * (node.value[v] - node.mean[v]);
-      node.mean_mean[v] += part * (node.mean[v] - node.mean_mean[v]);
-    }
+    for (int v = 0; v < NVALUE; v++) node.mean[v] += part * (node.value[v] - node.mean[v]);
     history.back().wave[n] = node.value[0];
   }
   while (history.size() > 2 && history[1].time <= time - memory) history.pop_front();
@@ -172,17 +169,13 @@ bool OpenSamples::now(const double *x, double height, int order, OpenSample &res
   return true;
 }
 
-/* ----------------------------------------------------------------------
-   twice exponential: of what changes evenly it does not lag behind (R. G. Brown, Smoothing,
-   forecasting and prediction of discrete time series, 1963)
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 bool OpenSamples::average(const double *x, OpenSample &result) const
 {
   double value[NVALUE] = {};
   const double total = interpolate(x, [&](int n, double weight) {
-    for (int v = 0; v < NVALUE; v++)
-      value[v] += weight * (2.0 * nodes[n].mean[v] - nodes[n].mean_mean[v]);
+    for (int v = 0; v < NVALUE; v++) value[v] += weight * nodes[n].mean[v];
   });
   if (!(total > 0.0)) return false;
   auto *const to = reinterpret_cast<double *>(&result);

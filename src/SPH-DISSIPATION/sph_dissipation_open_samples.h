@@ -76,11 +76,10 @@ namespace SPHDissipation {
     };
 
     struct Node {
-      double weight, distance;     // of what is measured from the plane
-      double value[NVALUE];        // at the node and that distance
-      double slope[NVALUE];        // along the normal
-      double mean[NVALUE];         // over time
-      double mean_mean[NVALUE];    // of that
+      double weight, distance;    // of what is measured from the plane
+      double value[NVALUE];       // at the node and that distance
+      double slope[NVALUE];       // along the normal
+      double mean[NVALUE];        // over time
     };
 
     struct Past {
