@@ -37,13 +37,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
 
-static constexpr double NODES = 3.0;          // of the plane, per support radius
-static constexpr double AVERAGING = 200.0;    // default time, support radii over sound speed
+static constexpr double NODES = 3.0;          // of the plane, per radius of what is measured there
+static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
 // in restart files: size, ledger, rows, clock, point and normal of the plane; then the waves
 
@@ -64,8 +65,8 @@ enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), rows(nullptr),
     ledger(nullptr), pair(nullptr), integrator(nullptr), avec(nullptr), spinning(nullptr),
-    fluidbit(0), condition(LAGGED), order(-1), averaging_time(0.0), area(0.0), clock(0.0),
-    supersonic(false), totals_known(false), totals(new double[NVECTOR]), restart_state(nullptr)
+    fluidbit(0), condition(LAGGED), order(-1), averaging_time(0.0), radius(0.0), area(0.0),
+    clock(0.0), supersonic(false), totals_known(false), totals(new double[NVECTOR])
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -94,7 +95,7 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   vector_flag = 1;
   size_vector = NVECTOR;
   global_freq = 1;
-  extvector = 0;
+  extvector = 0;    // an account is not to be scaled by the number of atoms
 }
 
 /* ---------------------------------------------------------------------- */
@@ -203,7 +204,6 @@ FixSPHOpen::~FixSPHOpen()
   delete values;
   delete plane;
   delete[] totals;
-  delete[] restart_state;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -231,8 +231,14 @@ void FixSPHOpen::init()
   check_integrator();
 
   const double support = pair->support_radius();
-  plane->init(support / NODES);
   values->init();
+  rows->init(support);
+
+  // a small radius, for it smooths the profile, but with a few particles
+
+  constexpr double PART = 0.6, WIDTHS = 2.2;
+  radius = std::min(support, std::max(PART * support, WIDTHS * rows->width()));
+  plane->init(radius / NODES);
   if (area > 0.0)
     rows->set_distance([this](int i) {
       return atom->rmass[i] / (area * (*values)(OpenValues::RHO, i));
@@ -244,30 +250,8 @@ void FixSPHOpen::init()
   const double crossing = support / slowest;
   samples->init(averaging_time > 0.0 ? averaging_time : AVERAGING * crossing,
                 10.0 * (plane->length / support + 1.0) * crossing);
-  if (restart_state) unpack_restart();
-  rows->init(support);
-}
-
-/* ----------------------------------------------------------------------
-   what the zone remembers of rows and waves is of its plane
-------------------------------------------------------------------------- */
-
-void FixSPHOpen::unpack_restart()
-{
-  const auto *const state = reinterpret_cast<double *>(restart_state);
-  rows->unpack(state + ROWS);
-  clock = state[CLOCK];
-  if (!plane->is_at(state + PLANE) ||
-      !samples->unpack(state + NHEAD, static_cast<int>(state[0]) - NHEAD)) {
-    rows->forget();
-    if (comm->me == 0)
-      error->warning(FLERR,
-                     "Fix {} {}: the plane is not that of the restart file, waves that had "
-                     "left through it are forgotten",
-                     style, id);
-  }
-  delete[] restart_state;
-  restart_state = nullptr;
+  if (!waves_before.empty() && !samples->unpack(waves_before)) warn_of_other_plane();
+  waves_before.clear();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -436,16 +420,24 @@ FixSPHOpen::Reference FixSPHOpen::reference(int i, const OpenPlane::Spot &spot) 
     ref.rho = (*values)(OpenValues::RHO, i);
     ref.p = pressure(form, eos(i), ref.rho, e);
   } else {
-    double u[3];
+    OpenSample inside;
     ref.p = pressure(form, eos(i), eos(i).rho0, e);
     if (values->given(OpenValues::P))
       ref.p = (*values)(OpenValues::P, i);
-    else if (samples->any())
-      samples->average(spot, u, ref.p);
+    else if (samples->any() && samples->average(spot, inside))
+      ref.p = inside.p;
     ref.rho = density_at(form, eos(i), ref.p, e);
   }
   ref.c = sound_speed(form, eos(i), ref.rho, e);
   return ref;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::prescribed_velocity(int i, double *u) const
+{
+  for (int d = 0; d < 3; d++)
+    u[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::VX + d), i);
 }
 
 /* ----------------------------------------------------------------------
@@ -455,14 +447,13 @@ FixSPHOpen::Reference FixSPHOpen::reference(int i, const OpenPlane::Spot &spot) 
 double FixSPHOpen::outward_velocity(int i, const OpenPlane::Spot &spot) const
 {
   double u[3];
+  OpenSample inside;
   if (given_velocity())
-    for (int d = 0; d < 3; d++)
-      u[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::VX + d), i);
-  else {
-    double p;
+    prescribed_velocity(i, u);
+  else if (samples->any() && samples->average(spot, inside))
+    std::copy_n(inside.u, 3, u);
+  else
     std::copy_n(atom->v[i], 3, u);
-    if (samples->any()) samples->average(spot, u, p);
-  }
   return -MathExtra::dot3(u, plane->normal);
 }
 
@@ -480,7 +471,18 @@ double FixSPHOpen::wave(int i, const OpenPlane::Spot &spot, const Reference &ref
 }
 
 /* ----------------------------------------------------------------------
-   velocity of a particle of the zone; along the plane, what leaves keeps its own one
+   Of a quantity that is given, where the other one is from inside, only the changes of the wave: so it
+   holds in the mean over time.
+------------------------------------------------------------------------- */
+
+double FixSPHOpen::changes(const OpenPlane::Spot &spot, double wave) const
+{
+  OpenSample inside;
+  return samples->average(spot, inside) ? wave - inside.wave : wave;
+}
+
+/* ----------------------------------------------------------------------
+   velocity of a particle of the zone; along the plane, what leaves keeps its own one.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::velocity(int i, double *u) const
@@ -488,25 +490,24 @@ void FixSPHOpen::velocity(int i, double *u) const
   const double *const normal = plane->normal;
   const OpenPlane::Spot spot = plane->spot(atom->x[i]);
   double prescribed[3];
-  for (int d = 0; d < 3; d++)
-    prescribed[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::VX + d), i);
+  prescribed_velocity(i, prescribed);
 
   if (condition == FIXED) {
     if (given_velocity()) {
       std::copy_n(prescribed, 3, u);
       return;
     }
-    const NodeSum sum = samples->at(spot);
-    std::copy_n(atom->v[i], 3, u);
-    if (!(sum.weight > 0.0)) return;
-    for (int d = 0; d < 3; d++)
-      u[d] = continued(sum, sum.u[d], sum.ud[d], plane->height(atom->x[i]), order);
+    OpenSample inside;
+    const bool found = samples->now(spot, plane->height(atom->x[i]), order, inside);
+    std::copy_n(found ? inside.u : atom->v[i], 3, u);
     return;
   }
 
   const Reference ref = reference(i, spot);
   const double out = outward_velocity(i, spot);
-  const double now = out + wave_velocity(ref.rho * ref.c, wave(i, spot, ref, out));
+  double leaving = wave(i, spot, ref, out);
+  if (given_velocity() && !given_state()) leaving = changes(spot, leaving);
+  const double now = out + wave_velocity(ref.rho * ref.c, leaving);
   std::copy_n((given_velocity() && out < 0.0) ? prescribed : atom->v[i], 3, u);
   const double change = -now - MathExtra::dot3(u, normal);
   for (int d = 0; d < 3; d++) u[d] += change * normal[d];
@@ -566,7 +567,8 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   ... and then where the mean velocity of the step brings them
+   ... and then where the mean velocity of the step brings them.  Along the plane they move with the
+   velocity given, if there is one: with their own, those that leave would gather, or enter walls.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::post_integrate()
@@ -576,15 +578,19 @@ void FixSPHOpen::post_integrate()
   for (const int i : members) {
     double *const x = atom->x[i], *const v = atom->v[i];
     if (atom->mask[i] & groupbit) {
-      double u[3], mean[3];
+      double u[3], mean[3], motion[3] = {0.0, 0.0, 0.0};
       velocity(i, u);
       set_spin(i);
+      if (given_velocity()) prescribed_velocity(i, motion);
+      for (int d = 0; d < 3; d++) mean[d] = 0.5 * (v[d] + u[d]);
+      const double across = MathExtra::dot3(mean, plane->normal);
+      const double change = across - MathExtra::dot3(motion, plane->normal);
       for (int d = 0; d < 3; d++) {
-        mean[d] = 0.5 * (v[d] + u[d]);
-        x[d] += update->dt * (mean[d] - v[d]);
+        motion[d] += change * plane->normal[d];
+        x[d] += update->dt * (motion[d] - v[d]);
         v[d] = atom->vest[i][d] = u[d];
       }
-      farthest = std::max(farthest, MathExtra::dot3(mean, plane->normal) * update->dt);
+      farthest = std::max(farthest, across * update->dt);
       if (plane->height(x) >= 0.0) enter(i, mean);
     } else if (atom->mask[i] & fluidbit) {
       const double height = plane->height(x);
@@ -684,12 +690,11 @@ void FixSPHOpen::set_state(Engine &engine)
 
 void FixSPHOpen::sample(Engine &engine)
 {
-  const double support = pair->support_radius();
   std::vector<int> near;
   for (const int i : members) {
     if (!(atom->mask[i] & fluidbit)) continue;
     const double height = plane->height(atom->x[i]);
-    if (height >= 0.0 && height < support && !plane->beside(atom->x[i])) near.push_back(i);
+    if (height >= 0.0 && height < radius && !plane->beside(atom->x[i])) near.push_back(i);
   }
   for (const int i : near) atom->mask[i] |= groupbit;
   values->evaluate(igroup);
@@ -744,25 +749,9 @@ void FixSPHOpen::add_sample(Engine &engine, int i)
     const double dp = (given_state() || known) ? p - ref.p : 0.0;
     wave = outgoing_wave(ref.rho * ref.c, du, dp);
   }
-  with_kernel(engine.kernel_form(), [&](auto k) {
-    plane->near(particle.x, support, [&](int node, double beside_sq) {
-      const double q = sqrt(height * height + beside_sq) / support;
-      if (q >= 1.0) return;
-      const double weight = particle.vol * k.shape(q);
-      NodeSum &sum = samples->sum(node);
-      sum.weight += weight;
-      sum.d += weight * height;
-      sum.d2 += weight * height * height;
-      sum.wave += weight * wave;
-      sum.p += weight * p;
-      sum.pd += weight * height * p;
-      for (int d = 0; d < 3; d++) {
-        sum.u[d] += weight * particle.u[d];
-        sum.ud[d] += weight * height * particle.u[d];
-      }
-    });
-    return 0;
-  });
+  samples->add(particle.x, plane->height(particle.x), particle.vol,
+               {wave, p, {particle.u[0], particle.u[1], particle.u[2]}}, engine.kernel_form(),
+               radius);
 }
 
 /* ----------------------------------------------------------------------
@@ -775,13 +764,15 @@ void FixSPHOpen::set_pressure(Engine &engine, int i)
   const OpenPlane::Spot spot = plane->spot(atom->x[i]);
   Reference ref = reference(i, spot);
   if (condition == FIXED) {
-    const NodeSum sum = samples->at(spot);
-    if (!given_state() && sum.weight > 0.0) {
-      ref.p = continued(sum, sum.p, sum.pd, plane->height(atom->x[i]), order);
+    OpenSample inside;
+    if (!given_state() && samples->now(spot, plane->height(atom->x[i]), order, inside)) {
+      ref.p = inside.p;
       ref.rho = density_at(form, eos(i), ref.p, energy(i));
     }
   } else {
-    const double dp = wave_pressure(wave(i, spot, ref, outward_velocity(i, spot)));
+    double leaving = wave(i, spot, ref, outward_velocity(i, spot));
+    if (!(given_velocity() && given_state())) leaving = changes(spot, leaving);
+    const double dp = wave_pressure(leaving);
     ref.p += dp;
     ref.rho = (form == Eos::IDEAL) ? ref.rho + dp / (ref.c * ref.c)
                                    : density_at(form, eos(i), ref.p, 0.0);
@@ -841,11 +832,27 @@ void FixSPHOpen::write_restart(FILE *fp)
 
 void FixSPHOpen::restart(char *buf)
 {
-  const auto size = static_cast<std::size_t>(reinterpret_cast<double *>(buf)[0]) * sizeof(double);
-  delete[] restart_state;
-  restart_state = new char[size];
-  memcpy(restart_state, buf, size);
-  ledger->restart(reinterpret_cast<double *>(restart_state) + LEDGER);
+  const auto *const state = reinterpret_cast<double *>(buf);
+  ledger->restart(state + LEDGER);
+  clock = state[CLOCK];
+  if (plane->is_at(state + PLANE)) {
+    rows->unpack(state + ROWS);
+    waves_before.assign(state + NHEAD, state + static_cast<int>(state[0]));
+  } else
+    warn_of_other_plane();
+}
+
+/* ----------------------------------------------------------------------
+   what a zone remembers of rows and waves is of its plane
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::warn_of_other_plane()
+{
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {} {}: the plane is not that of the restart file, waves that had left "
+                   "through it are forgotten",
+                   style, id);
 }
 
 /* ---------------------------------------------------------------------- */

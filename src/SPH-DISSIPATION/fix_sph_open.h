@@ -86,17 +86,18 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   Condition condition;
   int order;                   // of values from inside, condition fixed
   double averaging_time;       // 0: by the support radius
+  double radius;               // of the fluid that is measured at the plane
   double area;                 // of the cross section of a row; 0: rows have a spacing
   std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
   double clock;                // time of the zone, which no command sets back
   bool supersonic;             // has been warned of
   bool totals_known;
   double *totals;
-  char *restart_state;    // until init()
+  std::vector<double> waves_before;    // from a restart file, until init()
 
   int keyword_argument(int, int, char **);
+  void warn_of_other_plane();
   void check_keywords();
-  void unpack_restart();
   void check_groups();
   void check_integrator();
   void check_places();
@@ -108,6 +109,8 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   Reference reference(int i, const SPHDissipation::OpenPlane::Spot &) const;
   double outward_velocity(int i, const SPHDissipation::OpenPlane::Spot &) const;
   double wave(int i, const SPHDissipation::OpenPlane::Spot &, const Reference &, double out) const;
+  double changes(const SPHDissipation::OpenPlane::Spot &, double wave) const;
+  void prescribed_velocity(int i, double *u) const;
   void velocity(int i, double *u) const;
   void enter(int i, const double *v);
   void leave(int i);

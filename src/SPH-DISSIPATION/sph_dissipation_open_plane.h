@@ -49,8 +49,8 @@ namespace SPHDissipation {
     int nnodes() const { return count[0] * count[1]; }
     double node_distance() const { return std::max(step[0], count[1] > 1 ? step[1] : 0.0); }
 
-    // function(node, square of its distance) for the nodes within the radius of the place of x on the
-    // plane
+    // function(node, place of x along the plane from there, 2 values) for the nodes within the radius
+    // of x in both of them
     template <class Function> void near(const double *x, double radius, Function &&function) const;
 
     // the nodes around the place of x on the plane and their weights, whose sum is 1
@@ -97,7 +97,7 @@ namespace SPHDissipation {
     for (int m = from[1]; m <= to[1]; m++)
       for (int n = from[0]; n <= to[0]; n++) {
         const double r[2] = {at[0] - n * step[0], at[1] - m * step[1]};
-        function(wrap(1, m) * count[0] + wrap(0, n), r[0] * r[0] + r[1] * r[1]);
+        function(wrap(1, m) * count[0] + wrap(0, n), r);
       }
   }
 

@@ -188,8 +188,7 @@ void OpenRows::renew(const Refresh &refresh)
   atom->nghost = 0;
   atom->avec->clear_bonus();
   remove_beyond();
-
-  if (by_distance()) refresh({});    // particles have changed places
+  if (by_distance()) refresh({});    // particles have changed sides, and places in memory
 
   // since the last time, no row can have come farther from the end than this
 
@@ -288,7 +287,7 @@ std::vector<int> OpenRows::last_ones(const Band &band) const
     if (!(MathExtra::dot3(atom->v[i], plane.normal) > 0.0)) continue;
     if (plane.height(x) - step(i) < end()) continue;
     bool behind = false;
-    plane.near(x, half_width + plane.node_distance(), [&](int node, double) {
+    plane.near(x, half_width + plane.node_distance(), [&](int node, const double *) {
       for (const int k : band.at_node[node]) {
         if (!band.of_zone[k]) continue;
         const Offset to = offset(domain, plane, x, &band.x[3 * k]);
@@ -360,7 +359,7 @@ void OpenRows::check_alone(const Band &band) const
     if (!(atom->mask[i] & groupbit)) continue;
     bool alone = true;
     const double *const x = atom->x[i];
-    plane.near(x, half_width + plane.node_distance(), [&](int node, double) {
+    plane.near(x, half_width + plane.node_distance(), [&](int node, const double *) {
       for (const int k : band.at_node[node])
         if (!band.of_zone[k] && distance_between(x, &band.x[3 * k]) < half_width) alone = false;
     });
@@ -396,7 +395,7 @@ void OpenRows::check_seat(double *x, const Band &band) const
       error->one(FLERR,
                  "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",
                  owner, x[0], x[1], x[2]);
-  plane.near(x, half_width + plane.node_distance(), [&](int node, double) {
+  plane.near(x, half_width + plane.node_distance(), [&](int node, const double *) {
     for (const int k : band.at_node[node])
       if (distance_between(x, &band.x[3 * k]) < APART * half_width)
         error->one(FLERR, "{}: at {:g} {:g} {:g}, where a particle enters, there is another one",

@@ -42,7 +42,8 @@ namespace SPHDissipation {
 
     // finds distance and width of the rows, from the particles of the zone, if they are not known
     void init(double support);
-    double largest_spacing() const;    // now
+    double width() const { return 2.0 * half_width; }    // of a row
+    double largest_spacing() const;                      // now
 
     // particles have moved along the normal, by this at most, since renew()
     void note_motion(double most) { moved += most; }
@@ -55,7 +56,6 @@ namespace SPHDissipation {
     static constexpr int NSTATE = 3;
     void pack(double *) const;    // for the restart file
     void unpack(const double *);
-    void forget() { spacing = half_width = 0.0; }
 
    private:
     const std::string owner;

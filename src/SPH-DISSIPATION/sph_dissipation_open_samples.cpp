@@ -19,23 +19,6 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-static constexpr int NSUM = sizeof(NodeSum) / sizeof(double);
-
-/* ----------------------------------------------------------------------
-   least squares; of one layer of particles only the mean is known
-------------------------------------------------------------------------- */
-
-double SPHDissipation::continued(const NodeSum &node, double sum, double sum_d, double height,
-                                 int order)
-{
-  constexpr double THIN = 1.0e-3;    // variance of d over its square
-  const double mean = sum / node.weight, d = node.d / node.weight;
-  const double variance = node.d2 / node.weight - d * d;
-  if (order == 0 || !(variance > THIN * d * d)) return mean;
-  const double slope = (sum_d / node.weight - d * mean) / variance;
-  return mean + slope * (height - d);
-}
-
 /* ---------------------------------------------------------------------- */
 
 OpenSamples::OpenSamples(LAMMPS *lmp, const OpenPlane &plane) :
@@ -50,19 +33,50 @@ void OpenSamples::init(double averaging_time_in, double memory_in)
   averaging_time = averaging_time_in;
   memory = memory_in;
   const std::size_t n = plane.nnodes();
-  if (mean.size() != NMEAN * n) {
-    mean.assign(NMEAN * n, 0.0);
+  if (nodes.size() != n) {
+    nodes.assign(n, Node());
     history.clear();
   }
-  sums.assign(n, NodeSum());
-  my_sums.assign(n, NodeSum());
+  sums.assign(n, Sums());
+  my_sums.assign(n, Sums());
 }
 
 /* ---------------------------------------------------------------------- */
 
 void OpenSamples::begin()
 {
-  std::fill(my_sums.begin(), my_sums.end(), NodeSum());
+  std::fill(my_sums.begin(), my_sums.end(), Sums());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenSamples::add(const double *x, double height, double volume, const OpenSample &sample,
+                      Kernel kernel, double radius)
+{
+  const auto *const value = reinterpret_cast<const double *>(&sample);
+  with_kernel(kernel, [&](auto k) {
+    plane.near(x, radius, [&](int node, const double *l) {
+      const double q = sqrt(height * height + l[0] * l[0] + l[1] * l[1]) / radius;
+      if (q >= 1.0) return;
+      const double weight = volume * k.shape(q);
+      Sums &sum = my_sums[node];
+      sum.weight += weight;
+      sum.d += weight * height;
+      sum.dd += weight * height * height;
+      for (int a = 0; a < 2; a++) {
+        sum.l[a] += weight * l[a];
+        sum.ll[a] += weight * l[a] * l[a];
+      }
+      sum.ll[2] += weight * l[0] * l[1];
+      for (int v = 0; v < NVALUE; v++) {
+        const double part = weight * value[v];
+        sum.value[v] += part;
+        sum.value_d[v] += part * height;
+        for (int a = 0; a < 2; a++) sum.value_l[v][a] += part * l[a];
+      }
+    });
+    return 0;
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -72,69 +86,114 @@ void OpenSamples::begin()
 
 void OpenSamples::finish(double time)
 {
-  MPI_Allreduce(my_sums.data(), sums.data(), NSUM * plane.nnodes(), MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(my_sums.data(), sums.data(),
+                static_cast<int>(sizeof(Sums) / sizeof(double)) * plane.nnodes(), MPI_DOUBLE,
+                MPI_SUM, world);
 
   bool repeated = false;
   while (!history.empty() && history.back().time >= time) {
     history.pop_back();
-    repeated = !history.empty();
+    repeated = true;
   }
-  if (!repeated) update_means(history.empty() ? 0.0 : time - history.back().time);
+  double part = 1.0;
+  if (!history.empty())
+    part = repeated ? 0.0 : 1.0 - exp((history.back().time - time) / averaging_time);
 
-  history.push_back({time, std::vector<double>(sums.size(), 0.0)});
-  for (std::size_t n = 0; n < sums.size(); n++)
-    if (sums[n].weight > 0.0) history.back().wave[n] = sums[n].wave / sums[n].weight;
+  history.push_back({time, std::vector<double>(nodes.size(), 0.0)});
+  for (std::size_t n = 0; n < nodes.size(); n++) {
+    Node &node = nodes[n];
+    node.weight = sums[n].weight;
+    if (!(node.weight > 0.0)) continue;
+    fit(sums[n], node);
+    for (int v = 0; v < NVALUE; v++) node.mean[v] += part * (node.value[v] - node.mean[v]);
+    history.back().wave[n] = node.value[0];
+  }
   while (history.size() > 2 && history[1].time <= time - memory) history.pop_front();
 }
 
 /* ----------------------------------------------------------------------
-   exponential averages, as long as the time that has been sampled, at most averaging_time
+   least squares: along the plane, so that next to a wall, where there is fluid on one side only, a
+   linear profile is found as it is, and along the normal.  No slope where the fluid is too thin.
 ------------------------------------------------------------------------- */
 
-void OpenSamples::update_means(double elapsed)
+void OpenSamples::fit(const Sums &sum, Node &node) const
 {
-  const double part = history.empty() ? 1.0 : 1.0 - exp(-elapsed / averaging_time);
-  for (std::size_t n = 0; n < sums.size(); n++) {
-    if (!(sums[n].weight > 0.0)) continue;
-    const double now[NMEAN] = {sums[n].u[0], sums[n].u[1], sums[n].u[2], sums[n].p};
-    for (int k = 0; k < NMEAN; k++)
-      mean[NMEAN * n + k] += part * (now[k] / sums[n].weight - mean[NMEAN * n + k]);
+  constexpr double THIN = 1.0e-4;    // variance over the square of the distance of nodes
+  const double norm = 1.0 / sum.weight;
+  const double least = THIN * plane.node_distance() * plane.node_distance();
+  const double l[2] = {sum.l[0] * norm, sum.l[1] * norm}, d = sum.d * norm;
+  double a = sum.ll[0] * norm - l[0] * l[0], b = sum.ll[1] * norm - l[1] * l[1];
+  double c = sum.ll[2] * norm - l[0] * l[1];
+  const bool first = a > least, second = b > least;
+  if (!first || !second) c = 0.0;
+  if (!first) a = 1.0;
+  if (!second) b = 1.0;
+  const double det = a * b - c * c;
+  const double variance = sum.dd * norm - d * d;
+  node.distance = d;
+  for (int v = 0; v < NVALUE; v++) {
+    const double mean = sum.value[v] * norm;
+    const double along0 = first ? sum.value_l[v][0] * norm - mean * l[0] : 0.0;
+    const double along1 = second ? sum.value_l[v][1] * norm - mean * l[1] : 0.0;
+    const double slope0 = (b * along0 - c * along1) / det, slope1 = (a * along1 - c * along0) / det;
+    node.value[v] = mean - slope0 * l[0] - slope1 * l[1];
+    node.slope[v] = (variance > least) ? (sum.value_d[v] * norm - mean * d) / variance : 0.0;
   }
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   function(node, weight) for the nodes with fluid around a place; returns the sum of their weights
+------------------------------------------------------------------------- */
 
-NodeSum OpenSamples::at(const Spot &spot) const
+template <class Function>
+double OpenSamples::interpolate(const Spot &spot, Function &&function) const
 {
-  NodeSum total = NodeSum();
-  auto *const to = reinterpret_cast<double *>(&total);
+  double total = 0.0;
   for (int c = 0; c < spot.n; c++) {
-    const auto *const from = reinterpret_cast<const double *>(&sums[spot.node[c]]);
-    for (int k = 0; k < NSUM; k++) to[k] += spot.weight[c] * from[k];
+    if (!(nodes[spot.node[c]].weight > 0.0)) continue;
+    function(spot.node[c], spot.weight[c]);
+    total += spot.weight[c];
   }
   return total;
 }
 
 /* ---------------------------------------------------------------------- */
 
-double OpenSamples::distance(const Spot &spot) const
+bool OpenSamples::now(const Spot &spot, double height, int order, OpenSample &result) const
 {
-  double total = 0.0, weight = 0.0;
-  for (int c = 0; c < spot.n; c++) {
-    total += spot.weight[c] * sums[spot.node[c]].d;
-    weight += spot.weight[c] * sums[spot.node[c]].weight;
-  }
-  return (weight > 0.0) ? total / weight : 0.0;
+  double value[NVALUE] = {};
+  const double total = interpolate(spot, [&](int n, double weight) {
+    const Node &node = nodes[n];
+    const double ahead = (order > 0) ? height - node.distance : 0.0;
+    for (int v = 0; v < NVALUE; v++) value[v] += weight * (node.value[v] + ahead * node.slope[v]);
+  });
+  if (!(total > 0.0)) return false;
+  auto *const to = reinterpret_cast<double *>(&result);
+  for (int v = 0; v < NVALUE; v++) to[v] = value[v] / total;
+  return true;
 }
 
 /* ---------------------------------------------------------------------- */
 
+bool OpenSamples::average(const Spot &spot, OpenSample &result) const
+{
+  double value[NVALUE] = {};
+  const double total = interpolate(spot, [&](int n, double weight) {
+    for (int v = 0; v < NVALUE; v++) value[v] += weight * nodes[n].mean[v];
+  });
+  if (!(total > 0.0)) return false;
+  auto *const to = reinterpret_cast<double *>(&result);
+  for (int v = 0; v < NVALUE; v++) to[v] = value[v] / total;
+  return true;
+}
+
+/* ----------------------------------------------------------------------
+   between two times that are known, or at the first or the last one
+------------------------------------------------------------------------- */
+
 double OpenSamples::wave(const Spot &spot, double time) const
 {
   if (history.empty()) return 0.0;
-
-  // between two times that are known, or the first or the last one
-
   const auto after =
       std::lower_bound(history.begin(), history.end(), time, [](const Past &past, double t) {
         return past.time < t;
@@ -143,63 +202,60 @@ double OpenSamples::wave(const Spot &spot, double time) const
   const Past &a = (after == history.end() || after == history.begin()) ? b : *(after - 1);
   const double part = (b.time > a.time) ? (time - a.time) / (b.time - a.time) : 0.0;
 
-  double total = 0.0, weight = 0.0;
-  for (int c = 0; c < spot.n; c++) {
-    const int node = spot.node[c];
-    const double here = spot.weight[c] * sums[node].weight;
-    total += here * (a.wave[node] + part * (b.wave[node] - a.wave[node]));
-    weight += here;
-  }
-  return (weight > 0.0) ? total / weight : 0.0;
+  double value = 0.0;
+  const double total = interpolate(spot, [&](int n, double weight) {
+    value += weight * (a.wave[n] + part * (b.wave[n] - a.wave[n]));
+  });
+  return (total > 0.0) ? value / total : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenSamples::average(const Spot &spot, double *u, double &p) const
+double OpenSamples::distance(const Spot &spot) const
 {
-  double total[NMEAN] = {0.0, 0.0, 0.0, 0.0}, weight = 0.0;
-  for (int c = 0; c < spot.n; c++) {
-    const int node = spot.node[c];
-    const double part = spot.weight[c] * sums[node].weight;
-    for (int k = 0; k < NMEAN; k++) total[k] += part * mean[NMEAN * node + k];
-    weight += part;
-  }
-  if (!(weight > 0.0)) return;
-  for (int d = 0; d < 3; d++) u[d] = total[d] / weight;
-  p = total[3] / weight;
+  double value = 0.0;
+  const double total = interpolate(spot, [&](int n, double weight) {
+    value += weight * nodes[n].distance;
+  });
+  return (total > 0.0) ? value / total : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void OpenSamples::mean_at_plane(double *p, double *u) const
 {
-  double weight = 0.0;
+  double total = 0.0;
   *p = u[0] = u[1] = u[2] = 0.0;
-  for (const auto &node : sums) {
-    weight += node.weight;
-    *p += node.p;
-    for (int d = 0; d < 3; d++) u[d] += node.u[d];
+  for (const auto &sum : sums) {
+    OpenSample value;
+    std::copy_n(sum.value, static_cast<int>(NVALUE), reinterpret_cast<double *>(&value));
+    total += sum.weight;
+    *p += value.p;
+    for (int d = 0; d < 3; d++) u[d] += value.u[d];
   }
-  if (!(weight > 0.0)) return;
-  *p /= weight;
-  for (int d = 0; d < 3; d++) u[d] /= weight;
+  if (!(total > 0.0)) return;
+  *p /= total;
+  for (int d = 0; d < 3; d++) u[d] /= total;
 }
 
 /* ---------------------------------------------------------------------- */
 
 double OpenSamples::memory_usage() const
 {
-  return static_cast<double>((2 * NSUM + NMEAN + history.size()) * sums.size() * sizeof(double));
+  return static_cast<double>(nodes.size() *
+                             (2 * sizeof(Sums) + sizeof(Node) + history.size() * sizeof(double)));
 }
 
 /* ---------------------------------------------------------------------- */
 
 std::vector<double> OpenSamples::pack() const
 {
-  const std::size_t n = plane.nnodes();
-  std::vector<double> buf = {static_cast<double>(n), static_cast<double>(history.size())};
-  for (const auto &one : sums) buf.insert(buf.end(), {one.weight, one.d});
-  buf.insert(buf.end(), mean.begin(), mean.end());
+  std::vector<double> buf = {static_cast<double>(nodes.size()),
+                             static_cast<double>(history.size())};
+  for (const auto &node : nodes) {
+    const auto *const from = reinterpret_cast<const double *>(&node);
+    buf.insert(buf.end(), from, from + sizeof(Node) / sizeof(double));
+  }
   for (const auto &past : history) {
     buf.push_back(past.time);
     buf.insert(buf.end(), past.wave.begin(), past.wave.end());
@@ -209,19 +265,18 @@ std::vector<double> OpenSamples::pack() const
 
 /* ---------------------------------------------------------------------- */
 
-bool OpenSamples::unpack(const double *buf, int nbuf)
+bool OpenSamples::unpack(const std::vector<double> &state)
 {
-  const std::size_t n = sums.size();
-  if (nbuf < 2 || static_cast<std::size_t>(buf[0]) != n) return false;
-  const auto npast = static_cast<std::size_t>(buf[1]);
-  if (static_cast<std::size_t>(nbuf) != 2 + n * (2 + NMEAN) + npast * (1 + n)) return false;
-  buf += 2;
-  for (auto &one : sums) {
-    one.weight = *buf++;
-    one.d = *buf++;
+  constexpr std::size_t WIDTH = sizeof(Node) / sizeof(double);
+  const std::size_t n = nodes.size();
+  if (state.size() < 2 || static_cast<std::size_t>(state[0]) != n) return false;
+  const auto npast = static_cast<std::size_t>(state[1]);
+  if (state.size() != 2 + n * WIDTH + npast * (1 + n)) return false;
+  const double *buf = state.data() + 2;
+  for (auto &node : nodes) {
+    std::copy_n(buf, WIDTH, reinterpret_cast<double *>(&node));
+    buf += WIDTH;
   }
-  mean.assign(buf, buf + NMEAN * n);
-  buf += NMEAN * n;
   history.clear();
   for (std::size_t k = 0; k < npast; k++, buf += n + 1)
     history.push_back({buf[0], std::vector<double>(buf + 1, buf + 1 + n)});

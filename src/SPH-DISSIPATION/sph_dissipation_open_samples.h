@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_OPEN_SAMPLES_H
 
 #include "pointers.h"
+#include "sph_dissipation_kernel.h"
 #include "sph_dissipation_open_plane.h"
 
 #include <deque>
@@ -23,24 +24,17 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // What the fluid does at the plane of an open zone, at the nodes on it: sums over the fluid within a
-  // radius, weighted with the kernel and the volumes; the waves that have left through it; averages
-  // over time.  The same on all processors.
+  // what is measured of the fluid
 
-  // weighted sum of a node; d = distance of a fluid particle from the plane, u = its velocity
-
-  struct NodeSum {
-    double weight;         // 1
-    double d, d2;          // d, d^2
-    double wave;           // J = rho c u' + p', see sph_dissipation_characteristics.h
-    double p, pd;          // pressure, times d
-    double u[3], ud[3];    // velocity, times d
+  struct OpenSample {
+    double wave;    // J = rho c u' + p', see sph_dissipation_characteristics.h
+    double p;       // pressure
+    double u[3];    // velocity
   };
 
-  // a quantity at a height over the plane, < 0 in the zone, from its sums; order 1: with its slope, as
-  // far as that is known
-
-  double continued(const NodeSum &, double sum, double sum_d, double height, int order);
+  // What the fluid does at the plane of an open zone, at the nodes on it: linear fits to the fluid
+  // within a radius, weighted with the kernel and the volumes; the waves that have left through it;
+  // averages over time.  The same on all processors.
 
   class OpenSamples : protected Pointers {
    public:
@@ -50,41 +44,59 @@ namespace SPHDissipation {
 
     void init(double averaging_time, double memory);    // memory: longest lag, time units
 
-    // sums of this step: begin(); sum() for each owned particle of the fluid; finish(), until which
+    // this step: begin(); add() for each owned particle of the fluid; finish(), until which
     // what is asked for below is that of the step before
     void begin();
-    NodeSum &sum(int node) { return my_sums[node]; }
+    void add(const double *x, double height, double volume, const OpenSample &, Kernel,
+             double radius);
     void finish(double time);
 
-    // at the place of a zone particle on the plane
+    // at a place, behind the plane or not; false: no fluid there
 
-    NodeSum at(const Spot &) const;                            // sums of now
-    double distance(const Spot &) const;                       // mean of d
-    double wave(const Spot &, double time) const;              // J at a time before
-    void average(const Spot &, double *u, double &p) const;    // over time, of u and pressure
-    void mean_at_plane(double *p, double *u) const;            // of all nodes, now
+    bool now(const Spot &, double height, int order, OpenSample &) const;    // order 1: with slope
+    bool average(const Spot &, OpenSample &) const;                          // over time
+    double wave(const Spot &, double time) const;                            // J at a time before
+    double distance(const Spot &) const;    // mean distance of what is measured from the plane
+
+    void mean_at_plane(double *p, double *u) const;    // of all nodes, now
     bool any() const { return !history.empty(); }
 
     double memory_usage() const;    // bytes
 
     // state in a restart file
     std::vector<double> pack() const;
-    bool unpack(const double *, int n);    // false if it is of other nodes
+    bool unpack(const std::vector<double> &);    // false if it is of other nodes
 
    private:
+    static constexpr int NVALUE = sizeof(OpenSample) / sizeof(double);
+
+    // weighted sums of a node over the fluid; l = place along the plane from there, d = height
+
+    struct Sums {
+      double weight, l[2], ll[3], d, dd;    // ll: l0 l0, l1 l1, l0 l1
+      double value[NVALUE], value_l[NVALUE][2], value_d[NVALUE];
+    };
+
+    struct Node {
+      double weight, distance;    // of what is measured from the plane
+      double value[NVALUE];       // at the node and that distance
+      double slope[NVALUE];       // along the normal
+      double mean[NVALUE];        // over time
+    };
+
     struct Past {
       double time;
       std::vector<double> wave;    // of the nodes
     };
-    static constexpr int NMEAN = 4;    // u and pressure
 
     const OpenPlane &plane;
     double averaging_time, memory;
-    std::vector<NodeSum> sums, my_sums;
-    std::vector<double> mean;    // NMEAN of each node
+    std::vector<Sums> my_sums, sums;
+    std::vector<Node> nodes;
     std::deque<Past> history;    // the oldest first
 
-    void update_means(double elapsed);
+    void fit(const Sums &, Node &) const;
+    template <class Function> double interpolate(const Spot &, Function &&function) const;
   };
 
 }    // namespace SPHDissipation

@@ -15,8 +15,8 @@ MANUAL_PAGES = frozenset("""
     Build_package Howto_2d Howto_output Howto_triclinic Howto_viscosity Modify_style
     atom_modify atom_style balance boundary comm_modify comm_style compute compute_ke compute_pair compute_pe_atom
     compute_pressure compute_property_atom compute_stress_atom create_atoms dimension dump
-    fix fix_adapt fix_deform fix_modify fix_move fix_nve fix_setforce fix_sph fix_sph_stationary lattice mass
-    minimize neigh_modify newton pair_coeff pair_hybrid pair_modify pair_sph_idealgas
+    fix fix_adapt fix_deform fix_deposit fix_modify fix_move fix_nve fix_setforce fix_sph fix_sph_stationary lattice mass
+    minimize neigh_modify neighbor newton pair_coeff pair_hybrid pair_modify pair_sph_idealgas
     pair_sph_rhosum pair_sph_taitwater pair_sph_taitwater_morris pair_style pair_write
     plugin read_data read_restart replicate rerun restart run run_style set special_bonds thermo_style timestep
     units velocity write_data write_restart
