@@ -11,6 +11,8 @@ if(NOT PKG_SPH-DISSIPATION)
   return()
 endif()
 
+option(SPH_DISSIPATION_FFT "Compute sph/spectrum: without the KSPACE package, compile the FFTs of KSPACE alone" ON)
+
 get_filename_component(SPH_DISSIPATION_SOURCE_DIR "${CMAKE_CURRENT_LIST_DIR}/../src/SPH-DISSIPATION" ABSOLUTE)
 
 function(sph_dissipation_check_lammps_version)
@@ -42,6 +44,18 @@ function(sph_dissipation_add_sources)
   target_include_directories(lammps PRIVATE "${SPH_DISSIPATION_SOURCE_DIR}")
 endfunction()
 
+# compute sph/spectrum needs the distributed FFTs of KSPACE and finds their headers in the include path if they are there.
+# The package's own file for CMake looks for FFTW3 (else LAMMPS has an FFT of its own) and has the options FFT, FFT_SINGLE, ...
+function(sph_dissipation_add_ffts)
+  if(PKG_KSPACE OR NOT SPH_DISSIPATION_FFT)
+    return()
+  endif()
+  set(kspace "${LAMMPS_SOURCE_DIR}/KSPACE")
+  target_sources(lammps PRIVATE ${kspace}/fft3d.cpp ${kspace}/fft3d_wrap.cpp ${kspace}/remap.cpp ${kspace}/remap_wrap.cpp)
+  target_include_directories(lammps PRIVATE "${kspace}")
+  include(Packages/KSPACE)
+endfunction()
+
 # LAMMPS lists only packages of its own as installed ("lmp -h", lammps_config_has_package()).
 function(sph_dissipation_add_to_installed_packages)
   set(header "${LAMMPS_STYLE_HEADERS_DIR}/lmpinstalledpkgs.h")
@@ -54,4 +68,5 @@ sph_dissipation_check_lammps_version()
 include("${CMAKE_CURRENT_SOURCE_DIR}/Modules/StyleHeaderUtils.cmake")
 RegisterStyles("${SPH_DISSIPATION_SOURCE_DIR}")
 cmake_language(DEFER CALL sph_dissipation_add_sources)
+cmake_language(DEFER CALL sph_dissipation_add_ffts)
 cmake_language(DEFER CALL sph_dissipation_add_to_installed_packages)

@@ -395,6 +395,12 @@ bool PairSPHBulk::has_type(int type) const
   return !model->coeffs[type].other;
 }
 
+double PairSPHBulk::bulk_viscosity(int type) const
+{
+  return (model->choice.bulk == Bulk::NONE) ? intrinsic_kappa_of(type, type)
+                                            : model->coeffs[type].kappa;
+}
+
 void PairSPHBulk::check_pair(int i, int j)
 {
   if (model->choice.shear == Shear::NONE && model->viscosity(0, i, j) != 0.0)

@@ -111,6 +111,7 @@ class PairSPHBulk : public Pair {
   double reference_density(int) const;     // of a type
   bool has_type(int) const;                // particles of a type are of this fluid
   const SPHDissipation::FluidModel &fluid() const { return *model; }
+  double bulk_viscosity(int) const;    // of a type, in effect in the last force computation
 
  protected:
   class StressTally;

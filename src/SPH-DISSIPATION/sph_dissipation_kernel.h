@@ -29,6 +29,8 @@
 // 2 and 3 dimensions for every n.  Lucy: Astron. J. 82, 1013 (1977).  Splines: J. J. Monaghan,
 // Rep. Prog. Phys. 68, 1703 (2005).
 
+#include <cmath>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
@@ -140,6 +142,22 @@ namespace SPHDissipation {
                                 });
                        }) /
         (support * support);
+  }
+
+  // Fourier transform of W, the integral of W(r) exp(i k.r): 1 for k = 0.  Of a shell of radius r it is
+  // cos(k r), J_0(k r), sin(k r)/(k r) in 1, 2, 3 dimensions.
+
+  inline double kernel_transform(Kernel kernel, int n, double k, double support)
+  {
+    return with_kernel(kernel, [=](auto shape) {
+      return shape.norm(n) * unit_ball_integral(n, [=](double q) {
+               const double kr = k * support * q;
+               const double wave = (n == 1) ? std::cos(kr)
+                   : (n == 2)               ? ::j0(kr)
+                                            : (kr > 0.0 ? std::sin(kr) / kr : 1.0);
+               return wave * shape.shape(q);
+             });
+    });
   }
 
 }    // namespace SPHDissipation

@@ -1,0 +1,333 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "compute_sph_spectrum.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "memory.h"
+#include "pair_sph_bulk.h"
+#include "sph_dissipation_fft.h"
+#include "sph_dissipation_grid.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_spectrum.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+// columns of the array, elements of the vector
+
+enum { WAVE, MODES, SOLENOIDAL, DILATATIONAL, ENSTROPHY, DENSITY, KINETIC, SPIN, NCOLUMN };
+enum {
+  SUM_SOLENOIDAL,
+  SUM_DILATATIONAL,
+  CURL2,
+  DIV2,
+  POWER_CURL,
+  POWER_DIV,
+  DENSITY2,
+  SUM_KINETIC,
+  SUM_SPIN,
+  NTOTAL
+};
+
+// fields of the modes: velocity, density, velocity times the root of the density, spin
+
+enum { U = 0, RHO = 3, ROOT = 4, OMEGA = 7, NFIELD = 10 };
+
+/* ---------------------------------------------------------------------- */
+
+ComputeSPHSpectrum::ComputeSPHSpectrum(LAMMPS *lmp, int narg, char **arg) :
+    GridCompute(lmp, narg, arg), deconvolve(false), nshell(0),
+    micropolar(atom->style_match("sph/micropolar") != nullptr), checked(false), raised_box()
+{
+  if (!FourierGrid::available())
+    error->all(FLERR,
+               "Compute {} needs the FFTs of the KSPACE package: build LAMMPS with it, then "
+               "SPH-DISSIPATION",
+               style);
+
+  int iarg = 6;
+  while (iarg < narg) {
+    if (order_keyword(iarg, narg, arg)) continue;
+    if (strcmp(arg[iarg], "deconvolve") != 0 && strcmp(arg[iarg], "shells") != 0)
+      error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[iarg]);
+    if (iarg + 2 > narg)
+      utils::missing_cmd_args(FLERR, fmt::format("compute {} {}", style, arg[iarg]), error);
+    if (strcmp(arg[iarg], "deconvolve") == 0)
+      deconvolve = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+    else {
+      nshell = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (nshell < 1) error->all(FLERR, "Compute {} shells must be at least 1", style);
+    }
+    iarg += 2;
+  }
+
+  for (const char *name : {"vx", "vy", "vz", "rho"}) add_value(name);
+  if (micropolar)
+    for (const char *name : {"omegax", "omegay", "omegaz"}) add_value(name);
+
+  vector_flag = array_flag = 1;
+  extvector = extarray = 0;
+  size_vector = NTOTAL;
+  size_array_rows = 1 + (nshell ? nshell : last_shell());
+  size_array_cols = NCOLUMN;
+  vector = new double[NTOTAL];
+  memory->create(array, size_array_rows, size_array_cols, "sph/spectrum:array");
+  fourier = std::make_unique<FourierGrid>(lmp, *grid);
+}
+
+/* ---------------------------------------------------------------------- */
+
+ComputeSPHSpectrum::~ComputeSPHSpectrum()
+{
+  delete[] vector;
+  memory->destroy(array);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeSPHSpectrum::init()
+{
+  GridCompute::init();
+  if (domain->nonperiodic)
+    error->all(FLERR, "Compute {} needs a box that is periodic in all directions", style);
+
+  // waves shorter than two spacings of the grid cannot be told from longer ones
+
+  double shortest = KERNEL_PI * count[0] / domain->prd[0];
+  for (int d = 1; d < domain->dimension; d++)
+    shortest = std::min(shortest, KERNEL_PI * count[d] / domain->prd[d]);
+  const int most = static_cast<int>(shortest / shell_width() * (1.0 + 1.0e-12));
+  if (nshell > most)
+    error->all(FLERR, "Compute {}: the grid is too coarse for {} shells, it has {}", style, nshell,
+               most);
+
+  const double points = static_cast<double>(count[0]) * count[1] * count[2];
+  if (points > static_cast<double>(atom->natoms) && !checked && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Compute {}: the grid has {:.0f} points for {} particles: its shortest waves are "
+        "interpolated, not simulated",
+        style, points, atom->natoms);
+  checked = true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeSPHSpectrum::reset_grid()
+{
+  GridCompute::reset_grid();
+  fourier = std::make_unique<FourierGrid>(lmp, *grid);
+  raise.clear();
+}
+
+/* ----------------------------------------------------------------------
+   shell s has the wave numbers from (s - 1/2) to (s + 1/2) shell widths
+------------------------------------------------------------------------- */
+
+double ComputeSPHSpectrum::shell_width() const
+{
+  double longest = domain->prd[0];
+  for (int d = 1; d < domain->dimension; d++) longest = std::max(longest, domain->prd[d]);
+  return 2.0 * KERNEL_PI / longest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int ComputeSPHSpectrum::last_shell() const
+{
+  double ksq = 0.0;
+  for (int d = 0; d < domain->dimension; d++) {
+    const double k = wave_number(count[d] / 2, count[d], domain->prd[d]);
+    ksq += k * k;
+  }
+  return static_cast<int>(std::sqrt(ksq) / shell_width() + 0.5);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeSPHSpectrum::compute_vector()
+{
+  calculate();
+}
+
+void ComputeSPHSpectrum::compute_array()
+{
+  calculate();
+}
+
+/* ----------------------------------------------------------------------
+   vector and array at once, valid for both
+------------------------------------------------------------------------- */
+
+void ComputeSPHSpectrum::calculate()
+{
+  invoked_vector = invoked_array = update->ntimestep;
+  invoked_flag |= INVOKED_VECTOR | INVOKED_ARRAY;
+
+  const bigint empty = map();
+  if (empty)
+    error->all(FLERR, "Compute {}: {} points of the grid have no particle in reach", style, empty);
+  transform_fields();
+  set_raise(find_pair()->support_radius());
+  sum_modes();
+  set_dissipation();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeSPHSpectrum::transform_fields()
+{
+  const bigint npoint = grid->npoint();
+  modes.resize(micropolar ? NFIELD : OMEGA);
+  for (auto &mode : modes) mode.resize(npoint);
+  for (int k = 0; k <= RHO; k++) fourier->transform(grid->field(k), modes[k].data());
+  if (micropolar)
+    for (int d = 0; d < 3; d++)
+      fourier->transform(grid->field(RHO + 1 + d), modes[OMEGA + d].data());
+
+  // energy per volume is the square of sqrt(rho/2) u
+
+  std::vector<double> product(npoint);
+  const double *const rho = grid->field(RHO);
+  for (int d = 0; d < 3; d++) {
+    const double *const u = grid->field(U + d);
+    for (bigint m = 0; m < npoint; m++) product[m] = std::sqrt(std::max(rho[m], 0.0)) * u[m];
+    fourier->transform(product.data(), modes[ROOT + d].data());
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeSPHSpectrum::set_raise(double support)
+{
+  const double *const prd = domain->prd;
+  if (!deconvolve || (!raise.empty() && std::equal(prd, prd + 3, raised_box))) return;
+  std::copy(prd, prd + 3, raised_box);
+  raise.clear();
+  raise.reserve(grid->npoint());
+  const Kernel kernel = find_pair()->fluid().choice.kernel;
+  for (int iz = grid->lo[2]; iz <= grid->hi[2]; iz++)
+    for (int iy = grid->lo[1]; iy <= grid->hi[1]; iy++)
+      for (int ix = grid->lo[0]; ix <= grid->hi[0]; ix++) {
+        const double kx = wave_number(ix, count[0], prd[0]), ky = wave_number(iy, count[1], prd[1]),
+                     kz = wave_number(iz, count[2], prd[2]);
+        raise.push_back(deconvolution(kernel, domain->dimension,
+                                      std::sqrt(kx * kx + ky * ky + kz * kz), support));
+      }
+}
+
+/* ----------------------------------------------------------------------
+   totals, and sums of each shell over its width
+------------------------------------------------------------------------- */
+
+void ComputeSPHSpectrum::sum_modes()
+{
+  const double width = shell_width();
+  std::vector<double> own(NTOTAL + size_array_rows * NCOLUMN, 0.0), all(own.size());
+  double *const total = own.data();
+  auto square = [this](int field, bigint m) {
+    return std::norm(modes[field][m]) + std::norm(modes[field + 1][m]) +
+        std::norm(modes[field + 2][m]);
+  };
+
+  bigint m = 0;
+  for (int iz = grid->lo[2]; iz <= grid->hi[2]; iz++)
+    for (int iy = grid->lo[1]; iy <= grid->hi[1]; iy++)
+      for (int ix = grid->lo[0]; ix <= grid->hi[0]; ix++, m++) {
+        const double k[3] = {wave_number(ix, count[0], domain->prd[0]),
+                             wave_number(iy, count[1], domain->prd[1]),
+                             wave_number(iz, count[2], domain->prd[2])};
+        const Amplitude u[3] = {modes[U][m], modes[U + 1][m], modes[U + 2][m]};
+        const double factor = deconvolve ? raise[m] : 1.0;
+        const ModeEnergies mode = split(k, u);
+        double column[NCOLUMN];
+        column[MODES] = 1.0;
+        column[SOLENOIDAL] = factor * mode.solenoidal;
+        column[DILATATIONAL] = factor * mode.dilatational;
+        column[ENSTROPHY] = 0.5 * factor * mode.curl2;
+        column[DENSITY] = factor * std::norm(modes[RHO][m]);
+        column[KINETIC] = 0.5 * factor * square(ROOT, m);
+        column[SPIN] = micropolar ? 0.5 * factor * square(OMEGA, m) : 0.0;
+
+        const double ksq = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
+        total[SUM_KINETIC] += column[KINETIC];
+        total[SUM_SPIN] += column[SPIN];
+        if (ksq > 0.0) {    // all but the means
+          total[SUM_SOLENOIDAL] += column[SOLENOIDAL];
+          total[SUM_DILATATIONAL] += column[DILATATIONAL];
+          total[CURL2] += factor * mode.curl2;
+          total[DIV2] += factor * mode.div2;
+          total[DENSITY2] += column[DENSITY];
+        }
+
+        // all shells: what a box that has changed puts beyond the last one belongs to that
+
+        int shell = static_cast<int>(std::sqrt(ksq) / width + 0.5);
+        if (!nshell) shell = std::min(shell, size_array_rows - 1);
+        if (shell >= size_array_rows) continue;
+        double *const row = &own[NTOTAL + shell * NCOLUMN];
+        for (int c = MODES; c < NCOLUMN; c++) row[c] += column[c];
+      }
+
+  MPI_Allreduce(own.data(), all.data(), static_cast<int>(own.size()), MPI_DOUBLE, MPI_SUM, world);
+  std::copy(all.begin(), all.begin() + NTOTAL, vector);
+  for (int shell = 0; shell < size_array_rows; shell++) {
+    const double *const row = &all[NTOTAL + shell * NCOLUMN];
+    array[shell][WAVE] = shell * width;
+    array[shell][MODES] = row[MODES];
+    for (int c = SOLENOIDAL; c < NCOLUMN; c++) array[shell][c] = row[c] / width;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeSPHSpectrum::set_dissipation()
+{
+  // largest and smallest values, of all particles of all processors
+
+  const auto *pair = find_pair();
+  double own[4] = {-1.0, -1.0, -HUGE_VAL, -HUGE_VAL}, most[4];
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_mapped(pair, i)) continue;
+    const double mu = pair->fluid().viscosity(0, atom->type[i], atom->type[i]);
+    const double kappa = pair->bulk_viscosity(atom->type[i]);
+    own[0] = std::max(own[0], mu);
+    own[1] = std::max(own[1], kappa);
+    own[2] = std::max(own[2], -mu);
+    own[3] = std::max(own[3], -kappa);
+  }
+  MPI_Allreduce(own, most, 4, MPI_DOUBLE, MPI_MAX, world);
+  if (most[0] != -most[2] || most[1] != -most[3])
+    error->all(FLERR,
+               "Compute {} needs one viscosity, but mu is from {} to {} and kappa from {} to {}",
+               style, -most[2], most[0], -most[3], most[1]);
+  vector[POWER_CURL] = most[0] * vector[CURL2];
+  vector[POWER_DIV] = longitudinal_viscosity(most[0], most[1], domain->dimension) * vector[DIV2];
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeSPHSpectrum::memory_usage()
+{
+  return GridCompute::memory_usage() + fourier->memory_usage() +
+      (double) modes.size() * grid->npoint() * sizeof(Amplitude) + raise.size() * sizeof(double);
+}

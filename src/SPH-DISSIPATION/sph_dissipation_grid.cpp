@@ -1,0 +1,297 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_grid.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "grid2d.h"
+#include "grid3d.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+ParticleGrid::ParticleGrid(LAMMPS *lmp, const int *count_) :
+    Pointers(lmp), count{count_[0], count_[1], count_[2]}, lo(), hi(), ghost_lo(), ghost_hi(),
+    dim(domain->dimension), points(1), grid2d(nullptr), grid3d(nullptr), origin(), spacing()
+{
+  if (dim == 2) {
+    grid2d = new Grid2d(lmp, world, count[0], count[1]);
+    grid2d->setup_grid(lo[0], hi[0], lo[1], hi[1], ghost_lo[0], ghost_hi[0], ghost_lo[1],
+                       ghost_hi[1]);
+  } else {
+    grid3d = new Grid3d(lmp, world, count[0], count[1], count[2]);
+    grid3d->setup_grid(lo[0], hi[0], lo[1], hi[1], lo[2], hi[2], ghost_lo[0], ghost_hi[0],
+                       ghost_lo[1], ghost_hi[1], ghost_lo[2], ghost_hi[2]);
+  }
+  for (int d = 0; d < 3; d++) points *= hi[d] - lo[d] + 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+ParticleGrid::~ParticleGrid()
+{
+  delete grid2d;
+  delete grid3d;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bigint ParticleGrid::map(const Smoothing &smoothing, double **values, int nfield)
+{
+  for (int d = 0; d < 3; d++) {
+    spacing[d] = domain->prd[d] / count[d];
+    origin[d] = domain->boxlo[d] + 0.5 * spacing[d];
+  }
+
+  // 1, r and r r of each point, if needed
+
+  const int nmoment = smoothing.linear ? 1 + dim + dim * (dim + 1) / 2 : 1;
+  moments.assign(nmoment, std::vector<double>(points, 0.0));
+  fields.assign(nfield, std::vector<double>(points, 0.0));
+  weight.resize(count[0]);
+  offset.resize(count[0]);
+
+  bigint empty = 0, empty_all;
+  with_kernel(smoothing.kernel, [&](auto shape) {
+    sum_moments<decltype(shape)>(smoothing, values);
+    empty = solve(smoothing.linear);
+    sum_fields<decltype(shape)>(smoothing, values, nfield);
+  });
+  MPI_Allreduce(&empty, &empty_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return empty_all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const double *ParticleGrid::field(int k) const
+{
+  return fields[k].data();
+}
+
+/* ----------------------------------------------------------------------
+   function(index of the first point, number of points, r) for the owned points around a place, row
+   by row; r = first point - place
+------------------------------------------------------------------------- */
+
+template <class Function>
+void ParticleGrid::near_rows(const double *place, double radius, Function &&function)
+{
+  double at[3] = {};    // in spacings
+  int from[3] = {}, to[3] = {};
+  for (int d = 0; d < dim; d++) {
+    at[d] = (place[d] - origin[d]) / spacing[d];
+    const double reach = radius / spacing[d];
+    if (at[d] + reach < lo[d] || at[d] - reach > hi[d]) return;
+    from[d] = std::max(lo[d], static_cast<int>(std::ceil(at[d] - reach)));
+    to[d] = std::min(hi[d], static_cast<int>(std::floor(at[d] + reach)));
+  }
+
+  const int nx = hi[0] - lo[0] + 1, ny = hi[1] - lo[1] + 1;
+  for (int iz = from[2]; iz <= to[2]; iz++)
+    for (int iy = from[1]; iy <= to[1]; iy++) {
+      double r[3] = {0.0, (iy - at[1]) * spacing[1], (dim == 3) ? (iz - at[2]) * spacing[2] : 0.0};
+      const double rest = radius * radius - r[1] * r[1] - r[2] * r[2];
+      if (rest <= 0.0) continue;
+      const double half = std::sqrt(rest) / spacing[0];
+      const int first = std::max(from[0], static_cast<int>(std::ceil(at[0] - half)));
+      const int last = std::min(to[0], static_cast<int>(std::floor(at[0] + half)));
+      if (last < first) continue;
+      r[0] = (first - at[0]) * spacing[0];
+      const bigint row = (static_cast<bigint>(iz - lo[2]) * ny + iy - lo[1]) * nx;
+      function(row + first - lo[0], last - first + 1, r);
+    }
+}
+
+/* ----------------------------------------------------------------------
+   V W (but for the norm of the kernel, which drops out) of the points of a row, and their distances
+   along it; lengths in support radii
+------------------------------------------------------------------------- */
+
+template <class KernelShape>
+void ParticleGrid::weigh_row(const Smoothing &smoothing, double volume, double first,
+                             double rsq_across, int n)
+{
+  const double scale = 1.0 / smoothing.support;
+  const double step = spacing[0] * scale;
+  double *const w = weight.data(), *const x = offset.data();
+  for (int m = 0; m < n; m++) {
+    x[m] = first + m * step;
+    const double q = std::sqrt(x[m] * x[m] + rsq_across);
+    w[m] = volume * KernelShape::shape(q < 1.0 ? q : 1.0);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   1, r, r r of the particles around each point, r = particle - point in support radii
+------------------------------------------------------------------------- */
+
+template <class KernelShape>
+void ParticleGrid::sum_moments(const Smoothing &smoothing, double **values)
+{
+  double **x = atom->x;
+  const int nall = atom->nlocal + atom->nghost;
+  const double scale = 1.0 / smoothing.support;
+  for (int i = 0; i < nall; i++) {
+    if (!(values[i][0] > 0.0)) continue;
+    near_rows(x[i], smoothing.support, [&](bigint point, int n, const double *r) {
+      const double ry = -r[1] * scale, rz = -r[2] * scale;
+      weigh_row<KernelShape>(smoothing, values[i][0], r[0] * scale, ry * ry + rz * rz, n);
+      const double *const w = weight.data(), *const away = offset.data();
+      double *const one = moments[0].data() + point;
+      for (int m = 0; m < n; m++) one[m] += w[m];
+      if (!smoothing.linear) return;
+
+      auto add = [&](int k, auto &&factor) {
+        double *const sum = moments[k].data() + point;
+        for (int m = 0; m < n; m++) sum[m] += w[m] * factor(-away[m]);
+      };
+      add(1, [](double rx) {
+        return rx;
+      });
+      add(2, [=](double) {
+        return ry;
+      });
+      if (dim == 2) {
+        add(3, [](double rx) {
+          return rx * rx;
+        });
+        add(4, [=](double) {
+          return ry * ry;
+        });
+        add(5, [=](double rx) {
+          return rx * ry;
+        });
+      } else {
+        add(3, [=](double) {
+          return rz;
+        });
+        add(4, [](double rx) {
+          return rx * rx;
+        });
+        add(5, [=](double) {
+          return ry * ry;
+        });
+        add(6, [=](double) {
+          return rz * rz;
+        });
+        add(7, [=](double rx) {
+          return rx * ry;
+        });
+        add(8, [=](double rx) {
+          return rx * rz;
+        });
+        add(9, [=](double) {
+          return ry * rz;
+        });
+      }
+    });
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Put into the place of the moments of each point the coefficients a of the weights
+   V W (a_0 + a.r) of its particles; returns the number of points without particles.
+   With the mean distance b of the particles and their covariance C: a = -C^-1 b and
+   a_0 = 1 + b C^-1 b, over the sum of V W.
+------------------------------------------------------------------------- */
+
+bigint ParticleGrid::solve(bool linear)
+{
+  constexpr double FLAT = 1.0e-6;    // particles on a line or plane, or a single one: only the mean
+  bigint empty = 0;
+  for (bigint point = 0; point < points; point++) {
+    const double sum = moments[0][point];
+    if (!(sum > 0.0)) {
+      empty++;
+      continue;
+    }
+    moments[0][point] = 1.0 / sum;
+    if (!linear) continue;
+
+    double b[3] = {}, c[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    double trace = 0.0;
+    for (int d = 0; d < dim; d++) b[d] = moments[1 + d][point] / sum;
+    for (int d = 0; d < dim; d++) {
+      c[d][d] = moments[1 + dim + d][point] / sum - b[d] * b[d];
+      trace += c[d][d];
+    }
+    for (int d = 0, k = 1 + 2 * dim; d < dim; d++)
+      for (int e = d + 1; e < dim; e++, k++)
+        c[d][e] = c[e][d] = moments[k][point] / sum - b[d] * b[e];
+
+    double cofactor[3][3];
+    for (int d = 0; d < 3; d++)
+      for (int e = 0; e < 3; e++) {
+        const int d1 = (d + 1) % 3, d2 = (d + 2) % 3, e1 = (e + 1) % 3, e2 = (e + 2) % 3;
+        cofactor[d][e] = c[d1][e1] * c[d2][e2] - c[d1][e2] * c[d2][e1];
+      }
+    const double det =
+        c[0][0] * cofactor[0][0] + c[0][1] * cofactor[0][1] + c[0][2] * cofactor[0][2];
+    const bool regular = trace > FLAT && det > FLAT * std::pow(trace / dim, dim);
+    double bcb = 0.0;
+    for (int d = 0; d < dim; d++) {
+      double a = 0.0;
+      for (int e = 0; e < dim; e++) a -= cofactor[d][e] * b[e];
+      a = regular ? a / det : 0.0;
+      bcb -= a * b[d];
+      moments[1 + d][point] = a / sum;
+    }
+    moments[0][point] += bcb / sum;
+  }
+  return empty;
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class KernelShape>
+void ParticleGrid::sum_fields(const Smoothing &smoothing, double **values, int nfield)
+{
+  double **x = atom->x;
+  const int nall = atom->nlocal + atom->nghost;
+  const double scale = 1.0 / smoothing.support;
+  for (int i = 0; i < nall; i++) {
+    if (!(values[i][0] > 0.0)) continue;
+    near_rows(x[i], smoothing.support, [&](bigint point, int n, const double *r) {
+      const double ry = -r[1] * scale, rz = -r[2] * scale;
+      weigh_row<KernelShape>(smoothing, values[i][0], r[0] * scale, ry * ry + rz * rz, n);
+      double *const w = weight.data();
+      const double *const rx = offset.data();
+      const double *const a0 = moments[0].data() + point;
+      if (smoothing.linear) {
+        const double *const ax = moments[1].data() + point, *const ay = moments[2].data() + point;
+        const double *const az = moments[dim].data() + point;    // in 2d times rz = 0
+        for (int m = 0; m < n; m++) w[m] *= a0[m] - ax[m] * rx[m] + ay[m] * ry + az[m] * rz;
+      } else
+        for (int m = 0; m < n; m++) w[m] *= a0[m];
+      for (int k = 0; k < nfield; k++) {
+        double *const sum = fields[k].data() + point;
+        const double value = values[i][1 + k];
+        for (int m = 0; m < n; m++) sum[m] += w[m] * value;
+      }
+    });
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ParticleGrid::memory_usage() const
+{
+  return (double) points * (moments.size() + fields.size()) * sizeof(double);
+}

@@ -1,0 +1,82 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_GRID_H
+#define LMP_SPH_DISSIPATION_GRID_H
+
+#include "pointers.h"
+#include "sph_dissipation_kernel.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+class Grid2d;
+class Grid3d;
+
+namespace SPHDissipation {
+
+  // How the values of particles become those of a point: averages weighted by V W, or the weighted
+  // linear regression through the particles, which leaves linear fields as they are (moving least
+  // squares: P. Lancaster, K. Salkauskas, Math. Comput. 37, 141 (1981)).
+
+  struct Smoothing {
+    Kernel kernel;
+    double support;
+    bool linear;
+  };
+
+  // Points in the centers of the cells of a regular grid over the box, each on the processor in whose
+  // sub-domain it is: so owned and ghost particles are all that a point needs, and no values of points
+  // are communicated.  In the dimension of the simulation, for orthogonal boxes.
+
+  class ParticleGrid : protected Pointers {
+   public:
+    ParticleGrid(class LAMMPS *, const int *count);
+    ~ParticleGrid() override;
+
+    // Volume and values of each owned and ghost particle: values[i][0] > 0 if the particle counts, then
+    // nfield values.  Returns how many points of all processors have no particle in reach: they get 0.
+
+    bigint map(const Smoothing &, double **values, int nfield);
+    const double *field(int k) const;    // at the owned points, the first index fastest
+
+    bigint npoint() const { return points; }    // owned
+    Grid2d *lammps_grid2d() const { return grid2d; }
+    Grid3d *lammps_grid3d() const { return grid3d; }
+    double memory_usage() const;
+
+    int count[3];                    // points of the box
+    int lo[3], hi[3];                // the owned ones
+    int ghost_lo[3], ghost_hi[3];    // with those that LAMMPS calls ghosts, unused here
+
+   private:
+    const int dim;
+    bigint points;
+    Grid2d *grid2d;
+    Grid3d *grid3d;
+
+    double origin[3], spacing[3];    // of the points, as the box is now
+    std::vector<std::vector<double>> moments, fields;
+    std::vector<double> weight, offset;    // of the points of one row around a particle
+
+    template <class Function> void near_rows(const double *, double, Function &&);
+    template <class KernelShape> void sum_moments(const Smoothing &, double **);
+    template <class KernelShape> void sum_fields(const Smoothing &, double **, int);
+    template <class KernelShape> void weigh_row(const Smoothing &, double, double, double, int);
+    bigint solve(bool linear);
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
