@@ -8,6 +8,7 @@ LC_ALL=C
 export LC_ALL
 
 # the package needs no other package: all of its files, always
+# compute sph/spectrum has the FFTs of package KSPACE if that is installed: compile anew where this is looked up
 
 for file in *.cpp *.h; do
   if (test $mode = 0) then
@@ -19,3 +20,7 @@ for file in *.cpp *.h; do
     fi
   fi
 done
+
+if (test $mode != 0) then
+  touch ../sph_dissipation_fft.cpp
+fi

@@ -55,10 +55,20 @@ smoke() {    # LMP RESULT [options]
   "$PYTHON" "$here/smoke.py" "$@" --reference "$REFERENCE"
 }
 
+# spectrum LMP: compute sph/spectrum runs, and the energies of the modes add up to that of the particles
+printf '%s\n' "include $here/in.smoke" "compute S all sph/spectrum 6 6 6" "variable k equal c_S[1]+c_S[2]" \
+  "thermo_style custom v_k c_S[8]" "run 0" 'print "spectrum $(v_k>0&&c_S[8]>0)"' >spectrum.in
+spectrum() {
+  "$@" -log none -var result none >spectrum.out 2>&1 && grep -qx "spectrum 1" spectrum.out ||
+    { tail -n 5 spectrum.out; exit 1; }
+}
+no_spectrum="needs the FFTs of the KSPACE package"
+
 case $way in
   hook)
     lammps_by_cmake build -D PKG_SPH-DISSIPATION=on -D CMAKE_PROJECT_lammps_INCLUDE="$tree/package/cmake/SPH-DISSIPATION.cmake"
     smoke build/lmp smoke
+    spectrum build/lmp -in spectrum.in
     ;;
 
   make)
@@ -73,15 +83,34 @@ case $way in
       make -C lammps/src -j "$jobs" mpi CC="$LAUNCHER mpicxx"
     } >make.log 2>&1 || { tail -n 30 make.log; exit 1; }
     smoke lammps/src/lmp_mpi smoke
+    expect_error "$no_spectrum" lammps/src/lmp_mpi -in spectrum.in -var result none
+    {
+      make -C lammps/src yes-kspace
+      make -C lammps/src yes-sph-dissipation
+      make -C lammps/src -j "$jobs" mpi CC="$LAUNCHER mpicxx"
+    } >>make.log 2>&1 || { tail -n 30 make.log; exit 1; }
+    spectrum lammps/src/lmp_mpi -in spectrum.in
+    {
+      make -C lammps/src no-kspace
+      make -C lammps/src yes-sph-dissipation
+    } >>make.log 2>&1 || { tail -n 30 make.log; exit 1; }
     ;;
 
   plugin)
-    lammps_by_cmake build
+    lammps_by_cmake build -D PKG_KSPACE=on
     expect_error "Unrecognized atom style 'sph/bulk'" build/lmp -in "$here/in.smoke" -var result none
     configure "$tree/package/plugin" plugin -D LAMMPS_SOURCE_DIR="$lammps"
     ninja -C plugin -j "$jobs" >>plugin.log 2>&1 || { tail -n 30 plugin.log; exit 1; }
     plugin=$tree/plugin/sphdissipationplugin.so
     smoke build/lmp smoke --plugin "$plugin"
+
+    # compute sph/spectrum, if the plugin is told that LAMMPS has KSPACE
+    printf '%s\n' "plugin load $plugin" "include spectrum.in" >without.in
+    expect_error "$no_spectrum" build/lmp -in without.in -var result none
+    configure "$tree/package/plugin" plugin-kspace -D LAMMPS_SOURCE_DIR="$lammps" -D PKG_KSPACE=on
+    ninja -C plugin-kspace -j "$jobs" >>plugin-kspace.log 2>&1 || { tail -n 30 plugin-kspace.log; exit 1; }
+    printf '%s\n' "plugin load $tree/plugin-kspace/sphdissipationplugin.so" "include spectrum.in" >with.in
+    spectrum build/lmp -in with.in
 
     # "clear" takes the atom style away until the plugin is loaded again
     printf '%s\n' "plugin load $plugin" "clear" "include $here/in.smoke" >clear.in
