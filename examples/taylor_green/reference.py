@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-only
 """Taylor-Green vortex of an incompressible fluid by a pseudo-spectral method: the reference of run.py.
 
-    python3 reference.py [--n 32] [--re 100 200] [--check]
+    python3 reference.py [--n 48] [--re 100 200] [--check]
 
 Fourier modes, dealiased by the 2/3 rule, the nonlinear term in rotational form, fourth-order Runge-Kutta with the viscous
 term integrated exactly. Writes reference.csv; --check computes Re = 100 on a coarse grid and compares with that file.
@@ -71,7 +71,7 @@ def load(re):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--n", type=int, default=32)
+    parser.add_argument("--n", type=int, default=48)
     parser.add_argument("--re", type=float, nargs="+", default=[100, 200])
     parser.add_argument("--check", action="store_true")
     args = parser.parse_args()
