@@ -232,6 +232,10 @@ void FixSPHOpen::init()
 
   const double support = pair->support_radius();
   values->init();
+  if (area > 0.0)
+    rows->set_distance([this](int i) {
+      return atom->rmass[i] / (area * (*values)(OpenValues::RHO, i));
+    });
   rows->init(support);
 
   // a small radius, for it smooths the profile, but with a few particles
@@ -239,10 +243,6 @@ void FixSPHOpen::init()
   constexpr double PART = 0.6, WIDTHS = 2.2;
   radius = std::min(support, std::max(PART * support, WIDTHS * rows->width()));
   plane->init(radius / NODES);
-  if (area > 0.0)
-    rows->set_distance([this](int i) {
-      return atom->rmass[i] / (area * (*values)(OpenValues::RHO, i));
-    });
 
   double slowest = 1.0e300;
   for (int type = 1; type <= atom->ntypes; type++)

@@ -83,7 +83,7 @@ def test_eddies_do_not_depend_on_the_number_of_ranks(lammps, condition):
     frames = []
     for ranks, newton in ((1, "on"), (2, "on"), (4, "off")):
         lammps(channel.text(lammps, f"velocity {channel.vector(U)} {condition.replace(' order 1', '')}",
-                            ("density 1.0 " if "order" not in condition else "velocity inside ") + condition,
+                            "density 1.0 " + condition,
                             velocity=wavy(channel), newton=newton, coeff="1.0 1.0 0.02 0.05 {R}")
                + dump("out.dump", 300) + "run 300\n", ranks=ranks)
         frames.append(lammps.frame("out.dump"))

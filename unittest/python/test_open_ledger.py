@@ -67,7 +67,8 @@ def test_ledger(lammps, style, options, ranks, newton):
     channel = Channel(box="free", zone=9.0)
     names = PLANE if "morris" not in options else PLANE[:-1]
     spin = "spin 0 0 0.3" if style != "sph/bulk" else ""
-    lammps(channel.text(lammps, f"velocity {channel.vector(U)} average 40 {spin}", "density 1.0", velocity=agitated(channel),
+    size = 0.02 if "tait" in options else 0.05  # it has no density at pressures of strong tension
+    lammps(channel.text(lammps, f"velocity {channel.vector(U)} average 40 {spin}", "density 1.0", velocity=agitated(channel, size),
                         newton=newton, options=options, spin=0.2, **keywords(style)) + output(channel, style) + "run 300\n", ranks=ranks)
     (table,) = lammps.results[-1].thermo()
     assert table["f_in[1]"][-1] > 8 and table["f_out[11]"][-1] > 8
