@@ -513,13 +513,15 @@ void FixSPHOpen::velocity(int i, double *u) const
   for (int d = 0; d < 3; d++) u[d] += change * normal[d];
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   a run that continues another one, or a restart file, goes on with the velocities that are there
+------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup_pre_exchange()
 {
   check_places();
   values->evaluate(igroup);
-  if (given_velocity())
+  if (given_velocity() && !samples->any())
     for (int i = 0; i < atom->nlocal; i++) {
       if (!(atom->mask[i] & groupbit)) continue;
       double u[3];
