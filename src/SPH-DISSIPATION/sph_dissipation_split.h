@@ -1,0 +1,342 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_SPLIT_H
+#define LMP_SPH_DISSIPATION_SPLIT_H
+
+// Particles that split and merge, for package SPH-DISSIPATION.  No LAMMPS include.
+//
+// Conserved in each event: mass (and with it the reference volume m/rho0), centre of mass, momentum,
+// angular momentum, orbital and spin.  A split keeps the kinetic energy, a merge turns that of the
+// relative motion into heat >= 0.  Angular momentum that a particle without spin cannot hold is
+// returned by merge(); a Shell of neighbors takes it as a rigid rotation.
+//
+// The daughters of a spinning particle move as its rigid rotation does, u + Omega x d, and spin with
+// Omega: by the theorem of parallel axes that keeps angular momentum and energy if
+// sum m d_perp^2 + sum m_k I_k = m I, which is the case by itself for the inertia V^(2/n)/6 of cubes.
+
+#include "sph_dissipation_symmetric.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  inline double dot(const double *a, const double *b)
+  {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+
+  // sum += factor a x b
+
+  inline void add_cross(double factor, const double *a, const double *b, double *sum)
+  {
+    sum[0] += factor * (a[1] * b[2] - a[2] * b[1]);
+    sum[1] += factor * (a[2] * b[0] - a[0] * b[2]);
+    sum[2] += factor * (a[0] * b[1] - a[1] * b[0]);
+  }
+
+  // what is conserved of a particle, and what it is made of
+  // velocities are of two times: now, and extrapolated to the end of the step
+
+  struct Lump {
+    double mass = 0.0;
+    double inertia = 0.0;    // per mass
+    double energy = 0.0;     // internal, and its rate
+    double energy_rate = 0.0;
+    double x[3] = {};
+    double u[3] = {}, spin[3] = {};
+    double u_end[3] = {}, spin_end[3] = {};
+  };
+
+  // places of equal daughters around their parent; their sum is zero
+
+  struct Stencil {
+    static constexpr int MOST = 8;
+    int n = 0;
+    bool isotropic = false;    // sum d d is
+    double d[MOST][3] = {};
+  };
+
+  // distance of the daughters from their parent along each axis, over the spacing: that of the centres
+  // of the parts of a cube among others, less for one that splits alone
+
+  constexpr double SPLIT_IN_BLOCK = 0.25;
+  constexpr double SPLIT_ALONE = 0.2;
+
+  inline Stencil cube_stencil(int dim, double distance)
+  {
+    Stencil stencil;
+    stencil.n = 1 << dim;
+    stencil.isotropic = true;
+    for (int k = 0; k < stencil.n; k++)
+      for (int d = 0; d < dim; d++) stencil.d[k][d] = ((k >> d) & 1) ? distance : -distance;
+    return stencil;
+  }
+
+  inline Stencil axis_stencil(const double *axis, double distance)
+  {
+    Stencil stencil;
+    stencil.n = 2;
+    for (int d = 0; d < 3; d++) {
+      stencil.d[0][d] = -distance * axis[d];
+      stencil.d[1][d] = distance * axis[d];
+    }
+    return stencil;
+  }
+
+  // Inertia per mass of the daughters, or that of the parent if they are not to take part in its rotation:
+  // it is too small to hold them, or their places are not isotropic, so that they would precess.
+
+  inline double daughter_inertia(const Lump &parent, const Stencil &stencil, int dim, bool &rotate)
+  {
+    double second = 0.0;
+    for (int k = 0; k < stencil.n; k++) second += dot(stencil.d[k], stencil.d[k]) / stencil.n;
+    const double rest = parent.inertia - (dim == 3 ? 2.0 / 3.0 : 1.0) * second;
+    rotate = rest > 0.0 && (dim < 3 || stencil.isotropic);
+    return rotate ? rest : parent.inertia;
+  }
+
+  inline void split(const Lump &parent, const Stencil &stencil, int dim, Lump *daughters)
+  {
+    bool rotate;
+    const double inertia = daughter_inertia(parent, stencil, dim, rotate);
+    for (int k = 0; k < stencil.n; k++) {
+      Lump &one = daughters[k];
+      one = parent;
+      one.mass = parent.mass / stencil.n;
+      one.energy = parent.energy / stencil.n;
+      one.energy_rate = parent.energy_rate / stencil.n;
+      one.inertia = inertia;
+      for (int d = 0; d < 3; d++) one.x[d] += stencil.d[k][d];
+      if (!rotate) continue;
+      add_cross(1.0, parent.spin, stencil.d[k], one.u);
+      add_cross(1.0, parent.spin_end, stencil.d[k], one.u_end);
+    }
+  }
+
+  // Motion of parts relative to their centre of mass: its angular momentum and kinetic energy
+
+  struct InternalMotion {
+    double angmom[3];
+    double energy;    // in units of mass velocity^2
+  };
+
+  template <class Velocity, class Spin>
+  InternalMotion internal_motion(const Lump *parts, int n, const double *x, Velocity velocity,
+                                 Spin spin, double *mean)
+  {
+    InternalMotion motion = {{0.0, 0.0, 0.0}, 0.0};
+    double mass = 0.0, relative[3], r[3];
+    for (int k = 0; k < n; k++) mass += parts[k].mass;
+    for (int d = 0; d < 3; d++) {
+      mean[d] = 0.0;
+      for (int k = 0; k < n; k++) mean[d] += parts[k].mass / mass * velocity(parts[k])[d];
+    }
+    for (int k = 0; k < n; k++) {
+      const Lump &part = parts[k];
+      for (int d = 0; d < 3; d++) {
+        relative[d] = velocity(part)[d] - mean[d];
+        r[d] = part.x[d] - x[d];
+        motion.angmom[d] += part.mass * part.inertia * spin(part)[d];
+      }
+      add_cross(part.mass, r, relative, motion.angmom);
+      motion.energy +=
+          0.5 * part.mass * (dot(relative, relative) + part.inertia * dot(spin(part), spin(part)));
+    }
+    return motion;
+  }
+
+  // One particle from n; returns the heat of it in units of mass velocity^2, not yet in whole.energy.
+  // A spinning one has the largest of the principal moments of inertia of its parts: with it, the
+  // energy of its spin is at most that of the motion of the parts, L^2/(2 J) <= L J^-1 L/2.
+  // One without spin leaves over the angular momentum rest.
+
+  inline double merge(const Lump *parts, int n, int dim, bool spinning, Lump &whole, double *rest)
+  {
+    whole = Lump();
+    for (int k = 0; k < n; k++) {
+      whole.mass += parts[k].mass;
+      whole.energy += parts[k].energy;
+      whole.energy_rate += parts[k].energy_rate;
+    }
+
+    // relative to one of the parts, for the sake of round-off
+
+    for (int d = 0; d < 3; d++) {
+      double shift = 0.0;
+      for (int k = 1; k < n; k++) shift += parts[k].mass * (parts[k].x[d] - parts[0].x[d]);
+      whole.x[d] = parts[0].x[d] + shift / whole.mass;
+    }
+
+    const InternalMotion now = internal_motion(
+        parts, n, whole.x,
+        [](const Lump &part) {
+          return part.u;
+        },
+        [](const Lump &part) {
+          return part.spin;
+        },
+        whole.u);
+    const InternalMotion end = internal_motion(
+        parts, n, whole.x,
+        [](const Lump &part) {
+          return part.u_end;
+        },
+        [](const Lump &part) {
+          return part.spin_end;
+        },
+        whole.u_end);
+
+    for (int d = 0; d < 3; d++) rest[d] = spinning ? 0.0 : now.angmom[d];
+    if (!spinning) return now.energy;
+
+    Symmetric moments;
+    double spins = 0.0;
+    for (int k = 0; k < n; k++) {
+      double r[3];
+      for (int d = 0; d < 3; d++) r[d] = parts[k].x[d] - whole.x[d];
+      moments.add_product(parts[k].mass, r);
+      spins += parts[k].mass * parts[k].inertia;
+    }
+    double moment = moments.trace();
+    if (dim == 3) {
+      const Eigen3 principal = eigen(moments.inertia());
+      moment = *std::max_element(principal.value, principal.value + 3);
+    }
+    moment += spins;
+    whole.inertia = moment / whole.mass;
+    if (!(moment > 0.0)) return now.energy;
+    for (int d = 0; d < 3; d++) {
+      whole.spin[d] = now.angmom[d] / moment;
+      whole.spin_end[d] = end.angmom[d] / moment;
+    }
+    return std::max(now.energy - 0.5 * dot(now.angmom, now.angmom) / moment, 0.0);
+  }
+
+  // Neighbors of a merged particle, at r from it, that take over its rest of angular momentum
+
+  struct Rotation {
+    double rate[3];      // angular velocity that is added to theirs
+    double center[3];    // about which
+    double mean[3];      // their mean velocity
+
+    // of the neighbor at r, which counts with this weight
+
+    void velocity(double weight, const double *r, double *du) const
+    {
+      double from[3];
+      for (int d = 0; d < 3; d++) from[d] = r[d] - center[d];
+      add_cross(weight, rate, from, du);
+    }
+  };
+
+  // weights that go to zero with the distance: that of a neighbor on the edge needs no decision, which
+  // round-off could make another one on another processor
+
+  inline double shell_weight(double rsq, double radius)
+  {
+    const double rest = 1.0 - rsq / (radius * radius);
+    return rest > 0.0 ? rest * rest : 0.0;
+  }
+
+  struct Shell {
+    double mass = 0.0;
+    double mx[3] = {}, mu[3] = {};
+    Symmetric mxx;
+
+    void add(double weighted_mass, const double *r, const double *u)
+    {
+      mass += weighted_mass;
+      for (int d = 0; d < 3; d++) {
+        mx[d] += weighted_mass * r[d];
+        mu[d] += weighted_mass * u[d];
+      }
+      mxx.add_product(weighted_mass, r);
+    }
+
+    // false if there is no rotation of these neighbors with the angular momentum
+
+    bool take(const double *angmom, int dim, Rotation &rotation) const
+    {
+      constexpr double THIN = 1.0e-3;    // smallest of the moments of inertia, over the largest
+      rotation = Rotation();
+      if (!(mass > 0.0)) return false;
+      for (int d = 0; d < 3; d++) {
+        rotation.center[d] = mx[d] / mass;
+        rotation.mean[d] = mu[d] / mass;
+      }
+      Symmetric moments = mxx;
+      moments.add_product(-mass, rotation.center);
+      if (dim < 3) {
+        if (!(moments.trace() > THIN * mxx.trace())) return false;
+        rotation.rate[2] = angmom[2] / moments.trace();
+        return true;
+      }
+      const Eigen3 principal = eigen(moments.inertia());
+      const double most = *std::max_element(principal.value, principal.value + 3);
+      for (int k = 0; k < 3; k++) {
+        if (!(principal.value[k] > THIN * most)) return false;
+        const double part = dot(angmom, principal.axis[k]) / principal.value[k];
+        for (int d = 0; d < 3; d++) rotation.rate[d] += part * principal.axis[k][d];
+      }
+      return true;
+    }
+  };
+
+  // How far the neighbors of a particle stand apart along each axis.  Near ones tell most: on a
+  // lattice of spacings a the sum over e e/r^8 has eigenvalues about as a^-8.
+
+  class Arrangement {
+   public:
+    void add(const double *r)
+    {
+      const double rsq = dot(r, r);
+      if (rsq > 0.0) near.add_product(std::pow(rsq, -5.0), r);
+    }
+
+    // axis along which the spacing is largest, the first one of equal ones; spacing along it of a
+    // particle of this volume, and the ratio to the spacing of an isotropic arrangement
+
+    double widest(int dim, double volume, double *axis, double &ratio) const
+    {
+      constexpr double EQUAL = 1.0e-6;
+      const double even = std::pow(volume, 1.0 / dim);
+      const Eigen3 principal = eigen(near);
+      int least = 0;
+      double product = 1.0;
+      for (int d = 0; d < dim; d++) {
+        product *= principal.value[d];
+        if (principal.value[d] < (1.0 - EQUAL) * principal.value[least]) least = d;
+      }
+      for (int d = 0; d < 3; d++) axis[d] = principal.axis[least][d];
+
+      // all neighbors on a line, or none: no spacing across is known
+
+      constexpr double MOST = 2.0;
+      const double relative = std::pow(std::max(product, 0.0), 1.0 / dim);
+      ratio = MOST;
+      if (principal.value[least] > 0.0)
+        ratio = std::min(std::pow(relative / principal.value[least], 0.125), MOST);
+      return ratio * even;
+    }
+
+   private:
+    Symmetric near;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
