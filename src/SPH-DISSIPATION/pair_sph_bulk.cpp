@@ -162,6 +162,14 @@ void PairSPHBulk::compute(int eflag, int vflag)
 
 /* ---------------------------------------------------------------------- */
 
+double PairSPHBulk::elastic_energy(Moment moment)
+{
+  if (moment == NOW) density->run(list, nullptr, nullptr);
+  return pressure->elastic_energy(nullptr, not_fluid());
+}
+
+/* ---------------------------------------------------------------------- */
+
 void PairSPHBulk::tally_energy()
 {
   const double energy = pressure->elastic_energy(eflag_atom ? eatom : nullptr, not_fluid());

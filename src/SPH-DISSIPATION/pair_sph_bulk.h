@@ -87,6 +87,12 @@ class PairSPHBulk : public Pair {
   void heating(double *heat, double *power) const;
   bool has_forces() const;    // of the last step, for the particles that are there now
 
+  // of the equation of state, on this processor: of the last force computation, or where particles,
+  // with their ghosts, are now
+
+  enum Moment { LAST_FORCES, NOW };
+  double elastic_energy(Moment);
+
   // From the init() of a fix: its particles are a boundary, not fluid.  It stays one until it is
   // removed, when the fix is deleted; the pair style may be another one then, see find().
 

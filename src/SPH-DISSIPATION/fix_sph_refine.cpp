@@ -1,0 +1,428 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "fix_sph_refine.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+#include "pair_sph_bulk.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_refine_event.h"
+#include "sph_dissipation_refine_ledger.h"
+#include "sph_dissipation_refine_target.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using namespace SPHDissipation;
+
+static constexpr double SPLIT = 1.6, MERGE = 0.6;    // defaults: volume over target
+static constexpr double NEVER = -1.0e300;            // step of the last event
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), target(nullptr), ledger(nullptr), event(nullptr), pair(nullptr),
+    list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), last(nullptr),
+    event_step(-1), postponed(false), totals_known(false), totals(new double[RefineLedger::NVALUE])
+{
+  if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
+  nevery = utils::inumeric(FLERR, arg[3], false, lmp);
+  if (nevery <= 0) error->all(FLERR, "Fix {} N must be > 0, not {}", style, arg[3]);
+  if (strcmp(arg[4], "volume") != 0 && strcmp(arg[4], "spacing") != 0)
+    error->all(FLERR, "Fix {}: the target must be volume or spacing, not {}", style, arg[4]);
+  target = new RefineTarget(lmp, fmt::format("Fix {}", style));
+  ledger = new RefineLedger(lmp);
+  event = new RefineEvent(lmp, this, *ledger);
+  target->set(strcmp(arg[4], "spacing") == 0, arg[5]);
+  for (int iarg = 6; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
+  if (split_above < 2.0 * merge_below)
+    error->all(FLERR,
+               "Fix {}: split must be at least twice merge, not {} and {}: what has split would "
+               "merge again",
+               style, split_above, merge_below);
+  check_setup();
+
+  force_reneighbor = 1;
+  next_reneighbor = -1;
+  restart_global = 1;
+  restart_peratom = 1;
+  create_attribute = 1;
+  vector_flag = 1;
+  size_vector = RefineLedger::NVALUE;
+  global_freq = 1;
+  extvector = 0;
+  comm_forward = RefineItems::SIZE;
+  grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+  for (int i = 0; i < atom->nlocal; i++) last[i] = NEVER;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHRefine::keyword_argument(int iarg, int narg, char **arg)
+{
+  const std::string keyword = arg[iarg];
+  if (keyword != "split" && keyword != "merge" && keyword != "wait" && keyword != "fraction")
+    error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
+  if (iarg + 2 > narg)
+    utils::missing_cmd_args(FLERR, fmt::format("fix {} {}", style, keyword), error);
+  const std::string word = arg[iarg + 1];
+  if (keyword == "split" && word == "no") {
+    split_above = INFINITY;
+    return 2;
+  }
+  if (keyword == "merge" && word == "no") {
+    merge_below = 0.0;
+    return 2;
+  }
+  const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+  auto demand = [&](bool good, const char *what) {
+    if (!good) error->all(FLERR, "Fix {} {} must be {}, not {}", style, keyword, what, word);
+  };
+  if (keyword == "split") {
+    demand(value > 1.0, "> 1");
+    split_above = value;
+  } else if (keyword == "merge") {
+    demand(value > 0.0 && value < 1.0, "between 0 and 1");
+    merge_below = value;
+  } else if (keyword == "wait") {
+    demand(value >= 0.0, ">= 0");
+    wait = value;
+  } else {
+    demand(value > 0.0 && value <= 1.0, "> 0 and at most 1");
+    fraction = value;
+  }
+  return 2;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHRefine::check_setup()
+{
+  if (!atom->style_match("sph/bulk") && !atom->style_match("sph/micropolar"))
+    error->all(FLERR, "Fix {} requires atom style sph/bulk or sph/micropolar", style);
+  if (atom->tag_enable == 0) error->all(FLERR, "Fix {} requires atom IDs", style);
+  if (atom->molecular != Atom::ATOMIC)
+    error->all(FLERR,
+               "Fix {} cannot be used with molecules or bonds: a particle that merges would "
+               "leave bonds without an end",
+               style);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHRefine::~FixSPHRefine()
+{
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+  memory->destroy(last);
+  delete event;
+  delete ledger;
+  delete target;
+  delete[] totals;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHRefine::setmask()
+{
+  return POST_INTEGRATE | POST_FORCE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHRefine::init()
+{
+  pair = PairSPHBulk::find(force);
+  if (!pair) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
+  check_setup();
+  if (pair->fluid().choice.volume != Volume::MASS)
+    error->all(FLERR,
+               "Fix {} requires pair_style {} volume mass: with volume number, particles of "
+               "unequal size next to each other have volumes that are wrong by half, whatever "
+               "their distance",
+               style, force->pair_match("sph/bulk", 1) ? "sph/bulk" : "sph/micropolar");
+  if (pair->dimension() != domain->dimension)
+    error->all(FLERR, "Fix {} requires a kernel of the dimension of the simulation", style);
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix {} does not support run_style respa", style);
+  if (domain->deform_vremap)
+    error->all(FLERR, "Fix {} does not support fix deform with remap v", style);
+  if (neighbor->build_once)
+    error->all(FLERR, "Fix {} needs new neighbor lists: neigh_modify once must be no", style);
+  check_overlap();
+
+  const double support = pair->support_radius();
+  target->init(support, domain->dimension);
+  event->init(support, merge_below);
+  waiting.assign(atom->ntypes + 1, 0.0);
+  for (int type = 1; type <= atom->ntypes; type++)
+    if (pair->has_type(type)) {
+      const double time = (wait < 0.0) ? support / pair->fluid().coeffs[type].eos.c0 : wait;
+      waiting[type] = ceil(time / update->dt - 1.0e-6);
+    }
+  neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
+}
+
+/* ----------------------------------------------------------------------
+   what one fix splits, the other one would merge
+------------------------------------------------------------------------- */
+
+void FixSPHRefine::check_overlap()
+{
+  for (const auto &other : modify->get_fix_by_style("^sph/refine$")) {
+    if (other == this) continue;
+    bigint count = 0, all;
+    for (int i = 0; i < atom->nlocal; i++)
+      if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) count++;
+    MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    if (all)
+      error->all(FLERR, "Fixes {} and {} of style {} both have {} particles in their groups", id,
+                 other->id, style, all);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHRefine::init_list(int /*id*/, NeighList *ptr)
+{
+  list = ptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixSPHRefine::is_fluid(int i) const
+{
+  return (atom->mask[i] & groupbit) && !(atom->mask[i] & pair->not_fluid()) &&
+      pair->has_type(atom->type[i]);
+}
+
+/* ----------------------------------------------------------------------
+   a last event in the future is of a time before the steps were counted anew
+------------------------------------------------------------------------- */
+
+bool FixSPHRefine::may_change(int i) const
+{
+  const double since = static_cast<double>(update->ntimestep) - last[i];
+  return since < 0.0 || since >= waiting[atom->type[i]];
+}
+
+/* ----------------------------------------------------------------------
+   after the particles have moved, before it is decided whether neighbor lists are built anew: lists
+   and ghosts of the last step still fit the particles
+------------------------------------------------------------------------- */
+
+void FixSPHRefine::post_integrate()
+{
+  if (update->ntimestep % nevery != 0 && !postponed) return;
+
+  // ghosts are gone if another fix of this style has just changed particles
+
+  postponed = false;
+  for (const auto &other : modify->get_fix_by_style("^sph/refine$"))
+    if (dynamic_cast<FixSPHRefine *>(other)->event_step == update->ntimestep) postponed = true;
+  if (postponed) return;
+
+  target->evaluate(igroup);
+  bigint nfluid;
+  if (!wanted(nfluid)) return;
+
+  comm->forward_comm();
+  neighbor->build_one(list);
+  set_items();
+  const auto most = static_cast<bigint>(fraction * static_cast<double>(nfluid));
+  if (!event->plan(list, std::max(most, static_cast<bigint>(1)))) return;
+
+  totals_known = false;
+  ledger->add(RefineLedger::ELASTIC, -pair->elastic_energy(PairSPHBulk::NOW));
+  event->carry_out(list, [this](int i) {
+    last[i] = static_cast<double>(update->ntimestep);
+  });
+  event_step = next_reneighbor = update->ntimestep;
+}
+
+/* ----------------------------------------------------------------------
+   whether any particle is to split or to merge
+------------------------------------------------------------------------- */
+
+bool FixSPHRefine::wanted(bigint &nfluid)
+{
+  enum { FLUID, EVENTS, DAUGHTERS, NSUM };
+  double sum[NSUM] = {0.0, 0.0, 0.0}, all[NSUM];
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_fluid(i)) continue;
+    sum[FLUID] += 1.0;
+    const double ratio = atom->vfrac[i] / target->volume(i);
+    if (ratio > split_above) sum[DAUGHTERS] += ratio;
+    if ((ratio > split_above || ratio < merge_below) && may_change(i)) sum[EVENTS] += 1.0;
+  }
+  MPI_Allreduce(sum, all, NSUM, MPI_DOUBLE, MPI_SUM, world);
+  const double room =
+      std::min(static_cast<double>(MAXTAGINT), static_cast<double>(MAXSMALLINT) * comm->nprocs);
+  if (all[DAUGHTERS] > room)
+    error->all(FLERR,
+               "Fix {}: the target asks for {:g} particles, which is more than the {:g} for which "
+               "there are IDs and room",
+               style, all[DAUGHTERS], room);
+  nfluid = static_cast<bigint>(all[FLUID]);
+  return all[EVENTS] > 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHRefine::set_items()
+{
+  event->begin();
+  for (int i = 0; i < atom->nlocal; i++) {
+    RefineState state = APART;
+    double goal = 0.0;
+    if (is_fluid(i)) {
+      state = KEEPS;
+      goal = target->volume(i);
+      const double ratio = atom->vfrac[i] / goal;
+      if (may_change(i)) {
+        if (ratio > split_above) state = SPLITS;
+        if (ratio < merge_below) state = MERGES;
+      }
+    }
+    event->set(i, state, atom->vfrac[i], split_above * goal, goal);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHRefine::post_force(int /*vflag*/)
+{
+  if (event_step != update->ntimestep) return;
+  ledger->add(RefineLedger::ELASTIC, pair->elastic_energy(PairSPHBulk::LAST_FORCES));
+  totals_known = false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixSPHRefine::compute_vector(int n)
+{
+  if (!totals_known) {
+    ledger->total(totals);
+    totals_known = true;
+  }
+  return totals[n];
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHRefine::pack_forward_comm(int n, int *sendlist, double *buf, int /*pbc_flag*/,
+                                    int * /*pbc*/)
+{
+  return event->items.pack(n, sendlist, buf);
+}
+
+void FixSPHRefine::unpack_forward_comm(int n, int first, double *buf)
+{
+  event->items.unpack(n, first, buf);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHRefine::grow_arrays(int nmax)
+{
+  memory->grow(last, nmax, "sph/refine:last");
+}
+
+void FixSPHRefine::copy_arrays(int i, int j, int /*delflag*/)
+{
+  last[j] = last[i];
+}
+
+void FixSPHRefine::set_arrays(int i)
+{
+  last[i] = NEVER;
+}
+
+int FixSPHRefine::pack_exchange(int i, double *buf)
+{
+  buf[0] = last[i];
+  return 1;
+}
+
+int FixSPHRefine::unpack_exchange(int nlocal, double *buf)
+{
+  last[nlocal] = buf[0];
+  return 1;
+}
+
+int FixSPHRefine::pack_restart(int i, double *buf)
+{
+  buf[0] = 2.0;
+  buf[1] = last[i];
+  return 2;
+}
+
+void FixSPHRefine::unpack_restart(int nlocal, int nth)
+{
+  int m = 0;
+  for (int k = 0; k < nth; k++) m += static_cast<int>(atom->extra[nlocal][m]);
+  last[nlocal] = atom->extra[nlocal][m + 1];
+}
+
+int FixSPHRefine::size_restart(int /*nlocal*/)
+{
+  return 2;
+}
+
+int FixSPHRefine::maxsize_restart()
+{
+  return 2;
+}
+
+/* ----------------------------------------------------------------------
+   the ledger, and the highest ID that was ever given
+------------------------------------------------------------------------- */
+
+void FixSPHRefine::write_restart(FILE *fp)
+{
+  double state[RefineLedger::NVALUE + 1];
+  ledger->total(state);
+  state[RefineLedger::NVALUE] = static_cast<double>(event->highest);
+  if (comm->me != 0) return;
+  const int size = sizeof(state);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(state, sizeof(state), 1, fp);
+}
+
+void FixSPHRefine::restart(char *buf)
+{
+  const auto *state = reinterpret_cast<double *>(buf);
+  ledger->restart(state);
+  event->highest = static_cast<tagint>(state[RefineLedger::NVALUE]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixSPHRefine::memory_usage()
+{
+  return atom->nmax * sizeof(double) + event->items.memory_usage();
+}

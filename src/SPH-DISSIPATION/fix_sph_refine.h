@@ -1,0 +1,88 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(sph/refine,FixSPHRefine);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_SPH_REFINE_H
+#define LMP_FIX_SPH_REFINE_H
+
+#include "fix.h"
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+  class RefineEvent;
+  class RefineLedger;
+  class RefineTarget;
+}    // namespace SPHDissipation
+
+// Splits particles of the fluids sph/bulk and sph/micropolar that are larger than a target and merges
+// those that are smaller, and keeps account of what that changes.
+
+class FixSPHRefine : public Fix {
+ public:
+  FixSPHRefine(class LAMMPS *, int, char **);
+  ~FixSPHRefine() override;
+  int setmask() override;
+  void init() override;
+  void init_list(int, class NeighList *) override;
+  void post_integrate() override;
+  void post_force(int) override;
+  double compute_vector(int) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  double memory_usage() override;
+
+ private:
+  SPHDissipation::RefineTarget *target;
+  SPHDissipation::RefineLedger *ledger;
+  SPHDissipation::RefineEvent *event;
+  class PairSPHBulk *pair;
+  class NeighList *list;
+  double split_above, merge_below;    // volume over target
+  double wait;                        // time between two events of a particle; < 0: R/c0
+  double fraction;                    // of the particles, that may have an event at once
+  double *last;                       // step of the last event of each particle
+  std::vector<double> waiting;        // steps, by type
+  bigint event_step;                  // of the last events
+  bool postponed;                     // the last check
+  bool totals_known;
+  double *totals;
+
+  int keyword_argument(int, int, char **);
+  void check_setup();
+  void check_overlap();
+  bool is_fluid(int i) const;
+  bool may_change(int i) const;
+  void set_items();
+  bool wanted(bigint &nfluid);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,428 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_refine_event.h"
+
+#include "atom.h"
+#include "atom_vec_sph_micropolar.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "sph_dissipation_refine_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+static constexpr double REST_RADIUS =
+    0.5;                                    // of those that take angular momentum, over the support
+static constexpr double FARTHEST = 0.35;    // distance of two that merge, over the support
+static constexpr double STRETCHED = 1.4;    // spacing over the mean one, that splits in two only
+static constexpr double NEXT = 1.6;         // distance of neighbors that split together, over it
+
+/* ---------------------------------------------------------------------- */
+
+RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineLedger &ledger) :
+    Pointers(lmp), items(lmp, fix), highest(0), ledger(ledger), pairs(lmp, items),
+    rest(lmp, items, pairs), support(0.0), smallest(0.0), spinning(false)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineEvent::init(double support_in, double smallest_share)
+{
+  support = support_in;
+  smallest = smallest_share;
+  spinning = (atom->style_match("sph/micropolar") != nullptr);
+  rest.init(REST_RADIUS * support);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineEvent::begin()
+{
+  items.resize();
+  targets.assign(atom->nlocal, 0.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineEvent::set(int i, RefineState state, double volume, double most, double target)
+{
+  RefineItem &item = items[i];
+  item.state = state;
+  item.mask = atom->mask[i];
+  item.volume = volume;
+  item.most = most;
+  item.lump = lump(i);
+  item.mass = item.lump.mass;
+  std::copy_n(item.lump.u, 3, item.u);
+  targets[i] = target;
+}
+
+/* ---------------------------------------------------------------------- */
+
+Lump RefineEvent::lump(int i) const
+{
+  auto *avec =
+      dynamic_cast<AtomVecSPHBulk *>(atom->style_match(spinning ? "sph/micropolar" : "sph/bulk"));
+  Lump one;
+  one.mass = atom->rmass[i];
+  one.energy = atom->esph[i];
+  one.energy_rate = avec->desph_before[i];
+  std::copy_n(atom->x[i], 3, one.x);
+  std::copy_n(atom->v[i], 3, one.u);
+  std::copy_n(atom->vest[i], 3, one.u_end);
+  if (!spinning) return one;
+  auto *spin = dynamic_cast<AtomVecSPHMicropolar *>(avec);
+  one.inertia = spin->inertia[i];
+  std::copy_n(atom->omega[i], 3, one.spin);
+  std::copy_n(spin->omegaest[i], 3, one.spin_end);
+  return one;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineEvent::set_lump(int i, const Lump &one)
+{
+  auto *avec =
+      dynamic_cast<AtomVecSPHBulk *>(atom->style_match(spinning ? "sph/micropolar" : "sph/bulk"));
+  atom->vfrac[i] *= one.mass / atom->rmass[i];
+  atom->rmass[i] = one.mass;
+  atom->esph[i] = one.energy;
+  avec->desph_before[i] = one.energy_rate;
+  std::copy_n(one.x, 3, atom->x[i]);
+  std::copy_n(one.u, 3, atom->v[i]);
+  std::copy_n(one.u_end, 3, atom->vest[i]);
+  if (!spinning) return;
+  auto *spin = dynamic_cast<AtomVecSPHMicropolar *>(avec);
+  spin->inertia[i] = one.inertia;
+  std::copy_n(one.spin, 3, atom->omega[i]);
+  std::copy_n(one.spin_end, 3, spin->omegaest[i]);
+}
+
+/* ----------------------------------------------------------------------
+   of a pair that is to merge now
+------------------------------------------------------------------------- */
+
+bool RefineEvent::merging(int i) const
+{
+  if (pairs.mate(i) < 0) return false;
+  return items[pairs.leads(i) ? i : pairs.mate(i)].withheld == 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bigint RefineEvent::plan(NeighList *full, bigint most)
+{
+  items.forward_all();
+  pairs.find(full, FARTHEST * support);
+  splits.clear();
+  for (int ii = 0; ii < full->inum; ii++) {
+    const int i = full->ilist[ii];
+    Split one = {i, Stencil()};
+    if (items[i].state == SPLITS && find_stencil(full, i, one.stencil)) splits.push_back(one);
+  }
+  return withhold(most);
+}
+
+/* ----------------------------------------------------------------------
+   into the parts of a cube, where they are not too small; into two along the axis on which the
+   neighbors are farthest, where these are not arranged evenly; false if a daughter would leave the box
+------------------------------------------------------------------------- */
+
+bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
+{
+  const int dim = domain->dimension;
+  const double spacing = pow(items[i].volume, 1.0 / dim);
+  Arrangement arrangement;
+  bool alone = true;
+  const int *const neighbors = full->firstneigh[i];
+  for (int k = 0; k < full->numneigh[i]; k++) {
+    const int j = neighbors[k] & NEIGHMASK;
+    double r[3];
+    for (int d = 0; d < 3; d++) r[d] = atom->x[j][d] - atom->x[i][d];
+    arrangement.add(r);
+    if (items[j].state == SPLITS && dot(r, r) < NEXT * NEXT * spacing * spacing) alone = false;
+  }
+  double axis[3], ratio;
+  const double widest = arrangement.widest(dim, items[i].volume, axis, ratio);
+  const double part = alone ? SPLIT_ALONE : SPLIT_IN_BLOCK;
+  const int parts = 1 << dim;
+  if (ratio < STRETCHED && items[i].volume > parts * smallest * targets[i])
+    stencil = cube_stencil(dim, part * spacing);
+  else
+    stencil = axis_stencil(axis, part * widest);
+
+  for (int k = 0; k < stencil.n; k++) {
+    double x[3];
+    for (int d = 0; d < 3; d++) x[d] = atom->x[i][d] + stencil.d[k][d];
+    if (!in_box(x)) return false;
+  }
+  return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool RefineEvent::in_box(const double *x) const
+{
+  double place[3] = {x[0], x[1], x[2]}, unit[3] = {x[0], x[1], x[2]};
+  if (domain->triclinic) domain->x2lamda(place, unit);
+  const double *const lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
+  const double *const hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
+  for (int d = 0; d < domain->dimension; d++)
+    if (!domain->periodicity[d] && (unit[d] < lo[d] || unit[d] >= hi[d])) return false;
+  return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::vector<tagint> RefineEvent::gather(const std::vector<tagint> &mine) const
+{
+  int n = static_cast<int>(mine.size()), total = 0;
+  std::vector<int> counts(comm->nprocs), starts(comm->nprocs);
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int p = 0; p < comm->nprocs; p++) {
+    starts[p] = total;
+    total += counts[p];
+  }
+  std::vector<tagint> all(total);
+  MPI_Allgatherv(mine.data(), n, MPI_LMP_TAGINT, all.data(), counts.data(), starts.data(),
+                 MPI_LMP_TAGINT, world);
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   if there are more events than that, those of the lowest IDs take place
+------------------------------------------------------------------------- */
+
+bigint RefineEvent::withhold(bigint most)
+{
+  std::vector<tagint> mine;
+  for (const Split &one : splits) mine.push_back(atom->tag[one.i]);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (pairs.leads(i)) mine.push_back(atom->tag[i]);
+  bigint number = mine.size(), all;
+  MPI_Allreduce(&number, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all <= most) return all;
+
+  std::vector<tagint> tags = gather(mine);
+  std::nth_element(tags.begin(), tags.begin() + most, tags.end());
+  const tagint end = tags[most];
+  for (int i = 0; i < atom->nlocal; i++) items[i].withheld = (atom->tag[i] >= end) ? 1.0 : 0.0;
+  items.forward_withheld();
+  splits.erase(std::remove_if(splits.begin(), splits.end(),
+                              [&](const Split &one) {
+                                return atom->tag[one.i] >= end;
+                              }),
+               splits.end());
+  return most;
+}
+
+/* ----------------------------------------------------------------------
+   a pair whose neighbors cannot take over its angular momentum does not merge
+------------------------------------------------------------------------- */
+
+void RefineEvent::give_rest(NeighList *full)
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    if (items[i].state == APART || (merging(i) && !pairs.leads(i))) items[i].mass = 0.0;
+  for (const Merge &one : merges) {
+    RefineItem &item = items[one.i];
+    item.mass = one.whole.mass;
+    for (int d = 0; d < 3; d++) item.center[d] = one.whole.x[d] - item.lump.x[d];
+    std::copy_n(one.whole.u, 3, item.u);
+  }
+  items.forward_point();
+
+  std::vector<Merge> taken;
+  for (const Merge &one : merges) {
+    if (rest.give(full, one.i, one.rest))
+      taken.push_back(one);
+    else
+      items[one.i].withheld = 1.0;
+  }
+  merges = taken;
+  items.forward_withheld();
+  items.forward_rotation();
+  rest.take(full);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineEvent::carry_out(NeighList *full, const Changed &changed)
+{
+  merges.clear();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!merging(i) || !pairs.leads(i)) continue;
+    const Lump parts[2] = {items[i].lump, items[pairs.mate(i)].lump};
+    Merge one;
+    one.i = i;
+    one.heat = merge(parts, 2, domain->dimension, spinning, one.whole, one.rest);
+    merges.push_back(one);
+  }
+  rest.clear();
+  if (!spinning) give_rest(full);
+
+  // particles are changed first, then created, then removed; from here on ghosts are of the past
+
+  const std::vector<tagint> first = new_tags();
+  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
+  const int nbefore = atom->nlocal;
+  std::vector<char> own_event(nbefore, 0), dead(nbefore, 0);
+  for (const Split &one : splits) own_event[one.i] = 1;
+  for (int i = 0; i < nbefore; i++)
+    if (merging(i)) {
+      own_event[i] = 1;
+      dead[i] = !pairs.leads(i);
+    }
+  move_others(own_event);
+
+  for (Merge &one : merges) {
+    Lump &whole = one.whole;
+    ledger.count(-1.0, items[one.i].lump);
+    ledger.count(-1.0, items[pairs.mate(one.i)].lump);
+    for (int d = 0; d < 3; d++) {
+      whole.u[d] += rest.velocity(one.i)[d];
+      whole.u_end[d] += rest.velocity(one.i)[d];
+    }
+    whole.energy += force->mvv2e * (one.heat - rest.work(one.i));
+    set_lump(one.i, whole);
+    ledger.count(1.0, whole);
+    ledger.merged(force->mvv2e * one.heat);
+    changed(one.i);
+  }
+  for (int i = 0; i < nbefore; i++) ledger.add(RefineLedger::ROTATION, force->mvv2e * rest.work(i));
+
+  atom->nghost = 0;
+  atom->avec->clear_bonus();
+  create(first, changed);
+  remove(dead);
+
+  bigint change = atom->nlocal - nbefore, all;
+  MPI_Allreduce(&change, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  atom->natoms += all;
+  if (atom->map_style != Atom::MAP_NONE) {
+    atom->map_init();
+    atom->map_set();
+  }
+}
+
+/* ----------------------------------------------------------------------
+   neighbors that take over angular momentum
+------------------------------------------------------------------------- */
+
+void RefineEvent::move_others(const std::vector<char> &own_event)
+{
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const du = rest.velocity(i);
+    if (own_event[i] || dot(du, du) == 0.0) continue;
+    Lump one = items[i].lump;
+    ledger.count(-1.0, one);
+    for (int d = 0; d < 3; d++) {
+      one.u[d] += du[d];
+      one.u_end[d] += du[d];
+    }
+    one.energy -= force->mvv2e * rest.work(i);
+    set_lump(i, one);
+    ledger.count(1.0, one);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the first daughter takes the place of its parent, the others are new
+------------------------------------------------------------------------- */
+
+void RefineEvent::create(const std::vector<tagint> &first, const Changed &changed)
+{
+  for (std::size_t k = 0; k < splits.size(); k++) {
+    const int i = splits[k].i, n = splits[k].stencil.n;
+    Lump parent = items[i].lump, daughters[Stencil::MOST];
+    ledger.count(-1.0, parent);
+    for (int d = 0; d < 3; d++) {
+      parent.u[d] += rest.velocity(i)[d];
+      parent.u_end[d] += rest.velocity(i)[d];
+    }
+    parent.energy -= force->mvv2e * rest.work(i);
+    split(parent, splits[k].stencil, domain->dimension, daughters);
+    for (int m = 0; m < n; m++) {
+      int j = i;
+      if (m > 0) {
+        j = atom->nlocal;
+        if (j == atom->nmax) atom->avec->grow(0);
+        atom->avec->copy(i, j, 0);
+        atom->nlocal++;
+        atom->tag[j] = first[k] + m - 1;
+        modify->create_attribute(j);
+      }
+      set_lump(j, daughters[m]);
+      ledger.count(1.0, daughters[m]);
+      changed(j);
+    }
+    ledger.add(RefineLedger::SPLITS, 1.0);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineEvent::remove(const std::vector<char> &dead)
+{
+  for (int i = static_cast<int>(dead.size()) - 1; i >= 0; i--) {
+    if (!dead[i]) continue;
+    atom->avec->copy(atom->nlocal - 1, i, 1);
+    atom->nlocal--;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   first of the new IDs of each split, in the order of the IDs of those that split, on whatever
+   processor they are
+------------------------------------------------------------------------- */
+
+std::vector<tagint> RefineEvent::new_tags()
+{
+  std::vector<tagint> mine;
+  for (const Split &one : splits) {
+    mine.push_back(atom->tag[one.i]);
+    mine.push_back(one.stencil.n - 1);
+  }
+  const std::vector<tagint> all = gather(mine);
+  std::vector<std::pair<tagint, tagint>> parents;
+  for (std::size_t k = 0; k < all.size(); k += 2) parents.emplace_back(all[k], all[k + 1]);
+  std::sort(parents.begin(), parents.end());
+
+  tagint most = highest;
+  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
+  MPI_Allreduce(&most, &highest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+
+  std::vector<tagint> first(splits.size());
+  std::vector<std::pair<tagint, tagint>> numbers;    // of parent, first daughter
+  for (const auto &parent : parents) {
+    if (highest >= MAXTAGINT - parent.second)
+      error->all(FLERR, "Fix sph/refine: too many particles have split for their IDs");
+    numbers.emplace_back(parent.first, highest + 1);
+    highest += parent.second;
+  }
+  for (std::size_t k = 0; k < splits.size(); k++)
+    first[k] = std::lower_bound(numbers.begin(), numbers.end(),
+                                std::make_pair(atom->tag[splits[k].i], static_cast<tagint>(0)))
+                   ->second;
+  return first;
+}

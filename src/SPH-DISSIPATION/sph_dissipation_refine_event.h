@@ -1,0 +1,94 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_REFINE_EVENT_H
+#define LMP_SPH_DISSIPATION_REFINE_EVENT_H
+
+#include "pointers.h"
+#include "sph_dissipation_refine_items.h"
+#include "sph_dissipation_refine_pairs.h"
+#include "sph_dissipation_refine_rest.h"
+
+#include <functional>
+#include <vector>
+
+namespace LAMMPS_NS {
+class NeighList;
+
+namespace SPHDissipation {
+
+  class RefineLedger;
+
+  // All splits and merges of one time step, on all processors at once.  What happens is found out with
+  // the particles as they are, then they are changed, then the lists of particles.
+
+  class RefineEvent : protected Pointers {
+   public:
+    RefineEvent(class LAMMPS *, Fix *, RefineLedger &);
+
+    void init(double support, double smallest_share);
+
+    // what each owned particle is to do; volume: now, target: to have, both as they are
+    void begin();
+    void set(int i, RefineState, double volume, double most, double target);
+
+    // who merges with whom, who splits how; at most so many events; returns their number on all
+    // processors, and changes nothing but the items
+    bigint plan(NeighList *full, bigint most);
+
+    // changed(i) is called for each owned particle that has come from an event
+    typedef std::function<void(int i)> Changed;
+    void carry_out(NeighList *full, const Changed &changed);
+
+    RefineItems items;
+    tagint highest;    // ID that was ever given
+
+   private:
+    RefineLedger &ledger;
+    RefinePairs pairs;
+    RefineRest rest;
+    double support;
+    double smallest;    // volume of a daughter over the target
+    bool spinning;
+
+    struct Split {
+      int i;
+      Stencil stencil;
+    };
+    struct Merge {
+      int i;
+      Lump whole;
+      double heat, rest[3];
+    };
+    std::vector<double> targets;
+    std::vector<Split> splits;
+    std::vector<Merge> merges;
+
+    Lump lump(int i) const;
+    void set_lump(int i, const Lump &);
+    bool merging(int i) const;
+    bool find_stencil(NeighList *full, int i, Stencil &) const;
+    bool in_box(const double *x) const;
+    bigint withhold(bigint most);
+    void give_rest(NeighList *full);
+    void move_others(const std::vector<char> &own_event);
+    void create(const std::vector<tagint> &first, const Changed &changed);
+    void remove(const std::vector<char> &dead);
+    std::vector<tagint> new_tags();
+    std::vector<tagint> gather(const std::vector<tagint> &mine) const;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,101 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_refine_pairs.h"
+
+#include "atom.h"
+#include "neigh_list.h"
+#include "sph_dissipation_refine_items.h"
+
+#include <algorithm>
+#include <utility>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+static constexpr int ROUNDS = 30;
+static constexpr double EQUAL = 1.0e-9;     // distances squared
+static constexpr double ONE_CLASS = 2.5;    // ratio of the volumes of two that may merge
+
+/* ---------------------------------------------------------------------- */
+
+bool RefinePairs::leads(int i) const
+{
+  return mates[i] >= 0 && atom->tag[i] < atom->tag[mates[i]];
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool RefinePairs::fits(int i, int j) const
+{
+  const RefineItem &a = items[i], &b = items[j];
+  return b.state == MERGES && b.settled == 0.0 && atom->type[i] == atom->type[j] &&
+      a.mask == b.mask && a.volume <= ONE_CLASS * b.volume && b.volume <= ONE_CLASS * a.volume &&
+      a.volume + b.volume <= std::min(a.most, b.most) && atom->tag[i] != atom->tag[j];
+}
+
+/* ---------------------------------------------------------------------- */
+
+int RefinePairs::nearest(int i, const int *neighbors, int n, double farthest_sq) const
+{
+  int best = -1;
+  double best_sq = farthest_sq;
+  auto tags = [&](int j) {
+    return std::minmax(atom->tag[i], atom->tag[j]);
+  };
+  for (int k = 0; k < n; k++) {
+    const int j = neighbors[k] & NEIGHMASK;
+    if (!fits(i, j)) continue;
+    double rsq = 0.0;
+    for (int d = 0; d < 3; d++) {
+      const double r = atom->x[j][d] - atom->x[i][d];
+      rsq += r * r;
+    }
+    if (rsq > (1.0 + EQUAL) * best_sq) continue;
+    if (best >= 0 && rsq >= (1.0 - EQUAL) * best_sq && !(tags(j) < tags(best))) continue;
+    best = j;
+    best_sq = rsq;
+  }
+  return best;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefinePairs::find(NeighList *full, double farthest)
+{
+  mates.assign(atom->nlocal, -1);
+  std::vector<int> choice(atom->nlocal, -1);
+  for (int round = 0; round < ROUNDS; round++) {
+    for (int ii = 0; ii < full->inum; ii++) {
+      const int i = full->ilist[ii];
+      choice[i] = -1;
+      if (items[i].state == MERGES && items[i].settled == 0.0)
+        choice[i] = nearest(i, full->firstneigh[i], full->numneigh[i], farthest * farthest);
+      items[i].choice = choice[i] < 0 ? 0.0 : static_cast<double>(atom->tag[choice[i]]);
+    }
+    items.forward_choice();
+
+    int found = 0, found_all;
+    for (int i = 0; i < atom->nlocal; i++) {
+      const int j = choice[i];
+      if (j < 0 || items[j].choice != static_cast<double>(atom->tag[i])) continue;
+      mates[i] = j;
+      found = 1;
+    }
+    for (int i = 0; i < atom->nlocal; i++)
+      if (mates[i] >= 0) items[i].settled = 1.0;
+    items.forward_settled();
+    MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MAX, world);
+    if (!found_all) break;
+  }
+}
