@@ -216,8 +216,7 @@ void FixSPHRefine::init_list(int /*id*/, NeighList *ptr)
 
 bool FixSPHRefine::is_fluid(int i) const
 {
-  return (atom->mask[i] & groupbit) && !(atom->mask[i] & pair->not_fluid()) &&
-      pair->has_type(atom->type[i]);
+  return !(atom->mask[i] & pair->not_fluid()) && pair->has_type(atom->type[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -273,7 +272,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
   enum { FLUID, EVENTS, DAUGHTERS, NSUM };
   double sum[NSUM] = {0.0, 0.0, 0.0}, all[NSUM];
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_fluid(i)) continue;
+    if (!(atom->mask[i] & groupbit) || !is_fluid(i)) continue;
     sum[FLUID] += 1.0;
     const double ratio = atom->vfrac[i] / target->volume(i);
     if (ratio > split_above) sum[DAUGHTERS] += ratio;
@@ -297,10 +296,9 @@ void FixSPHRefine::set_items()
 {
   event->begin();
   for (int i = 0; i < atom->nlocal; i++) {
-    RefineState state = APART;
+    RefineState state = is_fluid(i) ? KEEPS : APART;
     double goal = 0.0;
-    if (is_fluid(i)) {
-      state = KEEPS;
+    if (state == KEEPS && (atom->mask[i] & groupbit)) {
       goal = target->volume(i);
       const double ratio = atom->vfrac[i] / goal;
       if (may_change(i)) {

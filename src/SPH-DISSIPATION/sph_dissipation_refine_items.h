@@ -26,7 +26,7 @@ namespace SPHDissipation {
 
   // what a particle does in an event
 
-  enum RefineState { APART, KEEPS, SPLITS, MERGES };    // APART: no part of the fluid of the fix
+  enum RefineState { APART, KEEPS, SPLITS, MERGES };    // APART: no fluid
 
   // A particle and what its neighbors are to know of it in an event; all doubles, to be sent as rows
 

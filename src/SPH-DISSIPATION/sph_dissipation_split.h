@@ -96,15 +96,18 @@ namespace SPHDissipation {
     return stencil;
   }
 
-  // Inertia per mass of the daughters, or that of the parent if they are not to take part in its rotation:
-  // it is too small to hold them, or their places are not isotropic, so that they would precess.
+  // Inertia per mass of the daughters, or that of the parent if they are not to take part in its
+  // rotation: their places are not isotropic, so that they would precess, or too far apart for it, so that
+  // next to nothing would be left for the daughters, and the smallest torque spin them up.
 
   inline double daughter_inertia(const Lump &parent, const Stencil &stencil, int dim, bool &rotate)
   {
+    constexpr double LEAST = 0.8;    // over that of a body of the same shape
     double second = 0.0;
     for (int k = 0; k < stencil.n; k++) second += dot(stencil.d[k], stencil.d[k]) / stencil.n;
     const double rest = parent.inertia - (dim == 3 ? 2.0 / 3.0 : 1.0) * second;
-    rotate = rest > 0.0 && (dim < 3 || stencil.isotropic);
+    const double least = LEAST * std::pow(stencil.n, -2.0 / dim) * parent.inertia;
+    rotate = rest > 0.0 && rest >= least && (dim < 3 || stencil.isotropic);
     return rotate ? rest : parent.inertia;
   }
 

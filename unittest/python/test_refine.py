@@ -1,0 +1,344 @@
+"""Particles that split and merge (fix sph/refine): what is conserved, the ledger, numbers of ranks, files, errors."""
+
+import numpy as np
+import pytest
+
+from helpers import Lammps, disordered, drop, fluid, free, header, lattice, relative
+from test_micropolar import fluid as micropolar_fluid, spins, write as write_micropolar
+
+SPLITS, MERGES, NUMBER, MASS, MOMENTUM, ANGMOM, KINETIC, ELASTIC, INTERNAL, HEAT, ROTATION, COLDEST = \
+    1, 2, 3, 4, 5, 8, 11, 12, 13, 14, 15, 16
+LEDGER = "".join(f" f_R[{k}]" for k in range(1, 17))
+
+# half of the fluid is to be fine, every other hundred steps
+PHASES = """variable phase equal "floor((step+1)/{period})%2"
+variable target atom "1.0 - 0.8*v_phase*(x>{middle})"
+"""
+
+
+def fluid_box(lammps, particles, spin, boundary="p p p", newton="on", support=None):
+    """Input lines that make the particles, with pair style and integrator."""
+    dim, style = particles.dim, "sph/micropolar" if spin else "sph/bulk"
+    if spin:
+        write_micropolar(particles, lammps.path("box.data"), omega=spins(particles, size=0.1))
+        pair = micropolar_fluid(dim, "volume mass")
+    else:
+        particles.write(lammps.path("box.data"))
+        pair = fluid(dim, "volume mass", support=support)
+    return (header(dim, boundary=boundary, style=style, newton=newton) + "read_data box.data\n" + pair
+            + f"fix FLUID all {style}\ntimestep 0.002\n")
+
+
+def output(spin, every, name="refine.dump"):
+    columns = "id type mass x y z xu yu zu vx vy vz c_P[1]" + (" omegax omegay omegaz c_P[2]" if spin else " c_P[2]")
+    return (f"compute P all property/atom esph {'inertia' if spin else 'vol'}\n"
+            f"compute E all sph/energy\nthermo_style custom step atoms c_E[*] pe{LEDGER}\n"
+            f"thermo_modify norm no format float %.17g\nthermo {every}\n"
+            f"dump D all custom {every} {name} {columns}\ndump_modify D sort id format float %.17g\n")
+
+
+def ledger(result, k, run=-1):
+    return result.thermo()[run][f"f_R[{k}]"][-1]
+
+
+def sums(frame, spin):
+    m = frame["mass"][:, None]
+    angmom = m * np.cross(frame["x"], frame["v"])
+    parts = angmom
+    if spin:
+        omega = np.column_stack([frame[f"omega{d}"] for d in "xyz"])
+        parts = angmom + m * frame["c_P[2]"][:, None] * omega
+    return {"mass": m.sum(axis=0), "centre": (m * frame["x"]).sum(axis=0), "momentum": (m * frame["v"]).sum(axis=0),
+            "angular momentum": parts.sum(axis=0)}, {
+        "mass": m.sum(), "centre": np.abs(m * frame["x"]).sum(), "momentum": np.abs(m * frame["v"]).sum(),
+        "angular momentum": np.abs(angmom).sum()}
+
+
+def cluster(lammps, dim, spin, ranks=1, newton="on", keywords="wait 0.0", steps=300):
+    particles = drop(dim, 8 if dim == 2 else 4, speed=0.05)
+    text = fluid_box(lammps, particles, spin, boundary=free(dim), newton=newton)
+    text += PHASES.format(period=100, middle=0.0) + f"fix R all sph/refine 5 volume v_target {keywords}\n"
+    return lammps(text + output(spin, steps) + f"run {steps}\n", ranks=ranks), lammps.frames("refine.dump")
+
+
+# ---------------------------------------------------------------------------------------------
+# conservation
+
+
+@pytest.mark.parametrize("spin", [False, True])
+@pytest.mark.parametrize("dim", [2, 3])
+def test_random_cluster(lammps, dim, spin):
+    """A thousand events: mass, momentum, angular momentum to round-off; energy by the ledger."""
+    result, (first, last) = cluster(lammps, dim, spin, steps=600 if dim == 2 else 300)
+    assert ledger(result, SPLITS) > 300 and ledger(result, MERGES) > 500
+    assert ledger(result, NUMBER) == len(last["mass"]) - len(first["mass"])
+    (before, scale), (after, _) = sums(first, spin), sums(last, spin)
+    for name in ("mass", "momentum", "angular momentum"):
+        assert np.abs(after[name] - before[name]).max() < 1e-13 * scale[name], name
+    for k in range(MASS, KINETIC):
+        assert abs(ledger(result, k)) < 1e-13 * scale["angular momentum"], k
+    assert ledger(result, COLDEST) >= 0.0
+    kinetic, internal = ledger(result, KINETIC), ledger(result, INTERNAL)
+    heat, rotation = ledger(result, HEAT), ledger(result, ROTATION)
+    assert heat > 0.0 and (rotation == 0.0) == spin
+    assert abs(kinetic + internal) < 1e-12 * abs(kinetic)
+    assert abs(internal - (heat - rotation)) < 1e-12 * abs(internal)
+
+
+@pytest.mark.parametrize("spin", [False, True])
+def test_centre_of_mass(lammps, spin):
+    """Events alone, without a motion between them."""
+    particles = drop(2, 8, speed=0.05)
+    text = fluid_box(lammps, particles, spin, boundary=free(2)).replace("timestep 0.002", "timestep 1e-12")
+    text += PHASES.format(period=10, middle=0.0) + "fix R all sph/refine 1 volume v_target wait 0.0\n"
+    result = lammps(text + output(spin, 100) + "run 100\n")
+    first, last = lammps.frames("refine.dump")
+    assert ledger(result, SPLITS) > 300 and ledger(result, MERGES) > 300
+    (before, scale), (after, _) = sums(first, spin), sums(last, spin)
+    for name in before:
+        assert np.abs(after[name] - before[name]).max() < 1e-13 * scale[name], name
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("spin", [False, True])
+def test_number_of_ranks(tmp_path, dim, spin):
+    """The same particles, with the same IDs, on 1, 2, and 4 ranks, with and without newton."""
+    keywords = "wait 0.01 fraction 0.05" if spin else "wait 0.0"
+    frames = []
+    for ranks, newton in ((1, "on"), (2, "on"), (2, "off"), (4, "on")):
+        folder = tmp_path / f"{ranks}{newton}"
+        folder.mkdir()
+        frames.append(cluster(Lammps(folder), dim, spin, ranks, newton, keywords, steps=200)[1][-1])
+    one = frames[0]
+    for other in frames[1:]:
+        assert np.array_equal(one["id"], other["id"])
+        for name in ("x", "v", "mass", "c_P[1]"):
+            assert relative(one[name] - other[name], one[name]) < 1e-10, name
+
+
+@pytest.mark.parametrize("tilt", [None, (3.0, 0.0, 0.0)])
+def test_periodic_box(tmp_path, tilt):
+    """Merges across periodic boundaries and borders of processors."""
+    frames = []
+    for ranks in (1, 2, 4):
+        folder = tmp_path / str(ranks)
+        folder.mkdir()
+        lammps = Lammps(folder)
+        particles = disordered(2, 16, speed=0.1, tilt=tilt, spread=0.3)
+        text = fluid_box(lammps, particles, False) + 'variable phase equal "floor((step+1)/20)%2"\n' \
+            'variable target equal "0.3+1.5*v_phase"\nfix R all sph/refine 5 volume v_target wait 0.0\n'
+        result = lammps(text + output(False, 100) + "run 100\n", ranks=ranks)
+        first, last = lammps.frames("refine.dump")
+        (before, scale), (after, _) = sums(first, False), sums(last, False)
+        for name in ("mass", "momentum"):
+            assert np.abs(after[name] - before[name]).max() < 1e-13 * scale[name], name
+        assert ledger(result, MERGES) > 300 and ledger(result, SPLITS) > 200
+        frames.append(last)
+    for other in frames[1:]:
+        assert np.array_equal(frames[0]["id"], other["id"])
+        assert relative(frames[0]["v"] - other["v"], other["v"]) < 1e-9
+
+
+@pytest.mark.parametrize("rate", [0.0, 0.3])
+@pytest.mark.parametrize("dim, spin", [(2, False), (2, True), (3, False)])
+def test_back_again(lammps, dim, spin, rate):
+    """Particles that split alone, and merge back: the parents return, at rest and in rigid rotation."""
+    cells = 13 if dim == 2 else 7
+    particles = lattice(dim, cells)
+    place = np.floor(particles.x[:, :dim]).astype(int)
+    particles.type = np.where(np.all((place % 3 == 1) & (place < cells - 2), axis=1), 2, 1)
+    particles.x = particles.x - 0.5 * cells * (np.arange(3) < dim)
+    particles.v = np.cross([0.0, 0.0, rate], particles.x)
+    particles.lo[:dim], particles.hi[:dim] = -20.0, 20.0
+    nsplit = np.count_nonzero(particles.type == 2)
+    text = fluid_box(lammps, particles, spin, boundary=free(dim)).replace("timestep 0.002", "timestep 1e-17")
+    if spin:
+        text += f"set group all omega 0.0 0.0 {rate}\n"
+    lammps(text + "group some type 2\n" + output(spin, 1).replace(LEDGER, "")
+           + "fix R some sph/refine 1 volume 0.15 wait 0.0 merge 0.2\nrun 1\nunfix R\n"
+           "fix R some sph/refine 1 volume 1.0 wait 0.0 split no merge 0.7\nrun 4\n")
+    frames = lammps.frames("refine.dump")
+    first, split, last = frames[0], frames[1], frames[-1]
+    assert len(split["id"]) == len(first["id"]) + (2**dim - 1) * nsplit
+    assert np.array_equal(first["id"], last["id"])
+    names = ["x", "v", "mass", "c_P[1]"] + (["omegax", "omegay", "omegaz", "c_P[2]"] if spin else [])
+    for name in names:
+        assert np.abs(first[name] - last[name]).max() < 1e-12 * (1.0 + np.abs(first[name]).max()), name
+
+
+@pytest.mark.parametrize("spin", [False, True])
+def test_rotating_drop(lammps, spin):
+    """Half of a drop refined and merged again and again in 10,000 steps."""
+    particles = drop(2, 5, speed=0.0, rate=0.3)
+    text = fluid_box(lammps, particles, spin, boundary=free(2))
+    text += PHASES.format(period=500, middle=0.0) + "fix R all sph/refine 20 volume v_target\n"
+    result = lammps(text + output(spin, 10000) + "run 10000\n", timeout=300)
+    first, last = lammps.frames("refine.dump")
+    assert ledger(result, SPLITS) > 200 and ledger(result, MERGES) > 400
+    (before, scale), (after, _) = sums(first, spin), sums(last, spin)
+    for name in ("momentum", "angular momentum"):
+        assert np.abs(after[name] - before[name]).max() < 1e-12 * scale[name], name
+
+
+# ---------------------------------------------------------------------------------------------
+# what happens, and to whom
+
+
+def test_fluid_at_rest(tmp_path):
+    """Coarse and fine particles under a background pressure: densities, and velocities after relaxation."""
+    errors = []
+    for support, bound in ((3.0, 0.017), (4.0, 0.0072), (5.0, 0.0047), (6.0, 0.0032)):
+        lammps = Lammps(tmp_path)
+        particles = lattice(2, 24)
+        particles.write(lammps.path("box.data"))
+        result = lammps(
+            header(2) + "read_data box.data\n" + fluid(2, "volume mass", mu=2.0, kappa=4.0, support=support, keywords="pb 10.0")
+            + 'fix FLUID all sph/bulk\ntimestep 0.005\nvariable target atom "1.0-0.75*(x>12)"\n'
+            "fix R all sph/refine 1 volume v_target\n"
+            'variable speed atom "sqrt(vx*vx+vy*vy)"\ncompute V all reduce max v_speed\n'
+            "compute RHO all property/atom rho\ncompute LO all reduce min c_RHO\ncompute HI all reduce max c_RHO\n"
+            "thermo_style custom step atoms c_V c_LO c_HI f_R[1] f_R[2]\nthermo 1\nrun 1\n"
+            + ("thermo 1600\nrun 1600\n" if support == 4.0 else ""), timeout=300)
+        split = result.thermo()[0]
+        assert split["Atoms"][-1] == 24 * 24 * 2.5
+        uniform = split["c_LO"][0]  # a lattice of one size has an error of its own
+        errors.append(max(split["c_HI"][1] - uniform, uniform - split["c_LO"][1]))
+        assert max(split["c_HI"][1] - 1.0, 1.0 - split["c_LO"][1]) < bound
+        if support == 4.0:
+            relaxed = result.thermo()[1]
+            assert relaxed["c_V"][-1] < 1e-3 * 10.0
+            assert relaxed["f_R[1]"][-1] == 24 * 12
+            assert relaxed["f_R[2]"][-1] == 0.0
+    assert np.all(np.diff(errors) < 0.0)
+
+
+def test_along_the_axis(lammps):
+    """Particles stretched in x split in two along x, into a lattice."""
+    particles = lattice(2, 12)
+    particles.x[:, 0] *= 2.0
+    particles.hi[0] *= 2.0
+    particles.mass[:] = 2.0
+    text = fluid_box(lammps, particles, False, support=4.0)
+    result = lammps(text + "fix R all sph/refine 1 volume 1.0\n" + output(False, 1) + "run 1\n")
+    last = lammps.frame("refine.dump")
+    assert ledger(result, NUMBER) == 144
+    x = np.sort(np.unique(np.round(last["x"][:, 0], 6)))
+    assert len(x) == 24
+    assert np.ptp(np.diff(x)) < 0.25  # the spacing of the neighbors is an estimate
+    assert len(np.unique(np.round(last["x"][:, 1], 6))) == 12
+
+
+def test_types_groups_and_walls(lammps):
+    """No pairs across types, groups, and walls; new particles are in the groups of their parents."""
+    particles = disordered(2, 20, ntypes=2, speed=0.1, spread=0.0)
+    text = fluid_box(lammps, particles, False)
+    text = text.replace("fix FLUID all sph/bulk", """region floor block INF INF INF 4.0 INF INF
+region left block INF 10.0 INF INF INF INF
+group wall region floor
+group moving subtract all wall
+group left region left
+fix W wall sph/wall
+fix FLUID moving sph/bulk""")
+    text += """variable mass1 equal mass(all)
+group one type 1
+variable m1 equal mass(one)
+variable ml equal mass(left)
+variable mw equal mass(wall)
+variable nw equal count(wall)
+variable phase equal "floor((step+1)/10)%2"
+variable target equal "0.3+1.5*v_phase"
+fix R all sph/refine 5 volume v_target wait 0.0
+thermo_style custom step atoms v_m1 v_ml v_mw v_nw f_R[1] f_R[2]
+thermo_modify format float %.15g
+thermo 50
+run 50
+"""
+    table = lammps(text, ranks=2).thermo()[0]
+    assert table["f_R[1]"][-1] > 100 and table["f_R[2]"][-1] > 100
+    for name in ("v_m1", "v_ml", "v_mw", "v_nw"):
+        assert abs(table[name][-1] - table[name][0]) < 1e-12 * table[name][0], name
+
+
+def test_wait_and_fraction(lammps):
+    """One event per particle and waiting time; no more events at once than asked for."""
+    text = fluid_box(lammps, lattice(2, 16), False) + "fix R all sph/refine 1 volume 0.05 split 1.6 {}\n" + output(False, 1)
+    waits = lammps(text.format("wait 0.02") + "run 25\n").thermo()[0]["Atoms"]
+    changes = np.flatnonzero(np.diff(waits)) + 1
+    assert changes.tolist() == [1, 11, 21][:len(changes)] and len(changes) >= 2
+    some = lammps(text.format("wait 0.0 fraction 0.1") + "run 3\n").thermo()[0]
+    assert np.diff(some["f_R[1]"]).max() <= 0.1 * some["Atoms"].max()
+    assert some["f_R[1]"][1] == 25
+
+
+def test_restart(lammps):
+    """A continued run goes on as if it had not stopped, with its ledger and its waiting times."""
+    particles = drop(2, 6, speed=0.05)
+    text = fluid_box(lammps, particles, False, boundary=free(2))
+    rest = PHASES.format(period=25, middle=0.0) + "fix R all sph/refine 5 volume v_target wait 0.05\n"
+    whole = lammps(text + rest + output(False, 50) + "run 50\nwrite_restart half\nrun 50\n")
+    one = lammps.frame("refine.dump")
+    style = "fix FLUID all sph/bulk\ntimestep 0.002\n"
+    again = lammps("read_restart half\n" + style + rest + output(False, 50) + "run 50\n", ranks=2)
+    other = lammps.frame("refine.dump")
+    assert np.array_equal(one["id"], other["id"])
+    assert relative(one["v"] - other["v"], one["v"]) < 1e-9
+    for k in range(1, 17):
+        assert abs(ledger(whole, k) - ledger(again, k)) < 1e-9 * (1.0 + abs(ledger(whole, k))), k
+
+
+def test_nothing_to_do(lammps):
+    """A fix without an event changes no bit of a run."""
+    text = fluid_box(lammps, disordered(2, 12, speed=0.1, spread=0.0), False)
+    lammps(text + output(False, 50).replace(LEDGER, "") + "run 50\n")
+    one = lammps.frame("refine.dump")
+    result = lammps(text + "fix R all sph/refine 10 volume 1.0 split 9.0 merge 0.1\n" + output(False, 50) + "run 50\n")
+    assert ledger(result, SPLITS) == ledger(result, MERGES) == 0.0
+    other = lammps.frame("refine.dump")
+    assert np.array_equal(one["x"], other["x"]) and np.array_equal(one["v"], other["v"])
+
+
+# ---------------------------------------------------------------------------------------------
+# bad input
+
+BAD = [("fix R all sph/refine 1", "Illegal fix sph/refine"),
+       ("fix R all sph/refine 0 volume 1.0", "must be > 0, not 0"),
+       ("fix R all sph/refine 1 mass 1.0", "must be volume or spacing, not mass"),
+       ("fix R all sph/refine 1 volume -1.0", "the target -1.0 is -1"),
+       ("fix R all sph/refine 1 volume 1e-12", "asks for"),
+       ("fix R all sph/refine 1 spacing 2.5", "hardly any neighbors"),
+       ("fix R all sph/refine 1 volume v_none", "Variable none"),
+       ("variable a string b\nfix R all sph/refine 1 volume v_a", "neither of equal style"),
+       ('variable a atom "x-100.0"\nfix R all sph/refine 1 volume v_a', "for particle"),
+       ("fix R all sph/refine 1 volume 1.0 split 0.5", "split must be > 1"),
+       ("fix R all sph/refine 1 volume 1.0 merge 2", "merge must be between 0 and 1"),
+       ("fix R all sph/refine 1 volume 1.0 split 1.1 merge 0.9", "at least twice"),
+       ("fix R all sph/refine 1 volume 1.0 wait -1", "wait must be >= 0"),
+       ("fix R all sph/refine 1 volume 1.0 fraction 0", "fraction must be > 0"),
+       ("fix R all sph/refine 1 volume 1.0 fraction", "Illegal fix sph/refine fraction"),
+       ("fix R all sph/refine 1 volume 1.0 color 1", "Unknown fix sph/refine keyword: color"),
+       ("fix R all sph/refine 1 volume 1.0\nfix S all sph/refine 1 volume 2.0", "both have 144 particles"),
+       ("pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0\nfix R all sph/refine 1 volume 1.0", "volume number"),
+       ("pair_style zero 3.0\npair_coeff * *\nfix R all sph/refine 1 volume 1.0", "requires pair style sph/bulk"),
+       ("neigh_modify once yes\nfix R all sph/refine 1 volume 1.0", "once must be no")]
+
+
+@pytest.mark.parametrize("line, words", BAD)
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_refused(lammps, line, words, ranks):
+    if ranks == 2 and BAD.index((line, words)) % 4:
+        return
+    result = lammps(fluid_box(lammps, disordered(2, 12), False) + line + "\nrun 2\n", ranks=ranks, check=False)
+    assert result.code != 0
+    assert words in result.error
+
+
+@pytest.mark.parametrize("style, words", [("atomic", "requires atom style sph/bulk"),
+                                          ("hybrid sph/bulk bond", "molecules or bonds")])
+def test_refused_atom_styles(lammps, style, words):
+    text = (f"units lj\ndimension 2\natom_style {style}\nregion box block 0 9 0 9 -0.5 0.5\ncreate_box 1 box\n"
+            "fix R all sph/refine 1 volume 1.0\n")
+    result = lammps(text, check=False)
+    if "MOLECULE package" in result.error:
+        pytest.skip("this LAMMPS has no molecules")
+    assert result.code != 0
+    assert words in result.error
