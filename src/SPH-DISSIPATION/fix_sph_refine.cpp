@@ -45,7 +45,8 @@ static constexpr double NEVER = -1.0e300;            // step of the last event
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), target(nullptr), ledger(nullptr), event(nullptr), pair(nullptr),
     list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), last(nullptr),
-    event_step(-1), postponed(false), totals_known(false), totals(new double[RefineLedger::NVALUE])
+    not_fluid(0), event_step(-1), postponed(false), totals_known(false),
+    totals(new double[RefineLedger::NVALUE])
 {
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
@@ -216,7 +217,7 @@ void FixSPHRefine::init_list(int /*id*/, NeighList *ptr)
 
 bool FixSPHRefine::is_fluid(int i) const
 {
-  return !(atom->mask[i] & pair->not_fluid()) && pair->has_type(atom->type[i]);
+  return !(atom->mask[i] & not_fluid) && pair->has_type(atom->type[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -246,6 +247,7 @@ void FixSPHRefine::post_integrate()
   if (postponed) return;
 
   target->evaluate(igroup);
+  not_fluid = pair->not_fluid();
   bigint nfluid;
   if (!wanted(nfluid)) return;
 

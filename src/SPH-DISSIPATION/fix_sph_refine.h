@@ -68,6 +68,7 @@ class FixSPHRefine : public Fix {
   double fraction;                    // of the particles, that may have an event at once
   double *last;                       // step of the last event of each particle
   std::vector<double> waiting;        // steps, by type
+  int not_fluid;                      // bits of the groups of walls and open zones
   bigint event_step;                  // of the last events
   bool postponed;                     // the last check
   bool totals_known;
