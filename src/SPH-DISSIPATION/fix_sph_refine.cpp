@@ -179,13 +179,23 @@ void FixSPHRefine::init()
   const double support = pair->support_radius();
   target->init(support, domain->dimension);
   event->init(support, merge_below);
+  reset_dt();
+  neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
+}
+
+/* ----------------------------------------------------------------------
+   steps from one event of a particle to the next one
+------------------------------------------------------------------------- */
+
+void FixSPHRefine::reset_dt()
+{
+  constexpr double ROUNDOFF = 1.0e-6;
   waiting.assign(atom->ntypes + 1, 0.0);
   for (int type = 1; type <= atom->ntypes; type++)
     if (pair->has_type(type)) {
-      const double time = (wait < 0.0) ? support / pair->fluid().coeffs[type].eos.c0 : wait;
-      waiting[type] = ceil(time / update->dt - 1.0e-6);
+      const double crossing = pair->support_radius() / pair->fluid().coeffs[type].eos.c0;
+      waiting[type] = ceil((wait < 0.0 ? crossing : wait) / update->dt - ROUNDOFF);
     }
-  neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
 }
 
 /* ----------------------------------------------------------------------

@@ -41,6 +41,7 @@ class FixSPHRefine : public Fix {
   void init_list(int, class NeighList *) override;
   void post_integrate() override;
   void post_force(int) override;
+  void reset_dt() override;
   double compute_vector(int) override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;

@@ -263,6 +263,45 @@ run 50
         assert abs(table[name][-1] - table[name][0]) < 1e-12 * table[name][0], name
 
 
+@pytest.mark.parametrize("ranks", [1, 2, 4])
+def test_open_boundaries(lammps, ranks):
+    """A stream from an inlet to an outlet that is fine in between: the account of its mass closes."""
+    table = lammps(header(2, boundary="f p p") + """lattice sq 1.0 origin 0.5 0.5 0.0
+region box block -10 34 0 8 -0.5 0.5
+create_box 1 box
+region filled block -9 33 INF INF INF INF
+create_atoms 1 region filled
+set group all mass 1.0
+region middle block 0 24 INF INF INF INF
+region west block INF 0 INF INF INF INF
+region east block 24 INF INF INF INF INF
+group fluid region middle
+group in region west
+group out region east
+velocity all set 1.0 0.0 0.0
+pair_style sph/bulk volume mass
+pair_coeff * * 1.0 10.0 0.5 1.0 3.0 pb 10.0
+fix FLUID fluid sph/bulk density rho0
+fix I in sph/open fluid 0 0 0 1 0 0 9 velocity 1.0 0 0
+fix O out sph/open fluid 24 0 0 -1 0 0 9 pressure 10.0
+variable target atom "1.0-0.75*(x>8)*(x<16)"
+fix R all sph/refine 5 volume v_target
+timestep 0.01
+variable m equal mass(fluid)
+variable balance equal v_m-f_I[2]+f_I[12]-f_O[2]+f_O[12]
+compute LO fluid reduce min vx
+compute HI fluid reduce max vx
+thermo_style custom step atoms v_balance c_LO c_HI f_R[1] f_R[2] f_R[4] f_I[1] f_I[28] f_O[11]
+thermo_modify format float %.15g
+thermo 100
+run 800
+""", ranks=ranks).thermo()[0]
+    assert table["f_R[1]"][-1] > 100 and table["f_R[2]"][-1] > 150
+    assert table["f_I[1]"][-1] == table["f_O[11]"][-1] == 64
+    assert np.ptp(table["v_balance"]) < 1e-12 * table["v_balance"][0]
+    assert 0.9 < table["c_LO"].min() and table["c_HI"].max() < 1.1
+
+
 def test_wait_and_fraction(lammps):
     """One event per particle and waiting time; no more events at once than asked for."""
     text = fluid_box(lammps, lattice(2, 16), False) + "fix R all sph/refine 1 volume 0.05 split 1.6 {}\n" + output(False, 1)
