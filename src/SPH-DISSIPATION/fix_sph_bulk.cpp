@@ -32,8 +32,8 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), density_done(0), density_flag(0), shift_speed(0.0),
-    pair(nullptr), remap_v_flag(0), integrated_groups(0), first_instance(false),
+    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), extrapolation(1.0), density_done(0), density_flag(0),
+    shift_speed(0.0), pair(nullptr), remap_v_flag(0), integrated_groups(0), first_instance(false),
     last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
@@ -91,6 +91,13 @@ void FixSPHBulk::init()
   if (first_instance) check_integrated_once();
 
   pair = dynamic_cast<PairSPHBulk *>(force->pair_match(style, 1));
+  const bool noise = pair && pair->has_noise();
+  extrapolation = noise ? 0.0 : 1.0;
+  if (noise && shift_speed > 0.0)
+    error->all(FLERR,
+               "Fix {} shift cannot be used with temp of pair style {}: a shifted fluid has no "
+               "thermal equilibrium",
+               style, style);
   if (density_flag && !pair)
     error->all(FLERR, "Fix {} density requires pair style {}", style, style);
   if (shift_speed > 0.0 && update->whichflag != 2) {
@@ -249,7 +256,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
     for (int d = 0; d < 3; d++) {
       const double dv = dtfm * f[i][d];
       v[i][d] += dv;
-      vest[i][d] = keep * v[i][d] + dv;
+      vest[i][d] = keep * v[i][d] + extrapolation * dv;
       x[i][d] += dtv * v[i][d];
     }
   }

@@ -25,7 +25,9 @@ FixStyle(sph/bulk,FixSPHBulk);
 namespace LAMMPS_NS {
 
 // Velocity Verlet for position, velocity and internal energy of a particle fluid, with the
-// velocity extrapolated to the end of the step for the forces: vest = v + dt f/m.
+// velocity extrapolated to the end of the step for the forces: vest = v + dt f/m.  With thermal
+// noise, it is the velocity in the middle of the step: then those at its ends have the temperature of
+// the noise exactly in the linear regime, whatever the time step.
 
 class FixSPHBulk : public Fix {
  public:
@@ -49,6 +51,7 @@ class FixSPHBulk : public Fix {
 
  protected:
   double dtv, dtf;
+  double extrapolation;    // of velocities over half a step: 1, with thermal noise 0
   int density_done;    // the masses were set, in this run or before a restart
   int nlocal_group() const;
   class AtomVecSPHBulk *avec() const;

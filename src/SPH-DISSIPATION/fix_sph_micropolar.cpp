@@ -196,7 +196,7 @@ void FixSPHMicropolar::integrate_spin(bool extrapolate)
     for (int d = 0; d < 3; d++) {
       const double domega = dtirotate * torque[i][d];
       omega[i][d] += domega;
-      if (extrapolate) omegaest[i][d] = omega[i][d] + domega;
+      if (extrapolate) omegaest[i][d] = omega[i][d] + extrapolation * domega;
     }
   }
 }

@@ -43,7 +43,7 @@ using namespace SPHDissipation;
 FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), motion(new WallMotion(lmp, fmt::format("Fix {}", style))),
     exclusions(new Exclusions(lmp)), gravity{0.0, 0.0, 0.0}, move(true), slip(false), spin(ZERO),
-    rate(0.0), checked(false), total(), total_all(), total_summed(false)
+    rate(0.0), noise(false), checked(false), total(), total_all(), total_summed(false)
 {
   for (int iarg = 3; iarg < narg;) {
     const std::string keyword = arg[iarg];
@@ -143,6 +143,13 @@ void FixSPHWall::init()
   if (!pair) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
   if (domain->deform_vremap)
     error->all(FLERR, "Fix {} cannot be used when fix deform remaps velocities", style);
+
+  noise = pair->has_noise();
+  if (noise && (slip || spin != ZERO))
+    error->all(FLERR,
+               "Fix {}: only slip no and spin zero can be used with temp of the pair style: what "
+               "other walls do to the fluid is no friction that a noise can be in balance with",
+               style);
 
   motion->init();
   pair->add_boundary(this);
@@ -273,15 +280,22 @@ void FixSPHWall::set_boundary(Engine &engine, const Surface *surfaces, const Bou
     from_point(i, r);
     motion->acceleration_at(r, acceleration);
 
-    atom->rho[i] = sum.rho * norm;
-    atom->vfrac[i] = particle.vol = atom->rmass[i] / atom->rho[i];
+    // with thermal noise: motion, volume, and friction of the wall itself, for which the friction
+    // matrix is symmetric, and the pressure without that of the friction
+
     double pressure = sum.pressure * norm;
+    if (noise)
+      pressure -= sum.zeta_term * norm;
+    else {
+      atom->rho[i] = sum.rho * norm;
+      atom->vfrac[i] = particle.vol = atom->rmass[i] / atom->rho[i];
+    }
     for (int d = 0; d < 3; d++)
       pressure += sum.rho * norm * (gravity[d] - acceleration[d]) * sum.r[d] * norm;
     const double c_inv = particle.vol / engine.weight(i);
     particle.g = pressure * c_inv * c_inv;
-    engine.zeta_term[i] = sum.zeta_term * norm;
-    extend_motion(surfaces[i], sum, particle, engine.spin ? engine.spin + i : nullptr);
+    engine.zeta_term[i] = noise ? 0.0 : sum.zeta_term * norm;
+    if (!noise) extend_motion(surfaces[i], sum, particle, engine.spin ? engine.spin + i : nullptr);
   }
 }
 

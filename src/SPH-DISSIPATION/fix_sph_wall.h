@@ -70,6 +70,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   bool move, slip;
   SpinCondition spin;
   double rate;     // alpha of spin rate
+  bool noise;      // of the fluid
   bool checked;    // the thickness, in the first run
 
   double total[6], total_all[6];    // force and torque, of this rank and of all

@@ -33,6 +33,7 @@
 #include "sph_dissipation_kernel.h"
 #include "sph_dissipation_limit.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_noise.h"
 #include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_pressure.h"
 #include "sph_dissipation_state.h"
@@ -47,6 +48,10 @@
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+// the mode of that rate then has 1/(1 - 0.1/2) times the temperature between the steps
+
+static constexpr double ACCURATE_NOISE = 0.1;
 
 // adds the virial of each pair to the accumulators of the pair style
 
@@ -78,21 +83,24 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
                          const std::vector<std::string> &viscosities) :
     Pair(lmp),
     fluid_style(name), model(new FluidModel(lmp, name, viscosities)), dim(0), support(0.0),
-    announced(false), stale(false), warned_step(0.0), engine(new Engine(lmp)),
+    announced(false), stale(false), warned_step(0.0), noise_step(0.0), engine(new Engine(lmp)),
     crowding_requested(false)
 {
   exchange =
       new Exchange(lmp, this,
                    std::max({DensityStage::FORWARD, LimitStage::FORWARD, SurfaceStage::FORWARD,
-                             OpenStage::FORWARD, BoundaryStage::FORWARD, FluidState::FORWARD}),
+                             OpenStage::FORWARD, BoundaryStage::FORWARD, NoiseStage::FORWARD,
+                             FluidState::FORWARD}),
                    std::max({DensityStage::REVERSE, LimitStage::REVERSE, SurfaceStage::REVERSE,
-                             BoundaryStage::REVERSE, CrowdingStage::REVERSE, FluidState::REVERSE}));
+                             BoundaryStage::REVERSE, CrowdingStage::REVERSE, NoiseStage::REVERSE,
+                             FluidState::REVERSE}));
   density = new DensityStage(lmp, *engine, *exchange, *model);
   limit = new LimitStage(lmp, *engine, *exchange);
   pressure = new PressureStage(lmp, *engine, *exchange, *model);
   open = new OpenStage(lmp, *engine, *exchange);
   boundary = new BoundaryStage(lmp, *engine, *exchange, *model, fluid_style);
   crowd = new CrowdingStage(lmp, *engine, *exchange);
+  noise = new NoiseStage(lmp, *engine, *exchange, *model);
   forces = new ForceStage(lmp, *engine, *exchange);
 
   restartinfo = 1;
@@ -121,6 +129,7 @@ PairSPHBulk::~PairSPHBulk()
   delete open;
   delete boundary;
   delete crowd;
+  delete noise;
   delete forces;
   delete exchange;
   delete engine;
@@ -146,12 +155,14 @@ void PairSPHBulk::compute(int eflag, int vflag)
 
   const bool at_rest = (update->whichflag == 2);
   density->run(list, at_rest ? nullptr : atom->vest, at_rest ? nullptr : extrapolated_spin());
+  if (has_noise() && !boundary->empty()) boundary->set_reference_volume();
   if (limited) limit->run(list);
   if (!boundary->empty()) boundary->set_reference_volume();
   const bigint nbeyond = pressure->run(limited ? limit->bound : nullptr, boundary->bits());
   if (!open->empty()) open->run();
   if (!boundary->empty()) boundary->run(list);
   if (crowding_requested) crowd->run(list);
+  if (has_noise()) noise->run(list, limited ? limit->bound : nullptr, boundary->bits(), tally);
   forces->run(list, tally);
   if (!open->empty()) open->sum_impacts(list);
 
@@ -237,6 +248,13 @@ const double *PairSPHBulk::crowding(int i) const
 
 /* ---------------------------------------------------------------------- */
 
+bool PairSPHBulk::has_noise() const
+{
+  return model->choice.thermal;
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool PairSPHBulk::has_forces() const
 {
   return engine->has_forces();
@@ -314,6 +332,7 @@ void PairSPHBulk::check_setup()
                "Pair style {} with eos ideal cannot be used in a minimization: its energy depends "
                "on the heat of the particles, not on their positions alone",
                fluid_style);
+  if (has_noise()) check_noise(lmp, fluid_style);
   dim = model->dimension();
   support = model->common_support(setflag);
   find_own_types();
@@ -366,6 +385,7 @@ void PairSPHBulk::derive_coeffs()
     }
     rho0[i] = reference_density(i);
     model->set_bulk(i, intrinsic_kappa_of(i, i));
+    if (has_noise()) model->check_balance(i, intrinsic_kappa_of(i, i));
   }
 
   const Settings &choice = model->choice;
@@ -462,7 +482,7 @@ void PairSPHBulk::announce()
   }
 
   if (!announced) {
-    warned_step = 0.0;
+    warned_step = noise_step = 0.0;
     FluidState state(lmp, *engine, *exchange, *model);
     state.run(list, 1, not_fluid());
     if (comm->me == 0)
@@ -473,6 +493,7 @@ void PairSPHBulk::announce()
     state.warn(list, fluid_style, crowding_requested);
   }
   announced = true;
+  if (has_noise() && update->dt != noise_step) announce_noise(table.fastest_rate());
 
   const double smallest = table.smallest_step();
   if (update->dt > smallest && update->dt != warned_step) {
@@ -486,6 +507,28 @@ void PairSPHBulk::announce()
 
   check_energies(lmp, fluid_style, *model, not_fluid());
   check_neighbors(lmp, fluid_style, *model, *engine, not_fluid(), dim, support);
+}
+
+/* ----------------------------------------------------------------------
+   with rate, of the fastest viscous mode, times the time step: what the noise asks for
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::announce_noise(double rate)
+{
+  noise_step = update->dt;
+  if (comm->me == 0)
+    utils::logmesg(
+        lmp,
+        "Pair style {}: thermal noise of temperature {:g}, seed {}, largest viscous rate "
+        "times time step {:.3g}\n",
+        fluid_style, model->choice.temperature, model->choice.seed, rate * update->dt);
+  if (rate * update->dt > ACCURATE_NOISE && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Pair style {}: the largest viscous rate times the time step is {:.3g}, above {:g}; "
+        "velocities between steps, and with them the structure of the fluid, are hotter "
+        "than the temperature of the noise",
+        fluid_style, rate * update->dt, ACCURATE_NOISE);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -594,5 +637,6 @@ void PairSPHBulk::unpack_reverse_comm(int n, int *list, double *buf)
 double PairSPHBulk::memory_usage()
 {
   return Pair::memory_usage() + engine->memory_usage() + limit->memory_usage() +
-      open->memory_usage() + boundary->memory_usage() + crowd->memory_usage();
+      open->memory_usage() + boundary->memory_usage() + crowd->memory_usage() +
+      noise->memory_usage();
 }

@@ -34,6 +34,7 @@ namespace SPHDissipation {
   class FluidModel;
   class ForceStage;
   class LimitStage;
+  class NoiseStage;
   class OpenStage;
   class OpenZone;
   class PressureStage;
@@ -112,6 +113,8 @@ class PairSPHBulk : public Pair {
   void request_crowding() { crowding_requested = true; }
   const double *crowding(int i) const;
 
+  bool has_noise() const;    // keyword temp
+
   double support_radius() const { return support; }
   int dimension() const { return dim; }    // of the kernel
   double reference_density(int) const;     // of a type
@@ -129,6 +132,7 @@ class PairSPHBulk : public Pair {
   bool announced;                       // the table of coefficients is up to date
   bool stale;                           // what follows from the coefficients is to be derived anew
   double warned_step;                   // the time step that the last warning was about
+  double noise_step;                    // the time step that was announced with the noise
 
   // the two pair loops, and the stages around them
 
@@ -140,6 +144,7 @@ class PairSPHBulk : public Pair {
   SPHDissipation::OpenStage *open;
   SPHDissipation::BoundaryStage *boundary;
   SPHDissipation::CrowdingStage *crowd;
+  SPHDissipation::NoiseStage *noise;
   SPHDissipation::ForceStage *forces;
   bool crowding_requested;
 
@@ -160,6 +165,7 @@ class PairSPHBulk : public Pair {
   virtual void check_setup();
   void find_own_types();
   void derive_coeffs();
+  void announce_noise(double rate);
   void tally_energy();
 };
 

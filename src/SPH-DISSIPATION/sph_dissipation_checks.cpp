@@ -104,6 +104,28 @@ void SPHDissipation::check_styles(LAMMPS *lmp, const std::string &style)
                  style, other);
 }
 
+/* ---------------------------------------------------------------------- */
+
+void SPHDissipation::check_noise(LAMMPS *lmp, const std::string &style)
+{
+  Error *error = lmp->error;
+  if (lmp->update->whichflag == 2)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {} with temp cannot be used in a minimization: random forces have no "
+               "energy",
+               style);
+  if (!lmp->atom->tag_enable)
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair style {} with temp needs particles with IDs, to which its random numbers belong",
+        style);
+  if (!lmp->modify->get_fix_by_style("^dt/reset").empty())
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {} with temp cannot be used with fix dt/reset: its random forces are "
+               "those of one time step",
+               style);
+}
+
 /* ----------------------------------------------------------------------
    dim 1: the particles are on a line along x or y, whose periodic images must not interact
 ------------------------------------------------------------------------- */

@@ -36,6 +36,10 @@ namespace SPHDissipation {
 
   void check_styles(LAMMPS *, const std::string &style);
 
+  // what thermal noise needs: IDs of particles, a constant time step, no minimization
+
+  void check_noise(LAMMPS *, const std::string &style);
+
   // the support radius fits into the ghost cutoff and, for dim = 1, into the box around the line on
   // which the particles lie
 

@@ -137,6 +137,20 @@ namespace SPHDissipation {
     return (shear == Shear::MG_FR) ? coeff.along_r * r : coeff.along_r + coeff.along_u;
   }
 
+  // A negative coefficient of the bulk term beyond what the shear terms of the particle's pairs make up
+  // for, bound = sum_j (c_j/c_i)^2 V_j F r^2 / a_ij with their central weights a_ij; and the one at the
+  // edge
+
+  inline bool beyond_bound(double zeta, double bound)
+  {
+    return zeta * bound < -0.5;
+  }
+
+  inline double zeta_at_bound(double bound)
+  {
+    return -0.5 / bound;
+  }
+
   // bulk viscosity that the shear term brings with it: lambda = mu for mg and
   // lambda = -mu for Morris, kappa = lambda + 2 mu/n; P1 (66).  The form of Espanol and Revenga
   // is the sum of mg with mu/(n+3) and Morris with mu (n+2)/(n+3).

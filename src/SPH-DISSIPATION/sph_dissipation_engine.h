@@ -135,12 +135,19 @@ namespace SPHDissipation {
 
   typedef void (*Loop)(LoopData &);
 
+  struct NoiseData;
+  struct NoiseForm;
+  typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
+
   // the loops compiled for one instruction set
 
   struct LoopSet {
     const char *name;
     Loop (*density)(Kernel, Volume);
     Loop (*forces)(Shear, Bulk, Volume);
+    NoiseLoop (*noise_sums)(const NoiseForm &);
+    NoiseLoop (*noise)(const NoiseForm &);
+    void (*noise_pressure)(const NoiseData &, int n);    // of n particles
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
@@ -206,6 +213,7 @@ namespace SPHDissipation {
 
     // the pairs inside the support that pass 1 has found, for the sums of other stages
     const LoopData &pairs() const { return data; }
+    const LoopSet &loop_set() const { return *loops; }
 
     int dimension() const { return dim; }    // of the kernel
     Kernel kernel_form() const { return kernel; }

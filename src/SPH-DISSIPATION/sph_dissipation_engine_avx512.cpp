@@ -12,12 +12,14 @@
 ------------------------------------------------------------------------- */
 
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_noise_data.h"
 
 // the pair loops for processors with AVX-512, chosen at run time
 
 #ifdef SPH_DISSIPATION_DISPATCH
 
 #include <cmath>
+#include <cstdint>
 #include <immintrin.h>
 
 #ifdef __clang__
@@ -38,7 +40,12 @@
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-  const LoopSet loops_avx512 = {"avx512", LOOPS::choose_density_loop, LOOPS::choose_force_loop};
+  const LoopSet loops_avx512 = {"avx512",
+                                LOOPS::choose_density_loop,
+                                LOOPS::choose_force_loop,
+                                LOOPS::choose_eta_loop,
+                                LOOPS::choose_impulse_loop,
+                                LOOPS::pressure_loop};
 }
 }    // namespace LAMMPS_NS
 

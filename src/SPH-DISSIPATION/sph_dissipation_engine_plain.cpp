@@ -12,8 +12,11 @@
 ------------------------------------------------------------------------- */
 
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_noise_data.h"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 // the pair loops without vectors, for every processor and compiler
 
@@ -22,6 +25,11 @@
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-  const LoopSet loops_plain = {"plain", LOOPS::choose_density_loop, LOOPS::choose_force_loop};
+  const LoopSet loops_plain = {"plain",
+                               LOOPS::choose_density_loop,
+                               LOOPS::choose_force_loop,
+                               LOOPS::choose_eta_loop,
+                               LOOPS::choose_impulse_loop,
+                               LOOPS::pressure_loop};
 }
 }    // namespace LAMMPS_NS

@@ -17,6 +17,7 @@
 // compiled for a processor that a user may not have.
 
 #include "sph_dissipation_simd.h"
+#include "sph_dissipation_words.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -355,6 +356,8 @@ namespace SPHDissipation {
       return (volume == Volume::MASS) ? choose_bulk<true>(shear, bulk)
                                       : choose_bulk<false>(shear, bulk);
     }
+
+#include "sph_dissipation_noise_loops.h"
 
   }    // namespace LOOPS
 }    // namespace SPHDissipation

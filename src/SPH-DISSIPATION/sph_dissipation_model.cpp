@@ -32,7 +32,7 @@ using namespace SPHDissipation;
 
 Settings::Settings() :
     kernel(Kernel::WENDLAND_C2), eos(Eos::LINEAR), shear(Shear::MG), bulk(Bulk::DENSITY), dim(0),
-    limit(Limit::NO), volume(Volume::NUMBER)
+    limit(Limit::NO), volume(Volume::NUMBER), thermal(false), temperature(0.0), seed(0)
 {
 }
 
@@ -124,13 +124,13 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
   simd = "auto";
   choice.shear = default_shear;
 
-  for (int iarg = 0; iarg < narg; iarg += 2) {
+  for (int iarg = 0; iarg < narg; iarg += (strcmp(arg[iarg], "temp") == 0) ? 3 : 2) {
     const std::string keyword = arg[iarg];
     if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "bulk" &&
-        keyword != "volume" && keyword != "limit" && keyword != "simd" &&
+        keyword != "volume" && keyword != "limit" && keyword != "simd" && keyword != "temp" &&
         (keyword != "shear" || default_shear != Shear::MG))
       error->all(FLERR, place(arg[iarg]), "Unknown pair_style {} keyword: {}", style, keyword);
-    if (iarg + 2 > narg)
+    if (iarg + (keyword == "temp" ? 3 : 2) > narg)
       utils::missing_cmd_args(FLERR, "pair_style " + style + " " + keyword, error);
     const std::string word = arg[iarg + 1];
     auto unknown = [&](const char *what) {
@@ -169,6 +169,16 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
     } else if (keyword == "simd") {
       if (word != "auto" && word != "none" && word != "avx2" && word != "avx512") unknown("simd");
       simd = word;
+    } else if (keyword == "temp") {
+      choice.thermal = true;
+      choice.temperature = utils::numeric(FLERR, word, false, lmp);
+      if (!(choice.temperature >= 0.0))
+        error->all(FLERR, place(arg[iarg + 1]), "Pair_style {} temp must be >= 0, not {}", style,
+                   word);
+      choice.seed = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
+      if (choice.seed <= 0)
+        error->all(FLERR, place(arg[iarg + 2]), "Pair_style {} temp: the seed must be > 0, not {}",
+                   style, arg[iarg + 2]);
     } else {
       choice.dim = utils::inumeric(FLERR, word, false, lmp);
       if (choice.dim < 1 || choice.dim > 3)
@@ -178,6 +188,16 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
   }
   if (choice.limit != Limit::NO && choice.bulk != Bulk::DENSITY)
     error->all(FLERR, "Pair_style {} limit requires bulk density", style);
+  if (choice.thermal && choice.bulk == Bulk::VOLUME)
+    error->all(FLERR,
+               "Pair_style {} temp cannot be used with bulk volume: its friction matrix is not "
+               "symmetric, so that no noise is in balance with it",
+               style);
+  if (choice.thermal && choice.eos == Eos::IDEAL)
+    error->all(FLERR,
+               "Pair_style {} temp cannot be used with eos ideal: the heat of the viscous forces, "
+               "without end at a given temperature, would raise its pressure",
+               style);
 }
 
 /* ----------------------------------------------------------------------

@@ -41,6 +41,9 @@ namespace SPHDissipation {
     int dim;    // 0: dimension of the simulation
     Limit limit;
     Volume volume;
+    bool thermal;          // thermal noise
+    double temperature;    // of it
+    int seed;
   };
 
   // what pair_coeff I I sets and what follows from it
@@ -96,6 +99,7 @@ namespace SPHDissipation {
     // coefficient of the bulk term of type i, whose shear term gives the bulk viscosity intrinsic
 
     void set_bulk(int i, double intrinsic);
+    void check_balance(int i, double intrinsic) const;    // of its noise and its friction
     void warn_of_ignored(int i, double intrinsic) const;    // kappa, if there is no bulk term
 
     void write_settings(FILE *) const;

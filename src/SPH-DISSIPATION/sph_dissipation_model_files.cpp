@@ -25,7 +25,7 @@ using namespace SPHDissipation;
 // first number of the settings in a restart file; the settings of older versions begin with one
 // below 10.  A new one for every change of what is stored.
 
-static constexpr int FORMAT = 1001;
+static constexpr int FORMAT = 1002;
 
 /* ----------------------------------------------------------------------
    numbers to and from a restart file; proc 0 reads and checks, all get them
@@ -99,6 +99,9 @@ void FluidModel::write_settings(FILE *fp) const
   put(fp, choice.dim);
   put(fp, static_cast<int>(choice.limit));
   put(fp, static_cast<int>(choice.volume));
+  put(fp, static_cast<int>(choice.thermal));
+  put(fp, choice.temperature);
+  put(fp, choice.seed);
 }
 
 /* ----------------------------------------------------------------------
@@ -126,6 +129,9 @@ void FluidModel::read_settings(FILE *fp, Shear default_shear)
   choice.dim = read.integer("dim", 0, 3);
   choice.limit = static_cast<Limit>(read.integer("limit", 0, static_cast<int>(Limit::YES)));
   choice.volume = static_cast<Volume>(read.integer("volume", 0, static_cast<int>(Volume::MASS)));
+  choice.thermal = read.integer("flag of thermal noise", 0, 1);
+  choice.temperature = read.number("temperature");
+  choice.seed = read.integer("seed", 0, MAXSMALLINT);
 }
 
 /* ----------------------------------------------------------------------

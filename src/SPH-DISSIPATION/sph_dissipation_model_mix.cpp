@@ -53,6 +53,22 @@ void FluidModel::set_bulk(int i, double intrinsic)
   publish(nviscosity() + KAPPA, i);
 }
 
+/* ----------------------------------------------------------------------
+   a negative coefficient, but for round-off, has a noise only up to the bound of each particle
+------------------------------------------------------------------------- */
+
+void FluidModel::check_balance(int i, double intrinsic) const
+{
+  constexpr double ROUNDOFF = 1.0e-12;
+  const TypeCoeff &type = coeffs[i];
+  if (type.other || choice.limit == Limit::YES || type.zeta >= -ROUNDOFF * std::fabs(intrinsic))
+    return;
+  error->all(FLERR, Error::NOLASTLINE,
+             "Pair style {} temp requires limit yes with kappa {} of type {}, below the {} of its "
+             "shear term: particles beyond the bound have no noise in balance with their friction",
+             style, type.kappa, i, intrinsic);
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FluidModel::warn_of_ignored(int i, double intrinsic) const

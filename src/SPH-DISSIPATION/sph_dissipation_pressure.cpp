@@ -58,9 +58,9 @@ bigint PressureStage::run(const double *bound, int not_fluid)
     const double rate = engine.density[i].cdot * c_inv;
 
     double zeta = coeff.zeta;
-    if (bound && zeta * bound[i] < -0.5) {
+    if (bound && beyond_bound(zeta, bound[i])) {
       if (i < nlocal) nbeyond++;
-      if (cut_off) zeta = -0.5 / bound[i];
+      if (cut_off) zeta = zeta_at_bound(bound[i]);
     }
 
     const double p = pressure(eos, coeff.eos, rho[i], esph[i] / rmass[i]);

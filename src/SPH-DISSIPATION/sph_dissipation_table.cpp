@@ -49,6 +49,7 @@ void CoeffTable::add_row(int i, int j, const Columns &values, double acoustic,
   steps.insert(steps.end(), viscous.begin(), viscous.end());
   steps.emplace_back("all", combined_step(acoustic, viscous_steps));
   smallest = std::min(smallest, steps.back().second);
+  fastest = std::max(fastest, 1.0 / combined_step(UNLIMITED_STEP, viscous_steps));
 
   if (lines.empty()) {
     lines = "  types   ";

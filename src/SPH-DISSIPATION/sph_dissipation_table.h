@@ -36,17 +36,18 @@ namespace SPHDissipation {
 
   class CoeffTable {
    public:
-    CoeffTable() : smallest(UNLIMITED_STEP) {}
+    CoeffTable() : smallest(UNLIMITED_STEP), fastest(0.0) {}
 
     // values = viscosities and coefficients, viscous = time steps of the viscous terms
 
     void add_row(int i, int j, const Columns &values, double acoustic, const Columns &viscous);
     std::string text() const;    // with a line on the accuracy of these steps
     double smallest_step() const { return smallest; }    // with all terms together, of all rows
+    double fastest_rate() const { return fastest; }      // damping by all viscous terms, of all rows
 
    private:
     std::string lines;
-    double smallest;
+    double smallest, fastest;
   };
 
 }    // namespace SPHDissipation

@@ -51,6 +51,7 @@ DenseReference::Particles Configuration::reference_particles() const
   particles.mass.assign(mass.begin(), mass.end());
   particles.energy.assign(energy.begin(), energy.end());
   particles.type = type;
+  particles.wall = wall;
   return particles;
 }
 

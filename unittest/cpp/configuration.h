@@ -31,6 +31,7 @@ struct Configuration {
   std::vector<double> mass, energy;    // energy of the whole particle
   std::vector<int> type;               // from 1
   std::vector<double> spin;            // 3 per particle of a micropolar fluid, otherwise empty
+  std::vector<bool> wall;              // particles of a wall, or empty
   bool volume_by_mass = false;         // volumes from reference volumes m/rho0
 
   int size() const { return static_cast<int>(mass.size()); }

@@ -232,6 +232,7 @@ System::System(const Model &_model, const Box &box, const Particles &particles) 
   cdot = Vector::Zero(N);
   for (int i = 0; i < N; i++) {
     for (int j = 0; j < N; j++) {
+      if (i != j && is_wall(i) && is_wall(j)) continue;
       for (int a = -range[0]; a <= range[0]; a++) {
         for (int b = -range[1]; b <= range[1]; b++) {
           for (int d = -range[2]; d <= range[2]; d++) {
@@ -254,6 +255,8 @@ System::System(const Model &_model, const Box &box, const Particles &particles) 
     }
   }
   V = w.cwiseQuotient(c);
+  for (int i = 0; i < N; i++)
+    if (is_wall(i)) V(i) = atoms.mass[i] / model.fluids[atoms.type[i] - 1].rho0;
   cdot = density_rate_rows() * velocity();
 }
 
@@ -427,6 +430,8 @@ Viscous System::shear(const std::string &form) const
 
 System::PairViscosity System::micropolar_viscosity(int itype, int jtype) const
 {
+  const auto known = known_viscosity.find({itype, jtype});
+  if (known != known_viscosity.end()) return known->second;
   const SpinFluid &a = model.spins[itype - 1], &b = model.spins[jtype - 1];
   SpinFluid fluid{harmonic_mean(a.mu_r, b.mu_r), harmonic_mean(a.gamma1, b.gamma1),
                   harmonic_mean(a.gamma2, b.gamma2)};
@@ -464,6 +469,7 @@ System::PairViscosity System::micropolar_viscosity(int itype, int jtype) const
     result.xi1 = (fluid.gamma1 + fluid.gamma2) / (xxxx - xxyy);
     result.xi2 = (fluid.gamma1 - result.xi1 * xxyy) / xx;
   }
+  known_viscosity[{itype, jtype}] = result;
   return result;
 }
 
@@ -542,7 +548,7 @@ Micropolar System::micropolar() const
 Real System::bulk_amplitude(int k, const std::string &form, const std::string &shear_form) const
 {
   const Real z = zeta(atoms.type[k], shear_form);
-  if (form == "none") return 0.0L;
+  if (form == "none" || is_wall(k)) return 0.0L;
   if (form == "density") return z * V(k) / (c(k) * c(k));
   if (form == "volume") return z / c(k);
   throw std::invalid_argument("bulk " + form);
@@ -556,7 +562,7 @@ Vector System::zeta_limit(const std::string &shear_form) const
 {
   Vector sum = Vector::Zero(N);
   for (const auto &p : pairs) {
-    const Real along = p.r.dot(shear_block(p, shear_form) * p.r) / p.r.squaredNorm();
+    const Real along = coefficients(p, shear_form).along;
     const Real share = w(p.j) * p.F / c(p.i);
     sum(p.i) += V(p.i) * share * share * p.r.squaredNorm() / along;
   }

@@ -110,7 +110,8 @@ struct Particles {
   Matrix x, v;    // n rows, one column per particle
   Matrix spin;    // n = 3: three rows, n = 2: one row, the z component; empty without spin
   std::vector<Real> mass, energy;
-  std::vector<int> type;    // from 1
+  std::vector<int> type;      // from 1
+  std::vector<bool> wall;     // with reference volume and without bulk term and pairs among each other; or empty
   int size() const { return static_cast<int>(mass.size()); }
 };
 
@@ -142,6 +143,19 @@ struct Micropolar {
   Vector central, vortex, spin;    // heating by (e.u*)^2, by u*^2 and by differences of spin
 };
 
+// Random numbers of the thermal noise and what they do: impulses of all velocities followed by all spins, in the square
+// root of the time, are B times the numbers. A number belongs to a particle (pressure) or to two, low < high.
+
+struct NoiseNumber {
+  int low, high;    // high < 0: pressure
+  int index;        // of the numbers of the pair
+};
+
+struct Noise {
+  Sparse B;
+  std::vector<NoiseNumber> numbers;
+};
+
 class System {
  public:
   System(const Model &model, const Box &box, const Particles &particles);
@@ -160,6 +174,9 @@ class System {
   Micropolar micropolar() const;
   Viscous bulk(const std::string &form, const std::string &shear_form, bool limited = false) const;
 
+  // with B B^T = 2 kT times the friction matrix of shear, micropolar, and bulk terms (dense_noise.cpp)
+  Noise noise(const std::string &shear_form, bool has_bulk, bool limited, Real kT) const;
+
   // half of r_ij (x) f_ij of every pair to each partner: 6 rows xx yy zz xy xz yz (rows of absent
   // directions are zero), one column per particle
 
@@ -172,6 +189,7 @@ class System {
   // bulk coefficient of a type that complements the shear term to the wanted kappa
 
   Real zeta(int type, const std::string &shear_form) const;
+  bool is_wall(int i) const { return !atoms.wall.empty() && atoms.wall[i]; }
   Real mu(int itype, int jtype) const;
 
   Vector velocity() const;             // all velocities stacked
@@ -188,6 +206,11 @@ class System {
     Real zeta1, zeta2, xi1, xi2;
   };
   PairViscosity micropolar_viscosity(int itype, int jtype) const;
+  mutable std::map<std::pair<int, int>, PairViscosity> known_viscosity;
+  struct Coefficients {    // of a pair: before (e.u*)^2 and its complement, likewise for the spins
+    Real along, across, spin_along, spin_across;
+  };
+  Coefficients coefficients(const Pair &pair, const std::string &form) const;
   SmallMatrix shear_block(const Pair &pair, const std::string &form) const;
   Real bulk_amplitude(int k, const std::string &form, const std::string &shear_form) const;
   Vector zeta_limit(const std::string &shear_form) const;    // per particle, negative

@@ -1,0 +1,210 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_noise.h"
+
+#include "atom.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
+#include "sph_dissipation_model.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const FluidModel &model) :
+    Stage(lmp, engine, exchange), model(model), form(), data()
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void NoiseStage::run(NeighList *list, const double *bound, int not_fluid, PairTally *tally)
+{
+  if (neighbor->ago == 0) {
+    check_box();
+    prepare();
+  }
+  form = {engine.shear_form(), engine.dimension(), false};
+  for (int type = 1; type <= atom->ntypes; type++)
+    if (bound && !model.coeffs[type].other && model.coeffs[type].zeta < 0.0) form.directed = true;
+
+  // the force of a step is that of an impulse over its time
+
+  const double factor = 2.0 * force->boltz * model.choice.temperature / update->dt;
+  data.step = static_cast<std::uint64_t>(update->ntimestep);
+  data.type = atom->type;
+  data.tally = tally;
+
+  add_pressure(factor, not_fluid);
+  if (!set_coeffs(factor)) return;
+  if (form.directed) set_shares(bound, not_fluid);
+  add_impulses();
+}
+
+/* ----------------------------------------------------------------------
+   two images of a particle within the support of another one would get the same number
+------------------------------------------------------------------------- */
+
+void NoiseStage::check_box() const
+{
+  const double *const h_inv = domain->h_inv;
+  const double heights[3] = {
+      1.0 / sqrt(h_inv[0] * h_inv[0] + h_inv[5] * h_inv[5] + h_inv[4] * h_inv[4]),
+      1.0 / sqrt(h_inv[1] * h_inv[1] + h_inv[3] * h_inv[3]), 1.0 / h_inv[2]};
+  const double support = engine.pairs().support;
+  for (int d = 0; d < domain->dimension; d++)
+    if (domain->periodicity[d] && heights[d] < 2.0 * support)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair style with temp: the {} extent {} of the periodic box must be at least two "
+                 "support radii, {}, or two images of a particle would get the same random number",
+                 "xyz"[d], heights[d], 2.0 * support);
+}
+
+/* ----------------------------------------------------------------------
+   what only changes with the particles that are there
+------------------------------------------------------------------------- */
+
+void NoiseStage::prepare()
+{
+  const int nall = atom->nlocal + atom->nghost;
+  tag.assign(nall + BLOCK, 0);
+  for (int i = 0; i < nall; i++) tag[i] = static_cast<std::uint64_t>(atom->tag[i]);
+  pressure.resize(nall + BLOCK);
+  data.tag = tag.data();
+  data.pressure = pressure.data();
+  data.seed = static_cast<std::uint64_t>(model.choice.seed);
+}
+
+/* ----------------------------------------------------------------------
+   false if there is no friction between pairs
+------------------------------------------------------------------------- */
+
+bool NoiseStage::set_coeffs(double factor)
+{
+  const LoopData &pairs = engine.pairs();
+  const bool by_r = (form.shear == Shear::MG_FR);
+  const double share = form.directed ? 0.5 : 1.0;
+  bool any = false;
+  coeff.assign(pairs.ntypes_1 * pairs.ntypes_1, NoiseCoeff());
+  for (int i = 1; i < pairs.ntypes_1; i++)
+    for (int j = 1; j < pairs.ntypes_1; j++) {
+      const PairCoeff &pair = pairs.coeff[i * pairs.ntypes_1 + j];
+      NoiseCoeff &noise = coeff[i * pairs.ntypes_1 + j];
+      const double central = std::max(pair.along_r + (by_r ? 0.0 : pair.along_u), 0.0);
+      const double spin_along = std::max(pair.xi1 + pair.xi2, 0.0);
+      noise.central = sqrt(share * factor * central);
+      noise.transverse = sqrt(factor * pair.along_u);
+      noise.spin_along = sqrt(factor * spin_along);
+      noise.spin_across = sqrt(factor * pair.xi2);
+      noise.inverse_central = (central > 0.0) ? 1.0 / central : 0.0;
+      if (central > 0.0 || pair.along_u > 0.0 || spin_along > 0.0 || pair.xi2 > 0.0) any = true;
+    }
+  data.coeff = coeff.data();
+  return any;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool NoiseStage::is_negative(int i) const
+{
+  return form.directed && model.coeffs[atom->type[i]].zeta < 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   ghosts of a particle get the same number as it, without communication
+------------------------------------------------------------------------- */
+
+void NoiseStage::add_pressure(double factor, int not_fluid)
+{
+  const int nall = atom->nlocal + atom->nghost;
+  engine.loop_set().noise_pressure(data, nall);
+  for (int i = 0; i < nall; i++) {
+    const TypeCoeff &type = model.coeffs[atom->type[i]];
+    if (type.other || (atom->mask[i] & not_fluid) || !(type.zeta > 0.0)) continue;
+    Particle &particle = engine.particle[i];
+    const double c_inv = particle.vol / engine.weight(i);
+    particle.g += sqrt(factor * type.zeta / particle.vol) * pressure[i] * c_inv * c_inv;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void NoiseStage::set_shares(const double *bound, int not_fluid)
+{
+  constexpr double ROUNDOFF = 1.0e-15;    // of 1 + 2 zeta D, which is 0 at the bound
+  const int nlocal = atom->nlocal;
+  const int nall = nlocal + atom->nghost;
+  share.assign(nall + BLOCK, NoiseShare());
+  eta.assign(nall + BLOCK, 0.0);
+  for (int i = 0; i < nall; i++) share[i].reach = engine.weight(i) / sqrt(engine.particle[i].vol);
+  data.share = share.data();
+  data.eta = eta.data();
+  engine.loop_set().noise_sums(form)(engine.pairs(), data);
+  exchange.reverse({{eta.data(), 1, 1}});
+
+  for (int i = 0; i < nlocal; i++) {
+    const TypeCoeff &type = model.coeffs[atom->type[i]];
+    if (type.other || (atom->mask[i] & not_fluid) || !is_negative(i)) continue;
+    const double zeta = beyond_bound(type.zeta, bound[i]) ? zeta_at_bound(bound[i]) : type.zeta;
+    if (!(zeta < 0.0)) continue;    // no bound: a pair without friction
+    const double rest = 1.0 + 2.0 * zeta * bound[i];
+    const double s = 1.0 - ((rest > ROUNDOFF) ? sqrt(rest) : 0.0);
+    const double c_inv = engine.particle[i].vol / engine.weight(i);
+    share[i].share = (bound[i] > 0.0) ? s * eta[i] * c_inv * c_inv / bound[i] : 0.0;
+  }
+  exchange.forward({field(share.data(), &share.data()->share, 1)});
+}
+
+/* ----------------------------------------------------------------------
+   by way of the sums of pass 2, which starts them anew
+------------------------------------------------------------------------- */
+
+void NoiseStage::add_impulses()
+{
+  const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+  const int nrow = atom->nlocal + atom->nghost + BLOCK;
+  data.force = engine.force;
+  data.torque = engine.torque;
+  std::fill_n(engine.force, nrow, ForceSum());
+  if (engine.has_spin()) std::fill_n(engine.torque, nrow, TorqueSum());
+
+  engine.loop_set().noise(form)(engine.pairs(), data);
+
+  double **f = atom->f;
+  for (int i = 0; i < n; i++)
+    for (int d = 0; d < 3; d++) f[i][d] += engine.force[i].f[d];
+  if (!engine.has_spin()) return;
+  double **torque = atom->torque;
+  for (int i = 0; i < n; i++)
+    for (int d = 0; d < 3; d++) torque[i][d] += engine.torque[i].t[d];
+}
+
+/* ---------------------------------------------------------------------- */
+
+double NoiseStage::memory_usage() const
+{
+  return (double) tag.capacity() * sizeof(std::uint64_t) +
+      (double) share.capacity() * sizeof(NoiseShare) +
+      (double) (eta.capacity() + pressure.capacity()) * sizeof(double);
+}

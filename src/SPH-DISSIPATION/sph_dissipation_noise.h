@@ -1,0 +1,73 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_NOISE_H
+#define LMP_SPH_DISSIPATION_NOISE_H
+
+#include "sph_dissipation_noise_data.h"
+#include "sph_dissipation_stage.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  class FluidModel;
+
+  // Thermal noise: random forces and torques of the pairs, and a random pressure of each particle.  The
+  // impulses of a step have the covariance 2 kB T Gamma dt, where Gamma is the friction matrix of all
+  // viscous terms together (theory page).
+  //
+  // zeta_i >= 0: random pressure sqrt(2 kT zeta/(V dt)) xi_i
+  // zeta_i < 0: half of what each pair of i puts before (u.e)^2, a_ij F V_i V_j, is that of i, which
+  // has a number xi_ij of its own for each pair.  With gamma_ij = (c_j/c_i) sqrt(V_j F r^2/a_ij), D_i =
+  // sum_j gamma_ij^2, and eta_i = sum_j gamma_ij xi_ij, the numbers
+  //   chi_ij = xi_ij - s_i gamma_ij eta_i/D_i,  s_i = 1 - sqrt(1 + 2 zeta_i D_i)
+  // have the covariance 1 + 2 zeta_i gamma_i gamma_i^T.  D_i is the bound of LimitStage.
+
+  class NoiseStage : public Stage {
+   public:
+    NoiseStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
+    static constexpr int FORWARD = 1, REVERSE = 1;    // values per atom
+
+    // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and the rest onto
+    // forces and torques.  bound = of LimitStage, nullptr without; not_fluid = bits of the groups of
+    // boundary particles, which have no pressure of their own; tally of each pair, or nullptr
+
+    void run(NeighList *, const double *bound, int not_fluid, PairTally *);
+
+    double memory_usage() const override;
+
+   private:
+    const FluidModel &model;
+    NoiseForm form;
+    NoiseData data;
+    std::vector<std::uint64_t> tag;
+    std::vector<NoiseCoeff> coeff;
+    std::vector<NoiseShare> share;
+    std::vector<double> eta, pressure;
+
+    void check_box() const;
+    void prepare();
+    bool set_coeffs(double factor);
+    bool is_negative(int i) const;
+    void add_pressure(double factor, int not_fluid);
+    void set_shares(const double *bound, int not_fluid);
+    void add_impulses();
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

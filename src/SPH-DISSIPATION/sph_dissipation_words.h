@@ -1,0 +1,143 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// Words for random numbers, beside the vectors of sph_dissipation_simd.h: a Words holds one unsigned
+// number of 64 bits of each of LANES pairs.  + and ^ act on it as on a number.
+//
+//   all_words(a)        a in every lane
+//   load_words(from)    LANES of them, one after another
+//   product(a, b)       of the lower 32 bits of each
+//   shifted<N>(a)       to the right by N bits
+//   masked(a, bits)     the bits of a that are set in bits, which is one number
+//   number(a)           as a number, a < 2^52
+//   pattern(a)          the bits of a number; value(a) the number that has these bits
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+  namespace LOOPS {
+
+#if defined(LOOPS_AVX512)
+
+    typedef __m512i Words;
+
+    SPH_INLINE Words all_words(std::uint64_t a)
+    {
+      return _mm512_set1_epi64(static_cast<long long>(a));
+    }
+    SPH_INLINE Words load_words(const std::uint64_t *from)
+    {
+      return _mm512_loadu_si512(from);
+    }
+    SPH_INLINE Words product(Words a, Words b)
+    {
+      return _mm512_mul_epu32(a, b);
+    }
+    template <int N> SPH_INLINE Words shifted(Words a)
+    {
+      return _mm512_srli_epi64(a, N);
+    }
+    SPH_INLINE Words masked(Words a, std::uint64_t bits)
+    {
+      return _mm512_and_si512(a, all_words(bits));
+    }
+    SPH_INLINE Words pattern(Vec a)
+    {
+      return _mm512_castpd_si512(a);
+    }
+    SPH_INLINE Vec value(Words a)
+    {
+      return _mm512_castsi512_pd(a);
+    }
+
+#elif defined(LOOPS_AVX2)
+
+    typedef __m256i Words;
+
+    SPH_INLINE Words all_words(std::uint64_t a)
+    {
+      return _mm256_set1_epi64x(static_cast<long long>(a));
+    }
+    SPH_INLINE Words load_words(const std::uint64_t *from)
+    {
+      return _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from));
+    }
+    SPH_INLINE Words product(Words a, Words b)
+    {
+      return _mm256_mul_epu32(a, b);
+    }
+    template <int N> SPH_INLINE Words shifted(Words a)
+    {
+      return _mm256_srli_epi64(a, N);
+    }
+    SPH_INLINE Words masked(Words a, std::uint64_t bits)
+    {
+      return _mm256_and_si256(a, all_words(bits));
+    }
+    SPH_INLINE Words pattern(Vec a)
+    {
+      return _mm256_castpd_si256(a);
+    }
+    SPH_INLINE Vec value(Words a)
+    {
+      return _mm256_castsi256_pd(a);
+    }
+
+#else
+
+    typedef std::uint64_t Words;
+
+    SPH_INLINE Words all_words(std::uint64_t a)
+    {
+      return a;
+    }
+    SPH_INLINE Words load_words(const std::uint64_t *from)
+    {
+      return *from;
+    }
+    SPH_INLINE Words product(Words a, Words b)
+    {
+      return (a & 0xffffffff) * (b & 0xffffffff);
+    }
+    template <int N> SPH_INLINE Words shifted(Words a)
+    {
+      return a >> N;
+    }
+    SPH_INLINE Words masked(Words a, std::uint64_t bits)
+    {
+      return a & bits;
+    }
+    SPH_INLINE Words pattern(Vec a)
+    {
+      Words bits;
+      std::memcpy(&bits, &a, sizeof(bits));
+      return bits;
+    }
+    SPH_INLINE Vec value(Words a)
+    {
+      Vec number;
+      std::memcpy(&number, &a, sizeof(number));
+      return number;
+    }
+
+#endif
+
+    // the same for all instruction sets: a as the lower bits of a number between 2^52 and 2^53
+
+    SPH_INLINE Vec number(Words a)
+    {
+      return value(a ^ all_words(0x4330000000000000)) - all(4503599627370496.0);
+    }
+
+  }    // namespace LOOPS
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS

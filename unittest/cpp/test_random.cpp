@@ -1,0 +1,143 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+
+   This software is distributed under the GNU General Public License,
+   version 2. See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+// The random numbers of the thermal noise: known answers, distribution, independence.
+
+#include "sph_dissipation_noise_data.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+// the header is written for vectors of any width; here, of one number
+
+#define SPH_INLINE inline
+#define LOOPS one_number
+#define NEIGHMASK 0x1FFFFFFF
+typedef std::int64_t bigint;
+#include "sph_dissipation_simd.h"
+#include "sph_dissipation_words.h"
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+  namespace one_number {
+#include "sph_dissipation_random.h"
+  }
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+using namespace LAMMPS_NS::SPHDissipation::one_number;
+
+static std::array<Words, 4> random_words(std::array<Words, 4> counter, Words key0, Words key1)
+{
+  std::array<Words, 4> random;
+  philox(counter.data(), key0, key1, random.data());
+  return random;
+}
+
+// of Random123, file kat_vectors
+
+TEST(Random, known_answers)
+{
+  using Answer = std::array<Words, 4>;
+  EXPECT_EQ(random_words({0, 0, 0, 0}, 0, 0),
+            (Answer{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+  const Words ones = 0xffffffff;
+  EXPECT_EQ(random_words({ones, ones, ones, ones}, ones, ones),
+            (Answer{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+  EXPECT_EQ(random_words({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, 0xa4093822, 0x299f31d0),
+            (Answer{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+}
+
+TEST(Random, bits_above_32_do_not_count)
+{
+  const Words high = 0x1234567800000000;
+  EXPECT_EQ(random_words({1 + high, 2 + high, 3 + high, 4 + high}, 5 + high, 6 + high),
+            random_words({1, 2, 3, 4}, 5, 6));
+}
+
+TEST(Random, logarithm_and_circle)
+{
+  for (const double a : {1.2e-10, 1e-5, 0.3, 0.5, 0.70710678, 0.7071068, 0.9, 0.99999999988})
+    EXPECT_NEAR(logarithm(a), std::log(a), 4e-16 * std::fabs(std::log(a)) + 1e-19) << a;
+
+  // r^2 from the first word, both halves of the circle from the second
+
+  for (const Words first : {0u, 77u, 0x80000000u, 0xffffffffu}) {
+    const double radius = std::sqrt(-2.0 * std::log((first + 0.5) / 4294967296.0));
+    for (const Words second :
+         {0u, 1u, 0x40000000u, 0x40000001u, 0x7ffffffeu, 0xc0000001u, 0xffffffffu}) {
+      const double side = (second & 1) ? -1.0 : 1.0;
+      const double angle = std::acos(-1.0) * ((second - (second & 1) + 1.0) / 4294967296.0 - 0.5);
+      double x, y;
+      normal_pair(first, second, x, y);
+      EXPECT_NEAR(x, side * radius * std::cos(angle), 1e-14);
+      EXPECT_NEAR(y, side * radius * std::sin(angle), 1e-14);
+    }
+  }
+}
+
+// numbers of a million pairs, counters as in the loops: two IDs next to each other, steps in a row
+
+static std::vector<std::array<double, 4>> many_numbers()
+{
+  std::vector<std::array<double, 4>> numbers;
+  for (Words step = 0; step < 10; step++)
+    for (Words low = 1; low <= 1000; low++)
+      for (Words neighbor = 1; neighbor <= 100; neighbor++) {
+        const auto word = random_words({low, low + neighbor, step, 0}, 4711, 1 << 28);
+        std::array<double, 4> z;
+        normal_pair(word[0], word[1], z[0], z[1]);
+        normal_pair(word[2], word[3], z[2], z[3]);
+        numbers.push_back(z);
+      }
+  return numbers;
+}
+
+TEST(Random, moments_and_correlations_of_a_million_pairs)
+{
+  const auto numbers = many_numbers();
+  const double n = numbers.size();
+  ASSERT_EQ(numbers.size(), 1000000u);
+  for (int a = 0; a < 4; a++) {
+    double mean = 0.0, square = 0.0, cube = 0.0, fourth = 0.0;
+    for (const auto &z : numbers) {
+      mean += z[a] / n;
+      square += z[a] * z[a] / n;
+      cube += z[a] * z[a] * z[a] / n;
+      fourth += z[a] * z[a] * z[a] * z[a] / n;
+    }
+    // four standard errors: variances 1, 2, 15, and 96 of the normal distribution
+    EXPECT_NEAR(mean, 0.0, 4.0 * std::sqrt(1.0 / n));
+    EXPECT_NEAR(square, 1.0, 4.0 * std::sqrt(2.0 / n));
+    EXPECT_NEAR(cube, 0.0, 4.0 * std::sqrt(15.0 / n));
+    EXPECT_NEAR(fourth, 3.0, 4.0 * std::sqrt(96.0 / n));
+  }
+
+  // between the numbers of a pair and those of the next pair, of the same pair one step later, and of
+  // the neighboring particle
+
+  auto correlation = [&](int a, int b, std::size_t offset, bool squares) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k + offset < numbers.size(); k++) {
+      const double x = numbers[k][a], y = numbers[k + offset][b];
+      sum += squares ? 0.5 * (x * x - 1.0) * (y * y - 1.0) : x * y;
+    }
+    return sum / (n - offset);
+  };
+  for (int a = 0; a < 4; a++)
+    for (int b = 0; b < 4; b++)
+      for (const std::size_t offset : {0, 1, 100, 100000})
+        if (a != b || offset > 0)
+          for (const bool squares : {false, true})
+            EXPECT_NEAR(correlation(a, b, offset, squares), 0.0, 4.0 / std::sqrt(n - offset))
+                << a << " " << b << " " << offset << " " << squares;
+}
