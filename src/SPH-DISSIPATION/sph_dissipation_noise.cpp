@@ -41,10 +41,7 @@ NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const Fl
 
 void NoiseStage::run(NeighList *list, const double *bound, int not_fluid, PairTally *tally)
 {
-  if (neighbor->ago == 0) {
-    check_box();
-    prepare();
-  }
+  if (neighbor->ago == 0) check_box();
   form = {engine.shear_form(), engine.dimension(), false};
   for (int type = 1; type <= atom->ntypes; type++)
     if (bound && !model.coeffs[type].other && model.coeffs[type].zeta < 0.0) form.directed = true;
@@ -52,10 +49,12 @@ void NoiseStage::run(NeighList *list, const double *bound, int not_fluid, PairTa
   // the force of a step is that of an impulse over its time
 
   const double factor = 2.0 * force->boltz * model.choice.temperature / update->dt;
+  data.seed = static_cast<std::uint64_t>(model.choice.seed);
   data.step = static_cast<std::uint64_t>(update->ntimestep);
   data.type = atom->type;
   data.tally = tally;
 
+  set_rows();
   add_pressure(factor, not_fluid);
   if (!set_coeffs(factor)) return;
   if (form.directed) set_shares(bound, not_fluid);
@@ -81,19 +80,20 @@ void NoiseStage::check_box() const
                  "xyz"[d], heights[d], 2.0 * support);
 }
 
-/* ----------------------------------------------------------------------
-   what only changes with the particles that are there
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void NoiseStage::prepare()
+void NoiseStage::set_rows()
 {
   const int nall = atom->nlocal + atom->nghost;
-  tag.assign(nall + BLOCK, 0);
-  for (int i = 0; i < nall; i++) tag[i] = static_cast<std::uint64_t>(atom->tag[i]);
+  row.resize(nall + BLOCK);
   pressure.resize(nall + BLOCK);
-  data.tag = tag.data();
+  for (int i = 0; i < nall; i++) {
+    const Particle &p = engine.particle[i];
+    row[i] = {{p.x[0], p.x[1], p.x[2]}, p.vol, static_cast<double>(atom->tag[i]), 0.0, 0.0, 0.0};
+  }
+  std::fill_n(row.begin() + nall, BLOCK, NoiseRow());
+  data.row = row.data();
   data.pressure = pressure.data();
-  data.seed = static_cast<std::uint64_t>(model.choice.seed);
 }
 
 /* ----------------------------------------------------------------------
@@ -155,10 +155,8 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
   constexpr double ROUNDOFF = 1.0e-15;    // of 1 + 2 zeta D, which is 0 at the bound
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
-  share.assign(nall + BLOCK, NoiseShare());
   eta.assign(nall + BLOCK, 0.0);
-  for (int i = 0; i < nall; i++) share[i].reach = engine.weight(i) / sqrt(engine.particle[i].vol);
-  data.share = share.data();
+  for (int i = 0; i < nall; i++) row[i].reach = engine.weight(i) / sqrt(row[i].vol);
   data.eta = eta.data();
   engine.loop_set().noise_sums(form)(engine.pairs(), data);
   exchange.reverse({{eta.data(), 1, 1}});
@@ -171,9 +169,9 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
     const double rest = 1.0 + 2.0 * zeta * bound[i];
     const double s = 1.0 - ((rest > ROUNDOFF) ? sqrt(rest) : 0.0);
     const double c_inv = engine.particle[i].vol / engine.weight(i);
-    share[i].share = (bound[i] > 0.0) ? s * eta[i] * c_inv * c_inv / bound[i] : 0.0;
+    row[i].share = (bound[i] > 0.0) ? s * eta[i] * c_inv * c_inv / bound[i] : 0.0;
   }
-  exchange.forward({field(share.data(), &share.data()->share, 1)});
+  exchange.forward({field(row.data(), &row.data()->share, 1)});
 }
 
 /* ----------------------------------------------------------------------
@@ -204,7 +202,6 @@ void NoiseStage::add_impulses()
 
 double NoiseStage::memory_usage() const
 {
-  return (double) tag.capacity() * sizeof(std::uint64_t) +
-      (double) share.capacity() * sizeof(NoiseShare) +
+  return (double) row.capacity() * sizeof(NoiseRow) +
       (double) (eta.capacity() + pressure.capacity()) * sizeof(double);
 }

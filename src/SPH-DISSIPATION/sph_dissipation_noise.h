@@ -53,13 +53,12 @@ namespace SPHDissipation {
     const FluidModel &model;
     NoiseForm form;
     NoiseData data;
-    std::vector<std::uint64_t> tag;
+    std::vector<NoiseRow> row;
     std::vector<NoiseCoeff> coeff;
-    std::vector<NoiseShare> share;
     std::vector<double> eta, pressure;
 
     void check_box() const;
-    void prepare();
+    void set_rows();
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);

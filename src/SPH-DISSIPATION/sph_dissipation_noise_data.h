@@ -41,21 +41,24 @@ namespace SPHDissipation {
     double inverse_central;    // 1 / what the shear term puts before (u.e)^2, or 0
   };
 
-  // of a particle whose bulk term has a negative coefficient, see NoiseStage
+  // what the loops of the noise read of a particle: one cache line
 
-  struct NoiseShare {
+  struct NoiseRow {
+    double x[3];     // position
+    double vol;      // V
+    double tag;      // ID; zero for spare ones
     double reach;    // c sqrt(V)
-    double share;    // s eta/(D c)
+    double share;    // s eta/(D c), if its bulk term has a negative coefficient, see NoiseStage
+    double unused;
   };
 
   // input and output of the loops of the noise, beside the pairs that pass 1 has found
 
   struct NoiseData {
-    const std::uint64_t *tag;    // IDs of owned and ghost atoms; zero for spare ones
+    const NoiseRow *row;    // owned, ghost, and spare
     std::uint64_t seed, step;
     const int *type;            // read if the coefficients differ between types
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
-    const NoiseShare *share;    // owned, ghost, and spare
     double *eta;                // sums of the numbers of a particle, accumulated
     double *pressure;           // number of each particle
     ForceSum *force;            // owned, ghost, and spare; accumulated

@@ -16,7 +16,7 @@
 
 #include "sph_dissipation_random.h"
 
-// Numbers of a pair, each from the normal distribution:
+// Numbers of a pair:
 //   forms along e only: 0 = along e, 1 = back
 //   2d: 0 = along e, 1 = across e, 2 = spin, 3 = back
 //   3d: 0 = along e, 1 to 3 = vector; more: 0 to 2 = vector of the spin, 3 = back
@@ -24,62 +24,53 @@
 // "along e" is that of the other one.  Vectors are those of the particle with the lower ID, and
 // opposite for the other one; numbers along and across e need no sign, since e_ji = -e_ij.
 
-struct PairCounter {
-  Words word[4];
-  Words high;    // bits of both IDs above 32
+SPH_INLINE void numbers_of(const NoiseData &data, const Words *counter, Words high,
+                           NoiseChannel channel, Vec *number_of)
+{
+  Words random[4];
+  philox(counter, all_words(data.seed), high ^ all_words(static_cast<std::uint64_t>(channel) << 28),
+         random);
+  for (int k = 0; k < 4; k++) number_of[k] = uniform(random[k]);
+}
+
+struct PairNumbers {
+  Words counter[4];
+  Words high;    // bits of both IDs above 32, next to each other: IDs have at most 46
   Vec sign;      // 1 where i has the lower ID, else -1
 
-  SPH_INLINE PairCounter(const NoiseData &data, int i, const int *j)
+  SPH_INLINE PairNumbers(const NoiseData &data, double tag_i, Vec tag_j)
   {
-    std::uint64_t low[LANES], up[LANES];
-    double lane_sign[LANES];
-    const std::uint64_t tag_i = data.tag[i];
-    for (int l = 0; l < LANES; l++) {
-      const std::uint64_t tag_j = data.tag[j[l]];
-      low[l] = (tag_i < tag_j) ? tag_i : tag_j;
-      up[l] = (tag_i < tag_j) ? tag_j : tag_i;
-      lane_sign[l] = (tag_i < tag_j) ? 1.0 : -1.0;
-    }
-    word[0] = load_words(low);
-    word[1] = load_words(up);
-    word[2] = all_words(data.step & 0xffffffff);
-    word[3] = all_words(data.step >> 32);
-    high = pair_of_high(shifted<32>(word[0]), shifted<32>(word[1]));
-    sign = load(lane_sign);
+    counter[0] = words(smaller(all(tag_i), tag_j));
+    counter[1] = words(larger(all(tag_i), tag_j));
+    counter[2] = all_words(data.step & 0xffffffff);
+    counter[3] = all_words(data.step >> 32);
+    high = shifted<32>(counter[0]) ^ product(shifted<32>(counter[1]), all_words(1 << 14));
+    sign = if_positive(tag_j - all(tag_i), all(2.0)) - all(1.0);
   }
-
-  // IDs have at most 46 bits: 14 above 32 of each, next to each other
-
-  static SPH_INLINE Words pair_of_high(Words low, Words up)
+  SPH_INLINE void draw(const NoiseData &data, NoiseChannel channel, Vec *number_of) const
   {
-    return low ^ product(up, all_words(1 << 14));
+    numbers_of(data, counter, high, channel, number_of);
   }
 };
 
-SPH_INLINE void random_words(const NoiseData &data, const Words *counter, Words high,
-                             NoiseChannel channel, Words *random)
-{
-  const Words in_channel = all_words(static_cast<std::uint64_t>(channel) << 28);
-  philox(counter, all_words(data.seed), high ^ in_channel, random);
-}
+// neighbors of a block, relative to particle i
 
-// the two numbers along e: sum, and those of i and of j
+struct NoiseBlock {
+  Vec row[8], dx, dy, dz, rsq;
 
-template <int TRANSVERSE> struct AlongNumbers {
-  Vec forth, back;
-
-  SPH_INLINE AlongNumbers(const NoiseData &data, const PairCounter &counter)
+  SPH_INLINE NoiseBlock(const NoiseData &data, const NoiseRow &i, const int *j)
   {
-    Words random[4];
-    Vec unused;
-    random_words(data, counter.word, counter.high, NoiseChannel::PAIR, random);
-    normal_pair(random[0], random[1], forth, back);
-    if constexpr (TRANSVERSE == 2) normal_pair(random[2], random[3], unused, back);
-    if constexpr (TRANSVERSE == 3) {
-      random_words(data, counter.word, counter.high, NoiseChannel::PAIR_MORE, random);
-      normal_pair(random[2], random[3], unused, back);
-    }
+    load_4_columns<WIDTH<NoiseRow>>(numbers(data.row), j, row);
+    load_4_columns<WIDTH<NoiseRow>>(numbers(data.row) + 4, j, row + 4);
+    dx = i.x[0] - row[0];
+    dy = i.x[1] - row[1];
+    dz = i.x[2] - row[2];
+    rsq = dx * dx + dy * dy + dz * dz;
   }
+  SPH_INLINE Vec vol() const { return row[3]; }
+  SPH_INLINE Vec tag() const { return row[4]; }
+  SPH_INLINE Vec reach() const { return row[5]; }
+  SPH_INLINE Vec share() const { return row[6]; }
 };
 
 struct NoiseCoeffs {
@@ -111,17 +102,6 @@ struct NoiseCoeffs {
   }
 };
 
-SPH_INLINE void gather_shares(const NoiseData &data, const int *j, Vec &reach, Vec &share)
-{
-  double lane[2][LANES];
-  for (int l = 0; l < LANES; l++) {
-    lane[0][l] = data.share[j[l]].reach;
-    lane[1][l] = data.share[j[l]].share;
-  }
-  reach = load(lane[0]);
-  share = load(lane[1]);
-}
-
 // gamma_ij = root times reach of j over c of i
 
 template <bool FR> SPH_INLINE Vec root_of(Vec slope, Vec rsq, Vec inverse_central)
@@ -134,30 +114,29 @@ template <bool FR> SPH_INLINE Vec root_of(Vec slope, Vec rsq, Vec inverse_centra
 
 template <bool FR, int TRANSVERSE> void eta_loop(const LoopData &pairs, const NoiseData &data)
 {
-  const Particle *const particle = pairs.particle;
   NoiseCoeffs coeff(data.coeff[pairs.ntypes_1 + 1]);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
-    const Particle pi = particle[i];
+    const NoiseRow own = data.row[i];
     const int n = pairs.count[ii];
     const int *const neighbor = pairs.neighbor + pairs.first[ii];
     const double *const slope_of = pairs.slope + pairs.first[ii];
     Vec total = all(0.0);
     for (int k = 0; k < n; k += LANES) {
       const int *const j = neighbor + k;
-      Vec pj[4], reach, share;
-      load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
-      const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
-      const Vec rsq = dx * dx + dy * dy + dz * dz;
+      const NoiseBlock block(data, own, j);
       if (!pairs.uniform) coeff.load(pairs, data, i, j, n - k);
-      const PairCounter counter(data, i, j);
-      const AlongNumbers<TRANSVERSE> along(data, counter);
-      const Vec mean = 0.5 * (along.forth + along.back);
-      const Vec odd = 0.5 * counter.sign * (along.forth - along.back);
-      const Vec root = root_of<FR>(load(slope_of + k), rsq, coeff.inverse_central);
-      gather_shares(data, j, reach, share);
-      total += reach * root * (mean + odd);
-      add_column<1>(data.eta, j, data.share[i].reach * root * (mean - odd));
+      const PairNumbers pair(data, own.tag, block.tag());
+      Vec z[4];
+      pair.draw(data, NoiseChannel::PAIR, z);
+      const Vec forth = z[0];
+      if constexpr (TRANSVERSE == 3) pair.draw(data, NoiseChannel::PAIR_MORE, z);
+      const Vec back = z[TRANSVERSE ? 3 : 1];
+      const Vec mean = 0.5 * (forth + back);
+      const Vec odd = 0.5 * pair.sign * (forth - back);
+      const Vec root = root_of<FR>(load(slope_of + k), block.rsq, coeff.inverse_central);
+      total += block.reach() * root * (mean + odd);
+      add_column<1>(data.eta, j, own.reach * root * (mean - odd));
     }
     data.eta[i] += sum(total);
   }
@@ -168,11 +147,10 @@ template <bool FR, int TRANSVERSE> void eta_loop(const LoopData &pairs, const No
 template <bool FR, int TRANSVERSE, bool SPIN, bool DIRECTED>
 void impulse_loop(const LoopData &pairs, const NoiseData &data)
 {
-  const Particle *const particle = pairs.particle;
   NoiseCoeffs coeff(data.coeff[pairs.ntypes_1 + 1]);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
-    const Particle pi = particle[i];
+    const NoiseRow own = data.row[i];
     const int n = pairs.count[ii];
     const int *const neighbor = pairs.neighbor + pairs.first[ii];
     const double *const slope_of = pairs.slope + pairs.first[ii];
@@ -181,77 +159,66 @@ void impulse_loop(const LoopData &pairs, const NoiseData &data)
 
     for (int k = 0; k < n; k += LANES) {
       const int *const j = neighbor + k;
-      Vec pj[8];
-      load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
-      load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
-      const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
-      const Vec rsq = dx * dx + dy * dy + dz * dz;
+      const NoiseBlock block(data, own, j);
+      for (int l = 0; l < LANES; l++) {
+        prefetch(data.row + j[l + AHEAD]);
+        prefetch(data.force + j[l + AHEAD]);
+        if constexpr (SPIN) prefetch(data.torque + j[l + AHEAD]);
+      }
+      const Vec dx = block.dx, dy = block.dy, dz = block.dz, rsq = block.rsq;
       const Vec slope = load(slope_of + k);
-      const Vec vv_slope = if_positive(rsq, pi.vol * pj[6] * slope);
+      const Vec vv_slope = if_positive(rsq, own.vol * block.vol() * slope);
       const Vec vv = FR ? vv_slope * square_root(rsq) : vv_slope;
-      const Vec by_r = square_root(vv / (rsq + TINY));    // strength of the pair over r
+      const Vec inverse_rsq = 1.0 / (rsq + TINY);
+      const Vec by_r = square_root(vv * inverse_rsq);    // strength of the pair over r
       if (!pairs.uniform) coeff.load(pairs, data, i, j, n - k);
 
-      Words random[4];
-      Vec number_of[4];
-      const PairCounter counter(data, i, j);
-      random_words(data, counter.word, counter.high, NoiseChannel::PAIR, random);
-      normal_pair(random[0], random[1], number_of[0], number_of[1]);
-      if constexpr (TRANSVERSE) normal_pair(random[2], random[3], number_of[2], number_of[3]);
-      Vec back = number_of[TRANSVERSE ? 3 : 1];
+      const PairNumbers pair(data, own.tag, block.tag());
+      Vec z[4], more[4];
+      pair.draw(data, NoiseChannel::PAIR, z);
+      if constexpr (TRANSVERSE == 3 && (SPIN || DIRECTED))
+        pair.draw(data, NoiseChannel::PAIR_MORE, more);
 
-      Vec more[4];
-      if constexpr (TRANSVERSE == 3 && (SPIN || DIRECTED)) {
-        random_words(data, counter.word, counter.high, NoiseChannel::PAIR_MORE, random);
-        normal_pair(random[0], random[1], more[0], more[1]);
-        normal_pair(random[2], random[3], more[2], more[3]);
-        back = more[3];
-      }
-
-      Vec along = number_of[0];
+      Vec along = z[0];
       if constexpr (DIRECTED) {
-        Vec reach, share;
-        gather_shares(data, j, reach, share);
         const Vec root = root_of<FR>(slope, rsq, coeff.inverse_central);
-        const NoiseShare &own = data.share[i];
-        along += back - root * (reach * own.share + own.reach * share);
+        const Vec back = (TRANSVERSE == 3) ? more[3] : z[TRANSVERSE ? 3 : 1];
+        along += back - root * (block.reach() * own.share + own.reach * block.share());
       }
       const Vec central = coeff.central * by_r * along;
       Vec fx = central * dx, fy = central * dy, fz = central * dz;
-      Vec tx = all(0.0), ty = all(0.0), tz = all(0.0);    // same on both
-      Vec sx = all(0.0), sy = all(0.0), sz = all(0.0);    // opposite
+      Vec spin[3] = {all(0.0), all(0.0), all(0.0)};
       if constexpr (TRANSVERSE == 2) {
-        const Vec across = coeff.transverse * by_r * number_of[1];
+        const Vec across = coeff.transverse * by_r * z[1];
         fx -= across * dy;
         fy += across * dx;
-        if constexpr (SPIN) sz = counter.sign * coeff.spin_across * square_root(vv) * number_of[2];
+        if constexpr (SPIN) spin[2] = pair.sign * coeff.spin_across * square_root(vv) * z[2];
       }
       if constexpr (TRANSVERSE == 3) {
-        const Vec inverse_rsq = 1.0 / (rsq + TINY);
-        const Vec strength = counter.sign * square_root(vv);
-        const Vec *const v = number_of + 1;
+        const Vec strength = pair.sign * square_root(vv);
         const Vec across = strength * coeff.transverse;
-        const Vec part = (dx * v[0] + dy * v[1] + dz * v[2]) * inverse_rsq;
-        fx += across * (v[0] - part * dx);
-        fy += across * (v[1] - part * dy);
-        fz += across * (v[2] - part * dz);
+        const Vec part = (dx * z[1] + dy * z[2] + dz * z[3]) * inverse_rsq;
+        fx += across * (z[1] - part * dx);
+        fy += across * (z[2] - part * dy);
+        fz += across * (z[3] - part * dz);
         if constexpr (SPIN) {
           const Vec spin_part = (dx * more[0] + dy * more[1] + dz * more[2]) * inverse_rsq;
           const Vec spin_across = strength * coeff.spin_across;
           const Vec remainder = (strength * coeff.spin_along - spin_across) * spin_part;
-          sx = spin_across * more[0] + remainder * dx;
-          sy = spin_across * more[1] + remainder * dy;
-          sz = spin_across * more[2] + remainder * dz;
+          spin[0] = spin_across * more[0] + remainder * dx;
+          spin[1] = spin_across * more[1] + remainder * dy;
+          spin[2] = spin_across * more[2] + remainder * dz;
         }
       }
+
+      // the torque that balances the force is the same for both, that of the spins opposite
+
       if constexpr (SPIN) {
-        tx = -0.5 * (dy * fz - dz * fy);
-        ty = -0.5 * (dz * fx - dx * fz);
-        tz = -0.5 * (dx * fy - dy * fx);
-        total_t[0] += tx + sx;
-        total_t[1] += ty + sy;
-        total_t[2] += tz + sz;
-        const Vec on_j[4] = {tx - sx, ty - sy, tz - sz, all(0.0)};
+        const Vec torque[3] = {-0.5 * (dy * fz - dz * fy), -0.5 * (dz * fx - dx * fz),
+                               -0.5 * (dx * fy - dy * fx)};
+        for (int d = 0; d < 3; d++) total_t[d] += torque[d] + spin[d];
+        const Vec on_j[4] = {torque[0] - spin[0], torque[1] - spin[1], torque[2] - spin[2],
+                             all(0.0)};
         add_4_columns<WIDTH<TorqueSum>>(numbers(data.torque), j, on_j);
       }
       total_f[0] += fx;
@@ -276,14 +243,14 @@ void impulse_loop(const LoopData &pairs, const NoiseData &data)
 inline void pressure_loop(const NoiseData &data, int n)
 {
   for (int k = 0; k < n; k += LANES) {
-    const Words tag = load_words(data.tag + k);
+    double lane[LANES];
+    for (int l = 0; l < LANES; l++) lane[l] = data.row[k + l].tag;
+    const Words tag = words(load(lane));
     const Words counter[4] = {tag, all_words(0), all_words(data.step & 0xffffffff),
                               all_words(data.step >> 32)};
-    Words random[4];
-    random_words(data, counter, shifted<32>(tag), NoiseChannel::PRESSURE, random);
-    Vec number_of, unused;
-    normal_pair(random[0], random[1], number_of, unused);
-    store(data.pressure + k, number_of);
+    Vec z[4];
+    numbers_of(data, counter, shifted<32>(tag), NoiseChannel::PRESSURE, z);
+    store(data.pressure + k, z[0]);
   }
 }
 

@@ -18,6 +18,7 @@
 //
 //   all(a)              a in every lane
 //   if_positive(a, b)   b where a > 0, else 0
+//   smaller(a, b), larger(a, b)
 //   bits_below(a, b)    one bit per lane, set where a < b; for if_bits() and pack()
 //   if_bits(bits, a)    a where the bit is set, else 0
 //   count_bits(bits)    how many are set
@@ -68,6 +69,14 @@ namespace SPHDissipation {
     SPH_INLINE Vec square_root(Vec a)
     {
       return _mm512_sqrt_pd(a);
+    }
+    SPH_INLINE Vec smaller(Vec a, Vec b)
+    {
+      return _mm512_min_pd(a, b);
+    }
+    SPH_INLINE Vec larger(Vec a, Vec b)
+    {
+      return _mm512_max_pd(a, b);
     }
     SPH_INLINE Vec if_positive(Vec a, Vec value)
     {
@@ -202,6 +211,14 @@ namespace SPHDissipation {
     {
       return _mm256_sqrt_pd(a);
     }
+    SPH_INLINE Vec smaller(Vec a, Vec b)
+    {
+      return _mm256_min_pd(a, b);
+    }
+    SPH_INLINE Vec larger(Vec a, Vec b)
+    {
+      return _mm256_max_pd(a, b);
+    }
     SPH_INLINE Vec if_positive(Vec a, Vec value)
     {
       return _mm256_and_pd(_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GT_OQ), value);
@@ -323,6 +340,14 @@ namespace SPHDissipation {
     SPH_INLINE Vec square_root(Vec a)
     {
       return std::sqrt(a);
+    }
+    SPH_INLINE Vec smaller(Vec a, Vec b)
+    {
+      return (a < b) ? a : b;
+    }
+    SPH_INLINE Vec larger(Vec a, Vec b)
+    {
+      return (a < b) ? b : a;
     }
     SPH_INLINE Vec if_positive(Vec a, Vec value)
     {

@@ -15,12 +15,12 @@
 // number of 64 bits of each of LANES pairs.  + and ^ act on it as on a number.
 //
 //   all_words(a)        a in every lane
-//   load_words(from)    LANES of them, one after another
 //   product(a, b)       of the lower 32 bits of each
 //   shifted<N>(a)       to the right by N bits
 //   masked(a, bits)     the bits of a that are set in bits, which is one number
 //   number(a)           as a number, a < 2^52
-//   pattern(a)          the bits of a number; value(a) the number that has these bits
+//   pattern(a)          the bits of a number; value(a): the number that has these bits
+//   words(a)            whole numbers 0 <= a < 2^52
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -33,10 +33,6 @@ namespace SPHDissipation {
     SPH_INLINE Words all_words(std::uint64_t a)
     {
       return _mm512_set1_epi64(static_cast<long long>(a));
-    }
-    SPH_INLINE Words load_words(const std::uint64_t *from)
-    {
-      return _mm512_loadu_si512(from);
     }
     SPH_INLINE Words product(Words a, Words b)
     {
@@ -67,10 +63,6 @@ namespace SPHDissipation {
     {
       return _mm256_set1_epi64x(static_cast<long long>(a));
     }
-    SPH_INLINE Words load_words(const std::uint64_t *from)
-    {
-      return _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from));
-    }
     SPH_INLINE Words product(Words a, Words b)
     {
       return _mm256_mul_epu32(a, b);
@@ -100,10 +92,6 @@ namespace SPHDissipation {
     {
       return a;
     }
-    SPH_INLINE Words load_words(const std::uint64_t *from)
-    {
-      return *from;
-    }
     SPH_INLINE Words product(Words a, Words b)
     {
       return (a & 0xffffffff) * (b & 0xffffffff);
@@ -131,11 +119,19 @@ namespace SPHDissipation {
 
 #endif
 
-    // the same for all instruction sets: a as the lower bits of a number between 2^52 and 2^53
+    // the same for all instruction sets: a as the lower bits of a number between 2^52 and 2^53, whose
+    // upper ones are
+
+    constexpr std::uint64_t OFFSET_PATTERN = 0x4330000000000000;
+    constexpr double OFFSET = 4503599627370496.0;
 
     SPH_INLINE Vec number(Words a)
     {
-      return value(a ^ all_words(0x4330000000000000)) - all(4503599627370496.0);
+      return value(a ^ all_words(OFFSET_PATTERN)) - all(OFFSET);
+    }
+    SPH_INLINE Words words(Vec a)
+    {
+      return pattern(a + all(OFFSET)) ^ all_words(OFFSET_PATTERN);
     }
 
   }    // namespace LOOPS

@@ -35,8 +35,8 @@ static constexpr std::uint32_t SEED = 987654321;
 
 // ---- the numbers, from the description of the generator ------------------------------------------
 
-static std::array<Real, 4> normals(std::array<std::uint32_t, 4> c, std::uint32_t k0,
-                                   std::uint32_t k1)
+static std::array<Real, 4> random_numbers(std::array<std::uint32_t, 4> c, std::uint32_t k0,
+                                          std::uint32_t k1)
 {
   for (int round = 0; round < 10; round++) {
     const std::uint64_t p0 = 0xD2511F53ull * c[0], p1 = 0xCD9E8D57ull * c[2];
@@ -46,13 +46,7 @@ static std::array<Real, 4> normals(std::array<std::uint32_t, 4> c, std::uint32_t
     k1 += 0xBB67AE85;
   }
   std::array<Real, 4> z;
-  for (int k = 0; k < 4; k += 2) {
-    const Real radius = std::sqrt(-2.0L * std::log((c[k] + 0.5L) / 4294967296.0L));
-    const Real side = (c[k + 1] % 2) ? -1.0L : 1.0L;
-    const Real angle = std::acos(-1.0L) * ((c[k + 1] / 2 * 2 + 1.0L) / 4294967296.0L - 0.5L);
-    z[k] = side * radius * std::cos(angle);
-    z[k + 1] = side * radius * std::sin(angle);
-  }
+  for (int k = 0; k < 4; k++) z[k] = std::sqrt(3.0L) * ((c[k] + 0.5L) / 2147483648.0L - 1.0L);
   return z;
 }
 
@@ -60,10 +54,10 @@ static Real value(const NoiseNumber &number, std::uint64_t step)
 {
   const auto lo = static_cast<std::uint32_t>(step), hi = static_cast<std::uint32_t>(step >> 32);
   const auto low = static_cast<std::uint32_t>(number.low + 1);
-  if (number.high < 0) return normals({low, 0, lo, hi}, SEED, 0)[0];
+  if (number.high < 0) return random_numbers({low, 0, lo, hi}, SEED, 0)[0];
   const auto high = static_cast<std::uint32_t>(number.high + 1);
   const std::uint32_t channel = (number.index < 4) ? 1 : 2;
-  return normals({low, high, lo, hi}, SEED, channel << 28)[number.index % 4];
+  return random_numbers({low, high, lo, hi}, SEED, channel << 28)[number.index % 4];
 }
 
 // ---- cases ----------------------------------------------------------------------------------------

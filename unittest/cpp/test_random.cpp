@@ -64,24 +64,24 @@ TEST(Random, bits_above_32_do_not_count)
             random_words({1, 2, 3, 4}, 5, 6));
 }
 
-TEST(Random, logarithm_and_circle)
+TEST(Random, uniform_distribution)
 {
-  for (const double a : {1.2e-10, 1e-5, 0.3, 0.5, 0.70710678, 0.7071068, 0.9, 0.99999999988})
-    EXPECT_NEAR(logarithm(a), std::log(a), 4e-16 * std::fabs(std::log(a)) + 1e-19) << a;
+  const double edge = std::sqrt(3.0);
+  EXPECT_NEAR(uniform(0), -edge, 1e-9);
+  EXPECT_NEAR(uniform(0xffffffff), edge, 1e-9);
+  EXPECT_GT(uniform(0), -edge);
+  EXPECT_LT(uniform(0xffffffff), edge);
+  for (const Words word : {1u, 77u, 0x7fffffffu, 0xfffffffeu}) {
+    EXPECT_NEAR(uniform(word), edge * (2.0 * (word + 0.5) / 4294967296.0 - 1.0), 1e-15);
+    EXPECT_NEAR(uniform(0xffffffff - word), -uniform(word), 1e-15);
+  }
+}
 
-  // r^2 from the first word, both halves of the circle from the second
-
-  for (const Words first : {0u, 77u, 0x80000000u, 0xffffffffu}) {
-    const double radius = std::sqrt(-2.0 * std::log((first + 0.5) / 4294967296.0));
-    for (const Words second :
-         {0u, 1u, 0x40000000u, 0x40000001u, 0x7ffffffeu, 0xc0000001u, 0xffffffffu}) {
-      const double side = (second & 1) ? -1.0 : 1.0;
-      const double angle = std::acos(-1.0) * ((second - (second & 1) + 1.0) / 4294967296.0 - 0.5);
-      double x, y;
-      normal_pair(first, second, x, y);
-      EXPECT_NEAR(x, side * radius * std::cos(angle), 1e-14);
-      EXPECT_NEAR(y, side * radius * std::sin(angle), 1e-14);
-    }
+TEST(Random, words_and_numbers)
+{
+  for (const double a : {0.0, 1.0, 4294967295.0, 4294967296.0, 70368744177663.0}) {
+    EXPECT_EQ(words(a), static_cast<Words>(a));
+    EXPECT_EQ(number(words(a)), a);
   }
 }
 
@@ -94,10 +94,7 @@ static std::vector<std::array<double, 4>> many_numbers()
     for (Words low = 1; low <= 1000; low++)
       for (Words neighbor = 1; neighbor <= 100; neighbor++) {
         const auto word = random_words({low, low + neighbor, step, 0}, 4711, 1 << 28);
-        std::array<double, 4> z;
-        normal_pair(word[0], word[1], z[0], z[1]);
-        normal_pair(word[2], word[3], z[2], z[3]);
-        numbers.push_back(z);
+        numbers.push_back({uniform(word[0]), uniform(word[1]), uniform(word[2]), uniform(word[3])});
       }
   return numbers;
 }
@@ -115,11 +112,11 @@ TEST(Random, moments_and_correlations_of_a_million_pairs)
       cube += z[a] * z[a] * z[a] / n;
       fourth += z[a] * z[a] * z[a] * z[a] / n;
     }
-    // four standard errors: variances 1, 2, 15, and 96 of the normal distribution
+    // four standard errors: z^2, z^4, z^6, z^8 of the uniform distribution have the means 1, 9/5, 27/7, 9
     EXPECT_NEAR(mean, 0.0, 4.0 * std::sqrt(1.0 / n));
-    EXPECT_NEAR(square, 1.0, 4.0 * std::sqrt(2.0 / n));
-    EXPECT_NEAR(cube, 0.0, 4.0 * std::sqrt(15.0 / n));
-    EXPECT_NEAR(fourth, 3.0, 4.0 * std::sqrt(96.0 / n));
+    EXPECT_NEAR(square, 1.0, 4.0 * std::sqrt((9.0 / 5.0 - 1.0) / n));
+    EXPECT_NEAR(cube, 0.0, 4.0 * std::sqrt(27.0 / 7.0 / n));
+    EXPECT_NEAR(fourth, 9.0 / 5.0, 4.0 * std::sqrt((9.0 - 81.0 / 25.0) / n));
   }
 
   // between the numbers of a pair and those of the next pair, of the same pair one step later, and of
@@ -129,7 +126,7 @@ TEST(Random, moments_and_correlations_of_a_million_pairs)
     double sum = 0.0;
     for (std::size_t k = 0; k + offset < numbers.size(); k++) {
       const double x = numbers[k][a], y = numbers[k + offset][b];
-      sum += squares ? 0.5 * (x * x - 1.0) * (y * y - 1.0) : x * y;
+      sum += squares ? 1.25 * (x * x - 1.0) * (y * y - 1.0) : x * y;
     }
     return sum / (n - offset);
   };
