@@ -25,8 +25,8 @@ namespace SPHDissipation {
   struct ForceSum;
   struct TorqueSum;
 
-  // Random numbers belong to a pair or a particle, the step, and a channel: the key of the generator is
-  // the seed and the channel, its counter the two IDs and the number of the step.
+  // Random numbers belong to a pair or a particle, the step, and a channel: the keys of the generator
+  // are the seed and the channel, its counter the two IDs and the number of the step.
 
   enum class NoiseChannel { PRESSURE, PAIR, PAIR_MORE };
 

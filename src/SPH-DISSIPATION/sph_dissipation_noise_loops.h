@@ -24,32 +24,48 @@
 // "along e" is that of the other one.  Vectors are those of the particle with the lower ID, and
 // opposite for the other one; numbers along and across e need no sign, since e_ji = -e_ij.
 
-SPH_INLINE void numbers_of(const NoiseData &data, const Words *counter, Words high,
-                           NoiseChannel channel, Vec *number_of)
+SPH_INLINE void numbers_of(const Words *counter, const PhiloxKeys &keys, Vec *number_of)
 {
   Words random[4];
-  philox(counter, all_words(data.seed), high ^ all_words(static_cast<std::uint64_t>(channel) << 28),
-         random);
+  philox(counter, keys, random);
   for (int k = 0; k < 4; k++) number_of[k] = uniform(random[k]);
 }
 
-struct PairNumbers {
-  Words counter[4];
-  Words high;    // bits of both IDs above 32, next to each other: IDs have at most 46
-  Vec sign;      // 1 where i has the lower ID, else -1
+// keys and part of the counter that are the same for all pairs
 
-  SPH_INLINE PairNumbers(const NoiseData &data, double tag_i, Vec tag_j)
+struct NoiseStep {
+  PhiloxKeys pair, more, pressure;
+  std::uint64_t low, high;
+
+  NoiseStep(const NoiseData &data) :
+      pair(keys_of(data, NoiseChannel::PAIR)), more(keys_of(data, NoiseChannel::PAIR_MORE)),
+      pressure(keys_of(data, NoiseChannel::PRESSURE)), low(data.step & 0xffffffff),
+      high(data.step >> 32)
   {
-    counter[0] = words(smaller(all(tag_i), tag_j));
-    counter[1] = words(larger(all(tag_i), tag_j));
-    counter[2] = all_words(data.step & 0xffffffff);
-    counter[3] = all_words(data.step >> 32);
-    high = shifted<32>(counter[0]) ^ product(shifted<32>(counter[1]), all_words(1 << 14));
-    sign = if_positive(tag_j - all(tag_i), all(2.0)) - all(1.0);
   }
-  SPH_INLINE void draw(const NoiseData &data, NoiseChannel channel, Vec *number_of) const
+  static PhiloxKeys keys_of(const NoiseData &data, NoiseChannel channel)
   {
-    numbers_of(data, counter, high, channel, number_of);
+    return {data.seed, static_cast<std::uint64_t>(channel)};
+  }
+};
+
+// Counter of a pair: both IDs, the step.  IDs of more than 32 bits have at most 46; the upper bits of
+// both go to those of the step, beside the 4 which that needs then.
+
+struct PairCounter {
+  Words word[4];
+  Vec sign;    // 1 where i has the lower ID, else -1
+
+  SPH_INLINE PairCounter(const NoiseStep &step, double tag_i, Vec tag_j)
+  {
+    word[0] = words(smaller(all(tag_i), tag_j));
+    word[1] = words(larger(all(tag_i), tag_j));
+    word[2] = all_words(step.low);
+    word[3] = all_words(step.high);
+    if constexpr (sizeof(tagint) > 4)
+      word[3] = xor3(word[3], product(shifted<32>(word[0]), all_words(1 << 4)),
+                     product(shifted<32>(word[1]), all_words(1 << 18)));
+    sign = if_positive(tag_j - all(tag_i), all(2.0)) - all(1.0);
   }
 };
 
@@ -115,6 +131,7 @@ template <bool FR> SPH_INLINE Vec root_of(Vec slope, Vec rsq, Vec inverse_centra
 template <bool FR, int TRANSVERSE> void eta_loop(const LoopData &pairs, const NoiseData &data)
 {
   NoiseCoeffs coeff(data.coeff[pairs.ntypes_1 + 1]);
+  const NoiseStep step(data);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
     const NoiseRow own = data.row[i];
@@ -126,14 +143,14 @@ template <bool FR, int TRANSVERSE> void eta_loop(const LoopData &pairs, const No
       const int *const j = neighbor + k;
       const NoiseBlock block(data, own, j);
       if (!pairs.uniform) coeff.load(pairs, data, i, j, n - k);
-      const PairNumbers pair(data, own.tag, block.tag());
+      const PairCounter counter(step, own.tag, block.tag());
       Vec z[4];
-      pair.draw(data, NoiseChannel::PAIR, z);
+      numbers_of(counter.word, step.pair, z);
       const Vec forth = z[0];
-      if constexpr (TRANSVERSE == 3) pair.draw(data, NoiseChannel::PAIR_MORE, z);
+      if constexpr (TRANSVERSE == 3) numbers_of(counter.word, step.more, z);
       const Vec back = z[TRANSVERSE ? 3 : 1];
       const Vec mean = 0.5 * (forth + back);
-      const Vec odd = 0.5 * pair.sign * (forth - back);
+      const Vec odd = 0.5 * counter.sign * (forth - back);
       const Vec root = root_of<FR>(load(slope_of + k), block.rsq, coeff.inverse_central);
       total += block.reach() * root * (mean + odd);
       add_column<1>(data.eta, j, own.reach * root * (mean - odd));
@@ -148,6 +165,7 @@ template <bool FR, int TRANSVERSE, bool SPIN, bool DIRECTED>
 void impulse_loop(const LoopData &pairs, const NoiseData &data)
 {
   NoiseCoeffs coeff(data.coeff[pairs.ntypes_1 + 1]);
+  const NoiseStep step(data);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
     const NoiseRow own = data.row[i];
@@ -162,22 +180,23 @@ void impulse_loop(const LoopData &pairs, const NoiseData &data)
       const NoiseBlock block(data, own, j);
       for (int l = 0; l < LANES; l++) {
         prefetch(data.row + j[l + AHEAD]);
-        prefetch(data.force + j[l + AHEAD]);
-        if constexpr (SPIN) prefetch(data.torque + j[l + AHEAD]);
+        if constexpr (SPIN) {
+          prefetch(data.force + j[l + AHEAD]);
+          prefetch(data.torque + j[l + AHEAD]);
+        }
       }
       const Vec dx = block.dx, dy = block.dy, dz = block.dz, rsq = block.rsq;
       const Vec slope = load(slope_of + k);
       const Vec vv_slope = if_positive(rsq, own.vol * block.vol() * slope);
       const Vec vv = FR ? vv_slope * square_root(rsq) : vv_slope;
-      const Vec inverse_rsq = 1.0 / (rsq + TINY);
-      const Vec by_r = square_root(vv * inverse_rsq);    // strength of the pair over r
+      const Vec by_r = square_root(vv / (rsq + TINY));    // strength of the pair over r
       if (!pairs.uniform) coeff.load(pairs, data, i, j, n - k);
 
-      const PairNumbers pair(data, own.tag, block.tag());
+      const PairCounter counter(step, own.tag, block.tag());
       Vec z[4], more[4];
-      pair.draw(data, NoiseChannel::PAIR, z);
+      numbers_of(counter.word, step.pair, z);
       if constexpr (TRANSVERSE == 3 && (SPIN || DIRECTED))
-        pair.draw(data, NoiseChannel::PAIR_MORE, more);
+        numbers_of(counter.word, step.more, more);
 
       Vec along = z[0];
       if constexpr (DIRECTED) {
@@ -192,11 +211,12 @@ void impulse_loop(const LoopData &pairs, const NoiseData &data)
         const Vec across = coeff.transverse * by_r * z[1];
         fx -= across * dy;
         fy += across * dx;
-        if constexpr (SPIN) spin[2] = pair.sign * coeff.spin_across * square_root(vv) * z[2];
+        if constexpr (SPIN) spin[2] = counter.sign * coeff.spin_across * square_root(vv) * z[2];
       }
       if constexpr (TRANSVERSE == 3) {
-        const Vec strength = pair.sign * square_root(vv);
+        const Vec strength = counter.sign * square_root(vv);
         const Vec across = strength * coeff.transverse;
+        const Vec inverse_rsq = 1.0 / (rsq + TINY);
         const Vec part = (dx * z[1] + dy * z[2] + dz * z[3]) * inverse_rsq;
         fx += across * (z[1] - part * dx);
         fy += across * (z[2] - part * dy);
@@ -242,14 +262,14 @@ void impulse_loop(const LoopData &pairs, const NoiseData &data)
 
 inline void pressure_loop(const NoiseData &data, int n)
 {
+  const NoiseStep step(data);
   for (int k = 0; k < n; k += LANES) {
     double lane[LANES];
     for (int l = 0; l < LANES; l++) lane[l] = data.row[k + l].tag;
     const Words tag = words(load(lane));
-    const Words counter[4] = {tag, all_words(0), all_words(data.step & 0xffffffff),
-                              all_words(data.step >> 32)};
+    const Words counter[4] = {tag, shifted<32>(tag), all_words(step.low), all_words(step.high)};
     Vec z[4];
-    numbers_of(data, counter, shifted<32>(tag), NoiseChannel::PRESSURE, z);
+    numbers_of(counter, step.pressure, z);
     store(data.pressure + k, z[0]);
   }
 }

@@ -18,21 +18,32 @@
 
 // Four random words of 32 bits: Philox4x32-10, J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw,
 // Parallel random numbers: as easy as 1, 2, 3, Proc. SC11 (2011).  Only the lower 32 bits of counter
-// and key count; those above them are garbage during the rounds.
+// and keys count; those above them are garbage during the rounds.
 
-SPH_INLINE void philox(const Words *counter, Words key0, Words key1, Words *random)
+constexpr int ROUNDS = 10;
+
+struct PhiloxKeys {
+  std::uint64_t first[ROUNDS], second[ROUNDS];    // of each round
+
+  PhiloxKeys(std::uint64_t key0, std::uint64_t key1)
+  {
+    for (int round = 0; round < ROUNDS; round++) {
+      first[round] = key0 + round * 0x9E3779B9ull;
+      second[round] = key1 + round * 0xBB67AE85ull;
+    }
+  }
+};
+
+SPH_INLINE void philox(const Words *counter, const PhiloxKeys &keys, Words *random)
 {
   const Words multiplier0 = all_words(0xD2511F53), multiplier1 = all_words(0xCD9E8D57);
-  const Words weyl0 = all_words(0x9E3779B9), weyl1 = all_words(0xBB67AE85);
   Words c0 = counter[0], c1 = counter[1], c2 = counter[2], c3 = counter[3];
-  for (int round = 0; round < 10; round++) {
+  for (int round = 0; round < ROUNDS; round++) {
     const Words p0 = product(multiplier0, c0), p1 = product(multiplier1, c2);
-    c0 = shifted<32>(p1) ^ c1 ^ key0;
+    c0 = xor3(shifted<32>(p1), c1, all_words(keys.first[round]));
     c1 = p1;
-    c2 = shifted<32>(p0) ^ c3 ^ key1;
+    c2 = xor3(shifted<32>(p0), c3, all_words(keys.second[round]));
     c3 = p0;
-    key0 = key0 + weyl0;
-    key1 = key1 + weyl1;
   }
   random[0] = masked(c0, 0xffffffff);
   random[1] = masked(c1, 0xffffffff);

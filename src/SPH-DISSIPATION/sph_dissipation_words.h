@@ -15,6 +15,7 @@
 // number of 64 bits of each of LANES pairs.  + and ^ act on it as on a number.
 //
 //   all_words(a)        a in every lane
+//   xor3(a, b, c)       a ^ b ^ c
 //   product(a, b)       of the lower 32 bits of each
 //   shifted<N>(a)       to the right by N bits
 //   masked(a, bits)     the bits of a that are set in bits, which is one number
@@ -37,6 +38,10 @@ namespace SPHDissipation {
     SPH_INLINE Words product(Words a, Words b)
     {
       return _mm512_mul_epu32(a, b);
+    }
+    SPH_INLINE Words xor3(Words a, Words b, Words c)
+    {
+      return _mm512_ternarylogic_epi64(a, b, c, 0x96);
     }
     template <int N> SPH_INLINE Words shifted(Words a)
     {
@@ -67,6 +72,10 @@ namespace SPHDissipation {
     {
       return _mm256_mul_epu32(a, b);
     }
+    SPH_INLINE Words xor3(Words a, Words b, Words c)
+    {
+      return a ^ b ^ c;
+    }
     template <int N> SPH_INLINE Words shifted(Words a)
     {
       return _mm256_srli_epi64(a, N);
@@ -95,6 +104,10 @@ namespace SPHDissipation {
     SPH_INLINE Words product(Words a, Words b)
     {
       return (a & 0xffffffff) * (b & 0xffffffff);
+    }
+    SPH_INLINE Words xor3(Words a, Words b, Words c)
+    {
+      return a ^ b ^ c;
     }
     template <int N> SPH_INLINE Words shifted(Words a)
     {

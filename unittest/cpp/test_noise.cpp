@@ -57,7 +57,7 @@ static Real value(const NoiseNumber &number, std::uint64_t step)
   if (number.high < 0) return random_numbers({low, 0, lo, hi}, SEED, 0)[0];
   const auto high = static_cast<std::uint32_t>(number.high + 1);
   const std::uint32_t channel = (number.index < 4) ? 1 : 2;
-  return random_numbers({low, high, lo, hi}, SEED, channel << 28)[number.index % 4];
+  return random_numbers({low, high, lo, hi}, SEED, channel)[number.index % 4];
 }
 
 // ---- cases ----------------------------------------------------------------------------------------

@@ -39,7 +39,7 @@ using namespace LAMMPS_NS::SPHDissipation::one_number;
 static std::array<Words, 4> random_words(std::array<Words, 4> counter, Words key0, Words key1)
 {
   std::array<Words, 4> random;
-  philox(counter.data(), key0, key1, random.data());
+  philox(counter.data(), PhiloxKeys(key0, key1), random.data());
   return random;
 }
 
@@ -93,7 +93,7 @@ static std::vector<std::array<double, 4>> many_numbers()
   for (Words step = 0; step < 10; step++)
     for (Words low = 1; low <= 1000; low++)
       for (Words neighbor = 1; neighbor <= 100; neighbor++) {
-        const auto word = random_words({low, low + neighbor, step, 0}, 4711, 1 << 28);
+        const auto word = random_words({low, low + neighbor, step, 0}, 4711, 1);
         numbers.push_back({uniform(word[0]), uniform(word[1]), uniform(word[2]), uniform(word[3])});
       }
   return numbers;

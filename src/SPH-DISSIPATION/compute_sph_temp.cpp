@@ -1,0 +1,132 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "compute_sph_temp.h"
+
+#include "atom.h"
+#include "atom_vec_sph_micropolar.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+enum { SPIN = 3, NVALUE = 4 };    // after those of the three directions
+
+/* ---------------------------------------------------------------------- */
+
+ComputeSPHTemp::ComputeSPHTemp(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
+{
+  if (narg > 3) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
+
+  scalar_flag = vector_flag = 1;
+  size_vector = NVALUE;
+  extscalar = extvector = 0;
+  vector = new double[size_vector];
+}
+
+/* ---------------------------------------------------------------------- */
+
+ComputeSPHTemp::~ComputeSPHTemp()
+{
+  delete[] vector;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeSPHTemp::init()
+{
+  if (!atom->style_match("sph/bulk") && !atom->style_match("sph/micropolar"))
+    error->all(FLERR, "Compute {} requires atom style sph/bulk or sph/micropolar", style);
+}
+
+/* ----------------------------------------------------------------------
+   of each direction, relative to the mean velocity of the group: so there are N-1 degrees of
+   freedom, whether the momentum of the group is constant or not
+------------------------------------------------------------------------- */
+
+void ComputeSPHTemp::translational(double *temperature) const
+{
+  double **v = atom->v;
+  const double *const rmass = atom->rmass;
+  const int *const mask = atom->mask;
+
+  enum { MASS, NUMBER, MOMENTUM, NSUM = 5 };
+  double own[NSUM] = {}, all[NSUM];
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    own[MASS] += rmass[i];
+    own[NUMBER] += 1.0;
+    for (int d = 0; d < 3; d++) own[MOMENTUM + d] += rmass[i] * v[i][d];
+  }
+  MPI_Allreduce(own, all, NSUM, MPI_DOUBLE, MPI_SUM, world);
+  const double count = all[NUMBER];
+  std::fill(temperature, temperature + 3, 0.0);
+  if (count < 2.0) return;
+
+  double square[3] = {};
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    for (int d = 0; d < 3; d++) {
+      const double u = v[i][d] - all[MOMENTUM + d] / all[MASS];
+      square[d] += rmass[i] * u * u;
+    }
+  }
+  MPI_Allreduce(square, temperature, 3, MPI_DOUBLE, MPI_SUM, world);
+  for (int d = 0; d < 3; d++) temperature[d] *= force->mvv2e / (force->boltz * (count - 1.0));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeSPHTemp::rotational() const
+{
+  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  if (!avec) return 0.0;
+  double own[2] = {}, all[2];    // particles with inertia, and their J omega^2
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double inertia = atom->rmass[i] * avec->inertia[i];
+    if (!(atom->mask[i] & groupbit) || !(inertia > 0.0)) continue;
+    const double *const omega = atom->omega[i];
+    own[0] += 1.0;
+    own[1] += inertia * (omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]);
+  }
+  MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  const int axes = (domain->dimension == 2) ? 1 : 3;
+  return (all[0] > 0.0) ? force->mvv2e * all[1] / (force->boltz * axes * all[0]) : 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   mean of the directions in which particles move
+------------------------------------------------------------------------- */
+
+double ComputeSPHTemp::compute_scalar()
+{
+  invoked_scalar = update->ntimestep;
+  double temperature[3];
+  translational(temperature);
+  scalar = 0.0;
+  for (int d = 0; d < domain->dimension; d++) scalar += temperature[d] / domain->dimension;
+  return scalar;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeSPHTemp::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  translational(vector);
+  vector[SPIN] = rotational();
+}

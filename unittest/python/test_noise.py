@@ -1,0 +1,307 @@
+"""Thermal noise, keyword temp: numbers that belong to the pair, conservation, temperatures, restart, errors.
+
+That its covariance is that of the friction is tested in unittest/cpp/test_noise.cpp.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+from helpers import disordered, drop, dump, fluid, free, header, lattice, relative
+
+HOT = "temp 30.0 4711"
+STOKES = "limit yes"
+
+
+def deck(style="sph/bulk", dim=2, options=HOT, newton="on", skin=0.3, boundary="p p p", kappa=2.0, extra="",
+         coeff=None):
+    """A box of particles with noise; the table of coefficients of both styles is the same."""
+    spin = ""
+    if style == "sph/micropolar":
+        gamma2 = -0.02 if dim == 2 else 0.01
+        spin = f" 0.2 0.02 {gamma2}"
+    support = {1: 4.0, 2: 3.0, 3: 2.5}[dim]
+    coeff = coeff or f"pair_coeff * * 1.0 10.0 0.5 {kappa}{spin} {support} pb 10.0\n"
+    inertia = " inertia 0.2 0.01" if spin else ""
+    return (header(dim, newton, boundary, style) + "read_data box.data\n" + f"neighbor {skin} bin\n"
+            + f"pair_style {style} dim {dim} {options}\n" + coeff + f"fix FLUID all {style}{inertia}\n"
+            + "timestep 0.002\n" + extra)
+
+
+def make_box(lammps, dim=2, style="sph/bulk", **keywords):
+    cells = {1: 20, 2: (9, 8), 3: (6, 6, 5)}[dim]
+    particles = disordered(dim, cells, spread=0.04, **keywords)
+    write(lammps, particles, style)
+    return particles
+
+
+def write(lammps, particles, style):
+    if style == "sph/bulk":
+        particles.write(lammps.path("box.data"))
+        return
+    # mass and internal energy by hand: the atom lines of sph/micropolar have the inertia, too
+    particles.write(lammps.path("box.data"))
+    text = lammps.path("box.data").read_text()
+    lines, atoms = [], False
+    for line in text.splitlines():
+        if line.startswith("Atoms"):
+            atoms, line = True, "Atoms # sph/micropolar"
+        elif line.startswith("Velocities"):
+            atoms = False
+        words = line.split()
+        if atoms and len(words) == 7:
+            line = " ".join(words[:4] + ["0.2"] + words[4:])
+        elif not atoms and len(words) == 4 and lines and "Velocities" in text[:text.index(line)]:
+            line += " 0 0 0"
+        lines.append(line)
+    lammps.path("box.data").write_text("\n".join(lines) + "\n")
+
+
+def forces(lammps, text, name="f.dump", ranks=1):
+    lammps(text + dump(name) + "run 0\n", ranks=ranks)
+    return lammps.frame(name)["f"]
+
+
+# ---- the same numbers --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("dim", [1, 2, 3])
+@pytest.mark.parametrize("options, kappa", [(HOT, 4.0), (f"{HOT} {STOKES}", 0.0)])
+def test_same_noise_on_any_number_of_ranks_with_newton_on_and_off_and_any_skin(lammps, dim, options, kappa):
+    make_box(lammps, dim)
+    cold = forces(lammps, deck(dim=dim, options=options.replace("30.0", "0.0"), kappa=kappa))
+    reference = forces(lammps, deck(dim=dim, options=options, kappa=kappa)) - cold
+    assert np.abs(reference).max() > np.abs(cold).max()
+    for ranks, newton, skin in ((1, "off", 0.3), (1, "on", 0.1), (1, "on", 1.0), (2, "on", 0.3), (2, "off", 1.0),
+                                (4, "on", 0.1), (4, "off", 0.3)):
+        noise = forces(lammps, deck(dim=dim, options=options, kappa=kappa, newton=newton, skin=skin),
+                       ranks=ranks) - cold
+        assert relative(noise - reference, reference) < 1e-13, (ranks, newton, skin)
+
+
+def test_other_steps_and_seeds_have_other_noise(lammps):
+    make_box(lammps)
+    cold = forces(lammps, deck(options="temp 0.0 1"))
+    noise = {}
+    for seed in (1, 2):
+        for step in (0, 1, 2**32, 2**32 + 1):
+            text = deck(options=f"temp 30.0 {seed}", extra=f"reset_timestep {step}\n")
+            noise[seed, step] = forces(lammps, text) - cold
+    names = list(noise)
+    for k, one in enumerate(names):
+        for other in names[:k]:
+            a, b = noise[one][:, :2].ravel(), noise[other][:, :2].ravel()
+            assert abs(np.dot(a, b)) < 0.4 * np.linalg.norm(a) * np.linalg.norm(b), (one, other)
+
+
+@pytest.mark.parametrize("style", ["sph/bulk", "sph/micropolar"])
+def test_a_restarted_run_continues_with_the_same_numbers(lammps, style):
+    make_box(lammps, style=style)
+    dumps = lambda name: dump(name, 5)
+    lammps(deck(style) + "run 10\nwrite_restart ten.restart\n" + dumps("whole.dump") + "run 10\n")
+    rest = "read_restart ten.restart\nfix FLUID all " + style + "\n"
+    if style == "sph/micropolar":
+        rest = rest.replace("\nfix FLUID all sph/micropolar", "\nfix FLUID all sph/micropolar inertia 0.2 0.01")
+    for ranks in (1, 2):
+        lammps(rest + "timestep 0.002\n" + dumps("rest.dump") + "run 10\n", ranks=ranks)
+        for one, other in zip(lammps.frames("whole.dump"), lammps.frames("rest.dump")):
+            assert one.step == other.step
+            for field in "xvf":
+                assert relative(one[field] - other[field], one[field]) < 1e-12, (one.step, field)
+
+
+# ---- what is conserved -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("style, options, kappa", [("sph/bulk", HOT, 4.0), ("sph/bulk", f"{HOT} {STOKES}", 0.0),
+                                                   ("sph/bulk", f"{HOT} shear morris", 4.0),
+                                                   ("sph/micropolar", HOT, 4.0)])
+def test_momentum_to_round_off(lammps, style, options, kappa):
+    particles = make_box(lammps, style=style)
+    text = deck(style, options=options, kappa=kappa, extra="velocity all zero linear\n")
+    text += "variable p equal sqrt(vcm(all,x)^2+vcm(all,y)^2)*mass(all)\nthermo_style custom step ke v_p\nthermo 100\n"
+    thermo = lammps(text + "run 2000\n").thermo()[0]
+    scale = np.sqrt(2.0 * thermo["KinEng"][-1] * particles.mass.mean() * len(particles)) * np.sqrt(len(particles))
+    assert thermo["v_p"].max() < 1e-14 * scale * np.sqrt(2000)
+
+
+@pytest.mark.parametrize("options, kappa", [("temp 0.01 5", 4.0), (f"temp 0.01 5 {STOKES}", 0.0)])
+def test_angular_momentum_of_a_drop_over_10000_steps(lammps, options, kappa):
+    """Orbital and spin, of a micropolar drop under tension that fluctuates."""
+    particles = drop(2, 4.0, rate=0.05, speed=0.0)
+    particles.mass[:] = 1.0
+    write(lammps, particles, "sph/micropolar")
+    coeff = f"pair_coeff * * 0.95 10.0 0.5 {kappa} 0.2 0.02 -0.02 3.0\n"
+    text = deck("sph/micropolar", options=options, boundary="f f p", coeff=coeff)
+    text += ("compute L all sph/angmom point 0 0 0\ncompute moving all reduce sum vx\n"
+             "thermo_style custom step ke c_L[3] c_L[6] c_L[9]\nthermo 1000\nthermo_modify format float %.17g\n")
+    thermo = lammps(text + "run 10000\n", timeout=300).thermo()[0]
+    momentum = thermo["c_L[3]"]
+    size = np.abs(momentum[0])
+    assert size > 1.0
+    assert np.abs(momentum - momentum[0]).max() < 1e-12 * size
+    assert np.ptp(thermo["c_L[9]"]) > 1e-3 * size  # the spins do fluctuate
+
+
+# ---- temperatures ------------------------------------------------------------------------------------------------
+
+TEMPERATURES = """
+compute T all sph/temp
+run 400
+fix av all ave/time 1 3000 3000 c_T c_T[*]
+thermo_style custom step f_av[*]
+thermo 3000
+run 3000
+"""
+
+
+@pytest.mark.parametrize("style, dim, options, kappa", [
+    ("sph/bulk", 2, "", 0.4), ("sph/bulk", 2, STOKES, 0.0), ("sph/bulk", 2, "volume mass shear espanol", 0.4),
+    ("sph/bulk", 3, "shear morris", 0.4), ("sph/micropolar", 2, "", 0.4), ("sph/micropolar", 3, STOKES, 0.0)])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_temperature(lammps, style, dim, options, kappa, ranks):
+    """Of all directions and spins, of 400 particles in a short run: within five standard errors."""
+    if ranks == 2 and (dim == 3 or options):
+        pytest.skip("one case is enough")
+    spin = " 0.1 0.02 -0.02" if dim == 2 else " 0.1 0.02 0.01"
+    text = (f"units lj\ndimension {dim}\natom_style {style}\nlattice {'sq' if dim == 2 else 'sc'} 1.0\n"
+            + ("region box block 0 20 0 20 -0.5 0.5\n" if dim == 2 else "region box block 0 7 0 7 0 8\n")
+            + "create_box 2 box\ncreate_atoms 1 box\nset group all mass 1.0\nset group all type/fraction 2 0.5 77\n"
+            + "set type 2 mass 2.0\n"
+            + f"displace_atoms all random 0.1 0.1 {0.1 if dim == 3 else 0.0} 5\n"
+            + f"velocity all create 1.7 87 loop geom\n"
+            + f"pair_style {style} {options} temp 1.7 99\n")
+    coeff = "{0} {0} {1}.0 6.0 0.3 {2}{3} {4} pb 20.0\n"
+    for type in (1, 2):
+        text += "pair_coeff " + coeff.format(type, type, kappa, spin if style == "sph/micropolar" else "",
+                                             3.0 if dim == 2 else 2.5)
+    text += f"fix 1 all {style}" + (" inertia 0.16 0.0" if "micro" in style else "") + "\ntimestep 0.01\n"
+    result = lammps(text + TEMPERATURES, ranks=ranks, timeout=300)
+    rate = float(re.findall(r"largest viscous rate times time step ([\d.e+-]+)", result.log)[0])
+    assert rate < 0.12
+    number = 400 if dim == 2 else 392
+    values = {name: column[-1] for name, column in result.thermo()[-1].items() if name.startswith("f_av")}
+    # at least one independent sample per relaxation time of about 1
+    error = 1.7 * np.sqrt(2.0 / (number * 30.0))
+    assert abs(values["f_av[1]"] - 1.7) < 5 * error / np.sqrt(dim)
+    for k in range(dim):
+        assert abs(values[f"f_av[{2 + k}]"] - 1.7) < 5 * error
+    if "micro" in style:
+        assert abs(values["f_av[5]"] - 1.7) < 5 * error
+    else:
+        assert values["f_av[5]"] == 0.0
+
+
+def test_compute_temp_counts_degrees_of_freedom(lammps):
+    """Against sums over the particles; velocities are relative to the mean."""
+    style = "sph/micropolar"
+    particles = make_box(lammps, style=style)
+    text = deck(style, extra="compute T all sph/temp\nthermo_style custom step c_T c_T[*]\n"
+                "thermo_modify format float %.17g\nset group all omega 0 0 0.7\n"
+                "dump D all custom 1 t.dump id mass vx vy omegaz d_inertia\n"
+                "dump_modify D sort id format float %.17g\n")
+    thermo = lammps(text + "run 5\n").thermo()[0]
+    frame = lammps.frame("t.dump")
+    mass, n = frame["mass"], len(particles)
+    for k, name in enumerate(("vx", "vy")):
+        v = frame[name] - np.dot(mass, frame[name]) / mass.sum()
+        assert thermo[f"c_T[{k + 1}]"][-1] == pytest.approx(np.dot(mass, v * v) / (n - 1), rel=1e-13)
+    assert thermo["c_T[3]"][-1] == 0.0
+    spin = np.dot(mass * frame["d_inertia"], frame["omegaz"]**2) / n
+    assert thermo["c_T[4]"][-1] == pytest.approx(spin, rel=1e-13)
+    mean = 0.5 * (thermo["c_T[1]"][-1] + thermo["c_T[2]"][-1])
+    assert thermo["c_T"][-1] == pytest.approx(mean, rel=1e-13)
+
+
+# ---- virial ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("style", ["sph/bulk", "sph/micropolar"])
+def test_virial_by_pairs_and_in_total_agree(lammps, style):
+    make_box(lammps, 3, style=style)
+    text = deck(style, 3, extra="compute S all stress/atom NULL virial\n"
+                "compute sum all reduce sum c_S[1] c_S[2] c_S[3]\ncompute P all pressure NULL virial\n"
+                "thermo_style custom step c_P c_sum[*] vol\nthermo_modify format float %.17g\n")
+    hot = lammps(text + "run 3\n").thermo()[0]
+    by_atom = -(hot["c_sum[1]"] + hot["c_sum[2]"] + hot["c_sum[3]"]) / (3.0 * hot["Volume"])
+    assert relative(by_atom - hot["c_P"], hot["c_P"]) < 1e-12
+    cold = lammps(text.replace("30.0", "0.0") + "run 0\n").thermo()[0]
+    assert abs(hot["c_P"][0] - cold["c_P"][0]) > 1e-3 * abs(cold["c_P"][0])  # it is in both
+
+
+# ---- errors ------------------------------------------------------------------------------------------------------
+
+
+def fails(lammps, text, words, ranks=(1, 2)):
+    for n in ranks:
+        result = lammps(text, ranks=n, check=False)
+        assert result.code != 0 and re.search(words, result.error), result.error or result.output[-2000:]
+
+
+@pytest.mark.parametrize("options, words", [
+    ("temp -1.0 5", "temp must be >= 0, not -1.0"), ("temp nan 5", "temp|nan"), ("temp 1.0 0", "seed must be > 0, not 0"),
+    ("temp 1.0 -3", "seed must be > 0, not -3"), ("temp 1.0", "[Mm]issing"), ("temp", "[Mm]issing"),
+    ("temp 1.0 2.5", "2.5"), ("temp hot 5", "hot"),
+    ("temp 1.0 5 bulk volume", "bulk volume.*not symmetric"), ("temp 1.0 5 eos ideal", "eos ideal"),
+])
+def test_wrong_arguments(lammps, options, words):
+    make_box(lammps)
+    fails(lammps, deck(options=options) + "run 1\n", words)
+
+
+def test_stokes_fluid_needs_the_limit(lammps):
+    make_box(lammps)
+    for options in ("", "limit count"):
+        fails(lammps, deck(options=f"{HOT} {options}", kappa=0.9) + "run 1\n", "requires limit yes with kappa 0.9 of type 1")
+    lammps(deck(options=f"{HOT} limit yes", kappa=0.9) + "run 1\n")
+    lammps(deck(options=HOT, coeff="pair_coeff * * 1.0 10.0 0.3 0.6 3.0\n") + "run 1\n")  # zeta = 0 but for round-off
+
+
+def test_what_noise_does_not_go_with(lammps):
+    make_box(lammps)
+    fails(lammps, deck() + "minimize 0 0 1 1\n", "temp cannot be used in a minimization")
+    fails(lammps, deck(extra="fix D all dt/reset 1 0.001 0.002 0.1\n") + "run 1\n", "cannot be used with fix dt/reset")
+    fails(lammps, deck().replace("fix FLUID all sph/bulk", "fix FLUID all sph/bulk shift 0.1") + "run 1\n",
+          "shift cannot be used with temp")
+    for slip in ("slip free", "spin free", "spin rate 1.0"):
+        text = deck().replace("fix FLUID all", "region low block INF INF INF 2.9 INF INF\ngroup wall region low\n"
+                              "group fluid subtract all wall\nfix FLUID fluid")
+        fails(lammps, text + f"fix W wall sph/wall {slip}\nrun 1\n", "only slip no and spin zero")
+
+
+def test_particles_need_ids(lammps):
+    fails(lammps, "units lj\ndimension 2\natom_style sph/bulk\natom_modify id no\nlattice sq 1.0\n"
+          "region b block 0 8 0 8 -0.5 0.5\ncreate_box 1 b\ncreate_atoms 1 box\nset group all mass 1.0\n"
+          "pair_style sph/bulk temp 1.0 5\npair_coeff * * 1.0 10.0 0.5 2.0 3.0\nfix 1 all sph/bulk\nrun 1\n",
+          "needs particles with IDs")
+
+
+@pytest.mark.parametrize("cells, words", [((5, 9), "x extent 5"), ((9, 5), "y extent 5")])
+def test_box_narrower_than_two_supports(lammps, cells, words):
+    lattice(2, cells).write(lammps.path("box.data"))
+    fails(lammps, deck() + "run 1\n", f"{words}.*at least two support radii, 6")
+
+
+def test_box_that_becomes_narrower_in_a_run(lammps):
+    lattice(2, (7, 9)).write(lammps.path("box.data"))
+    text = deck(extra="fix D all deform 1 x final 0 5.5 remap x\nneigh_modify delay 0 every 1\n")
+    fails(lammps, text + "run 500\n", "x extent 5.9")
+
+
+def test_narrow_box_that_is_not_periodic(lammps):
+    lattice(2, (5, 9)).write(lammps.path("box.data"))
+    lammps(deck(boundary="f p p") + "run 1\n")
+
+
+# ---- messages ----------------------------------------------------------------------------------------------------
+
+
+def test_rate_times_time_step_is_printed_and_warned_of(lammps):
+    make_box(lammps)
+    result = lammps(deck() + "run 1\nrun 1\ntimestep 0.05\nrun 1\n")
+    lines = re.findall(r"thermal noise of temperature 30, seed 4711, largest viscous rate times time step (\S+)",
+                       result.log)
+    assert len(lines) == 2
+    assert float(lines[1]) == pytest.approx(25.0 * float(lines[0]), rel=0.01)
+    assert len([line for line in result.warnings if "hotter" in line]) == 1
