@@ -224,6 +224,10 @@ void FixSPHOpen::init()
   if (update->whichflag == 2)
     error->all(FLERR, "Fix {} cannot be used in a minimization: its particles have a velocity",
                style);
+  if (pair->has_noise())
+    error->all(FLERR,
+               "Fix {} cannot be used with temp of the pair style: its particles do not fluctuate",
+               style);
   pair->add_open_zone(this);
   spinning = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
   avec = spinning ? spinning : dynamic_cast<AtomVecSPHBulk *>(atom->style_match("sph/bulk"));

@@ -189,7 +189,7 @@ void impulse_loop(const LoopData &pairs, const NoiseData &data)
       const Vec slope = load(slope_of + k);
       const Vec vv_slope = if_positive(rsq, own.vol * block.vol() * slope);
       const Vec vv = FR ? vv_slope * square_root(rsq) : vv_slope;
-      const Vec by_r = square_root(vv / (rsq + TINY));    // strength of the pair over r
+      const Vec inverse_rsq = 1.0 / (rsq + TINY);
       if (!pairs.uniform) coeff.load(pairs, data, i, j, n - k);
 
       const PairCounter counter(step, own.tag, block.tag());
@@ -204,6 +204,8 @@ void impulse_loop(const LoopData &pairs, const NoiseData &data)
         const Vec back = (TRANSVERSE == 3) ? more[3] : z[TRANSVERSE ? 3 : 1];
         along += back - root * (block.reach() * own.share + own.reach * block.share());
       }
+
+      const Vec by_r = square_root(vv * inverse_rsq);
       const Vec central = coeff.central * by_r * along;
       Vec fx = central * dx, fy = central * dy, fz = central * dz;
       Vec spin[3] = {all(0.0), all(0.0), all(0.0)};
@@ -213,18 +215,20 @@ void impulse_loop(const LoopData &pairs, const NoiseData &data)
         fy += across * dx;
         if constexpr (SPIN) spin[2] = counter.sign * coeff.spin_across * square_root(vv) * z[2];
       }
+
+      // of a vector, the part across e, or different parts along and across it
+
       if constexpr (TRANSVERSE == 3) {
         const Vec strength = counter.sign * square_root(vv);
         const Vec across = strength * coeff.transverse;
-        const Vec inverse_rsq = 1.0 / (rsq + TINY);
-        const Vec part = (dx * z[1] + dy * z[2] + dz * z[3]) * inverse_rsq;
-        fx += across * (z[1] - part * dx);
-        fy += across * (z[2] - part * dy);
-        fz += across * (z[3] - part * dz);
+        const Vec part = across * (dx * z[1] + dy * z[2] + dz * z[3]) * inverse_rsq;
+        fx += across * z[1] - part * dx;
+        fy += across * z[2] - part * dy;
+        fz += across * z[3] - part * dz;
         if constexpr (SPIN) {
-          const Vec spin_part = (dx * more[0] + dy * more[1] + dz * more[2]) * inverse_rsq;
           const Vec spin_across = strength * coeff.spin_across;
-          const Vec remainder = (strength * coeff.spin_along - spin_across) * spin_part;
+          const Vec remainder = (strength * coeff.spin_along - spin_across) * inverse_rsq *
+              (dx * more[0] + dy * more[1] + dz * more[2]);
           spin[0] = spin_across * more[0] + remainder * dx;
           spin[1] = spin_across * more[1] + remainder * dy;
           spin[2] = spin_across * more[2] + remainder * dz;

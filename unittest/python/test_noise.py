@@ -306,3 +306,34 @@ def test_rate_times_time_step_is_printed_and_warned_of(lammps):
     assert len(lines) == 2
     assert float(lines[1]) == pytest.approx(25.0 * float(lines[0]), rel=0.01)
     assert len([line for line in result.warnings if "hotter" in line]) == 1
+
+
+def test_open_boundaries_do_not_fluctuate(lammps):
+    make_box(lammps)
+    text = deck(extra="region low block INF 1.5 INF INF INF INF\ngroup inflow region low\n").replace(
+        "boundary p p p", "boundary f p p")
+    fails(lammps, text + "fix IN inflow sph/open 1.5 0.0 0.0 1.0 0.0 0.0 velocity 0.5 0.0 0.0\nrun 1\n", "sph/open")
+
+
+# ---- walls -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("options, kappa", [("", 0.8), (STOKES, 0.0)])
+def test_temperature_between_walls(lammps, options, kappa):
+    """Of the whole fluid and of the layer next to the walls; what the fluid loses the walls get."""
+    text = ("units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nlattice sq 1.0\n"
+            "region box block 0 20 -4 14 -0.5 0.5\ncreate_box 1 box\ncreate_atoms 1 box\nset group all mass 1.0\n"
+            "region fluid block INF INF -0.25 9.75 INF INF\ngroup fluid region fluid\ngroup wall subtract all fluid\n"
+            "displace_atoms fluid random 0.1 0.1 0.0 5\nvelocity fluid create 0.3 87 loop geom\n"
+            f"pair_style sph/bulk {options} temp 0.3 99\npair_coeff * * 1.0 6.0 0.3 {kappa} 3.0 pb 20.0\n"
+            "fix 1 fluid sph/bulk\nfix W wall sph/wall\ntimestep 0.006\n"
+            "region near block INF INF INF 0.75 INF INF\ngroup near dynamic fluid region near every 1\n"
+            "compute T fluid sph/temp\ncompute near near temp/partial 1 1 0\ncompute N near reduce sum v_one\n"
+            "variable one atom 1\nvariable p equal vcm(fluid,y)*mass(fluid)\n"
+            "run 1000\nreset_timestep 0\nfix av all ave/time 1 6000 6000 c_T c_T[1] c_T[2]\n"
+            "thermo_style custom step f_av[*] v_p\nthermo 6000\nrun 6000\n")
+    text = text.replace("compute near near temp/partial 1 1 0\ncompute N near reduce sum v_one\n", "")
+    thermo = lammps(text, timeout=300).thermo()[-1]
+    error = 0.3 * np.sqrt(2.0 / (200 * 36 * 0.5))
+    for name in ("f_av[1]", "f_av[2]", "f_av[3]"):
+        assert abs(thermo[name][-1] - 0.3) < 5 * error, name
