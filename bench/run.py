@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Time sph/bulk against LAMMPS's own sph/rhosum + sph/taitwater/morris, sph/micropolar against sph/bulk, and
-channels with walls of fix sph/wall against the periodic fluid.
+channels with walls of fix sph/wall against the periodic fluid, and both fluids with thermal noise against those without.
 
 All run from the same executable on the same particles (3d periodic, support radius of three particle
 spacings), in turn, so that a drift of the machine's speed meets all.  A channel has as many fluid particles
@@ -21,6 +21,7 @@ HERE = Path(__file__).resolve().parent
 FASTER = 4.0  # what --check asks for
 COST = 1.5
 WALL_COST = 1.3
+NOISE_COST = 1.6
 STYLES = ("lammps", "bulk", "micropolar")
 NAMES = {"lammps": "sph/rhosum 1 + sph/taitwater/morris", "bulk": "sph/bulk (mg, bulk density)",
          "micropolar": "sph/micropolar (everything on)"}
@@ -28,9 +29,10 @@ LAYERS = 3
 WALLS = {"channel, sph/bulk": ("bulk", "slip no"),
          "channel, sph/micropolar": ("micropolar", "slip no spin zero"),
          "channel, sph/micropolar, spin rate": ("micropolar", "slip no spin rate 1.0")}
+NOISE = "temp 1e-6 4711"
 
 
-def run(style, ranks, args, wall=None):
+def run(style, ranks, args, wall=None, noise=None):
     """One run; returns seconds of the time loop, atoms and how many are fluid, pairs inside the support, checksum of
     the positions."""
     command = [args.lmp, "-in", str(HERE / "in.bench"), "-log", "none", "-nocite",
@@ -38,6 +40,8 @@ def run(style, ranks, args, wall=None):
                "-var", "simd", args.simd]
     if wall:
         command += ["-var", "layers", str(LAYERS), "-var", "wall", wall]
+    if noise:
+        command += ["-var", "noise", noise]
     if ranks > 1:
         command = [args.mpiexec, "--oversubscribe", "-np", str(ranks)] + command
     result = subprocess.run(command, capture_output=True, text=True)
@@ -51,6 +55,7 @@ def run(style, ranks, args, wall=None):
 
 def compare(ranks, args):
     seconds = {name: [] for name in (*STYLES, *WALLS)}
+    noisy = {style: [] for style in STYLES if style != "lammps"}
     size = {}
     for _ in range(args.repeat):
         places = []
@@ -60,6 +65,8 @@ def compare(ranks, args):
             places.append(place)
         if max(places) - min(places) > 1e-12 * places[0]:
             sys.exit("the styles did not run the same particles")
+        for style, elapsed in noisy.items():
+            elapsed.append(run(style, ranks, args, noise=NOISE)[0])
         for name, (style, wall) in WALLS.items():
             elapsed, *size[name] = run(style, ranks, args, wall)
             seconds[name].append(elapsed)
@@ -84,7 +91,9 @@ def compare(ranks, args):
         walls.append(ratio([t / all_atoms for t in seconds[name]], [t / atoms for t in seconds[style]],
                            f"time per particle, {name} over periodic"))
         ratio([t / fluid for t in seconds[name]], [t / atoms for t in seconds[style]], "  per fluid particle")
-    return faster, cost, max(walls)
+    noise = [ratio(elapsed, seconds[style], f"time per step of sph/{style} with thermal noise over without")
+             for style, elapsed in noisy.items()]
+    return faster, cost, max(walls), max(noise)
 
 
 def ratio(seconds_a, seconds_b, what):
@@ -106,12 +115,13 @@ def main():
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--check", action="store_true",
                         help=f"fail if sph/bulk is not {FASTER} times as fast as LAMMPS's styles, sph/micropolar "
-                             f"costs more than {COST} times as much as sph/bulk, or a channel per particle more than "
-                             f"{WALL_COST} times as much as the periodic box, on the first number of ranks")
+                             f"costs more than {COST} times as much as sph/bulk, a channel per particle more than "
+                             f"{WALL_COST} times as much as the periodic box, or thermal noise makes a style more than "
+                             f"{NOISE_COST} times as expensive, on the first number of ranks")
     args = parser.parse_args()
     results = [compare(ranks, args) for ranks in args.ranks]
-    faster, cost, walls = results[0]
-    if args.check and (faster < FASTER or cost > COST or walls > WALL_COST):
+    faster, cost, walls, noise = results[0]
+    if args.check and (faster < FASTER or cost > COST or walls > WALL_COST or noise > NOISE_COST):
         sys.exit("slower than it should be")
 
 
