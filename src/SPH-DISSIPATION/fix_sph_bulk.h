@@ -52,7 +52,7 @@ class FixSPHBulk : public Fix {
  protected:
   double dtv, dtf;
   double extrapolation;    // of velocities over half a step: 1, with thermal noise 0
-  int density_done;    // the masses were set, in this run or before a restart
+  int density_done;        // the masses were set, in this run or before a restart
   int nlocal_group() const;
   class AtomVecSPHBulk *avec() const;
 

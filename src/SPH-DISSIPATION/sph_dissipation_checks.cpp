@@ -119,6 +119,12 @@ void SPHDissipation::check_noise(LAMMPS *lmp, const std::string &style)
         FLERR, Error::NOLASTLINE,
         "Pair style {} with temp needs particles with IDs, to which its random numbers belong",
         style);
+  if (!(lmp->update->dt > 0.0))
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair style {} with temp needs a time step > 0, not {}: its random forces are those of "
+        "one step",
+        style, lmp->update->dt);
   if (!lmp->modify->get_fix_by_style("^dt/reset").empty())
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} with temp cannot be used with fix dt/reset: its random forces are "

@@ -36,7 +36,7 @@ namespace SPHDissipation {
 
   void check_styles(LAMMPS *, const std::string &style);
 
-  // what thermal noise needs: IDs of particles, a constant time step, no minimization
+  // what thermal noise needs: IDs of particles, a constant time step > 0, no minimization
 
   void check_noise(LAMMPS *, const std::string &style);
 

@@ -43,7 +43,7 @@ namespace SPHDissipation {
     void add_row(int i, int j, const Columns &values, double acoustic, const Columns &viscous);
     std::string text() const;    // with a line on the accuracy of these steps
     double smallest_step() const { return smallest; }    // with all terms together, of all rows
-    double fastest_rate() const { return fastest; }      // damping by all viscous terms, of all rows
+    double fastest_rate() const { return fastest; }    // damping by all viscous terms, of all rows
 
    private:
     std::string lines;

@@ -262,6 +262,7 @@ def test_stokes_fluid_needs_the_limit(lammps):
 def test_what_noise_does_not_go_with(lammps):
     make_box(lammps)
     fails(lammps, deck() + "minimize 0 0 1 1\n", "temp cannot be used in a minimization")
+    fails(lammps, deck(extra="timestep 0.0\n") + "run 1\n", "needs a time step > 0, not 0")
     fails(lammps, deck(extra="fix D all dt/reset 1 0.001 0.002 0.1\n") + "run 1\n", "cannot be used with fix dt/reset")
     fails(lammps, deck().replace("fix FLUID all sph/bulk", "fix FLUID all sph/bulk shift 0.1") + "run 1\n",
           "shift cannot be used with temp")
