@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-only
+"""Decay of an accelerating and decelerating flow through a pipe with open ends: centre, kinetic energy, mass.
+
+    ./sphd run pipe_flow          or
+    SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
+"""
+
+import csv
+import sys
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from exact import Pipe                      # noqa: E402
+from run_lammps import Example, frames      # noqa: E402
+
+# sigma: rows across the pipe, distance of the particles of a row at x = 0 over that of the rows, support over that
+SIZES = {-1: (60, 0.25, 6.0), 0: (36, 0.5, 6.0), 1: (36, 0.7, 6.0), 10: (36, 1.0, 6.0)}
+QUICK = {0: (24, 0.5, 6.0), 10: (24, 1.0, 6.0)}
+# what goes wrong: sigma, variables of the input that differ
+WRONG = {
+    "no $f_y$": (1, {"fy": 0}),
+    "bulk viscosity of $\\sigma = 0$": (1, {"fluid": 0}),
+    "ends characteristic": (1, {"condition": "characteristic"}),
+    "ends fixed": (1, {"condition": "fixed"}),
+}
+SMALL = 0.01                # relative error of velocity and kinetic energy, until each is a tenth
+SMALL_MASS = 1e-3
+VISIBLE = 0.03              # what the wrong ones must differ by, at least: those in FAIL
+FAIL = ("no $f_y$", "bulk viscosity of $\\sigma = 0$")
+
+
+def value_at(x, y, u, point, radius=0.1):
+    """Of a field at a point: a polynomial of second order through the particles around it, the near ones above all."""
+    dx, dy = (x - point[0]) / radius, (y - point[1]) / radius
+    distance = dx**2 + dy**2
+    near = distance < 1
+    dx, dy, weight = dx[near], dy[near], 1 - distance[near]
+    terms = np.stack([np.ones_like(dx), dx, dy, dx**2, dx * dy, dy**2], axis=1)
+    return np.linalg.lstsq(terms * weight[:, None], u[near] * weight, rcond=None)[0][0]
+
+
+class Run:
+    """Two pipes side by side, -1 < y < 0 and 0 < y < 1, in which the fluid flows in opposite directions."""
+
+    def __init__(self, out, name, sigma):
+        self.sigma, self.exact = sigma, Pipe(sigma)
+        history = np.loadtxt(out / f"{name}.history.txt")
+        step, self.time, self.energy, self.mass, *self.carried, self.lost = history.T
+        self.energy, self.mass = self.energy / 2, self.mass / 2
+        center = frames(out / f"{name}.center.txt")
+        per_step = (self.time[1] - self.time[0]) / (step[1] - step[0])
+        self.at = np.array(list(center)) * per_step
+        self.u = np.array([np.mean([sign * value_at(frame["x"], frame["y"], frame["vx"], (0, sign / 2)) for sign in (1, -1)])
+                           for frame in center.values()])
+        self.frames = {step * per_step: frame for step, frame in frames(out / f"{name}.particles.txt").items()}
+
+    def errors(self):
+        """Largest relative errors of the velocity at the centre and of the kinetic energy, of the mass; lost particles."""
+        e = self.exact
+        early = e.kinetic(self.time) > 0.1 * e.kinetic(0.0)
+        return (np.abs(self.u / e.center(self.at) - 1).max(), np.abs(self.energy / e.kinetic(self.time) - 1)[early].max(),
+                np.abs(self.mass / e.mass() - 1).max(), np.abs(self.lost).max())
+
+    def passed(self):
+        """Mass in and out through both ends over the exact one, at the end."""
+        wanted = 2 * self.exact.passed(self.time[-1])
+        left_in, left_out, right_in, right_out = (column[-1] for column in self.carried)
+        return (left_in + right_in) / wanted, (left_out + right_out) / wanted
+
+    def field(self):
+        """Relative L2 errors of velocity and its part across the pipe, in all frames after the first."""
+        found = []
+        for t, frame in self.frames.items():
+            u = self.exact.u(frame["x"], frame["y"], t)
+            found.append([np.linalg.norm(frame["vx"] - u), np.linalg.norm(frame["vy"])] / np.linalg.norm(u))
+        return np.array(found)[1:].max(axis=0)
+
+
+def draw_fields(path, runs):
+    """As figure 4 of the paper: velocity at the start, exact, and that of the particles halfway."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(len(runs), 2, figsize=(8.4, 2.1 * len(runs)), layout="constrained", squeeze=False)
+    x, y = np.meshgrid(np.linspace(-1, 1, 201), np.linspace(0, 1, 101))
+    for row, (sigma, run) in zip(axes, runs.items()):
+        picture = row[0].contourf(x, y, run.exact.u(x, y), levels=np.linspace(0, 1, 21), cmap="turbo")
+        row[0].set(ylabel="$y/L$", title=f"$\\sigma = {sigma}$, $t = 0$: exact")
+        figure.colorbar(picture, ax=row[0], label="$u/U_0$", ticks=[0, 0.5, 1])
+        t, frame = list(run.frames.items())[1]
+        upper = frame["y"] > 0
+        dots = row[1].scatter(frame["x"][upper], frame["y"][upper], s=1.5, c=frame["vx"][upper], cmap="turbo", vmin=0,
+                              vmax=np.exp(-run.exact.beta * t), lw=0, rasterized=True)
+        row[1].set(title=f"$t U_0/L = {t:.3g}$: particles", xlim=(-1, 1), ylim=(0, 1))
+        figure.colorbar(dots, ax=row[1], label="$u/U_0$")
+        for axis in row:
+            axis.set_aspect("equal")
+    for axis in axes[-1]:
+        axis.set_xlabel("$x/L$")
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def draw_decay(path, runs, wrong):
+    """As figure 5 of the paper, with what goes wrong beside it."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2, "legend.fontsize": 7.5})
+    figure, axes = plt.subplots(1, 3, figsize=(13.5, 4.0), layout="constrained")
+    for color, (sigma, run) in zip(("C0", "C2", "C1", "C3"), runs.items()):
+        fine = np.linspace(0, run.at[-1], 200)
+        axes[0].semilogy(run.at, run.u, "-", color=color, label=f"$\\sigma = {sigma}$")
+        axes[0].semilogy(fine, run.exact.center(fine), "k-.", lw=0.8)
+        axes[1].semilogy(run.time, run.energy, "-", color=color)
+        axes[1].semilogy(fine, run.exact.kinetic(fine), "k-.", lw=0.8)
+        axes[2].plot(run.at, run.u / run.exact.center(run.at) - 1, "-", color=color)
+    axes[0].legend(title="lines: particles, dash-dotted: exact")
+    for color, style, (what, run) in zip(("C4", "C5", "C6", "C7"), ("--", "--", ":", ":"), wrong.items()):
+        axes[2].plot(run.at, run.u / run.exact.center(run.at) - 1, style, color=color, label=what)
+    axes[0].set(xlabel="$t U_0/L$", title="velocity at the centre over $U_0$")
+    axes[1].set(xlabel="$t U_0/L$", title="kinetic energy over $\\rho_0 U_0^2 L^2$")
+    axes[2].set(xlabel="$t U_0/L$", title="velocity at the centre over the exact one, minus 1", ylim=(-0.15, 0.15))
+    if wrong:
+        sigma = next(iter(wrong.values())).sigma
+        axes[2].legend(title=f"for $\\sigma = {sigma}$ with")
+    figure.savefig(path, dpi=95)
+    plt.close(figure)
+
+
+def main():
+    example = Example(HERE, "Accelerating and decelerating flow through a pipe with open ends.")
+    args = example.arguments()
+    sizes = QUICK if args.quick else SIZES
+    variables = {sigma: dict(zip(("sigma", "n", "aspect", "support"), (sigma, *size))) for sigma, size in sizes.items()}
+    jobs = {f"sigma{sigma}": found for sigma, found in variables.items()}
+    wrong_names = {}
+    for number, (what, (sigma, differing)) in enumerate(WRONG.items()):
+        if sigma in sizes:
+            wrong_names[what] = f"wrong{number}", sigma
+            jobs[f"wrong{number}"] = {**variables[sigma], **differing}
+    example.run(jobs)
+    runs = {sigma: Run(example.out, f"sigma{sigma}", sigma) for sigma in sizes}
+    wrong = {what: Run(example.out, *found) for what, found in wrong_names.items()}
+
+    table = example.out / "errors.csv"
+    with open(table, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["run", "sigma", "rows", "aspect", "support", "center", "kinetic", "mass", "lost", "u", "v", "in", "out"])
+        for what, run in {**{f"sigma {sigma}": run for sigma, run in runs.items()}, **wrong}.items():
+            center, kinetic, mass, lost = run.errors()
+            fields, passed = run.field(), run.passed()
+            writer.writerow([what, run.sigma, *sizes[run.sigma], f"{center:.5f}", f"{kinetic:.5f}", f"{mass:.6f}", f"{lost:g}",
+                             *(f"{value:.5f}" for value in (*fields, *passed))])
+            print(f"{what}: errors of u at the centre {center:.4f}, kinetic energy {kinetic:.4f}, mass {mass:.1e},"
+                  f" field of u {fields[0]:.4f}, v/u {fields[1]:.4f}; particles lost {lost:g},"
+                  f" mass in and out over the exact one {passed[0]:.4f}, {passed[1]:.4f}")
+    for sigma, run in runs.items():
+        center, kinetic, mass, lost = run.errors()
+        example.merit(f"sigma = {sigma}: error of the velocity at the centre", center, 0.0, SMALL)
+        example.merit(f"sigma = {sigma}: error of the kinetic energy", kinetic, 0.0, SMALL)
+        example.merit(f"sigma = {sigma}: error of the mass", mass, 0.0, SMALL_MASS)
+        example.merit(f"sigma = {sigma}: particles lost", lost, 0.0, 0.0)
+    for what in FAIL:
+        if what in wrong:
+            example.merit(f"{what}: error of the velocity at the centre", wrong[what].errors()[0], VISIBLE, 9.0)
+    decay, fields = example.out / "decay.png", example.out / "velocity.png"
+    draw_decay(decay, runs, wrong)
+    draw_fields(fields, runs)
+    return example.finish(decay, fields, table)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
