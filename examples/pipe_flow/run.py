@@ -33,7 +33,7 @@ VISIBLE = 0.03              # what the wrong ones must differ by, at least: thos
 FAIL = ("no $f_y$", "bulk viscosity of $\\sigma = 0$")
 
 
-def value_at(x, y, u, point, radius=0.1):
+def value_at(x, y, u, point, radius=0.15):
     """Of a field at a point: a polynomial of second order through the particles around it, the near ones above all."""
     dx, dy = (x - point[0]) / radius, (y - point[1]) / radius
     distance = dx**2 + dy**2
