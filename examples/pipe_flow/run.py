@@ -18,19 +18,20 @@ from exact import Pipe                      # noqa: E402
 from run_lammps import Example, frames      # noqa: E402
 
 # sigma: rows across the pipe, distance of the particles of a row at x = 0 over that of the rows, support over that
-SIZES = {-1: (60, 0.25, 6.0), 0: (36, 0.5, 6.0), 1: (36, 0.7, 6.0), 10: (36, 1.0, 6.0)}
-QUICK = {0: (24, 0.5, 6.0), 10: (24, 1.0, 6.0)}
+SIZES = {-1: (38, 0.2, 6.0), 0: (30, 0.5, 6.0), 1: (26, 0.7, 6.0), 10: (34, 1.0, 6.0)}
+QUICK = {0: (22, 0.5, 6.0), 1: (18, 0.7, 6.0)}
+COARSE = 2.0                # the errors of the quick ones are larger by this
 # what goes wrong: sigma, variables of the input that differ
+NO_FY, OTHER_BULK = "no $f_y$", "bulk viscosity of $\\sigma = 10$"
 WRONG = {
-    "no $f_y$": (1, {"fy": 0}),
-    "bulk viscosity of $\\sigma = 0$": (1, {"fluid": 0}),
-    "ends characteristic": (1, {"condition": "characteristic"}),
-    "ends fixed": (1, {"condition": "fixed"}),
+    NO_FY: (1, {"fy": 0}),
+    OTHER_BULK: (1, {"fluid": 10}),
+    "condition characteristic": (1, {"condition": "characteristic"}),
+    "condition fixed": (1, {"condition": "fixed"}),
 }
 SMALL = 0.01                # relative error of velocity and kinetic energy, until each is a tenth
 SMALL_MASS = 1e-3
-VISIBLE = 0.03              # what the wrong ones must differ by, at least: those in FAIL
-FAIL = ("no $f_y$", "bulk viscosity of $\\sigma = 0$")
+VISIBLE = 0.1               # what the first two of the wrong ones must differ by, at least
 
 
 def value_at(x, y, u, point, radius=0.15):
@@ -72,7 +73,7 @@ class Run:
         return (left_in + right_in) / wanted, (left_out + right_out) / wanted
 
     def field(self):
-        """Relative L2 errors of velocity and its part across the pipe, in all frames after the first."""
+        """Relative L2 errors of the velocity and its part across the pipe, the largest of all frames after the first."""
         found = []
         for t, frame in self.frames.items():
             u = self.exact.u(frame["x"], frame["y"], t)
@@ -163,13 +164,14 @@ def main():
                   f" mass in and out over the exact one {passed[0]:.4f}, {passed[1]:.4f}")
     for sigma, run in runs.items():
         center, kinetic, mass, lost = run.errors()
-        example.merit(f"sigma = {sigma}: error of the velocity at the centre", center, 0.0, SMALL)
-        example.merit(f"sigma = {sigma}: error of the kinetic energy", kinetic, 0.0, SMALL)
-        example.merit(f"sigma = {sigma}: error of the mass", mass, 0.0, SMALL_MASS)
+        coarse = COARSE if args.quick else 1.0
+        example.merit(f"sigma = {sigma}: error of the velocity at the centre", center, 0.0, coarse * SMALL)
+        example.merit(f"sigma = {sigma}: error of the kinetic energy", kinetic, 0.0, coarse * SMALL)
+        example.merit(f"sigma = {sigma}: error of the mass", mass, 0.0, coarse * SMALL_MASS)
         example.merit(f"sigma = {sigma}: particles lost", lost, 0.0, 0.0)
-    for what in FAIL:
-        if what in wrong:
-            example.merit(f"{what}: error of the velocity at the centre", wrong[what].errors()[0], VISIBLE, 9.0)
+    for what in (NO_FY, OTHER_BULK):
+        example.merit(f"{what}: error of the velocity at the centre or of the kinetic energy", max(wrong[what].errors()[:2]),
+                      VISIBLE, 9.0)
     decay, fields = example.out / "decay.png", example.out / "velocity.png"
     draw_decay(decay, runs, wrong)
     draw_fields(fields, runs)
