@@ -21,13 +21,15 @@ from run_lammps import Example, frames      # noqa: E402
 SIZES = {-1: (38, 0.2, 6.0), 0: (30, 0.5, 6.0), 1: (26, 0.7, 6.0), 10: (34, 1.0, 6.0)}
 QUICK = {0: (22, 0.5, 6.0), 1: (18, 0.7, 6.0)}
 COARSE = 2.0                # the errors of the quick ones are larger by this
-# what goes wrong: sigma, variables of the input that differ
+# what goes wrong, and other ends: sigma, variables of the input that differ
 NO_FY, OTHER_BULK = "no $f_y$", "bulk viscosity of $\\sigma = 10$"
 WRONG = {
     NO_FY: (1, {"fy": 0}),
     OTHER_BULK: (1, {"fluid": 10}),
-    "condition characteristic": (1, {"condition": "characteristic"}),
-    "condition fixed": (1, {"condition": "fixed"}),
+    "characteristic ends": (1, {"condition": "characteristic"}),
+    "fixed ends": (1, {"condition": "fixed"}),
+    "velocity inside": (1, {"velocity": "inside"}),
+    "velocity inside, fixed ends": (1, {"velocity": "inside", "condition": "fixed"}),
 }
 SMALL = 0.01                # relative error of velocity and kinetic energy, until each is a tenth
 SMALL_MASS = 1e-3
@@ -95,7 +97,7 @@ def draw_fields(path, runs):
         figure.colorbar(picture, ax=row[0], label="$u/U_0$", ticks=[0, 0.5, 1])
         t, frame = list(run.frames.items())[1]
         upper = frame["y"] > 0
-        dots = row[1].scatter(frame["x"][upper], frame["y"][upper], s=1.5, c=frame["vx"][upper], cmap="turbo", vmin=0,
+        dots = row[1].scatter(frame["x"][upper], frame["y"][upper], s=3, c=frame["vx"][upper], cmap="turbo", vmin=0,
                               vmax=np.exp(-run.exact.beta * t), lw=0, rasterized=True)
         row[1].set(title=f"$t U_0/L = {t:.3g}$: particles", xlim=(-1, 1), ylim=(0, 1))
         figure.colorbar(dots, ax=row[1], label="$u/U_0$")
@@ -114,7 +116,7 @@ def draw_decay(path, runs, wrong):
     import matplotlib.pyplot as plt
 
     plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2, "legend.fontsize": 7.5})
-    figure, axes = plt.subplots(1, 3, figsize=(13.5, 4.0), layout="constrained")
+    figure, axes = plt.subplots(1, 4, figsize=(16.0, 4.0), layout="constrained")
     for color, (sigma, run) in zip(("C0", "C2", "C1", "C3"), runs.items()):
         fine = np.linspace(0, run.at[-1], 200)
         axes[0].semilogy(run.at, run.u, "-", color=color, label=f"$\\sigma = {sigma}$")
@@ -122,15 +124,19 @@ def draw_decay(path, runs, wrong):
         axes[1].semilogy(run.time, run.energy, "-", color=color)
         axes[1].semilogy(fine, run.exact.kinetic(fine), "k-.", lw=0.8)
         axes[2].plot(run.at, run.u / run.exact.center(run.at) - 1, "-", color=color)
+        axes[3].plot(run.time, run.energy / run.exact.kinetic(run.time) - 1, "-", color=color)
     axes[0].legend(title="lines: particles, dash-dotted: exact")
-    for color, style, (what, run) in zip(("C4", "C5", "C6", "C7"), ("--", "--", ":", ":"), wrong.items()):
-        axes[2].plot(run.at, run.u / run.exact.center(run.at) - 1, style, color=color, label=what)
-    axes[0].set(xlabel="$t U_0/L$", title="velocity at the centre over $U_0$")
-    axes[1].set(xlabel="$t U_0/L$", title="kinetic energy over $\\rho_0 U_0^2 L^2$")
-    axes[2].set(xlabel="$t U_0/L$", title="velocity at the centre over the exact one, minus 1", ylim=(-0.15, 0.15))
-    if wrong:
-        sigma = next(iter(wrong.values())).sigma
-        axes[2].legend(title=f"for $\\sigma = {sigma}$ with")
+    for number, (what, run) in enumerate(wrong.items()):
+        look = {"color": f"C{4 + number}", "ls": "--" if number < 2 else ":"}
+        axes[2].plot(run.at, run.u / run.exact.center(run.at) - 1, label=what, **look)
+        axes[3].plot(run.time, run.energy / run.exact.kinetic(run.time) - 1, **look)
+    axes[0].set(title="velocity at the centre over $U_0$")
+    axes[1].set(title="kinetic energy over $\\rho_0 U_0^2 L^2$")
+    axes[2].set(ylim=(-0.2, 0.2), title="velocity at the centre over the exact one, minus 1")
+    axes[3].set(ylim=(-0.2, 0.2), title="kinetic energy over the exact one, minus 1")
+    axes[2].legend(title=f"for $\\sigma = {next(iter(wrong.values())).sigma}$ with")
+    for axis in axes:
+        axis.set_xlabel("$t U_0/L$")
     figure.savefig(path, dpi=95)
     plt.close(figure)
 
