@@ -95,7 +95,7 @@ def draw_fields(path, runs):
         picture = row[0].contourf(x, y, run.exact.u(x, y), levels=np.linspace(0, 1, 21), cmap="turbo")
         row[0].set(ylabel="$y/L$", title=f"$\\sigma = {sigma}$, $t = 0$: exact")
         figure.colorbar(picture, ax=row[0], label="$u/U_0$", ticks=[0, 0.5, 1])
-        t, frame = list(run.frames.items())[1]
+        t, frame = list(run.frames.items())[len(run.frames) // 2]
         upper = frame["y"] > 0
         dots = row[1].scatter(frame["x"][upper], frame["y"][upper], s=3, c=frame["vx"][upper], cmap="turbo", vmin=0,
                               vmax=np.exp(-run.exact.beta * t), lw=0, rasterized=True)
