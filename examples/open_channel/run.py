@@ -17,8 +17,8 @@ sys.path[:0] = [str(HERE.parent), str(HERE.parent / "poiseuille")]
 from exact import Channel                   # noqa: E402
 from run_lammps import Example, frames      # noqa: E402
 
-MU, LENGTH = 0.05, 4.0
-FLUIDS = {"newtonian": (0.0, 0.025), "micropolar": (0.05, 0.025)}     # mu_r, gamma1; K H = 2
+MU, LENGTH = 0.1, 4.0
+FLUIDS = {"newtonian": (0.0, 0.05), "micropolar": (0.1, 0.05)}     # mu_r, gamma1; K H = 2
 TITLES = {"newtonian": "Newtonian", "micropolar": "$\\mu_r = \\mu$, $\\gamma_1 = \\mu H^2/2$"}
 SUPPORT = {20: 5.0, 40: 6.0}                # rows across: support radius over particle spacing
 SIZE = 40

@@ -132,8 +132,8 @@ def draw_decay(path, runs, wrong):
         axes[3].plot(run.time, run.energy / run.exact.kinetic(run.time) - 1, **look)
     axes[0].set(title="velocity at the centre over $U_0$")
     axes[1].set(title="kinetic energy over $\\rho_0 U_0^2 L^2$")
-    axes[2].set(ylim=(-0.2, 0.2), title="velocity at the centre over the exact one, minus 1")
-    axes[3].set(ylim=(-0.2, 0.2), title="kinetic energy over the exact one, minus 1")
+    axes[2].set(ylim=(-0.2, 0.2), title="velocity at the centre, relative error")
+    axes[3].set(ylim=(-0.2, 0.2), title="kinetic energy, relative error")
     axes[2].legend(title=f"for $\\sigma = {next(iter(wrong.values())).sigma}$ with")
     for axis in axes:
         axis.set_xlabel("$t U_0/L$")
