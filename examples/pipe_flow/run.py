@@ -151,9 +151,8 @@ def main():
     for number, (what, (sigma, differing)) in enumerate(WRONG.items()):
         if "velocity" in differing and args.quick:      # anything may happen then
             continue
-        if sigma in sizes:
-            wrong_names[what] = f"wrong{number}", sigma
-            jobs[f"wrong{number}"] = {**variables[sigma], **differing}
+        wrong_names[what] = f"wrong{number}", sigma
+        jobs[f"wrong{number}"] = {**variables[sigma], **differing}
     example.run(jobs)
     runs = {sigma: Run(example.out, f"sigma{sigma}", sigma) for sigma in sizes}
     wrong = {what: Run(example.out, *found) for what, found in wrong_names.items()}
