@@ -22,7 +22,6 @@ FixStyle(sph/open,FixSPHOpen);
 
 #include "fix.h"
 
-#include "sph_dissipation_open_plane.h"
 #include "sph_dissipation_open_stage.h"
 
 #include <string>
@@ -30,11 +29,12 @@ FixStyle(sph/open,FixSPHOpen);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class OpenCondition;
   class OpenLedger;
+  class OpenPlane;
   class OpenRows;
   class OpenSamples;
   class OpenValues;
-  struct EosParams;
 }    // namespace SPHDissipation
 
 // Open zone for the fluids sph/bulk and sph/micropolar: moves its particles, gives them the state that
@@ -66,15 +66,10 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void set_impact(const SPHDissipation::OpenImpact &) override;
 
  private:
-  enum Condition { LAGGED, CHARACTERISTIC, FIXED };
-
-  struct Reference {
-    double p, rho, c;    // pressure, density, sound speed
-  };
-
   SPHDissipation::OpenPlane *plane;
   SPHDissipation::OpenValues *values;
   SPHDissipation::OpenSamples *samples;
+  SPHDissipation::OpenCondition *condition;
   SPHDissipation::OpenRows *rows;
   SPHDissipation::OpenLedger *ledger;
   class PairSPHBulk *pair;
@@ -83,13 +78,9 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   class AtomVecSPHMicropolar *spinning;    // the same, or nullptr
   std::string fluid_name;                  // of its group
   int fluidbit;
-  Condition condition;
-  int order;                   // of values from inside, condition fixed
-  double averaging_time;       // 0: by the support radius
   double radius;               // of the fluid that is measured at the plane
   double area;                 // of the cross section of a row; 0: rows have a spacing
   std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
-  double clock;                // time of the zone, which no command sets back
   bool supersonic;             // has been warned of
   bool totals_known;
   double *totals;
@@ -97,27 +88,11 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
 
   int keyword_argument(int, int, char **);
   void warn_of_other_plane();
-  void check_keywords();
-  void check_groups();
-  void check_integrator();
-  void check_places();
-  void check_length();
-  bool given_velocity() const;
-  bool given_state() const;
-  const SPHDissipation::EosParams &eos(int i) const;
-  double energy(int i) const;
-  Reference reference(int i, const SPHDissipation::OpenPlane::Spot &) const;
-  double outward_velocity(int i, const SPHDissipation::OpenPlane::Spot &) const;
-  double wave(int i, const SPHDissipation::OpenPlane::Spot &, const Reference &, double out) const;
-  double changes(const SPHDissipation::OpenPlane::Spot &, double wave) const;
-  void prescribed_velocity(int i, double *u) const;
-  void velocity(int i, double *u) const;
   void enter(int i, const double *v);
   void leave(int i);
   void set_spin(int i);
   void check_speed(SPHDissipation::Engine &, const std::vector<int> &near);
   void sample(SPHDissipation::Engine &);
-  void add_sample(SPHDissipation::Engine &, int i);
   void set_pressure(SPHDissipation::Engine &, int i);
 };
 

@@ -22,6 +22,7 @@
 #include "variable.h"
 
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -35,31 +36,69 @@ OpenValues::OpenValues(LAMMPS *lmp, const std::string &owner) :
 
 /* ---------------------------------------------------------------------- */
 
-void OpenValues::set(Quantity k, const char *word)
+int OpenValues::keyword_argument(int iarg, int narg, char **arg)
 {
-  Value &one = value[k];
-  one = Value();
-  one.given = true;
-  if (utils::strmatch(word, "^v_"))
-    one.name = word + 2;
-  else
-    number[k] = one.number = utils::numeric(FLERR, word, false, lmp);
-  any_variable = any_variable || !one.name.empty();
+  struct Keyword {
+    const char *name;
+    Quantity first;
+    int n;
+    bool or_inside;    // can be taken from inside
+  };
+  static constexpr Keyword KEYWORDS[] = {{"velocity", VX, 3, true},
+                                         {"density", RHO, 1, true},
+                                         {"pressure", P, 1, true},
+                                         {"energy", ENERGY, 1, false},
+                                         {"spin", WX, 3, false}};
+  for (const auto &keyword : KEYWORDS) {
+    if (strcmp(arg[iarg], keyword.name) != 0) continue;
+    auto needs = [&](int n) {
+      if (iarg + n >= narg)
+        utils::missing_cmd_args(FLERR, fmt::format("{} {}", utils::lowercase(owner), keyword.name),
+                                error);
+    };
+    needs(1);
+    for (int k = 0; k < keyword.n; k++) value[keyword.first + k] = Value();
+    if (keyword.or_inside && strcmp(arg[iarg + 1], "inside") == 0) return 2;
+    needs(keyword.n);
+    for (int k = 0; k < keyword.n; k++)
+      set(static_cast<Quantity>(keyword.first + k), arg[iarg + 1 + k]);
+    return keyword.n + 1;
+  }
+  return 0;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenValues::forget(Quantity k, int n)
+void OpenValues::set(Quantity k, const char *word)
 {
-  for (int q = k; q < k + n; q++) value[q] = Value();
+  value[k].given = true;
+  if (utils::strmatch(word, "^v_"))
+    value[k].name = word + 2;
+  else
+    number[k] = utils::numeric(FLERR, word, false, lmp);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenValues::check() const
+{
+  if (given(RHO) && given(P))
+    error->all(FLERR, "{}: density and pressure cannot both be given, one follows from the other",
+               owner);
+  if (given(WX) && !atom->omega)
+    error->all(FLERR, "{} spin requires atom style sph/micropolar", owner);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void OpenValues::init()
 {
-  for (auto &one : value) {
+  any_variable = false;
+  for (int k = 0; k < NQUANTITY; k++) {
+    Value &one = value[k];
+    column[k].clear();
     if (one.name.empty()) continue;
+    any_variable = true;
     one.variable = input->variable->find(one.name.c_str());
     if (one.variable < 0) error->all(FLERR, "Variable {} for {} does not exist", one.name, owner);
     one.by_atom = input->variable->atomstyle(one.variable);

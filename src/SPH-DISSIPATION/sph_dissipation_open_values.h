@@ -30,10 +30,12 @@ namespace SPHDissipation {
 
     OpenValues(class LAMMPS *, const std::string &owner);    // owner: for messages
 
-    void set(Quantity, const char *word);    // a number or v_name
-    void forget(Quantity, int n);            // n of them: taken from inside
-    bool given(Quantity k) const { return value[k].given; }
+    // # of words of the keyword at arg[iarg], with which it sets quantities; 0 if it is none of those
+    int keyword_argument(int iarg, int narg, char **arg);
+    void check() const;
     void init();    // finds the variables
+
+    bool given(Quantity k) const { return value[k].given; }
     bool vary() const { return any_variable; }
 
     // values at the current time of the owned particles with a group bit; igroup: for messages only
@@ -48,7 +50,6 @@ namespace SPHDissipation {
    private:
     struct Value {
       bool given = false;
-      double number = 0.0;
       std::string name;    // of a variable
       int variable = -1;
       bool by_atom = false;
@@ -59,6 +60,8 @@ namespace SPHDissipation {
     double number[NQUANTITY];                 // now, where it is the same for all particles
     std::vector<double> column[NQUANTITY];    // now, by owned particle, where it is not
     bool any_variable;
+
+    void set(Quantity, const char *word);    // a number or v_name
   };
 
 }    // namespace SPHDissipation

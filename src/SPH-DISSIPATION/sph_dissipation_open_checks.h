@@ -1,0 +1,50 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_OPEN_CHECKS_H
+#define LMP_SPH_DISSIPATION_OPEN_CHECKS_H
+
+namespace LAMMPS_NS {
+class Fix;
+class FixSPHBulk;
+class LAMMPS;
+class PairSPHBulk;
+
+namespace SPHDissipation {
+  class OpenPlane;
+
+  // What an open zone and the fluid in front of it must be like.  Called by all ranks; errors name the
+  // style of the fix.
+
+  // the groups are static, no particle is in both, those of the zone are of the fluid and moved by no
+  // other fix
+
+  void check_open_groups(LAMMPS *, const Fix *, const PairSPHBulk *, int fluid_group);
+
+  // the fix that moves what enters
+
+  FixSPHBulk *find_open_integrator(LAMMPS *, const Fix *, int fluid_group);
+
+  // particles of the fluid are in front of the plane, those of the zone, and of no other one, behind it
+
+  void check_open_places(LAMMPS *, const Fix *, const OpenPlane &, int fluid_bit);
+
+  // A particle of the zone has a full support as long as the fluid sees it, and rows may be shorter by
+  // one spacing and by what the fluid moves between two neighbor lists
+
+  void check_open_length(LAMMPS *, const Fix *, const OpenPlane &, double support, double spacing);
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,252 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_open_condition.h"
+
+#include "atom.h"
+#include "error.h"
+#include "math_extra.h"
+#include "sph_dissipation_characteristics.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_eos.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_open_values.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+OpenCondition::OpenCondition(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane,
+                             const OpenValues &values, const OpenSamples &samples) :
+    Pointers(lmp),
+    averaging_time(0.0), clock(0.0), owner(owner), plane(plane), values(values), samples(samples),
+    fluid(nullptr), kind(LAGGED), order(-1)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+int OpenCondition::keyword_argument(int iarg, int narg, char **arg)
+{
+  const std::string keyword = arg[iarg];
+  if (keyword != "condition" && keyword != "order" && keyword != "average") return 0;
+  if (iarg + 2 > narg)
+    utils::missing_cmd_args(FLERR, fmt::format("{} {}", utils::lowercase(owner), keyword), error);
+  const std::string word = arg[iarg + 1];
+
+  if (keyword == "average") {
+    averaging_time = utils::numeric(FLERR, word, false, lmp);
+    if (!(averaging_time > 0.0)) error->all(FLERR, "{} average must be > 0, not {}", owner, word);
+  } else if (keyword == "order") {
+    order = utils::inumeric(FLERR, word, false, lmp);
+    if (order != 0 && order != 1)
+      error->all(FLERR, "{} order must be 0 or 1, not {}", owner, order);
+  } else if (word == "lagged")
+    kind = LAGGED;
+  else if (word == "characteristic")
+    kind = CHARACTERISTIC;
+  else if (word == "fixed")
+    kind = FIXED;
+  else
+    error->all(FLERR, "Unknown {} condition: {}", utils::lowercase(owner), word);
+  return 2;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenCondition::check()
+{
+  const bool all_given = given_velocity() && given_state();
+  if (order >= 0 && (kind != FIXED || all_given))
+    error->all(FLERR, "{} order is for values from inside with condition fixed only", owner);
+  if (averaging_time > 0.0 && (kind == FIXED || all_given))
+    error->all(FLERR,
+               "{} average is for values from inside with condition lagged or characteristic only",
+               owner);
+  if (kind != FIXED && !given_velocity() && !given_state())
+    error->all(FLERR, "{} condition {} needs a velocity, a density, or a pressure", owner,
+               kind == LAGGED ? "lagged" : "characteristic");
+  order = std::max(order, 0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool OpenCondition::given_velocity() const
+{
+  return values.given(OpenValues::VX);
+}
+
+bool OpenCondition::given_state() const
+{
+  return values.given(OpenValues::RHO) || values.given(OpenValues::P);
+}
+
+const EosParams &OpenCondition::eos(int i) const
+{
+  return fluid->coeffs[atom->type[i]].eos;
+}
+
+/* ----------------------------------------------------------------------
+   internal energy per mass, which the ideal gas needs
+------------------------------------------------------------------------- */
+
+double OpenCondition::energy(int i) const
+{
+  if (values.given(OpenValues::ENERGY)) return values(OpenValues::ENERGY, i);
+  return atom->esph[i] / atom->rmass[i];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenCondition::prescribed_velocity(int i, double *u) const
+{
+  for (int d = 0; d < 3; d++)
+    u[d] = values(static_cast<OpenValues::Quantity>(OpenValues::VX + d), i);
+}
+
+/* ---------------------------------------------------------------------- */
+
+OpenCondition::Reference OpenCondition::reference(int i) const
+{
+  const Eos form = fluid->choice.eos;
+  const double e = energy(i);
+  Reference ref = Reference();
+  ref.spot = plane.spot(atom->x[i]);
+  ref.height = plane.height(atom->x[i]);
+  ref.known = (given_velocity() && given_state()) || samples.average(ref.spot, ref.mean);
+
+  if (values.given(OpenValues::RHO)) {
+    ref.rho = values(OpenValues::RHO, i);
+    ref.p = pressure(form, eos(i), ref.rho, e);
+  } else {
+    if (values.given(OpenValues::P))
+      ref.p = values(OpenValues::P, i);
+    else
+      ref.p = ref.known ? ref.mean.p : pressure(form, eos(i), eos(i).rho0, e);
+    ref.rho = density_at(form, eos(i), ref.p, e);
+  }
+  ref.c = sound_speed(form, eos(i), ref.rho, e);
+
+  double u[3];
+  if (given_velocity())
+    prescribed_velocity(i, u);
+  else
+    std::copy_n(ref.known ? ref.mean.u : atom->v[i], 3, u);
+  ref.out = -MathExtra::dot3(u, plane.normal);
+  return ref;
+}
+
+/* ----------------------------------------------------------------------
+   the wave at a particle of the zone: that of now, or the one that has come as far by now
+------------------------------------------------------------------------- */
+
+double OpenCondition::wave(const Reference &ref) const
+{
+  double lag = 0.0;
+  if (kind == LAGGED)
+    lag = (samples.distance(ref.spot) - ref.height) / std::max(ref.c + ref.out, 0.1 * ref.c);
+  return samples.wave(ref.spot, clock - lag);
+}
+
+/* ----------------------------------------------------------------------
+   Of a quantity that is given, where the other one is from inside, only the changes of the wave: so it
+   holds in the mean over time.
+------------------------------------------------------------------------- */
+
+double OpenCondition::changes(const Reference &ref, double wave) const
+{
+  return ref.known ? wave - ref.mean.wave : wave;
+}
+
+/* ----------------------------------------------------------------------
+   along the plane, what leaves keeps its own one
+------------------------------------------------------------------------- */
+
+void OpenCondition::velocity(int i, double *u) const
+{
+  double prescribed[3];
+  prescribed_velocity(i, prescribed);
+
+  if (kind == FIXED) {
+    if (given_velocity()) {
+      std::copy_n(prescribed, 3, u);
+      return;
+    }
+    OpenSample inside;
+    const double *const x = atom->x[i];
+    const bool found = samples.now(plane.spot(x), plane.height(x), order, inside);
+    std::copy_n(found ? inside.u : atom->v[i], 3, u);
+    return;
+  }
+
+  const Reference ref = reference(i);
+  double leaving = wave(ref);
+  if (given_velocity() && !given_state()) leaving = changes(ref, leaving);
+  const double now = ref.out + wave_velocity(ref.rho * ref.c, leaving);
+  std::copy_n((given_velocity() && ref.out < 0.0) ? prescribed : atom->v[i], 3, u);
+  const double change = -now - MathExtra::dot3(u, plane.normal);
+  for (int d = 0; d < 3; d++) u[d] += change * plane.normal[d];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenCondition::state(int i, double &p, double &rho) const
+{
+  const Eos form = fluid->choice.eos;
+  const Reference ref = reference(i);
+  p = ref.p;
+  rho = ref.rho;
+  if (kind == FIXED) {
+    OpenSample inside;
+    if (!given_state() && samples.now(ref.spot, ref.height, order, inside)) {
+      p = inside.p;
+      rho = density_at(form, eos(i), p, energy(i));
+    }
+  } else {
+    double leaving = wave(ref);
+    if (!(given_velocity() && given_state())) leaving = changes(ref, leaving);
+    const double dp = wave_pressure(leaving);
+    p += dp;
+    rho = (form == Eos::IDEAL) ? rho + dp / (ref.c * ref.c) : density_at(form, eos(i), p, 0.0);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+OpenSample OpenCondition::sample(int i, const Particle &particle) const
+{
+  const double p =
+      pressure(fluid->choice.eos, eos(i), atom->rho[i], atom->esph[i] / atom->rmass[i]);
+  double wave = 0.0;
+  if (kind != FIXED) {
+    const Reference ref = reference(i);
+    const double du = (given_velocity() || ref.known)
+        ? -MathExtra::dot3(particle.u, plane.normal) - ref.out
+        : 0.0;
+    const double dp = (given_state() || ref.known) ? p - ref.p : 0.0;
+    wave = outgoing_wave(ref.rho * ref.c, du, dp);
+  }
+  return {wave, p, {particle.u[0], particle.u[1], particle.u[2]}};
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool OpenCondition::is_supersonic(int i, const Particle &particle) const
+{
+  const double c =
+      sound_speed(fluid->choice.eos, eos(i), atom->rho[i], atom->esph[i] / atom->rmass[i]);
+  return -MathExtra::dot3(particle.u, plane.normal) > c;
+}

@@ -1,0 +1,93 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_OPEN_CONDITION_H
+#define LMP_SPH_DISSIPATION_OPEN_CONDITION_H
+
+#include "pointers.h"
+#include "sph_dissipation_open_plane.h"
+#include "sph_dissipation_open_samples.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+  class FluidModel;
+  class OpenValues;
+  struct EosParams;
+  struct Particle;
+
+  // Boundary condition of an open zone: velocity, pressure, and density of its particles, from what is
+  // prescribed and from what the fluid does.
+  // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
+
+  class OpenCondition : protected Pointers {
+   public:
+    OpenCondition(class LAMMPS *, const std::string &owner, const OpenPlane &, const OpenValues &,
+                  const OpenSamples &);    // owner: for messages
+
+    double averaging_time;    // 0: by the support radius
+    double clock;             // time of the zone, which no command sets back
+
+    // # of words of the keyword at arg[iarg]; 0 if it is none of those of a condition
+    int keyword_argument(int iarg, int narg, char **arg);
+    void check();    // what would have no effect, or leaves something open
+
+    void init(const FluidModel &fluid_in) { fluid = &fluid_in; }
+    bool given_velocity() const;
+    bool given_state() const;    // density or pressure
+
+    // of an owned particle of the zone
+
+    void prescribed_velocity(int i, double *u) const;
+    void velocity(int i, double *u) const;
+    void state(int i, double &p, double &rho) const;
+
+    // of an owned particle of the fluid near the plane
+
+    OpenSample sample(int i, const Particle &) const;
+    bool is_supersonic(int i, const Particle &) const;    // on its way out
+
+   private:
+    enum Kind { LAGGED, CHARACTERISTIC, FIXED };
+
+    const std::string owner;
+    const OpenPlane &plane;
+    const OpenValues &values;
+    const OpenSamples &samples;
+    const FluidModel *fluid;
+    Kind kind;
+    int order;    // of values from inside, kind fixed
+
+    // what is prescribed at a particle of zone or fluid, or the average of what the fluid had
+
+    struct Reference {
+      OpenPlane::Spot spot;
+      double height;
+      bool known;          // there is an average, or none is needed
+      OpenSample mean;     // over time
+      double p, rho, c;    // pressure, density, sound speed
+      double out;          // velocity out of the fluid
+    };
+
+    const EosParams &eos(int i) const;
+    double energy(int i) const;
+    Reference reference(int i) const;
+    double wave(const Reference &) const;
+    double changes(const Reference &, double wave) const;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
