@@ -105,7 +105,9 @@ void OpenSamples::finish(double time)
     node.weight = sums[n].weight;
     if (!(node.weight > 0.0)) continue;
     fit(sums[n], node);
-    for (int v = 0; v < NVALUE; v++) node.mean[v] += part * (node.value[v] - node.mean[v]);
+    const double share = (node.known > 0.0) ? part : 1.0;    // averages begin with the first value
+    for (int v = 0; v < NVALUE; v++) node.mean[v] += share * (node.value[v] - node.mean[v]);
+    node.known = 1.0;
     history.back().wave[n] = node.value[0];
   }
   while (history.size() > 2 && history[1].time <= time - memory) history.pop_front();

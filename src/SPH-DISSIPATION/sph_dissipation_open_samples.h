@@ -82,6 +82,7 @@ namespace SPHDissipation {
       double value[NVALUE];       // at the node and that distance
       double slope[NVALUE];       // along the normal
       double mean[NVALUE];        // over time
+      double known;               // > 0: there has been fluid
     };
 
     struct Past {
