@@ -83,6 +83,8 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   for (int iarg = 11; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
   values->check();
   condition->check();
+  if (area > 0.0 && rows->has_spacing())
+    error->all(FLERR, "Fix {}: area and spacing cannot both be given", style);
   if (area > 0.0 && !values->given(OpenValues::RHO))
     error->all(FLERR, "Fix {} area needs a density, from which the distance of particles follows",
                style);
@@ -220,13 +222,8 @@ void FixSPHOpen::setup_pre_exchange()
   check_open_places(lmp, this, *plane, fluidbit);
   values->evaluate(igroup);
   if (condition->given_velocity() && !samples->any())
-    for (int i = 0; i < atom->nlocal; i++) {
-      if (!(atom->mask[i] & groupbit)) continue;
-      double u[3];
-      condition->velocity(i, u);
-      for (int d = 0; d < 3; d++) atom->v[i][d] = atom->vest[i][d] = u[d];
-      set_spin(i);
-    }
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) set_velocity(i);
   check_open_length(lmp, this, *plane, pair->support_radius(), rows->largest_spacing());
   pre_exchange();
 }
@@ -327,6 +324,18 @@ void FixSPHOpen::leave(int i)
 }
 
 /* ----------------------------------------------------------------------
+   of a particle of the zone that no step has brought where it is
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::set_velocity(int i)
+{
+  double u[3];
+  condition->velocity(i, u);
+  for (int d = 0; d < 3; d++) atom->v[i][d] = atom->vest[i][d] = u[d];
+  set_spin(i);
+}
+
+/* ----------------------------------------------------------------------
    what enters brings its spin and its internal energy
 ------------------------------------------------------------------------- */
 
@@ -349,12 +358,7 @@ void FixSPHOpen::pre_exchange()
   rows->renew([this](const std::vector<int> &created) {
     if (!values->vary()) return;
     values->evaluate(igroup);
-    for (const int i : created) {
-      double u[3];
-      condition->velocity(i, u);
-      for (int d = 0; d < 3; d++) atom->v[i][d] = atom->vest[i][d] = u[d];
-      set_spin(i);
-    }
+    for (const int i : created) set_velocity(i);
   });
 }
 
@@ -407,27 +411,12 @@ void FixSPHOpen::sample(Engine &engine)
                  condition->sample(i, particle), engine.kernel_form(), radius);
   }
   samples->finish(condition->clock);
-  if (neighbor->ago == 0) check_speed(engine, near);
-}
 
-/* ----------------------------------------------------------------------
-   no sound comes back from where the fluid leaves faster than sound: nothing can be prescribed there
-------------------------------------------------------------------------- */
-
-void FixSPHOpen::check_speed(Engine &engine, const std::vector<int> &near)
-{
-  if (supersonic || !(condition->given_velocity() || condition->given_state())) return;
-  bigint count = 0, all;
-  for (const int i : near)
-    if (condition->is_supersonic(i, engine.particle[i])) count++;
-  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (!all) return;
-  supersonic = true;
-  if (comm->me == 0)
-    error->warning(FLERR,
-                   "Fix {} {}: {} particles leave faster than sound at step {}, where only "
-                   "condition fixed with velocity, density and pressure from inside is right",
-                   style, id, all, update->ntimestep);
+  if (neighbor->ago > 0 || supersonic) return;
+  if (!condition->given_velocity() && !condition->given_state()) return;
+  supersonic = warn_of_supersonic(lmp, this, std::count_if(near.begin(), near.end(), [&](int i) {
+                                    return condition->is_supersonic(i, engine.particle[i]);
+                                  }));
 }
 
 /* ----------------------------------------------------------------------
@@ -483,6 +472,9 @@ void FixSPHOpen::write_restart(FILE *fp)
   const std::vector<double> waves = samples->pack();
   state.insert(state.end(), waves.begin(), waves.end());
   state[0] = static_cast<double>(state.size());
+  if (state.size() * sizeof(double) > MAXSMALLINT)
+    error->one(FLERR, "Fix {} {}: the waves in the zone are too many for a restart file", style,
+               id);
   const int size = static_cast<int>(state.size() * sizeof(double));
   fwrite(&size, sizeof(int), 1, fp);
   fwrite(state.data(), sizeof(double), state.size(), fp);
@@ -519,5 +511,6 @@ void FixSPHOpen::warn_of_other_plane()
 
 double FixSPHOpen::memory_usage()
 {
-  return samples->memory_usage();
+  return samples->memory_usage() + values->memory_usage() +
+      static_cast<double>(members.capacity() * sizeof(int));
 }

@@ -90,8 +90,8 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void warn_of_other_plane();
   void enter(int i, const double *v);
   void leave(int i);
+  void set_velocity(int i);
   void set_spin(int i);
-  void check_speed(SPHDissipation::Engine &, const std::vector<int> &near);
   void sample(SPHDissipation::Engine &);
   void set_pressure(SPHDissipation::Engine &, int i);
 };

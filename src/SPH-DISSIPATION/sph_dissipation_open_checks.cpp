@@ -14,6 +14,7 @@
 #include "sph_dissipation_open_checks.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
 #include "group.h"
@@ -21,11 +22,10 @@
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_open_plane.h"
+#include "update.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-/* ---------------------------------------------------------------------- */
 
 // particles of the zone that another fix moves, too
 
@@ -152,4 +152,18 @@ void SPHDissipation::check_open_length(LAMMPS *lmp, const Fix *fix, const OpenPl
                     "Fix {}: the zone must be at least {:g} long, not {:g}: two support radii, the "
                     "distance of two particles, and the neighbor skin",
                     fix->style, least, plane.length);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool SPHDissipation::warn_of_supersonic(LAMMPS *lmp, const Fix *fix, bigint number)
+{
+  bigint all;
+  MPI_Allreduce(&number, &all, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+  if (all && lmp->comm->me == 0)
+    lmp->error->warning(FLERR,
+                        "Fix {} {}: {} particles leave faster than sound at step {}, where only "
+                        "condition fixed with velocity, density and pressure from inside is right",
+                        fix->style, fix->id, all, lmp->update->ntimestep);
+  return all > 0;
 }

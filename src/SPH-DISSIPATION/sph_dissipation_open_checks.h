@@ -14,6 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_OPEN_CHECKS_H
 #define LMP_SPH_DISSIPATION_OPEN_CHECKS_H
 
+#include "lmptype.h"
+
 namespace LAMMPS_NS {
 class Fix;
 class FixSPHBulk;
@@ -43,6 +45,11 @@ namespace SPHDissipation {
   // one spacing and by what the fluid moves between two neighbor lists
 
   void check_open_length(LAMMPS *, const Fix *, const OpenPlane &, double support, double spacing);
+
+  // No sound comes back from where the fluid leaves faster than sound: nothing can be prescribed there.
+  // number = of such particles on this processor; true if there are any, which gives a warning
+
+  bool warn_of_supersonic(LAMMPS *, const Fix *, bigint number);
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

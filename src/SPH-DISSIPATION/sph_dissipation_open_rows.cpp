@@ -101,6 +101,18 @@ void OpenRows::interrupt_ids()
   }
 }
 
+/* ---------------------------------------------------------------------- */
+
+double OpenRows::step(int i) const
+{
+  if (!by_distance()) return spacing;
+  const double length = distance(i);
+  if (!(length > 0.0))
+    error->one(FLERR, "{}: the density of particle {} gives {:g} as the distance from the next one",
+               owner, atom->tag[i], length);
+  return length;
+}
+
 /* ----------------------------------------------------------------------
    a layer of a lattice that comes there comes as a whole, on any number of processors
 ------------------------------------------------------------------------- */
@@ -168,11 +180,7 @@ double OpenRows::largest_spacing() const
   double largest = 0.0, all;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    if (!(distance(i) > 0.0))
-      error->one(FLERR,
-                 "{}: the density of particle {} gives {:g} as the distance from the next one",
-                 owner, atom->tag[i], distance(i));
-    largest = std::max(largest, distance(i));
+    largest = std::max(largest, step(i));
   }
   MPI_Allreduce(&largest, &all, 1, MPI_DOUBLE, MPI_MAX, world);
   return all;
@@ -229,6 +237,24 @@ void OpenRows::remove_beyond()
   }
 }
 
+/* ---------------------------------------------------------------------- */
+
+template <class T>
+std::vector<T> OpenRows::of_all(const std::vector<T> &mine, MPI_Datatype type) const
+{
+  int n = static_cast<int>(mine.size()), total = 0;
+  std::vector<int> counts(comm->nprocs), starts(comm->nprocs);
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int p = 0; p < comm->nprocs; p++) {
+    starts[p] = total;
+    total += counts[p];
+  }
+  std::vector<T> all(total);
+  MPI_Allgatherv(const_cast<T *>(mine.data()), n, type, all.data(), counts.data(), starts.data(),
+                 type, world);
+  return all;
+}
+
 /* ----------------------------------------------------------------------
    particles, not only of the zone, between its end and this distance from there
 ------------------------------------------------------------------------- */
@@ -245,20 +271,10 @@ OpenRows::Band OpenRows::gather_band(double depth) const
     mine.insert(mine.end(), {x[0], x[1], x[2], of_zone ? 1.0 : 0.0});
   }
 
-  int n = static_cast<int>(mine.size()), total = 0;
-  std::vector<int> counts(comm->nprocs), starts(comm->nprocs);
-  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int p = 0; p < comm->nprocs; p++) {
-    starts[p] = total;
-    total += counts[p];
-  }
-  std::vector<double> all(total);
-  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
-                 world);
-
+  const std::vector<double> all = of_all(mine, MPI_DOUBLE);
   Band band;
   band.at_node.resize(plane.nnodes());
-  for (int k = 0; k < total / 4; k++) {
+  for (int k = 0; k < static_cast<int>(all.size() / 4); k++) {
     band.x.insert(band.x.end(), &all[4 * k], &all[4 * k] + 3);
     band.of_zone.push_back(all[4 * k + 3] > 0.0);
     band.at_node[nearest_node(&all[4 * k])].push_back(k);
@@ -336,7 +352,7 @@ bool OpenRows::fill(std::vector<int> &last, const Band &band, const Refresh &ref
     for (int turn = 0; turn < CORRECTIONS; turn++) {
       for (int k = 0; k < n; k++) {
         const int i = last[k], j = created[k];
-        const double mean = 2.0 / (1.0 / distance(i) + 1.0 / distance(j));
+        const double mean = 2.0 / (1.0 / step(i) + 1.0 / step(j));
         for (int d = 0; d < 3; d++) atom->x[j][d] = atom->x[i][d] - mean * plane.normal[d];
       }
       refresh(created);
@@ -409,24 +425,15 @@ void OpenRows::check_seat(double *x, const Band &band) const
 
 std::vector<tagint> OpenRows::new_tags(const std::vector<int> &last) const
 {
-  int n = static_cast<int>(last.size()), total = 0;
   std::vector<tagint> mine;
   for (const int i : last) mine.push_back(atom->tag[i]);
-  std::vector<int> counts(comm->nprocs), starts(comm->nprocs);
-  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int p = 0; p < comm->nprocs; p++) {
-    starts[p] = total;
-    total += counts[p];
-  }
-  std::vector<tagint> all(total);
-  MPI_Allgatherv(mine.data(), n, MPI_LMP_TAGINT, all.data(), counts.data(), starts.data(),
-                 MPI_LMP_TAGINT, world);
+  std::vector<tagint> all = of_all(mine, MPI_LMP_TAGINT);
   std::sort(all.begin(), all.end());
 
   tagint most = highest, first;
   for (int i = 0; i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
   MPI_Allreduce(&most, &first, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (first >= MAXTAGINT - total)
+  if (first >= MAXTAGINT - static_cast<tagint>(all.size()))
     error->all(FLERR, "{}: too many particles have entered for their IDs", owner);
 
   for (auto &tag : mine)

@@ -34,6 +34,7 @@ namespace SPHDissipation {
     OpenRows(class LAMMPS *, const std::string &owner, const OpenPlane &, int groupbit);
 
     void set_spacing(double a) { given_spacing = a; }
+    bool has_spacing() const { return given_spacing > 0.0; }
 
     // distance of an owned particle from the next one of its row; instead of a spacing
     typedef std::function<double(int i)> Distance;
@@ -74,9 +75,11 @@ namespace SPHDissipation {
       std::vector<std::vector<int>> at_node;    // of the plane
     };
 
-    double step(int i) const { return distance ? distance(i) : spacing; }
-    double end() const;    // height where the zone ends
+    double step(int i) const;    // from an owned particle to the next one of its row
+    double end() const;          // height where the zone ends
     void interrupt_ids();
+    template <class T>
+    std::vector<T> of_all(const std::vector<T> &mine, MPI_Datatype) const;    // processors
     void find_rows();
     void remove_beyond();
     Band gather_band(double depth) const;

@@ -196,7 +196,9 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
 
 double OpenStage::memory_usage() const
 {
-  return pairs.memory_usage() +
+  double bytes = pairs.memory_usage();
+  for (const auto &row : rows) bytes += static_cast<double>(row.capacity() * sizeof(int));
+  return bytes +
       static_cast<double>(place.capacity() * sizeof(double) + forces.capacity() * sizeof(ForceSum) +
                           torques.capacity() * sizeof(TorqueSum) +
                           divergence.capacity() * sizeof(double));

@@ -135,3 +135,12 @@ void OpenValues::evaluate(int igroup)
   }
   modify->addstep_compute(update->ntimestep + 1);
 }
+
+/* ---------------------------------------------------------------------- */
+
+double OpenValues::memory_usage() const
+{
+  double bytes = 0.0;
+  for (const auto &one : column) bytes += static_cast<double>(one.capacity() * sizeof(double));
+  return bytes;
+}

@@ -42,6 +42,8 @@ namespace SPHDissipation {
     // particles that get no value of their own have 0
     void evaluate(int igroup);
 
+    double memory_usage() const;    // bytes
+
     double operator()(Quantity k, int i) const
     {
       return column[k].empty() ? number[k] : column[k][i];
