@@ -32,6 +32,9 @@ def refused(lammps, message, inlet=INLET, outlet=OUTLET, ranks=(1, 4), run="run 
     ("velocity 0.1 0 0 condition fixed average 5", "average is for values from inside"),
     ("velocity inside", "needs a velocity, a density, or a pressure"),
     ("velocity 0.1 0 0 area 1.0", "area needs a density"),
+    ("velocity 0.1 0 0 density 1.0 area 1.0 spacing 1.0", "area and spacing cannot both be given"),
+    ("velocity 0.1 0 0 energy inside", "Expected floating point parameter"),
+    ("velocity 0.1 0 0 spin inside 0 0", "Expected floating point parameter|spin requires"),
     ("velocity 0.1 0 0 spin 0 0 1", "spin requires atom style sph/micropolar"),
     ("velocity 0.1 0 0 spacing 0", "spacing must be > 0"),
     ("velocity 0.1 0 0 average -1", "average must be > 0"),
@@ -42,13 +45,14 @@ def refused(lammps, message, inlet=INLET, outlet=OUTLET, ranks=(1, 4), run="run 
     ("velocity v_word 0 0", "neither of equal style nor of atom style"),
     ("velocity v_nan 0 0", "variable nan is -?nan"),
     ("velocity v_nanatom 0 0", "variable nanatom is -?nan for particle"),
+    ("velocity 0.1 0 0 density v_behind area 1.0", "gives -.* as the distance from the next one"),
     ("velocity 0.1 0 0 density v_late area 1.0", "variable late is|distance from the next one|would have density"),
     ("velocity 0.1 0 0 density -1.0", "would have density|density"),
     ("velocity 0.1 0 0 pressure -2.0", "would have density"),
 ])
 def test_keywords(lammps, inlet, message):
     variables = ("variable word string x\nvariable nan equal 0.0*exp(1000.0)\nvariable nanatom atom 0.0*exp(-1000.0*x)\n"
-                 "variable late equal 1.0-0.5*step\n")
+                 "variable late equal 1.0-0.5*step\nvariable behind atom 1.0-2.0*(x<-7.9)\n")
     refused(lammps, message, inlet=inlet, before=variables)
 
 

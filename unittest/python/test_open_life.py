@@ -93,6 +93,46 @@ def test_ideal_gas(lammps, condition):
     assert max(errors) < 1e-7
 
 
+def test_averages_begin_when_there_is_fluid(lammps):
+    """A gap in front of the outlet, whose velocity is from inside: when the stream arrives, it goes on as before.  With averages
+    that began at zero in the gap, the zone would stop."""
+    channel = Channel()
+    text = channel.text(lammps, f"velocity {channel.vector(U)} density 1.0", "density 1.0 average 1000.0", velocity=stream,
+                        coeff="1.0 0.01 0.01 0.02 {R}").replace("pair_style", "region gap block 12 16 INF INF INF INF\n"
+                        "group gap region gap\ndelete_atoms group gap compress no\npair_style", 1)
+    lammps(text + "variable u equal vcm(out,x)\nthermo_style custom step v_u f_out[30]\nthermo 20\nrun 140\n")
+    (table,) = lammps.results[-1].thermo()
+    assert table["f_out[30]"][0] == 0.0 and table["f_out[30]"][-1] > 0.5 * U, "no gap, or it has not closed"
+    print(table["v_u"] / U - 1.0)
+    assert np.abs(table["v_u"] / U - 1.0).max() < 0.1
+
+
+def accelerated(time, difference, length, T):
+    """Velocity of a column of fluid (rho = c = 1) between two ends with given pressures, by the impedance of the theory page:
+    at the outlet p = u - <u> - <J>/2 with J = u - <u> + p, averages over the time T."""
+    dt, u, mean_u, mean_J = 0.01, 0.0, 0.0, 0.0
+    for _ in range(int(round(time / dt))):
+        p = u - mean_u - 0.5 * mean_J
+        J = u - mean_u + p
+        mean_J += dt / T * (J - mean_J)
+        mean_u += dt / T * (u - mean_u)
+        u += dt * (difference - 2.0 * p) / length
+    return u
+
+
+def test_ends_with_pressures_are_a_column_of_fluid(lammps):
+    """The stream speeds up as with c T/3 of fluid more at either end."""
+    channel, T, difference = Channel(), 20.0, 0.02
+    lammps(channel.text(lammps, f"pressure {difference} average {T}", f"pressure 0.0 average {T}", coeff="1.0 1.0 0.02 0.04 {R}")
+           + "variable u equal vcm(fluid,x)\nthermo_style custom step time v_u\nthermo 400\nrun 800\n")
+    (table,) = lammps.results[-1].thermo()
+    for time, u in zip(table["Time"][1:], table["v_u"][1:]):
+        print(time, u, accelerated(time, difference, channel.length, T))
+        assert u == pytest.approx(accelerated(time, difference, channel.length, T), rel=0.03)
+    late = difference / (channel.length + 2.0 * T / 3.0)
+    assert (table["v_u"][2] - table["v_u"][1]) / (table["Time"][2] - table["Time"][1]) == pytest.approx(late, rel=0.05)
+
+
 # ---------------------------------------------------------------------------------------------
 # where the zones are
 
