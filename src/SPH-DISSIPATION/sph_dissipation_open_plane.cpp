@@ -76,6 +76,17 @@ bool OpenPlane::beside(const double *x) const
 
 /* ---------------------------------------------------------------------- */
 
+OpenPlane::Offset OpenPlane::offset(const double *from, const double *to) const
+{
+  double image[3], r[3];
+  domain->closest_image(from, to, image);
+  MathExtra::sub3(image, from, r);
+  const double ahead = MathExtra::dot3(r, normal);
+  return {sqrt(std::max(MathExtra::lensq3(r) - ahead * ahead, 0.0)), ahead};
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool OpenPlane::is_at(const double *place) const
 {
   for (int d = 0; d < 3; d++)

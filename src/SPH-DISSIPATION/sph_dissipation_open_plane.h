@@ -43,7 +43,16 @@ namespace SPHDissipation {
           (x[2] - point[2]) * normal[2];
     }
     bool beside(const double *x) const;    // beyond the sides of the zone
-    bool is_at(const double *) const;      // this point, with this normal after it
+
+    // how far a place is, with periodic images, beside the line along the normal through another one,
+    // and how far ahead
+    struct Offset {
+      double beside, ahead;
+      double distance() const { return std::sqrt(beside * beside + ahead * ahead); }
+    };
+    Offset offset(const double *from, const double *to) const;
+
+    bool is_at(const double *) const;    // this point, with this normal after it
     bool limited() const { return region; }
 
     int nnodes() const { return count[0] * count[1]; }

@@ -20,6 +20,8 @@
 #include "error.h"
 #include "math_extra.h"
 #include "modify.h"
+#include "sph_dissipation_gather.h"
+#include "sph_dissipation_open_band.h"
 #include "sph_dissipation_open_plane.h"
 #include "update.h"
 
@@ -32,23 +34,6 @@ using namespace SPHDissipation;
 static constexpr double FAR = 1.0e300;
 static constexpr double ROUND_OFF = 1.0e-9;    // of lengths
 static constexpr double STRAIGHT = 0.01;       // of a row, sideways, over the size of a particle
-
-// what is beside the line along the normal through from, and how far it is ahead
-
-namespace {
-struct Offset {
-  double beside, ahead;
-};
-
-Offset offset(Domain *domain, const OpenPlane &plane, const double *from, const double *to)
-{
-  double image[3], r[3];
-  domain->closest_image(from, to, image);
-  MathExtra::sub3(image, from, r);
-  const double ahead = MathExtra::dot3(r, plane.normal);
-  return {sqrt(std::max(MathExtra::lensq3(r) - ahead * ahead, 0.0)), ahead};
-}
-}    // namespace
 
 /* ---------------------------------------------------------------------- */
 
@@ -152,7 +137,7 @@ void OpenRows::find_rows()
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const double r = distance_between(x, atom->x[i]);
+    const double r = plane.offset(x, atom->x[i]).distance();
     if (r > 0.0) size = std::min(size, r);
   }
   MPI_Allreduce(&size, &all_size, 1, MPI_DOUBLE, MPI_MIN, world);
@@ -160,7 +145,7 @@ void OpenRows::find_rows()
   double nearest[2] = {FAR, FAR}, all[2];    // behind, beside
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const Offset to = offset(domain, plane, x, atom->x[i]);
+    const OpenPlane::Offset to = plane.offset(x, atom->x[i]);
     if (to.beside > STRAIGHT * all_size)
       nearest[1] = std::min(nearest[1], to.beside);
     else if (to.ahead < 0.0)
@@ -209,7 +194,8 @@ void OpenRows::renew(const Refresh &refresh)
                "{}: the fluid moved by {:g} between two neighbor lists, so that the zone of length "
                "{:g} ran empty; build them more often or make the zone longer",
                owner, moved_all, plane.length);
-  const Band band = gather_band(unknown_end ? plane.length : moved_all + 2.5 * largest);
+  const double depth = unknown_end ? plane.length : moved_all + 2.5 * largest;
+  const OpenBand band(lmp, plane, groupbit, end(), depth - plane.length);
   if (unknown_sides) check_alone(band);
   unknown_end = unknown_sides = false;
 
@@ -237,64 +223,11 @@ void OpenRows::remove_beyond()
   }
 }
 
-/* ---------------------------------------------------------------------- */
-
-template <class T>
-std::vector<T> OpenRows::of_all(const std::vector<T> &mine, MPI_Datatype type) const
-{
-  int n = static_cast<int>(mine.size()), total = 0;
-  std::vector<int> counts(comm->nprocs), starts(comm->nprocs);
-  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int p = 0; p < comm->nprocs; p++) {
-    starts[p] = total;
-    total += counts[p];
-  }
-  std::vector<T> all(total);
-  MPI_Allgatherv(const_cast<T *>(mine.data()), n, type, all.data(), counts.data(), starts.data(),
-                 type, world);
-  return all;
-}
-
-/* ----------------------------------------------------------------------
-   particles, not only of the zone, between its end and this distance from there
-------------------------------------------------------------------------- */
-
-OpenRows::Band OpenRows::gather_band(double depth) const
-{
-  std::vector<double> mine;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const double *const x = atom->x[i];
-    const bool of_zone = atom->mask[i] & groupbit;
-    const double height = plane.height(x);
-    if (height < end() || height > depth - plane.length) continue;
-    if (!of_zone && plane.beside(x)) continue;
-    mine.insert(mine.end(), {x[0], x[1], x[2], of_zone ? 1.0 : 0.0});
-  }
-
-  const std::vector<double> all = of_all(mine, MPI_DOUBLE);
-  Band band;
-  band.at_node.resize(plane.nnodes());
-  for (int k = 0; k < static_cast<int>(all.size() / 4); k++) {
-    band.x.insert(band.x.end(), &all[4 * k], &all[4 * k] + 3);
-    band.of_zone.push_back(all[4 * k + 3] > 0.0);
-    band.at_node[nearest_node(&all[4 * k])].push_back(k);
-  }
-  return band;
-}
-
-/* ---------------------------------------------------------------------- */
-
-int OpenRows::nearest_node(const double *x) const
-{
-  const OpenPlane::Spot spot = plane.spot(x);
-  return spot.node[std::max_element(spot.weight, spot.weight + spot.n) - spot.weight];
-}
-
 /* ----------------------------------------------------------------------
    owned particles that move into the fluid and have none behind them in their row
 ------------------------------------------------------------------------- */
 
-std::vector<int> OpenRows::last_ones(const Band &band) const
+std::vector<int> OpenRows::last_ones(const OpenBand &band) const
 {
   std::vector<int> last;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -302,15 +235,7 @@ std::vector<int> OpenRows::last_ones(const Band &band) const
     if (!(atom->mask[i] & groupbit)) continue;
     if (!(MathExtra::dot3(atom->v[i], plane.normal) > 0.0)) continue;
     if (plane.height(x) - step(i) < end()) continue;
-    bool behind = false;
-    plane.near(x, half_width + plane.node_distance(), [&](int node, const double *) {
-      for (const int k : band.at_node[node]) {
-        if (!band.of_zone[k]) continue;
-        const Offset to = offset(domain, plane, x, &band.x[3 * k]);
-        behind = behind || (to.beside < half_width && to.ahead < 0.0);
-      }
-    });
-    if (!behind) last.push_back(i);
+    if (!band.has_behind(x, half_width)) last.push_back(i);
   }
   return last;
 }
@@ -322,7 +247,7 @@ std::vector<int> OpenRows::last_ones(const Band &band) const
    it is the harmonic mean of theirs, to second order
 ------------------------------------------------------------------------- */
 
-bool OpenRows::fill(std::vector<int> &last, const Band &band, const Refresh &refresh)
+bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh)
 {
   constexpr int CORRECTIONS = 3;
   last.erase(std::remove_if(last.begin(), last.end(),
@@ -368,18 +293,12 @@ bool OpenRows::fill(std::vector<int> &last, const Band &band, const Refresh &ref
    what is not of the zone is beside it
 ------------------------------------------------------------------------- */
 
-void OpenRows::check_alone(const Band &band) const
+void OpenRows::check_alone(const OpenBand &band) const
 {
   bigint count = 0, all;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    bool alone = true;
-    const double *const x = atom->x[i];
-    plane.near(x, half_width + plane.node_distance(), [&](int node, const double *) {
-      for (const int k : band.at_node[node])
-        if (!band.of_zone[k] && distance_between(x, &band.x[3 * k]) < half_width) alone = false;
-    });
-    if (!alone) count++;
+    if (band.has_other_near(atom->x[i], half_width)) count++;
   }
   MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all)
@@ -391,15 +310,7 @@ void OpenRows::check_alone(const Band &band) const
 
 /* ---------------------------------------------------------------------- */
 
-double OpenRows::distance_between(const double *a, const double *b) const
-{
-  const Offset to = offset(domain, plane, a, b);
-  return sqrt(to.beside * to.beside + to.ahead * to.ahead);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void OpenRows::check_seat(double *x, const Band &band) const
+void OpenRows::check_seat(double *x, const OpenBand &band) const
 {
   constexpr double APART = 0.5;    // of the width of a row
   double unit[3] = {x[0], x[1], x[2]};
@@ -411,12 +322,9 @@ void OpenRows::check_seat(double *x, const Band &band) const
       error->one(FLERR,
                  "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",
                  owner, x[0], x[1], x[2]);
-  plane.near(x, half_width + plane.node_distance(), [&](int node, const double *) {
-    for (const int k : band.at_node[node])
-      if (distance_between(x, &band.x[3 * k]) < APART * half_width)
-        error->one(FLERR, "{}: at {:g} {:g} {:g}, where a particle enters, there is another one",
-                   owner, x[0], x[1], x[2]);
-  });
+  if (band.has_near(x, APART * half_width))
+    error->one(FLERR, "{}: at {:g} {:g} {:g}, where a particle enters, there is another one", owner,
+               x[0], x[1], x[2]);
 }
 
 /* ----------------------------------------------------------------------
@@ -427,7 +335,7 @@ std::vector<tagint> OpenRows::new_tags(const std::vector<int> &last) const
 {
   std::vector<tagint> mine;
   for (const int i : last) mine.push_back(atom->tag[i]);
-  std::vector<tagint> all = of_all(mine, MPI_LMP_TAGINT);
+  std::vector<tagint> all = gather_all(world, mine, MPI_LMP_TAGINT);
   std::sort(all.begin(), all.end());
 
   tagint most = highest, first;

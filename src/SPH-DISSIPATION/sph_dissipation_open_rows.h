@@ -23,6 +23,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
+  class OpenBand;
   class OpenPlane;
 
   // The far end of an open zone.  Its particles stand in rows along the normal of the plane.  Behind
@@ -69,26 +70,15 @@ namespace SPHDissipation {
     bool unknown_sides;    // so is whether there is something else among them
     Distance distance;
 
-    struct Band {               // particles near the end, of all processors
-      std::vector<double> x;    // 3 each
-      std::vector<char> of_zone;
-      std::vector<std::vector<int>> at_node;    // of the plane
-    };
-
     double step(int i) const;    // from an owned particle to the next one of its row
     double end() const;          // height where the zone ends
     void interrupt_ids();
-    template <class T>
-    std::vector<T> of_all(const std::vector<T> &mine, MPI_Datatype) const;    // processors
     void find_rows();
     void remove_beyond();
-    Band gather_band(double depth) const;
-    int nearest_node(const double *x) const;
-    std::vector<int> last_ones(const Band &) const;
-    bool fill(std::vector<int> &last, const Band &, const Refresh &);
-    double distance_between(const double *, const double *) const;
-    void check_alone(const Band &) const;
-    void check_seat(double *x, const Band &) const;
+    std::vector<int> last_ones(const OpenBand &) const;
+    bool fill(std::vector<int> &last, const OpenBand &, const Refresh &);
+    void check_alone(const OpenBand &) const;
+    void check_seat(double *x, const OpenBand &) const;
     std::vector<tagint> new_tags(const std::vector<int> &last) const;
   };
 
