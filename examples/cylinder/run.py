@@ -17,15 +17,15 @@ sys.path.insert(0, str(HERE.parent))
 from reference import shedding              # noqa: E402
 from run_lammps import Example, frames      # noqa: E402
 
-SIZE = 16                                   # particles per diameter
+SIZE = 12                                   # particles per diameter
 CASES = {                                   # Re: duration, length of the last part, kick
-    20: (30.0, 12.0, 0.0),
-    40: (42.0, 15.0, 0.0),
-    100: (60.0, 28.0, 0.5),
+    20: (24.0, 8.0, 0.0),
+    40: (36.0, 12.0, 0.0),
+    100: (60.0, 30.0, 0.5),
 }
 BARS = {"drag": 0.03, "wake": 0.05, "strouhal": 0.03}   # beyond the published values
 MEAN_DRAG = 0.04                                        # at Re = 100
-QUICK = {"n": 8, "Re": 40, "end": 16.0, "mean": 6.0, "width": 8, "up": 4, "down": 6}
+QUICK = {"n": 8, "Re": 40, "end": 15.0, "mean": 5.0, "width": 8, "up": 4, "down": 6}
 QUICK_DRAG = 0.15                           # of the small version, to finite elements in its domain
 TITLE = {"drag": "drag coefficient", "wake": "length of the wake", "lift": "amplitude of the lift coefficient",
          "strouhal": "Strouhal number"}

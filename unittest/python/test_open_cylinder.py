@@ -23,5 +23,5 @@ def test_drag(lammps):
     assert abs(found.drag / wanted["drag"] - 1) < example.QUICK_DRAG
     assert abs(found.lift_t[found.t > found.t[-1] - job["mean"]].mean()) < 0.05 * found.drag
     # what enters also leaves, and the stream has the velocity asked for
-    number = result.thermo()[-1]["v_number"]
+    number = result.thermo()[-1]["v_particles"]
     assert np.ptp(number) < 0.01 * number.mean()
