@@ -41,7 +41,7 @@ WIDTHS = (8, 16)                        # of the pulses, in spacings
 MORE = (4, 8, 16, 32)                   # ... of those that leave through the outlets SLANTED
 BARS = {8: 0.05, 16: 0.03}              # largest reflection, outlet lagged
 ANGLES = (0, 30, 45)
-WAVES = (12, 20)                        # lengths of the waves of the oblique pulses, in spacings
+WAVE = 16                               # wavelength of the oblique pulses, in spacings
 SLANTED = ("lagged", "characteristic")  # outlets of oblique pulses
 VORTEX = ("lagged", "lagged_mean", "characteristic", "fixed", "pressure")
 LEFT = 0.01                             # of the kinetic energy of the vortex, outlet lagged
@@ -108,8 +108,8 @@ def plot(path, straight, oblique, vortices):
     theta = np.linspace(0, 60, 121)
     axes[2].plot(theta, np.tan(np.radians(theta) / 2)**2, "k-", label="$\\tan^2(\\theta/2)$")
     for (outlet, angle, wave, stream), run in oblique.items():
-        axes[2].plot(angle, run.reflection, "os"[stream > 0], color=OUTLETS[outlet][0], ms=4 + (wave == max(WAVES)) * 3, mfc="none",
-                     label=f"{TITLE[outlet]}" if angle == 0 and wave == min(WAVES) and stream == 0 else None)
+        axes[2].plot(angle, run.reflection, "os"[stream > 0], color=OUTLETS[outlet][0], ms=5, mfc="none",
+                     label=f"{TITLE[outlet]}" if angle == 0 and stream == 0 else None)
     axes[2].set(xlabel="angle between the pulse and the outlet's normal, degrees", ylim=(0, 0.35), title="reflection, oblique waves")
     axes[2].legend(loc="upper left")
     for outlet, (t, energy) in vortices.items():
@@ -128,8 +128,8 @@ def main():
     straight = {(o, w, s): pulse(o, w, s) for o in outlets for s in STREAMS
                 for w in (MORE if o in SLANTED and not args.quick else WIDTHS)}
     oblique = {} if args.quick else {
-        (o, angle, wave, s): pulse(o, 1.2 * wave, s, angle, wave, 14 * wave)
-        for o in SLANTED for angle in ANGLES for wave in WAVES for s in STREAMS}
+        (o, angle, WAVE, s): pulse(o, 1.2 * WAVE, s, angle, WAVE, 14 * WAVE)
+        for o in SLANTED for angle in ANGLES for s in STREAMS}
     names = {key: "_".join(map(str, ("straight", *key))) for key in straight}
     names |= {key: "_".join(map(str, ("oblique", *key))) for key in oblique}
     jobs = {**oblique, **straight}
@@ -137,7 +137,7 @@ def main():
     # the same for the second input of this folder
     example.name = "pulse_exit_vortex"
     kinds = ("lagged",) if args.quick else VORTEX
-    small = {"n": 6, "length": 8, "width": 6, "end": 12} if args.quick else {}
+    small = {"length": 8, "width": 6, "end": 10} if args.quick else {}
     example.run({f"vortex_{o}": {"condition": OUTLETS[o][1], "outlet": OUTLETS[o][2].format(u=1.0, p=0.0, T=1.0), **small} for o in kinds})
     example.name = HERE.name
 
