@@ -23,8 +23,7 @@ OUTLETS = {
     "characteristic": ("C0", "characteristic", "velocity {u} 0.0 0.0 pressure {p}"),
     "fixed": ("k", "fixed", "velocity {u} 0.0 0.0 pressure {p}"),
     "pressure": ("C2", "fixed", "velocity inside pressure {p} order 0"),
-    "inside0": ("C4", "fixed", "velocity inside pressure inside order 0"),
-    "inside1": ("C5", "fixed", "velocity inside pressure inside order 1"),
+    "inside": ("C4", "fixed", "velocity inside pressure inside order 0"),
 }
 TITLE = {
     "lagged": "lagged",
@@ -32,8 +31,7 @@ TITLE = {
     "characteristic": "characteristic",
     "fixed": "fixed velocity and pressure",
     "pressure": "fixed pressure, velocity from inside",
-    "inside0": "fixed, both from inside, order 0",
-    "inside1": "fixed, both from inside, order 1",
+    "inside": "fixed, both from inside, order 0",
 }
 STREAMS = (0.0, 0.1)                    # over the sound speed
 STEP = 0.4                              # time step of the input
