@@ -88,6 +88,7 @@ def plot(path, straight, oblique, vortices):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    from matplotlib.ticker import NullFormatter
 
     plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.0, "legend.fontsize": 7.5})
     figure, axes = plt.subplots(1, 4, figsize=(15.5, 4.2), layout="constrained")
@@ -100,16 +101,18 @@ def plot(path, straight, oblique, vortices):
             widths = sorted(runs)
             axis.loglog([2 * np.pi * w for w in widths], [runs[w].reflection for w in widths], "o", color=color, ms=4, mfc="none",
                         label=TITLE[outlet])
-        axis.set(xlabel="wavelength or $2\\pi$ width, spacings", ylim=(5e-3, 10), xlim=(15, 250),
+        axis.set(xlabel="wavelength or $2\\pi$ width, spacings", ylim=(3e-3, 100), xlim=(15, 250), xticks=(20, 50, 100, 200),
                  title="reflection, " + ("at rest" if stream == 0 else f"stream of {stream:g} $c_0$"))
+        axis.xaxis.set_major_formatter("{x:g}")
+        axis.xaxis.set_minor_formatter(NullFormatter())
     axes[0].legend(loc="upper left")
     theta = np.linspace(0, 60, 121)
     axes[2].plot(theta, np.tan(np.radians(theta) / 2)**2, "k-", label="$\\tan^2(\\theta/2)$")
     for (outlet, angle, wave, stream), run in oblique.items():
         axes[2].plot(angle, run.reflection, "os"[stream > 0], color=OUTLETS[outlet][0], ms=5, mfc="none",
-                     label=f"{TITLE[outlet]}" if angle == 0 and stream == 0 else None)
-    axes[2].set(xlabel="angle between the pulse and the outlet's normal, degrees", ylim=(0, 0.35), title="reflection, oblique waves")
-    axes[2].legend(loc="upper left")
+                     label=TITLE[outlet] + (", stream" if stream > 0 else "") if angle == 0 else None)
+    axes[2].set(xlabel="angle between the pulse and the outlet's normal, degrees", ylim=(0, 1.25), title=f"reflection, oblique waves of {WAVE} spacings")
+    axes[2].legend(loc="upper right")
     for outlet, (t, energy) in vortices.items():
         axes[3].semilogy(t, energy / energy[0], "-", color=OUTLETS[outlet][0], label=TITLE[outlet])
     axes[3].axhline(LEFT, color="0.5", ls=":", lw=0.8)
