@@ -17,10 +17,11 @@ sys.path.insert(0, str(HERE.parent))
 from reference import shedding              # noqa: E402
 from run_lammps import Example, frames      # noqa: E402
 
-CASES = {                                   # Re: particles per diameter, duration, length of the last part, kick
-    20: (12, 24.0, 8.0, 0.0),
-    40: (12, 36.0, 12.0, 0.0),
-    100: (20, 60.0, 30.0, 0.5),
+SIZE = 12                                   # particles per diameter
+CASES = {                                   # Re: duration, length of the last part, kick
+    20: (24.0, 8.0, 0.0),
+    40: (36.0, 12.0, 0.0),
+    100: (60.0, 30.0, 0.5),
 }
 BARS = {"drag": 0.03, "wake": 0.05, "strouhal": 0.03}   # beyond the published values
 MEAN_DRAG = 0.04                                        # at Re = 100
@@ -37,8 +38,8 @@ def table(path):
 
 
 class Run:
-    def __init__(self, out, name, Re, mean, n=None):
-        self.name, self.n = name, n
+    def __init__(self, out, name, Re, mean):
+        self.name = name
         self.t, self.drag_t, self.lift_t = np.loadtxt(out / f"{name}.history.txt")[:, 1:4].T
         late = self.t > self.t[-1] - mean
         self.drag = self.drag_t[late].mean()
@@ -74,7 +75,7 @@ def smooth(frame, spacing, box, support=3.0):
     return gx, gy, ux, curl
 
 
-def plot(path, out, runs):
+def plot(path, out, runs, n):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -97,15 +98,15 @@ def plot(path, out, runs):
     for part, (Re, run) in zip(below, runs.items()):
         frame = list(frames(out / f"{run.name}.particles.txt").values())[-1]
         box = frame["x"].min(), frame["x"].max(), -3.0, 3.0
-        gx, gy, ux, curl = smooth(frame, 1.5 / run.n, box)
+        gx, gy, ux, curl = smooth(frame, 1.5 / n, box)
         hole = np.hypot(*np.meshgrid(gx, gy)) < 0.5
         left, right = part.subplots(1, 2)
         for axis, value, limit, title in ((left, ux, (-0.4, 1.4), "velocity along x"), (right, curl, (-3, 3), "vorticity")):
+            axis.grid(False)
             picture = axis.pcolormesh(gx, gy, np.where(hole, np.nan, value), cmap="RdBu_r" if limit[0] == -limit[1] else "viridis",
                                       vmin=limit[0], vmax=limit[1], shading="auto", rasterized=True)
             axis.add_patch(plt.Circle((0, 0), 0.5, color="0.4"))
             axis.set(aspect="equal", title=f"Re = {Re}: {title}", xlim=box[:2], ylim=box[2:])
-            axis.grid(False)
             part.colorbar(picture, ax=axis, shrink=0.8)
     figure.savefig(path, dpi=80)
     plt.close(figure)
@@ -113,7 +114,7 @@ def plot(path, out, runs):
 
 def main():
     example = Example(HERE, "Flow past a circular cylinder with an inlet, an outlet, and free-slip sides.")
-    example.parser.add_argument("--size", type=int, metavar="N", help="particles per diameter")
+    example.parser.add_argument("--size", type=int, default=SIZE, metavar="N", help="particles per diameter (%(default)s)")
     example.parser.add_argument("--no-run", action="store_true", help="evaluate the files of an earlier run")
     args = example.arguments()
     reference = {(row["domain"], row["Re"]): row for row in table(HERE / "reference.csv")}
@@ -126,10 +127,10 @@ def main():
 
     names = {Re: f"Re{Re}" for Re in CASES}
     if not args.no_run:
-        example.run({names[Re]: {"Re": Re, "n": args.size or n, "end": end, "mean": mean, "kick": kick}
-                     for Re, (n, end, mean, kick) in reversed(CASES.items())})
+        example.run({names[Re]: {"Re": Re, "n": args.size, "end": end, "mean": mean, "kick": kick}
+                     for Re, (end, mean, kick) in reversed(CASES.items())})
     published = table(HERE / "published.csv")
-    runs = {Re: Run(example.out, names[Re], Re, mean, args.size or n) for Re, (n, _, mean, _) in CASES.items()}
+    runs = {Re: Run(example.out, names[Re], Re, mean) for Re, (_, mean, _) in CASES.items()}
     results = example.out / "cylinder.csv"
     with open(results, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -151,7 +152,7 @@ def main():
                     example.merit(f"Re = {Re}, {TITLE[what]} without blockage", free, min(spread) * (1 - bar), max(spread) * (1 + bar))
             print(f"drag in the second half of the average over the first, minus 1: {run.drift:.1e}")
     picture = example.out / "cylinder.png"
-    plot(picture, example.out, runs)
+    plot(picture, example.out, runs, args.size)
     return example.finish(picture, results)
 
 
