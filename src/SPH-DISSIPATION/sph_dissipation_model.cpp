@@ -48,7 +48,7 @@ TypeCoeff::TypeCoeff() :
 FluidModel::FluidModel(LAMMPS *lmp, const std::string &style,
                        const std::vector<std::string> &viscosities) :
     Pointers(lmp),
-    coeffs(nullptr), simd("auto"), shared(false), style(style), viscosity_names(viscosities),
+    simd("auto"), coeffs(nullptr), shared(false), style(style), viscosity_names(viscosities),
     pair_viscosity(nullptr), viscosity_set(nullptr)
 {
   for (const auto &name : viscosity_names) variables.push_back({name, nullptr, nullptr});
