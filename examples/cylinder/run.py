@@ -17,11 +17,10 @@ sys.path.insert(0, str(HERE.parent))
 from reference import shedding              # noqa: E402
 from run_lammps import Example, frames      # noqa: E402
 
-SIZE = 12                                   # particles per diameter
-CASES = {                                   # Re: duration, length of the last part, kick
-    20: (24.0, 8.0, 0.0),
-    40: (36.0, 12.0, 0.0),
-    100: (60.0, 30.0, 0.5),
+CASES = {                                   # Re: variables of the input, in which n is the number of particles per diameter
+    20: {"n": 12, "support": 4, "end": 24.0, "mean": 8.0, "kick": 0.0},
+    40: {"n": 12, "support": 4, "end": 36.0, "mean": 12.0, "kick": 0.0},
+    100: {"n": 16, "support": 3, "end": 54.0, "mean": 18.0, "kick": 0.5},
 }
 BARS = {"drag": 0.03, "wake": 0.05, "strouhal": 0.03}   # beyond the published values
 MEAN_DRAG = 0.04                                        # at Re = 100
@@ -76,6 +75,7 @@ def smooth(frame, spacing, box, support=3.0):
 
 
 def plot(path, out, runs, n):
+    """n: particles per diameter of each run"""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -98,7 +98,7 @@ def plot(path, out, runs, n):
     for part, (Re, run) in zip(below, runs.items()):
         frame = list(frames(out / f"{run.name}.particles.txt").values())[-1]
         box = frame["x"].min(), frame["x"].max(), -3.0, 3.0
-        gx, gy, ux, curl = smooth(frame, 1.5 / n, box)
+        gx, gy, ux, curl = smooth(frame, 1.5 / n[Re], box)
         hole = np.hypot(*np.meshgrid(gx, gy)) < 0.5
         left, right = part.subplots(1, 2)
         for axis, value, limit, title in ((left, ux, (-0.4, 1.4), "velocity along x"), (right, curl, (-3, 3), "vorticity")):
@@ -114,7 +114,7 @@ def plot(path, out, runs, n):
 
 def main():
     example = Example(HERE, "Flow past a circular cylinder with an inlet, an outlet, and free-slip sides.")
-    example.parser.add_argument("--size", type=int, default=SIZE, metavar="N", help="particles per diameter (%(default)s)")
+    example.parser.add_argument("--size", type=int, metavar="N", help="particles per diameter")
     example.parser.add_argument("--no-run", action="store_true", help="evaluate the files of an earlier run")
     args = example.arguments()
     reference = {(row["domain"], row["Re"]): row for row in table(HERE / "reference.csv")}
@@ -126,11 +126,13 @@ def main():
         return example.finish()
 
     names = {Re: f"Re{Re}" for Re in CASES}
+    if args.size:
+        for case in CASES.values():
+            case["n"] = args.size
     if not args.no_run:
-        example.run({names[Re]: {"Re": Re, "n": args.size, "end": end, "mean": mean, "kick": kick}
-                     for Re, (end, mean, kick) in reversed(CASES.items())})
+        example.run({names[Re]: {"Re": Re, **case} for Re, case in reversed(CASES.items())})
     published = table(HERE / "published.csv")
-    runs = {Re: Run(example.out, names[Re], Re, mean) for Re, (_, mean, _) in CASES.items()}
+    runs = {Re: Run(example.out, names[Re], Re, case["mean"]) for Re, case in CASES.items()}
     results = example.out / "cylinder.csv"
     with open(results, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -152,7 +154,7 @@ def main():
                     example.merit(f"Re = {Re}, {TITLE[what]} without blockage", free, min(spread) * (1 - bar), max(spread) * (1 + bar))
             print(f"drag in the second half of the average over the first, minus 1: {run.drift:.1e}")
     picture = example.out / "cylinder.png"
-    plot(picture, example.out, runs, args.size)
+    plot(picture, example.out, runs, {Re: case["n"] for Re, case in CASES.items()})
     return example.finish(picture, results)
 
 
