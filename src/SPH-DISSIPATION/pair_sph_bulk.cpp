@@ -155,12 +155,16 @@ void PairSPHBulk::compute(int eflag, int vflag)
 
   const bool at_rest = (update->whichflag == 2);
   density->run(list, at_rest ? nullptr : atom->vest, at_rest ? nullptr : extrapolated_spin());
-  if (has_noise() && !boundary->empty()) boundary->set_reference_volume();
+
+  // noise needs the bound of the limit for the volumes that act in its pairs, those of walls as well
+
+  const bool walls = !boundary->empty();
+  if (walls && has_noise()) boundary->set_reference_volume();
   if (limited) limit->run(list);
-  if (!boundary->empty()) boundary->set_reference_volume();
+  if (walls && !has_noise()) boundary->set_reference_volume();
   const bigint nbeyond = pressure->run(limited ? limit->bound : nullptr, boundary->bits());
   if (!open->empty()) open->run();
-  if (!boundary->empty()) boundary->run(list);
+  if (walls) boundary->run(list);
   if (crowding_requested) crowd->run(list);
   if (has_noise()) noise->run(list, limited ? limit->bound : nullptr, boundary->bits(), tally);
   forces->run(list, tally);

@@ -15,13 +15,13 @@
 
 #include "atom.h"
 #include "atom_vec_sph_micropolar.h"
-#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
 #include "modify.h"
 #include "neigh_list.h"
+#include "sph_dissipation_gather.h"
 #include "sph_dissipation_refine_ledger.h"
 
 #include <algorithm>
@@ -196,17 +196,7 @@ bool RefineEvent::in_box(const double *x) const
 
 std::vector<tagint> RefineEvent::gather(const std::vector<tagint> &mine) const
 {
-  int n = static_cast<int>(mine.size()), total = 0;
-  std::vector<int> counts(comm->nprocs), starts(comm->nprocs);
-  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int p = 0; p < comm->nprocs; p++) {
-    starts[p] = total;
-    total += counts[p];
-  }
-  std::vector<tagint> all(total);
-  MPI_Allgatherv(mine.data(), n, MPI_LMP_TAGINT, all.data(), counts.data(), starts.data(),
-                 MPI_LMP_TAGINT, world);
-  return all;
+  return gather_all(world, mine, MPI_LMP_TAGINT);
 }
 
 /* ----------------------------------------------------------------------
