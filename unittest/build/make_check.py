@@ -1,8 +1,7 @@
-"""Runs the checks of LAMMPS's `make check` on the package: those of single files on its own files, those of the manual on
-a LAMMPS tree (of links) into which the package is copied, less what they find without it.
+"""The package in a LAMMPS tree, as tools/upstream.py puts it there, before the checks that LAMMPS makes of itself: `make
+check` and the spelling of the manual. The tree is one of links; what the checks find without the package does not count.
 
-What they find must be the registration of the package in LAMMPS's lists; that is printed.
-Exit status: 0 if there is nothing else, 1 if there is, 77 if this LAMMPS comes without its checks.
+Exit status: 0 if nothing is found, 1 if something is, 77 if this LAMMPS comes without its checks.
 """
 import argparse
 import os
@@ -13,8 +12,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("src", "doc")
-FILE_CHECKS = ("whitespace", "permissions", "homepage", "errordocs", "fmtlib")
+FOLDERS = ("src", "doc", "cmake", "examples/PACKAGES", "potentials", "unittest/force-styles/tests")
+FILE_CHECKS = ("whitespace", "permissions", "homepage", "errordocs", "fmtlib", "versiontags")
 MANUAL_CHECKS = {
     "anchor_check": "python3 utils/converters/lammpsdoc/rst_anchor_check.py src/*.rst",
     "style_check": "python3 utils/check-styles.py -s ../src -d src",
@@ -22,8 +21,6 @@ MANUAL_CHECKS = {
     "char_check": "make -s char_check",
     "role_check": "make -s role_check",
 }
-REGISTRATION = re.compile(r"\w+ (style|index) entry sph/\w+ is missing( or incomplete in \w+\.rst)?$"
-                          r"|Package SPH-DISSIPATION missing in \w+\.rst$")
 SUMMARY = re.compile(r"(Found|Parsed|Total|No) |\W*$|make.*:| +\w+ styles: ")
 
 
@@ -33,16 +30,13 @@ def link_tree(source, target):
         shutil.copytree(source / folder, target / folder, copy_function=os.symlink, symlinks=True)
 
 
-def add_package(target):
-    shutil.copytree(ROOT / "src" / "SPH-DISSIPATION", target / "src" / "SPH-DISSIPATION")
-    (target / "doc" / "src").mkdir(parents=True, exist_ok=True)
-    for page in (ROOT / "doc" / "src").glob("*.rst"):
-        if page.name != "index.rst":
-            assert not (target / "doc" / "src" / page.name).exists(), f"LAMMPS has a page {page.name} of its own"
-            shutil.copy(page, target / "doc" / "src")
-    shutil.copytree(ROOT / "unittest" / "force-styles" / "tests", target / "unittest" / "force-styles" / "tests")
-    shutil.copytree(ROOT / "examples", target / "examples" / "PACKAGES" / "sph-dissipation",
-                    ignore=shutil.ignore_patterns("__pycache__"))
+def add_files(source, target):
+    """Files of source in the place of links of target."""
+    for file in (path for path in source.rglob("*") if path.is_file()):
+        place = target / file.relative_to(source)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.unlink(missing_ok=True)
+        shutil.copy2(file, place)
 
 
 def findings(command, folder, tree):
@@ -52,6 +46,14 @@ def findings(command, folder, tree):
         sys.exit(f"{command} failed:\n{done.stdout}")
     lines = {line.replace(str(tree), "").rstrip() for line in done.stdout.splitlines()}
     return {line for line in lines if not SUMMARY.match(line)}
+
+
+def check_patch(lammps, patch):
+    """The patch is for the unmodified tree."""
+    done = subprocess.run(["git", "apply", "--check", "--whitespace=nowarn", str(patch)], cwd=lammps,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          env={**os.environ, "GIT_CEILING_DIRECTORIES": str(lammps.parent)})
+    yield from (("git apply", line) for line in done.stdout.splitlines())
 
 
 def check_files(lammps, tree):
@@ -67,6 +69,25 @@ def check_manual(plain, package):
         yield from ((name, line) for line in with_package - without)
 
 
+def check_spelling(tree, folder):
+    """Words of the package's pages that are neither in the dictionary nor in LAMMPS's list of words, as the patch has it."""
+    sphinx = shutil.which("sphinx-build", path="/usr/bin:" + os.environ.get("PATH", ""))
+    has = sphinx and subprocess.run(["/usr/bin/python3", "-c", "import sphinxcontrib.spelling, enchant; enchant.Dict('en_US')"],
+                                    stderr=subprocess.DEVNULL).returncode == 0
+    if not has:
+        print("spelling: not checked, sphinxcontrib.spelling or the dictionary en_US is missing")
+        return
+    words = tree / "doc" / "utils" / "sphinx-config" / "false_positives.txt"
+    subprocess.run([sphinx, "-q", "-b", "spelling", "-D", "spelling_lang=en_US", "-D", f"spelling_word_list_filename={words}",
+                    "-D", "extensions=sphinx.ext.mathjax,lammps_pages,sphinxcontrib.spelling",
+                    str(ROOT / "doc" / "src"), str(folder)],
+                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    results = sorted(folder.rglob("*.spelling"))
+    if not (folder / ".doctrees").exists():
+        sys.exit("spelling: sphinx-build failed")
+    yield from (("spelling", line) for file in results for line in file.read_text().splitlines())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("lammps", type=Path)
@@ -76,19 +97,23 @@ def main():
     if not all((lammps / name).exists() for name in ("tools/coding_standard", "doc/utils/check-styles.py", "doc/Makefile")):
         print("this LAMMPS comes without its checks")
         sys.exit(77)
+    if '"4 Jul 2026"' not in (lammps / "src" / "version.h").read_text():
+        print("the patch is for LAMMPS 4 Jul 2026")
+        sys.exit(77)
     shutil.rmtree(folder, ignore_errors=True)
-    alone, plain, package = folder / "alone", folder / "plain", folder / "package"
+    changed, plain, package = folder / "changed", folder / "plain", folder / "package"
+    patch = folder / "sph-dissipation.patch"
+    subprocess.run([sys.executable, str(ROOT / "tools" / "upstream.py"), str(lammps), str(patch), "--tree", str(changed),
+                    "--version", "4Jul2026"], check=True)
     for tree in (plain, package):
         link_tree(lammps, tree)
-    for tree in (alone, package):
-        add_package(tree)
+    add_files(changed, package)
 
-    failed = False
-    for name, line in sorted([*check_files(lammps, alone), *check_manual(plain, package)]):
-        registration = REGISTRATION.match(line)
-        failed = failed or not registration
-        print(f"{'to register' if registration else 'FOUND'} ({name}): {line}")
-    if failed:
+    found = sorted([*check_patch(lammps, patch), *check_files(lammps, changed), *check_manual(plain, package),
+                    *check_spelling(package, folder / "spelling")])
+    for name, line in found:
+        print(f"FOUND ({name}): {line}")
+    if found:
         sys.exit(1)
     shutil.rmtree(folder)
 

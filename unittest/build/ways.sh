@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ways.sh WAY LAMMPS TREE: builds LAMMPS with the package by one of the ways that README.md describes, in the folder
-# TREE, and runs the smoke input. WAY is hook, make or plugin; LAMMPS is a version to obtain, 26 or 25, or the folder of
-# a source tree. WAY mismatch compiles a plugin for another version than that of the LAMMPS which WAY plugin left in TREE.
+# TREE, and runs the smoke input. WAY is hook, make or plugin, or upstream: the patch that makes the package a part of
+# LAMMPS, without the hook; LAMMPS is a version to obtain, 26 or 25, or the folder of a source tree. WAY mismatch compiles a plugin for another version than that of the LAMMPS which WAY plugin left in TREE.
 # Environment: ROOT (the package's repository), PYTHON, REFERENCE (result of the smoke input to compare with), LAUNCHER
 # (ccache, or empty), SPHD_JOBS, SPHD_CACHE.
 set -euo pipefail
@@ -69,6 +69,23 @@ case $way in
     lammps_by_cmake build -D PKG_SPH-DISSIPATION=on -D CMAKE_PROJECT_lammps_INCLUDE="$tree/package/cmake/SPH-DISSIPATION.cmake"
     smoke build/lmp smoke
     spectrum build/lmp -in spectrum.in
+    ;;
+
+  upstream)
+    rm -rf patched changed
+    "$PYTHON" "$ROOT/tools/upstream.py" "$lammps" sph-dissipation.patch --tree changed
+    mkdir patched
+    ln -s "$lammps"/* patched
+    for folder in src cmake; do
+      rm "patched/$folder"
+      cp -r "$lammps/$folder" patched
+    done
+    cp -r changed/src changed/cmake patched
+    lammps=$tree/patched
+    lammps_by_cmake build -D PKG_SPH-DISSIPATION=on
+    smoke build/lmp smoke
+    expect_error "$no_spectrum" build/lmp -in spectrum.in -var result none
+    build/lmp -h | grep -q SPH-DISSIPATION || { echo "lmp -h does not name the package"; exit 1; }
     ;;
 
   make)
