@@ -3,6 +3,7 @@
 Build with ``sphinx-build -W -b html doc/src doc/build``.
 """
 
+import importlib.util
 import os
 import sys
 
@@ -13,25 +14,19 @@ author = "the SPH-DISSIPATION authors"
 copyright = "the SPH-DISSIPATION authors; GNU General Public License, version 2"
 
 needs_sphinx = "5.3"
-extensions = ["sphinx.ext.mathjax", "lammps_pages"]
+extensions = ["sphinx.ext.mathjax", "lammps_pages", "local_mathjax"]
 master_doc = "index"
 language = "en"
-
-# formulas are typeset by MathJax in the reader's browser; a local copy serves readers without
-# a network (Debian: package libjs-mathjax)
-if os.environ.get("SPHD_MATHJAX"):
-    mathjax_path = os.environ["SPHD_MATHJAX"]
 
 highlight_language = "none"
 pygments_style = "default"
 
-html_theme = "alabaster"
-html_theme_options = {
-    "description": "Bulk viscosity, set freely, for LAMMPS's smoothed particle hydrodynamics",
-    "fixed_sidebar": True,
-    "page_width": "1250px",
-    "body_max_width": "none",
-    "sidebar_width": "250px",
-}
+# the look of LAMMPS's own manual, where its theme is there (Debian: python3-sphinx-rtd-theme)
+if importlib.util.find_spec("sphinx_rtd_theme"):
+    html_theme = "sphinx_rtd_theme"
+    html_theme_options = {"navigation_depth": 2, "collapse_navigation": False}
+else:
+    html_theme = "alabaster"
+    html_theme_options = {"page_width": "1250px", "body_max_width": "none", "sidebar_width": "250px"}
 html_title = "SPH-DISSIPATION"
 html_show_sourcelink = False
