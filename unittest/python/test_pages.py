@@ -1,0 +1,109 @@
+"""Every input on every page of the manual runs as printed.
+
+A code block of language LAMMPS that sets up a box and runs is an input of its own. Any other one is a fragment: its parts
+(between empty lines) are commands for a fluid that is there already, and LAMMPS must take them. Blocks below the heading
+Syntax, and those with types I J, have words in place of values and are left out.
+"""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = sorted((ROOT / "doc" / "src").glob("*.rst"))
+
+# what the fragments take for granted
+
+GROUPS = ("fluid", "floor", "top", "moving", "rotor", "ground", "inlet", "outlet", "west", "nozzle", "lid", "plate", "piston",
+          "wheel")
+EQUAL = {"rc": 3.0, "dx": 1.0, "U": 0.1, "mu": 0.5, "kappa": 1.0, "rho0": 1.0, "b": 0.5, "p": 0.0}
+ATOM = {"target": 1.0, "u": 0.1}
+SPIN = re.compile(r"sph/micropolar|sph/torque|sph/angmom|omega|inertia|spin|centroid|mu_r")
+SOLID = re.compile(r"\b64 64 64\b|0\.0 0\.0 1\.0 0\.4|-9\.81|wendland/c4 eos tait")    # three dimensions
+FLUID = {False: "1.0 10.0 0.5 2.0 3.0", True: "1.0 10.0 0.5 2.0 0.2 0.1 {gamma2} 3.0"}    # {gamma2}: -gamma1 in two dimensions
+PLACEHOLDERS = re.compile(r"\bI [IJ]\b")
+LATE = re.compile(r"^(units|dimension|boundary|atom_style|plugin)\b", re.MULTILINE)    # no commands for a box that is there
+
+
+def blocks(page):
+    """(line number, heading, text) of the LAMMPS code blocks of a page"""
+    lines = page.read_text().splitlines()
+    heading, number = "", 0
+    while number < len(lines):
+        if number and re.match(r"(=+|\"+|-+|\^+|_+)$", lines[number]):
+            heading = lines[number - 1]
+        start = re.match(r"( *)\.\. code-block:: LAMMPS$", lines[number])
+        number += 1
+        if not start:
+            continue
+        first = number
+        indent = start[1] + "   "
+        while number < len(lines) and (not lines[number].strip() or lines[number].startswith(indent)):
+            number += 1
+        yield first, heading, "\n".join(line[len(indent):] for line in lines[first:number]).strip() + "\n"
+
+
+def is_input(text):
+    return re.search(r"^\s*create_box\b", text, re.MULTILINE) and re.search(r"^\s*run\b", text, re.MULTILINE)
+
+
+def collect():
+    whole, parts = [], []
+    for page in PAGES:
+        for line, heading, text in blocks(page):
+            name = f"{page.stem}:{line}"
+            if is_input(text):
+                whole.append(pytest.param(text, id=name))
+            elif heading != "Syntax" and not LATE.search(text) and not PLACEHOLDERS.search(text):
+                parts += [pytest.param(part, id=f"{name}-{number}") for number, part in enumerate(re.split(r"\n\n+", text))]
+    return whole, parts
+
+
+INPUTS, FRAGMENTS = collect()
+
+
+def fluid_for(text):
+    """A small fluid; with the variables, groups and regions that a fragment may use."""
+    spin, solid = bool(SPIN.search(text)), bool(SOLID.search(text))
+    style = "sph/micropolar" if spin else "sph/bulk"
+    types = 2 if re.search(r"pair_coeff [12] 2\b", text) else 1
+    z = "-6 6" if solid else "-0.5 0.5"
+    lines = [f"units {'si' if 'fluids.sph' in text else 'lj'}", f"dimension {3 if solid else 2}", f"atom_style {style}", "atom_modify map yes",
+             f"region box block -6 6 -6 6 {z} units box", f"create_box {types} box",
+             f"lattice {'sc' if solid else 'sq'} 1.0", "create_atoms 1 box", "set group all mass 1.0",
+             "region tube cylinder z 0 0 3 INF INF units box"]
+    lines += [f"variable {name} equal {value}" for name, value in EQUAL.items()]
+    lines += [f"variable {name} atom {value}" for name, value in ATOM.items()]
+    lines += [f"group {name} union all" for name in GROUPS]
+    if spin:
+        lines.append("set group all d_inertia 0.2")
+    if "pair_style" not in text:
+        volume = " volume mass" if "sph/refine" in text or "area" in text else ""
+        lines += [f"pair_style {style}{volume}"]
+    if "pair_style" not in text and not re.match(r"pair_coeff [1*]", text):
+        lines += ["pair_coeff * * " + FLUID[spin].format(gamma2="0.05" if solid else "-0.1")]
+    if "sph/refine" in text or "f_size" in text:
+        lines += [f"fix fluid all {style}"]
+    if "f_lid" in text:
+        lines += ["fix lid lid sph/wall"]
+    if "f_size" in text:
+        lines += ["fix size all sph/refine 10 spacing 1.0"]
+    return "\n".join(lines) + "\n"
+
+
+@pytest.fixture(autouse=True)
+def potentials(monkeypatch):
+    monkeypatch.setenv("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
+
+
+@pytest.mark.parametrize("text", INPUTS)
+def test_inputs_run(lammps, text):
+    result = lammps(text, timeout=300)
+    assert "Loop time" in result.log
+
+
+@pytest.mark.parametrize("text", FRAGMENTS)
+def test_fragments_are_taken(lammps, text):
+    commands = "\n".join(line for line in text.splitlines() if line.strip())
+    lammps(fluid_for(commands) + commands + "\n")
