@@ -33,8 +33,10 @@ class Example:
         self.out.mkdir(parents=True, exist_ok=True)
         return self.args
 
-    def run(self, jobs):
-        """jobs: {name: variables of in.<example>}, the longest first; output files begin with the name."""
+    def run(self, jobs, inputs=None):
+        """jobs: {name: variables of in.<example>}, the longest first; output files begin with the name.
+        inputs: {name: path} of those that have an input of their own
+        """
         path = os.environ.get("SPHD_LMP") or str(self.folder.parent.parent / "build" / "lmp")
         lmp = shutil.which(path)
         if lmp is None:
@@ -43,15 +45,15 @@ class Example:
         ranks = self.args.np
         print(f"{len(jobs)} runs of {lmp} on {ranks} MPI rank(s) each", flush=True)
         with ThreadPoolExecutor(max(1, cores // ranks)) as pool:
-            started = [pool.submit(self._run, os.path.abspath(lmp), name, variables, ranks, cores)
+            started = [pool.submit(self._run, os.path.abspath(lmp), name, variables, ranks, cores, (inputs or {}).get(name))
                        for name, variables in jobs.items()]
             for job in started:
                 job.result()
 
-    def _run(self, lmp, name, variables, ranks, cores):
+    def _run(self, lmp, name, variables, ranks, cores, path=None):
         mpi = shlex.split(os.environ.get("SPHD_MPIEXEC") or "mpiexec") + ["-n", str(ranks)] if ranks > 1 else []
         words = [word for key, value in {**variables, "out": name}.items() for word in ("-var", key, str(value))]
-        command = [*mpi, lmp, "-in", str(self.folder / f"in.{self.name}"), "-screen", "none",
+        command = [*mpi, lmp, "-in", str(path or self.folder / f"in.{self.name}"), "-screen", "none",
                    "-log", f"{name}.log", *words]
         # LAMMPS writes its error messages to the log as well; a launcher has only stderr
         done = subprocess.run(command, env=environment(ranks, cores), text=True, cwd=self.out,

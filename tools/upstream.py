@@ -4,8 +4,7 @@
 
     upstream.py LAMMPS PATCH [--tree DIR] [--version TAG]
 
-LAMMPS is an unmodified tree of 4 Jul 2026, which is only read; PATCH is written, to be applied with `git apply` or
-`patch -p1` in it. With --tree DIR the changed and added files are left in DIR, too, in their places. The pages say that the
+LAMMPS is an unmodified tree of 4 Jul 2026, which is only read; PATCH is written, to be applied with `git apply` in it. With --tree DIR the changed and added files are left in DIR, too, in their places. The pages say that the
 styles are new in version TBD, which LAMMPS's maintainers replace at a release; --version names another one.
 
 What goes where: sources to src, styles into every table and list of the manual and of both ways to build, pages to doc/src,
@@ -158,6 +157,12 @@ class Tree:
             raise SystemExit(f"upstream: LAMMPS has a file {path} of its own")
         self.write(path, text)
 
+    def add_picture(self, path, file):
+        if self.has(path):
+            raise SystemExit(f"upstream: LAMMPS has a file {path} of its own")
+        (self.target / path).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(file, self.target / path)
+
     def insert(self, path, item, key, block):
         self.write(path, insert(self.read(path), item, key, block))
 
@@ -242,6 +247,7 @@ def add_pages(tree):
         for image in re.findall(r"^\.\. (?:image|figure):: *(\S+)", text, re.MULTILINE):
             if not image.startswith("JPG/"):
                 raise SystemExit(f"upstream: {page.name} has a picture outside JPG: {image}")
+            tree.add_picture(f"doc/src/{image}", PAGES / image)
     howtos = sorted(page_name(page.stem) for page in PAGES.glob("*.rst")
                     if (page_name(page.stem) or "").startswith("Howto_"))
     tree.replace("doc/src/Howto.rst", "   Howto_rheo\n", "   Howto_rheo\n" + "".join(f"   {name}\n" for name in howtos))
@@ -284,7 +290,7 @@ def add_examples(tree):
 
 def write_patch(tree, patch):
     folder = tree.target.parent
-    done = subprocess.run(["git", "diff", "--no-index", "--no-prefix", "--no-color", tree.before.name, tree.target.name],
+    done = subprocess.run(["git", "diff", "--no-index", "--binary", "--no-prefix", "--no-color", tree.before.name, tree.target.name],
                           cwd=folder, stdout=subprocess.PIPE, env={"PATH": "/usr/bin:/bin", "GIT_CONFIG_NOSYSTEM": "1",
                                                                    "HOME": str(folder)})
     if done.returncode != 1:
@@ -313,7 +319,7 @@ def main():
         write_patch(tree, args.patch)
         if args.tree:
             shutil.copytree(tree.target, args.tree, dirs_exist_ok=True)
-    print(f"{args.patch}: apply it with  git apply  or  patch -p1  in a tree of LAMMPS 4 Jul 2026")
+    print(f"{args.patch}: apply it with  git apply  in a tree of LAMMPS 4 Jul 2026")
 
 
 if __name__ == "__main__":

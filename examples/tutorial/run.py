@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""Runs the inputs of the page "A first flow, step by step" and draws its figures."""
+import re
+import sys
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+FOLDER = Path(__file__).resolve().parent
+sys.path.insert(0, str(FOLDER.parent))
+
+from run_lammps import Example
+
+PAGE = FOLDER.parents[1] / "doc" / "src" / "Howto_sph_tutorial.rst"
+
+
+def inputs():
+    """{step: text} of the code blocks of the page"""
+    text = PAGE.read_text()
+    found = re.findall(r"\.\. code-block:: LAMMPS\n\n((?:   .*\n|\n)+)", text)
+    return {number: re.sub(r"^   ", "", block, flags=re.MULTILINE) for number, block in enumerate(found, 1)}
+
+
+def thermo(path):
+    """{column: values} of the last run in a log file"""
+    head, body = re.findall(r"^ *(Step .*?)\n(.*?)^Loop time", path.read_text(), re.MULTILINE | re.DOTALL)[-1]
+    rows = [line.split() for line in body.splitlines() if re.match(r" *\d+ ", line)]
+    return dict(zip(head.split(), np.array(rows, dtype=float).T))
+
+
+def chunks(path):
+    """[(coordinate, values)] of the last output of fix ave/chunk, one per output, bins with particles alone"""
+    frames, rows = [], []
+    for line in path.read_text().splitlines():
+        if line.startswith("#"):
+            continue
+        if not line.startswith("  "):
+            rows = []
+            frames.append((int(line.split()[0]), rows))
+        else:
+            rows.append([float(word) for word in line.split()])
+    return [(step, np.array([row for row in rows if row[2] > 0])) for step, rows in frames]
+
+
+def figure(name, draw, out):
+    fig, axes = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
+    draw(axes)
+    fig.savefig(out / f"sph_tutorial_{name}.png", dpi=120)
+    plt.close(fig)
+
+
+def couette(y, t, mu=0.1, U=0.1):
+    n = np.arange(1, 400)
+    return U * (y - np.sum(2 / (np.pi * n) * (-1.0) ** (n + 1) * np.sin(np.pi * n * y[:, None])
+                           * np.exp(-mu * (np.pi * n) ** 2 * t), axis=1))
+
+
+def micropolar(y, mu=0.1, mu_r=0.1, gamma=0.02, g=0.8, H=0.5):
+    K = np.sqrt(4 * mu * mu_r / (gamma * (mu + mu_r)))
+    C = -g * H / (2 * mu * np.sinh(K * H))
+    spin = g * y / (2 * mu) + C * np.sinh(K * y)
+    return g * (H**2 - y**2) / (2 * mu) + 2 * mu_r * C * (np.cosh(K * H) - np.cosh(K * y)) / ((mu + mu_r) * K), spin
+
+
+def main():
+    example = Example(FOLDER, __doc__)
+    args = example.arguments()
+    out = example.out
+    for step, text in inputs().items():
+        (out / f"in.{step}").write_text(text)
+
+    kappas = ("0.2",) if args.quick else ("2.0", "0.2", "0.02")
+    sizes = (8, 16) if args.quick else (8, 16, 32)
+    supports = ("4.5", "6")
+    jobs = {f"5-{n}-{support}": {"n": n, "support": support} for n in reversed(sizes) for support in supports}
+    jobs.update({"7": {}, "6": {}, "4": {}})
+    jobs.update({f"3-{kappa}": {"kappa": kappa} for kappa in kappas})
+    jobs.update({"2": {}, "1": {}})
+    example.run(jobs, {name: out / f"in.{name[0]}" for name in jobs})
+    log = lambda name: thermo(out / f"{name}.log")
+
+    rest = log("1")
+    example.merit("1: smallest density of the box at rest, less 1", rest["c_rho"][-1] - 1, -1e-12, 1e-12)
+    example.merit("1: its kinetic energy", rest["KinEng"][-1], 0, 1e-20)
+
+    shear = log("2")
+    k = 2 * np.pi / (40 * 0.05 * np.sqrt(2 / np.sqrt(3)))
+    rate = -np.log(shear["c_vy"][-1] / 5e-5) / 2 / shear["Time"][-1]
+    example.merit("2: viscosity over mu", rate / k**2 / 0.1, 0.99, 1.01)
+
+    def shear_wave(axes):
+        t = np.linspace(0, 4, 200)
+        axes.semilogy(t, 5e-5 * np.exp(-2 * 0.1 * k**2 * t), "k-", lw=1)
+        axes.semilogy(shear["Time"], shear["c_vy"], "o")
+        axes.set(xlabel="time", ylabel=r"mean of $v_y^2$")
+    figure("2", shear_wave, out)
+
+    sound = {kappa: np.loadtxt(out / f"wave.{kappa}.txt") for kappa in reversed(kappas)}
+
+    def sound_wave(axes):
+        for (kappa, wave), color in zip(sound.items(), ("C0", "C1", "C2")):
+            t = wave[:, 0] * 0.001
+            rate = 0.5 * (float(kappa) + 0.1) * (k / 2) ** 2
+            axes.plot(t, wave[:, 1] * 1e3, ".", ms=2, color=color, label=f"kappa = {kappa}")
+            for sign in (-1, 1):
+                axes.plot(t, sign * 5 * np.exp(-rate * t), "-", lw=1, color=color)
+        axes.set(xlabel="time", ylabel="amplitude / 1000", xlim=(0, 5))
+        axes.legend(fontsize=8, markerscale=4)
+    figure("3", sound_wave, out)
+    wave = sound["0.2"]
+    t, peaks = wave[:, 0] * 0.001, wave[:, 1]
+    top = [i for i in range(1, len(t) - 1) if abs(peaks[i]) > max(abs(peaks[i - 1]), abs(peaks[i + 1]))]
+    slope = -np.polyfit(t[top], np.log(abs(peaks[top])), 1)[0]
+    wanted = 0.15 * (k / 2) ** 2
+    example.merit("3: damping of the sound wave over that of theory", slope / wanted, 0.97, 1.03)
+
+    stress = log("4")["v_stress"][-1]
+    example.merit("4: stress on the lid over mu U", stress / 0.01, 0.98, 1.02)
+    frames = chunks(out / "couette.txt")
+    dt = 0.02 / 16 * np.sqrt(2 / np.sqrt(3))
+
+    def gap(axes):
+        y = np.linspace(0, 1, 200)
+        for which in (1, 2, 4, 20):
+            step, rows = frames[which]
+            axes.plot(couette(y, step * dt), y, "k-", lw=1)
+            axes.plot(rows[:, 3], rows[:, 1], "o", ms=4, label=f"t = {step * dt:.2g}")
+        axes.set(xlabel="velocity", ylabel="y")
+        axes.legend(fontsize=8)
+    figure("4", gap, out)
+
+    sizes = (8, 16) if args.quick else (8, 16, 32)
+    error = {support: [log(f"5-{n}-{support}")["v_error"][-1] for n in sizes] for support in supports}
+    for support, values in error.items():
+        print(f"5: rc = {support} spacings: " + ", ".join(f"n = {n}: {100 * e:.2f} %" for n, e in zip(sizes, values)))
+    example.merit("5: error with 16 rows", error["4.5"][1], 0, 0.007)
+
+    def channel(axes):
+        for support, values in error.items():
+            axes.loglog(sizes, 100 * np.array(values), "o-", label=f"rc = {support} spacings")
+        axes.set(xlabel="rows across the channel", ylabel="error, percent", xticks=sizes, xticklabels=sizes)
+        axes.minorticks_off()
+        axes.set(yticks=(0.2, 0.5, 1, 2), yticklabels=("0.2", "0.5", "1", "2"))
+        axes.legend(fontsize=8)
+    figure("5", channel, out)
+
+    _, rows = chunks(out / "spin.txt")[-1]
+    y = rows[:, 1] - 0.5
+    u, spin = micropolar(y)
+    errors = [np.linalg.norm(rows[:, column] - exact) / np.linalg.norm(exact) for column, exact in ((3, u), (4, spin))]
+    example.merit("6: error of the velocity", errors[0], 0, 0.012)
+    example.merit("6: error of the spin", errors[1], 0, 0.035)
+
+    def spins(axes):
+        fine = np.linspace(-0.5, 0.5, 200)
+        axes.plot(fine + 0.5, 4 * (0.25 - fine**2), "k:", lw=1, label="velocity without spin")
+        for curve in micropolar(fine):
+            axes.plot(fine + 0.5, curve, "k-", lw=1)
+        axes.plot(rows[:, 1], rows[:, 3], "o", ms=4, label="velocity")
+        axes.plot(rows[:, 1], rows[:, 4], "s", ms=4, label="spin")
+        axes.set(xlabel="y")
+        axes.legend(fontsize=8)
+    figure("6", spins, out)
+
+    balance = log("7")["v_balance"]
+    _, rows = chunks(out / "open.txt")[-1]
+    inner = (rows[:, 1] > 0.3) & (rows[:, 1] < 1.7)
+    slope = -np.polyfit(rows[inner, 1], rows[inner, 3], 1)[0]
+    example.merit("7: change of the balance of particles", np.ptp(balance), 0, 0)
+    example.merit("7: pressure gradient over 8 mu", slope / 0.8, 0.9, 1.1)
+
+    def pressure(axes):
+        axes.plot([0, 2], [0.5 + 1.6, 0.5], "k-", lw=1)
+        axes.plot(rows[:, 1], rows[:, 3], "o", ms=4)
+        axes.set(xlabel="x", ylabel="pressure")
+    figure("7", pressure, out)
+    return example.finish(*sorted(out.glob("*.png")))
+
+
+sys.exit(main())
