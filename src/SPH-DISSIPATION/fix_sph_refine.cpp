@@ -18,6 +18,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "math_const.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_request.h"
@@ -40,11 +41,16 @@ using namespace SPHDissipation;
 static constexpr double SPLIT = 1.6, MERGE = 0.6;    // defaults: volume over target
 static constexpr double NEVER = -1.0e300;            // step of the last event
 
+// of each particle: step of its last event; if that was a split, which its daughters can undo as a
+// whole, the lowest of their new IDs, else 0
+
+enum { STEP, FAMILY, NPAST };
+
 /* ---------------------------------------------------------------------- */
 
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), target(nullptr), ledger(nullptr), event(nullptr), pair(nullptr),
-    list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), last(nullptr),
+    list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr),
     not_fluid(0), event_step(-1), postponed(false), totals_known(false),
     totals(new double[RefineLedger::NVALUE])
 {
@@ -78,7 +84,7 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
   grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
-  for (int i = 0; i < atom->nlocal; i++) last[i] = NEVER;
+  for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -139,7 +145,7 @@ FixSPHRefine::~FixSPHRefine()
 {
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
-  memory->destroy(last);
+  memory->destroy(past);
   delete event;
   delete ledger;
   delete target;
@@ -236,7 +242,7 @@ bool FixSPHRefine::is_fluid(int i) const
 
 bool FixSPHRefine::may_change(int i) const
 {
-  const double since = static_cast<double>(update->ntimestep) - last[i];
+  const double since = static_cast<double>(update->ntimestep) - past[i][STEP];
   return since < 0.0 || since >= waiting[atom->type[i]];
 }
 
@@ -269,10 +275,22 @@ void FixSPHRefine::post_integrate()
 
   totals_known = false;
   ledger->add(RefineLedger::ELASTIC, -pair->elastic_energy(PairSPHBulk::NOW));
-  event->carry_out(list, [this](int i) {
-    last[i] = static_cast<double>(update->ntimestep);
+  event->carry_out(list, [this](int i, double family) {
+    past[i][STEP] = static_cast<double>(update->ntimestep);
+    past[i][FAMILY] = family;
   });
   event_step = next_reneighbor = update->ntimestep;
+}
+
+/* ----------------------------------------------------------------------
+   within which neighbors are in the lists
+------------------------------------------------------------------------- */
+
+double FixSPHRefine::list_volume() const
+{
+  const double r = neighbor->cutneighmax;
+  return domain->dimension == 3 ? 4.0 / 3.0 * MathConst::MY_PI * r * r * r
+                                : MathConst::MY_PI * r * r;
 }
 
 /* ----------------------------------------------------------------------
@@ -281,13 +299,17 @@ void FixSPHRefine::post_integrate()
 
 bool FixSPHRefine::wanted(bigint &nfluid)
 {
-  enum { FLUID, EVENTS, DAUGHTERS, NSUM };
-  double sum[NSUM] = {0.0, 0.0, 0.0}, all[NSUM];
+  enum { FLUID, EVENTS, DAUGHTERS, CROWDED, NSUM };
+  double sum[NSUM] = {0.0, 0.0, 0.0, 0.0}, all[NSUM];
+  const double smallest = list_volume() / neighbor->oneatom;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !is_fluid(i)) continue;
     sum[FLUID] += 1.0;
     const double ratio = atom->vfrac[i] / target->volume(i);
-    if (ratio > split_above) sum[DAUGHTERS] += ratio;
+    if (ratio > split_above) {
+      sum[DAUGHTERS] += ratio;
+      if (target->volume(i) < smallest) sum[CROWDED] += 1.0;
+    }
     if ((ratio > split_above || ratio < merge_below) && may_change(i)) sum[EVENTS] += 1.0;
   }
   MPI_Allreduce(sum, all, NSUM, MPI_DOUBLE, MPI_SUM, world);
@@ -298,6 +320,12 @@ bool FixSPHRefine::wanted(bigint &nfluid)
                "Fix {}: the target asks for {:g} particles, which is more than the {:g} for which "
                "there are IDs and room",
                style, all[DAUGHTERS], room);
+  if (all[CROWDED] > 0.0 && all[DAUGHTERS] > neighbor->oneatom)
+    error->all(FLERR,
+               "Fix {}: {:.0f} particles are to become smaller than a volume of {:g}, with which "
+               "their neighbors would be more than the {} of neigh_modify one; choose a larger "
+               "target, a smaller support radius, or raise that limit",
+               style, all[CROWDED], smallest, neighbor->oneatom);
   nfluid = static_cast<bigint>(all[FLUID]);
   return all[EVENTS] > 0.0;
 }
@@ -318,7 +346,7 @@ void FixSPHRefine::set_items()
         if (ratio < merge_below) state = MERGES;
       }
     }
-    event->set(i, state, atom->vfrac[i], split_above * goal, goal);
+    event->set(i, state, atom->vfrac[i], split_above * goal, goal, past[i][FAMILY]);
   }
 }
 
@@ -359,53 +387,54 @@ void FixSPHRefine::unpack_forward_comm(int n, int first, double *buf)
 
 void FixSPHRefine::grow_arrays(int nmax)
 {
-  memory->grow(last, nmax, "sph/refine:last");
+  memory->grow(past, nmax, NPAST, "sph/refine:past");
 }
 
 void FixSPHRefine::copy_arrays(int i, int j, int /*delflag*/)
 {
-  last[j] = last[i];
+  std::copy_n(past[i], static_cast<int>(NPAST), past[j]);
 }
 
 void FixSPHRefine::set_arrays(int i)
 {
-  last[i] = NEVER;
+  past[i][STEP] = NEVER;
+  past[i][FAMILY] = 0.0;
 }
 
 int FixSPHRefine::pack_exchange(int i, double *buf)
 {
-  buf[0] = last[i];
-  return 1;
+  std::copy_n(past[i], static_cast<int>(NPAST), buf);
+  return NPAST;
 }
 
 int FixSPHRefine::unpack_exchange(int nlocal, double *buf)
 {
-  last[nlocal] = buf[0];
-  return 1;
+  std::copy_n(buf, static_cast<int>(NPAST), past[nlocal]);
+  return NPAST;
 }
 
 int FixSPHRefine::pack_restart(int i, double *buf)
 {
-  buf[0] = 2.0;
-  buf[1] = last[i];
-  return 2;
+  buf[0] = 1.0 + NPAST;
+  std::copy_n(past[i], static_cast<int>(NPAST), buf + 1);
+  return 1 + NPAST;
 }
 
 void FixSPHRefine::unpack_restart(int nlocal, int nth)
 {
   int m = 0;
   for (int k = 0; k < nth; k++) m += static_cast<int>(atom->extra[nlocal][m]);
-  last[nlocal] = atom->extra[nlocal][m + 1];
+  std::copy_n(&atom->extra[nlocal][m + 1], static_cast<int>(NPAST), past[nlocal]);
 }
 
 int FixSPHRefine::size_restart(int /*nlocal*/)
 {
-  return 2;
+  return 1 + NPAST;
 }
 
 int FixSPHRefine::maxsize_restart()
 {
-  return 2;
+  return 1 + NPAST;
 }
 
 /* ----------------------------------------------------------------------
@@ -434,5 +463,5 @@ void FixSPHRefine::restart(char *buf)
 
 double FixSPHRefine::memory_usage()
 {
-  return atom->nmax * sizeof(double) + event->items.memory_usage();
+  return (double) atom->nmax * NPAST * sizeof(double) + event->items.memory_usage();
 }

@@ -67,7 +67,7 @@ class FixSPHRefine : public Fix {
   double split_above, merge_below;    // volume over target
   double wait;                        // time between two events of a particle; < 0: R/c0
   double fraction;                    // of the particles, that may have an event at once
-  double *last;                       // step of the last event of each particle
+  double **past;                      // last event of each particle
   std::vector<double> waiting;        // steps, by type
   int not_fluid;                      // bits of the groups of walls and open zones
   bigint event_step;                  // of the last events
@@ -80,6 +80,7 @@ class FixSPHRefine : public Fix {
   void check_overlap();
   bool is_fluid(int i) const;
   bool may_change(int i) const;
+  double list_volume() const;
   void set_items();
   bool wanted(bigint &nfluid);
 };

@@ -64,13 +64,15 @@ void RefineEvent::begin()
 
 /* ---------------------------------------------------------------------- */
 
-void RefineEvent::set(int i, RefineState state, double volume, double most, double target)
+void RefineEvent::set(int i, RefineState state, double volume, double most, double target,
+                      double family)
 {
   RefineItem &item = items[i];
   item.state = state;
   item.mask = atom->mask[i];
   item.volume = volume;
   item.most = most;
+  item.family = family;
   item.lump = lump(i);
   item.mass = item.lump.mass;
   std::copy_n(item.lump.u, 3, item.u);
@@ -130,9 +132,18 @@ bool RefineEvent::merging(int i) const
 
 /* ---------------------------------------------------------------------- */
 
+bool RefineEvent::families() const
+{
+  return spinning && domain->dimension == 3;
+}
+
+/* ---------------------------------------------------------------------- */
+
 bigint RefineEvent::plan(NeighList *full, bigint most)
 {
   items.forward_all();
+  pairs.clear();
+  if (families()) pairs.find_families(full, FARTHEST * support, 1 << domain->dimension);
   pairs.find(full, FARTHEST * support);
   splits.clear();
   for (int ii = 0; ii < full->inum; ii++) {
@@ -262,10 +273,11 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
   merges.clear();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!merging(i) || !pairs.leads(i)) continue;
-    const Lump parts[2] = {items[i].lump, items[pairs.mate(i)].lump};
     Merge one;
     one.i = i;
-    one.heat = merge(parts, 2, domain->dimension, spinning, one.whole, one.rest);
+    for (int j : pairs.members(i)) one.parts.push_back(items[j].lump);
+    one.heat =
+        merge(one.parts.data(), one.parts.size(), domain->dimension, spinning, one.whole, one.rest);
     merges.push_back(one);
   }
   rest.clear();
@@ -287,8 +299,7 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
 
   for (Merge &one : merges) {
     Lump &whole = one.whole;
-    ledger.count(-1.0, items[one.i].lump);
-    ledger.count(-1.0, items[pairs.mate(one.i)].lump);
+    for (const Lump &part : one.parts) ledger.count(-1.0, part);
     for (int d = 0; d < 3; d++) {
       whole.u[d] += rest.velocity(one.i)[d];
       whole.u_end[d] += rest.velocity(one.i)[d];
@@ -297,7 +308,7 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
     set_lump(one.i, whole);
     ledger.count(1.0, whole);
     ledger.merged(force->mvv2e * one.heat);
-    changed(one.i);
+    changed(one.i, 0.0);
   }
   for (int i = 0; i < nbefore; i++) ledger.add(RefineLedger::ROTATION, force->mvv2e * rest.work(i));
 
@@ -352,6 +363,8 @@ void RefineEvent::create(const std::vector<tagint> &first, const Changed &change
     }
     parent.energy -= force->mvv2e * rest.work(i);
     split(parent, splits[k].stencil, domain->dimension, daughters);
+    const bool whole = families() && splits[k].stencil.isotropic;
+    const double family = whole ? static_cast<double>(first[k]) : 0.0;
     for (int m = 0; m < n; m++) {
       int j = i;
       if (m > 0) {
@@ -364,7 +377,7 @@ void RefineEvent::create(const std::vector<tagint> &first, const Changed &change
       }
       set_lump(j, daughters[m]);
       ledger.count(1.0, daughters[m]);
-      changed(j);
+      changed(j, family);
     }
     ledger.add(RefineLedger::SPLITS, 1.0);
   }

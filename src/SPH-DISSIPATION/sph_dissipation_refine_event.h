@@ -40,14 +40,14 @@ namespace SPHDissipation {
 
     // what each owned particle is to do; volume: now, target: to have, both as they are
     void begin();
-    void set(int i, RefineState, double volume, double most, double target);
+    void set(int i, RefineState, double volume, double most, double target, double family);
 
     // who merges with whom, who splits how; at most so many events; returns their number on all
     // processors, and changes nothing but the items
     bigint plan(NeighList *full, bigint most);
 
-    // changed(i) is called for each owned particle that has come from an event
-    typedef std::function<void(int i)> Changed;
+    // changed(i, family) is called for each owned particle that has come from an event
+    typedef std::function<void(int i, double family)> Changed;
     void carry_out(NeighList *full, const Changed &changed);
 
     RefineItems items;
@@ -67,6 +67,7 @@ namespace SPHDissipation {
     };
     struct Merge {
       int i;
+      std::vector<Lump> parts;
       Lump whole;
       double heat, rest[3];
     };
@@ -77,6 +78,7 @@ namespace SPHDissipation {
     Lump lump(int i) const;
     void set_lump(int i, const Lump &);
     bool merging(int i) const;
+    bool families() const;    // that all daughters of one split can merge as a whole
     bool find_stencil(NeighList *full, int i, Stencil &) const;
     bool in_box(const double *x) const;
     bigint withhold(bigint most);

@@ -35,12 +35,14 @@ namespace SPHDissipation {
     double mask;      // bits of its groups
     double volume;    // now
     double most;      // volume that a merge may give it
+    double family;    // of the daughters of one split, the lowest of their new IDs; 0: none
     Lump lump;
 
-    // partner of a merge: ID of the particle that it would merge with; nonzero once that is settled
+    // partner of a merge: ID of the particle that it would merge with, or the family that does as a
+    // whole; nonzero once that is settled
 
     double choice, settled;
-    double withheld;    // of the lower ID of a pair, or of one that splits: not now
+    double withheld;    // of the lowest ID of those that merge, or of one that splits: not now
 
     // The particle as its neighbors will meet it: a pair that merges is a point in its centre of
     // mass, whose mass the lower ID has, the other none

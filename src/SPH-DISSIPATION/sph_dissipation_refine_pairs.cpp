@@ -36,6 +36,27 @@ bool RefinePairs::leads(int i) const
 
 /* ---------------------------------------------------------------------- */
 
+std::vector<int> RefinePairs::members(int i) const
+{
+  const auto found = families.find(i);
+  if (found != families.end()) return found->second;
+  return {i, mates[i]};
+}
+
+/* ---------------------------------------------------------------------- */
+
+double RefinePairs::distance_sq(int i, int j) const
+{
+  double rsq = 0.0;
+  for (int d = 0; d < 3; d++) {
+    const double r = atom->x[j][d] - atom->x[i][d];
+    rsq += r * r;
+  }
+  return rsq;
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool RefinePairs::fits(int i, int j) const
 {
   const RefineItem &a = items[i], &b = items[j];
@@ -56,11 +77,7 @@ int RefinePairs::nearest(int i, const int *neighbors, int n, double farthest_sq)
   for (int k = 0; k < n; k++) {
     const int j = neighbors[k] & NEIGHMASK;
     if (!fits(i, j)) continue;
-    double rsq = 0.0;
-    for (int d = 0; d < 3; d++) {
-      const double r = atom->x[j][d] - atom->x[i][d];
-      rsq += r * r;
-    }
+    const double rsq = distance_sq(i, j);
     if (rsq > (1.0 + EQUAL) * best_sq) continue;
     if (best >= 0 && rsq >= (1.0 - EQUAL) * best_sq && !(tags(j) < tags(best))) continue;
     best = j;
@@ -71,9 +88,88 @@ int RefinePairs::nearest(int i, const int *neighbors, int n, double farthest_sq)
 
 /* ---------------------------------------------------------------------- */
 
-void RefinePairs::find(NeighList *full, double farthest)
+void RefinePairs::clear()
 {
   mates.assign(atom->nlocal, -1);
+  families.clear();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefinePairs::settle()
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    if (mates[i] >= 0) items[i].settled = 1.0;
+  items.forward_settled();
+}
+
+/* ----------------------------------------------------------------------
+   the parent, which is the first of its daughters, has an ID below the new ones
+------------------------------------------------------------------------- */
+
+bool RefinePairs::is_first(int i) const
+{
+  return items[i].family > static_cast<double>(atom->tag[i]);
+}
+
+/* ----------------------------------------------------------------------
+   of the first one, in the order of the IDs: those that may merge into one
+------------------------------------------------------------------------- */
+
+std::vector<int> RefinePairs::family(int i, const int *neighbors, int n, double farthest_sq) const
+{
+  std::vector<int> found = {i};
+  double volume = items[i].volume, most = items[i].most;
+  for (int k = 0; k < n; k++) {
+    const int j = neighbors[k] & NEIGHMASK;
+    if (items[j].family != items[i].family || !fits(i, j)) continue;
+    if (distance_sq(i, j) > farthest_sq) continue;
+    found.push_back(j);
+    volume += items[j].volume;
+    most = std::min(most, items[j].most);
+  }
+  if (volume > most) return {};
+  std::sort(found.begin(), found.end(), [&](int a, int b) {
+    return atom->tag[a] < atom->tag[b];
+  });
+  return found;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefinePairs::find_families(NeighList *full, double farthest, int size)
+{
+  auto may_merge = [&](int i) {
+    return items[i].state == MERGES && items[i].family != 0.0;
+  };
+  for (int ii = 0; ii < full->inum; ii++) {
+    const int i = full->ilist[ii];
+    if (!may_merge(i) || !is_first(i)) continue;
+    const std::vector<int> found =
+        family(i, full->firstneigh[i], full->numneigh[i], farthest * farthest);
+    if (static_cast<int>(found.size()) != size) continue;
+    items[i].choice = items[i].family;
+    mates[i] = found[1];
+    families[i] = found;
+  }
+  items.forward_choice();
+
+  for (int ii = 0; ii < full->inum; ii++) {
+    const int i = full->ilist[ii];
+    if (!may_merge(i) || is_first(i)) continue;
+    const int *const neighbors = full->firstneigh[i];
+    for (int k = 0; k < full->numneigh[i]; k++) {
+      const int j = neighbors[k] & NEIGHMASK;
+      if (items[j].choice == items[i].family && is_first(j)) mates[i] = j;
+    }
+  }
+  settle();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefinePairs::find(NeighList *full, double farthest)
+{
   std::vector<int> choice(atom->nlocal, -1);
   for (int round = 0; round < ROUNDS; round++) {
     for (int ii = 0; ii < full->inum; ii++) {
@@ -92,9 +188,7 @@ void RefinePairs::find(NeighList *full, double farthest)
       mates[i] = j;
       found = 1;
     }
-    for (int i = 0; i < atom->nlocal; i++)
-      if (mates[i] >= 0) items[i].settled = 1.0;
-    items.forward_settled();
+    settle();
     MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MAX, world);
     if (!found_all) break;
   }

@@ -16,6 +16,7 @@
 
 #include "pointers.h"
 
+#include <map>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -29,20 +30,32 @@ namespace SPHDissipation {
   // partner, two that have chosen each other are settled, the others choose again.  Which of two
   // distances is the smaller one is known up to round-off only; equal ones are decided by the IDs,
   // so that the pairs do not depend on the number of processors.
+  //
+  // Before that, all daughters of one split may merge as a whole: what pairs, one after the other,
+  // do not give back is the moment of inertia of a spinning particle in three dimensions.
 
   class RefinePairs : protected Pointers {
    public:
     RefinePairs(class LAMMPS *lmp, RefineItems &items) : Pointers(lmp), items(items) {}
 
+    void clear();
+    void find_families(NeighList *full, double farthest, int size);
     void find(NeighList *full, double farthest);
     int mate(int i) const { return mates[i]; }    // owned or ghost particle; -1: none
     bool leads(int i) const;                      // owned, of a pair: it is the one that stays
+    std::vector<int> members(int i) const;        // of the merge that i leads
 
    private:
     RefineItems &items;
-    std::vector<int> mates;
+    std::vector<int>
+        mates;    // of a family: of the one that leads any other one, of these that one
+    std::map<int, std::vector<int>> families;
 
+    void settle();
+    bool is_first(int i) const;
     bool fits(int i, int j) const;
+    double distance_sq(int i, int j) const;
+    std::vector<int> family(int i, const int *neighbors, int n, double farthest_sq) const;
     int nearest(int i, const int *neighbors, int n, double farthest_sq) const;
   };
 

@@ -139,24 +139,26 @@ def test_periodic_box(tmp_path, tilt):
         assert relative(frames[0]["v"] - other["v"], other["v"]) < 1e-9
 
 
+@pytest.mark.parametrize("ranks", [1, 4])
 @pytest.mark.parametrize("rate", [0.0, 0.3])
-@pytest.mark.parametrize("dim, spin", [(2, False), (2, True), (3, False)])
-def test_back_again(lammps, dim, spin, rate):
+@pytest.mark.parametrize("dim, spin", [(2, False), (2, True), (3, False), (3, True)])
+def test_back_again(lammps, dim, spin, rate, ranks):
     """Particles that split alone, and merge back: the parents return, at rest and in rigid rotation."""
     cells = 13 if dim == 2 else 7
     particles = lattice(dim, cells)
     place = np.floor(particles.x[:, :dim]).astype(int)
     particles.type = np.where(np.all((place % 3 == 1) & (place < cells - 2), axis=1), 2, 1)
     particles.x = particles.x - 0.5 * cells * (np.arange(3) < dim)
-    particles.v = np.cross([0.0, 0.0, rate], particles.x)
+    turn = rate * np.array([0.0, 0.0, 1.0] if dim == 2 else [0.4, -0.7, 1.0])
+    particles.v = np.cross(turn, particles.x)
     particles.lo[:dim], particles.hi[:dim] = -20.0, 20.0
     nsplit = np.count_nonzero(particles.type == 2)
     text = fluid_box(lammps, particles, spin, boundary=free(dim)).replace("timestep 0.002", "timestep 1e-17")
     if spin:
-        text += f"set group all omega 0.0 0.0 {rate}\n"
+        text += f"set group all omega {turn[0]} {turn[1]} {turn[2]}\n"
     lammps(text + "group some type 2\n" + output(spin, 1).replace(LEDGER, "")
-           + "fix R some sph/refine 1 volume 0.15 wait 0.0 merge 0.2\nrun 1\nunfix R\n"
-           "fix R some sph/refine 1 volume 1.0 wait 0.0 split no merge 0.7\nrun 4\n")
+           + 'variable target equal "0.15+0.85*(step>1)"\n'
+           "fix R some sph/refine 1 volume v_target wait 0.0 merge 0.7\nrun 5\n", ranks=ranks)
     frames = lammps.frames("refine.dump")
     first, split, last = frames[0], frames[1], frames[-1]
     assert len(split["id"]) == len(first["id"]) + (2**dim - 1) * nsplit
@@ -348,6 +350,7 @@ BAD = [("fix R all sph/refine 1", "Illegal fix sph/refine"),
        ("fix R all sph/refine 1 mass 1.0", "must be volume or spacing, not mass"),
        ("fix R all sph/refine 1 volume -1.0", "the target -1.0 is -1"),
        ("fix R all sph/refine 1 volume 1e-12", "asks for"),
+       ("fix R all sph/refine 1 volume 0.01", "144 particles are to become smaller than a volume of 0.017"),
        ("fix R all sph/refine 1 spacing 2.5", "hardly any neighbors"),
        ("fix R all sph/refine 1 volume v_none", "Variable none"),
        ("variable a string b\nfix R all sph/refine 1 volume v_a", "neither of equal style"),
@@ -376,6 +379,7 @@ def test_refused(lammps, line, words, ranks):
 
 
 @pytest.mark.parametrize("style, words", [("atomic", "requires atom style sph/bulk"),
+                                          ("sph/bulk\natom_modify id no", "requires atom IDs"),
                                           ("hybrid sph/bulk bond", "molecules or bonds")])
 def test_refused_atom_styles(lammps, style, words):
     text = (f"units lj\ndimension 2\natom_style {style}\nregion box block 0 9 0 9 -0.5 0.5\ncreate_box 1 box\n"
