@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Time sph/bulk against LAMMPS's own sph/rhosum + sph/taitwater/morris, sph/micropolar against sph/bulk, and
-channels with walls of fix sph/wall against the periodic fluid, and both fluids with thermal noise against those without.
+channels with walls of fix sph/wall against the periodic fluid, both fluids with thermal noise against those without, and
+sph/bulk with a fix sph/refine that finds nothing to do against it without.
 
 All run from the same executable on the same particles (3d periodic, support radius of three particle
 spacings), in turn, so that a drift of the machine's speed meets all.  A channel has as many fluid particles
@@ -22,6 +23,7 @@ FASTER = 4.0  # what --check asks for
 COST = 1.5
 WALL_COST = 1.3
 NOISE_COST = 1.6
+IDLE_COST = 1.02
 STYLES = ("lammps", "bulk", "micropolar")
 NAMES = {"lammps": "sph/rhosum 1 + sph/taitwater/morris", "bulk": "sph/bulk (mg, bulk density)",
          "micropolar": "sph/micropolar (everything on)"}
@@ -30,9 +32,11 @@ WALLS = {"channel, sph/bulk": ("bulk", "slip no"),
          "channel, sph/micropolar": ("micropolar", "slip no spin zero"),
          "channel, sph/micropolar, spin rate": ("micropolar", "slip no spin rate 1.0")}
 NOISE = "temp 1e-6 4711"
+MASS = "volume mass"              # which fix sph/refine needs
+REFINE = 10
 
 
-def run(style, ranks, args, wall=None, noise=None):
+def run(style, ranks, args, wall=None, noise=None, refine=None):
     """One run; returns seconds of the time loop, atoms and how many are fluid, pairs inside the support, checksum of
     the positions."""
     command = [args.lmp, "-in", str(HERE / "in.bench"), "-log", "none", "-nocite",
@@ -42,6 +46,8 @@ def run(style, ranks, args, wall=None, noise=None):
         command += ["-var", "layers", str(LAYERS), "-var", "wall", wall]
     if noise:
         command += ["-var", "noise", noise]
+    if refine:
+        command += ["-var", "refine", str(refine)]
     if ranks > 1:
         command = [args.mpiexec, "--oversubscribe", "-np", str(ranks)] + command
     result = subprocess.run(command, capture_output=True, text=True)
@@ -56,6 +62,7 @@ def run(style, ranks, args, wall=None, noise=None):
 def compare(ranks, args):
     seconds = {name: [] for name in (*STYLES, *WALLS)}
     noisy = {style: [] for style in STYLES if style != "lammps"}
+    idle = {None: [], REFINE: []}
     size = {}
     for _ in range(args.repeat):
         places = []
@@ -67,6 +74,8 @@ def compare(ranks, args):
             sys.exit("the styles did not run the same particles")
         for style, elapsed in noisy.items():
             elapsed.append(run(style, ranks, args, noise=NOISE)[0])
+        for refine, elapsed in idle.items():
+            elapsed.append(run("bulk", ranks, args, noise=MASS, refine=refine)[0])
         for name, (style, wall) in WALLS.items():
             elapsed, *size[name] = run(style, ranks, args, wall)
             seconds[name].append(elapsed)
@@ -93,7 +102,10 @@ def compare(ranks, args):
         ratio([t / fluid for t in seconds[name]], [t / atoms for t in seconds[style]], "  per fluid particle")
     noise = [ratio(elapsed, seconds[style], f"time per step of sph/{style} with thermal noise over without")
              for style, elapsed in noisy.items()]
-    return faster, cost, max(walls), max(noise)
+    ratio(idle[REFINE], idle[None], "time per step of sph/bulk with an idle fix sph/refine over without")
+    idle_cost = min(idle[REFINE]) / min(idle[None])
+    print(f"    of the shortest times: {idle_cost:.4f}", flush=True)
+    return faster, cost, max(walls), max(noise), idle_cost
 
 
 def ratio(seconds_a, seconds_b, what):
@@ -116,12 +128,13 @@ def main():
     parser.add_argument("--check", action="store_true",
                         help=f"fail if sph/bulk is not {FASTER} times as fast as LAMMPS's styles, sph/micropolar "
                              f"costs more than {COST} times as much as sph/bulk, a channel per particle more than "
-                             f"{WALL_COST} times as much as the periodic box, or thermal noise makes a style more than "
-                             f"{NOISE_COST} times as expensive, on the first number of ranks")
+                             f"{WALL_COST} times as much as the periodic box, thermal noise makes a style more than "
+                             f"{NOISE_COST} times as expensive, or an idle fix sph/refine takes more than {IDLE_COST} "
+                             "times as long as none (shortest of all runs), on the first number of ranks")
     args = parser.parse_args()
     results = [compare(ranks, args) for ranks in args.ranks]
-    faster, cost, walls, noise = results[0]
-    if args.check and (faster < FASTER or cost > COST or walls > WALL_COST or noise > NOISE_COST):
+    faster, cost, walls, noise, idle = results[0]
+    if args.check and (faster < FASTER or cost > COST or walls > WALL_COST or noise > NOISE_COST or idle > IDLE_COST):
         sys.exit("slower than it should be")
 
 

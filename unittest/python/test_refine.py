@@ -342,6 +342,51 @@ def test_nothing_to_do(lammps):
     assert np.array_equal(one["x"], other["x"]) and np.array_equal(one["v"], other["v"])
 
 
+@pytest.mark.parametrize("spin", [False, True])
+def test_thermal_noise(tmp_path, spin):
+    """New particles have noise of their own, the same on any number of ranks; fine and coarse ones come to its temperature."""
+    temperature, last = 0.2, []
+    style, viscosities = ("sph/micropolar", " 0.1 0.02 -0.02") if spin else ("sph/bulk", "")
+    for ranks in (1, 2):
+        folder = tmp_path / str(ranks)
+        folder.mkdir()
+        lammps = Lammps(folder)
+        particles = lattice(2, 14)
+        if spin:
+            write_micropolar(particles, lammps.path("box.data"), omega=np.zeros((196, 3)))
+        else:
+            particles.write(lammps.path("box.data"))
+        text = (header(2, style=style) + "read_data box.data\n"
+                f"velocity all create {temperature} 87 loop all\npair_style {style} volume mass temp {temperature} 99\n"
+                f"pair_coeff * * 1.0 6.0 0.3 0.8{viscosities} 3.0 pb 20.0\n"
+                f"fix FLUID all {style}{' inertia 0.16 0.0' if spin else ''}\ntimestep 0.003\n"
+                'variable target atom "1.0-0.7*(x>7.0)"\nfix R all sph/refine 10 volume v_target wait 0.1\n'
+                "thermo_style custom step atoms f_R[1] f_R[2]\nthermo 60\n"
+                "dump D all custom 60 noise.dump id type mass x y z xu yu zu vx vy vz\n"
+                "dump_modify D sort id format float %.17g\nrun 60\nundump D\n")
+        if ranks == 1:
+            text += ("run 240\nthermo_style one\nunfix R\nvariable fine atom mass<0.6\ngroup fine variable fine\ngroup coarse subtract all fine\n"
+                     "variable n equal count(fine)\ncompute F fine sph/temp\ncompute C coarse sph/temp\nrun 200\n"
+                     "reset_timestep 0\nfix av all ave/time 2 1500 3000 c_F c_C c_F[4] c_C[4]\n"
+                     "thermo_style custom step f_av[*] v_n\nthermo 3000\nrun 3000\n")
+        result = lammps(text, ranks=ranks, timeout=300)
+        if ranks == 1:
+            found = {name: column[-1] for name, column in result.thermo()[-1].items()}
+            events = [result.thermo()[1][f"f_R[{k}]"][-1] for k in (1, 2)]
+        last.append(lammps.frame("noise.dump"))
+    assert np.array_equal(last[0]["id"], last[1]["id"]) and len(last[0]["id"]) > 300
+    assert relative(last[0]["v"] - last[1]["v"], last[0]["v"]) < 1e-9
+    assert events[0] >= 98 and sum(events) > 98
+    # as in test_noise.py: one independent sample per time of 1
+    nfine = found["v_n"]
+    assert nfine > 200
+    for k, number in ((1, nfine), (2, 98.0)):
+        error = temperature * np.sqrt(1.0 / (number * 9.0))
+        assert abs(found[f"f_av[{k}]"] - temperature) < 5 * error, (k, found)
+        if spin:
+            assert abs(found[f"f_av[{2 + k}]"] - temperature) < 5 * np.sqrt(2.0) * error, (k, found)
+
+
 # ---------------------------------------------------------------------------------------------
 # bad input
 
