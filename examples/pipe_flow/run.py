@@ -31,6 +31,11 @@ WRONG = {
     "velocity inside": (1, {"velocity": "inside"}),
     "velocity inside, fixed ends": (1, {"velocity": "inside", "condition": "fixed"}),
 }
+# particles that split and merge, beside the same without: target volume over the square of the distance of the rows
+REFINE = 0.6
+REFINED = {"sigma": -1, "n": 26, "aspect": 0.2, "support": 6.0}
+QUICK_REFINED = {"sigma": -1, "n": 22, "aspect": 0.2, "support": 5.0, "tenths": 0.1}
+FEWER = 0.7                 # particle-steps over those without, at most
 SMALL = 0.01                # relative error of velocity and kinetic energy, until each is a tenth
 SMALL_MASS = 1e-3
 VISIBLE = 0.1               # what the first two of the wrong ones must differ by, at least
@@ -52,7 +57,8 @@ class Run:
     def __init__(self, out, name, sigma):
         self.sigma, self.exact = sigma, Pipe(sigma)
         history = np.loadtxt(out / f"{name}.history.txt")
-        step, self.time, self.energy, self.mass, *self.carried, self.lost = history.T
+        step, self.time, self.energy, self.mass, self.particles, *self.carried, self.lost = history.T
+        self.steps = step[-1]
         self.energy, self.mass = self.energy / 2, self.mass / 2
         center = frames(out / f"{name}.center.txt")
         per_step = (self.time[1] - self.time[0]) / (step[1] - step[0])
@@ -67,6 +73,9 @@ class Run:
         early = e.kinetic(self.time) > 0.1 * e.kinetic(0.0)
         return (np.abs(self.u / e.center(self.at) - 1).max(), np.abs(self.energy / e.kinetic(self.time) - 1)[early].max(),
                 np.abs(self.mass / e.mass() - 1).max(), np.abs(self.lost).max())
+
+    def particle_steps(self):
+        return self.particles.mean() * self.steps
 
     def passed(self):
         """Mass in and out through both ends over the exact one, at the end."""
@@ -153,19 +162,29 @@ def main():
             continue
         wrong_names[what] = f"wrong{number}", sigma
         jobs[f"wrong{number}"] = {**variables[sigma], **differing}
+    refined = dict(QUICK_REFINED if args.quick else REFINED)
+    jobs["constant"] = refined
+    jobs["refined"] = {**refined, "refine": REFINE}
     example.run(jobs)
     runs = {sigma: Run(example.out, f"sigma{sigma}", sigma) for sigma in sizes}
     wrong = {what: Run(example.out, *found) for what, found in wrong_names.items()}
 
+    constant, changing = (Run(example.out, name, refined["sigma"]) for name in ("constant", "refined"))
+
     table = example.out / "errors.csv"
     with open(table, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["run", "sigma", "rows", "aspect", "support", "center", "kinetic", "mass", "lost", "u", "v", "in", "out"])
-        for what, run in {**{f"sigma {sigma}": run for sigma, run in runs.items()}, **wrong}.items():
+        writer.writerow(["run", "sigma", "rows", "aspect", "support", "center", "kinetic", "mass", "lost", "u", "v", "in", "out",
+                         "particle-steps"])
+        listed = {**{f"sigma {sigma}": (run, sizes[sigma]) for sigma, run in runs.items()},
+                  **{what: (run, sizes[run.sigma]) for what, run in wrong.items()}}
+        for what, run in (("constant particles", constant), ("splitting and merging", changing)):
+            listed[what] = run, [refined[name] for name in ("n", "aspect", "support")]
+        for what, (run, size) in listed.items():
             center, kinetic, mass, lost = run.errors()
             fields, passed = run.field(), run.passed()
-            writer.writerow([what, run.sigma, *sizes[run.sigma], f"{center:.5f}", f"{kinetic:.5f}", f"{mass:.6f}", f"{lost:g}",
-                             *(f"{value:.5f}" for value in (*fields, *passed))])
+            writer.writerow([what, run.sigma, *size, f"{center:.5f}", f"{kinetic:.5f}", f"{mass:.6f}", f"{lost:g}",
+                             *(f"{value:.5f}" for value in (*fields, *passed)), f"{run.particle_steps():.3g}"])
             print(f"{what}: errors of u at the centre {center:.4f}, kinetic energy {kinetic:.4f}, mass {mass:.1e},"
                   f" field of u {fields[0]:.4f}, v/u {fields[1]:.4f}; particles lost {lost:g},"
                   f" mass in and out over the exact one {passed[0]:.4f}, {passed[1]:.4f}")
@@ -179,6 +198,13 @@ def main():
     for what in (NO_FY, OTHER_BULK):
         example.merit(f"{what}: error of the velocity at the centre or of the kinetic energy", max(wrong[what].errors()[:2]),
                       VISIBLE, 9.0)
+    (center, kinetic, mass, lost), before = changing.errors(), constant.errors()
+    example.merit("splitting and merging: particle-steps over those without", changing.particle_steps() / constant.particle_steps(),
+                  0.0, FEWER)
+    example.merit("splitting and merging: error of the velocity at the centre, more than without", center - before[0], -1.0, SMALL)
+    example.merit("splitting and merging: error of the kinetic energy, more than without", kinetic - before[1], -1.0, 2 * SMALL)
+    example.merit("splitting and merging: error of the mass, more than without", mass - before[2], -1.0, SMALL_MASS)
+    example.merit("splitting and merging: particles lost", lost, 0.0, 0.0)
     decay, fields = example.out / "decay.png", example.out / "velocity.png"
     draw_decay(decay, runs, wrong)
     draw_fields(fields, runs)

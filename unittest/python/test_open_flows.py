@@ -68,6 +68,20 @@ def test_it_does_not_with_another_force_or_bulk_viscosity(pipe, variable, value)
     assert lost == 0.0
 
 
+def test_particles_that_split_and_merge_in_the_pipe(pipe):
+    """Three quarters of the particle-steps at most; the same flow, all mass and all particles accounted for."""
+    settings = {"sigma": -1, "n": 22, "aspect": 0.2, "support": 5, "tenths": 0.05}
+    constant, changing = (pipe(f"refine{target}", refine=target, **settings) for target in (0, 0.6))
+    (center, kinetic, mass, lost), before = changing.errors(), constant.errors()
+    share = changing.particle_steps() / constant.particle_steps()
+    print(f"centre {center:.4f} ({before[0]:.4f}), kinetic energy {kinetic:.4f} ({before[1]:.4f}), mass {mass:.1e} ({before[2]:.1e}),"
+          f" particle-steps {share:.3f}")
+    assert lost == before[3] == 0.0
+    assert share < 0.75
+    assert center < before[0] + 0.01 and kinetic < before[1] + 0.02
+    assert mass < 2e-3
+
+
 CHANNEL = {"n": 12, "support": 4, "end": 10}
 
 

@@ -116,20 +116,20 @@ def test_number_of_ranks(tmp_path, dim, spin):
             assert relative(one[name] - other[name], one[name]) < 1e-10, name
 
 
-@pytest.mark.parametrize("tilt", [None, (3.0, 0.0, 0.0)])
-def test_periodic_box(tmp_path, tilt):
+@pytest.mark.parametrize("dim, spin, tilt", [(2, False, None), (2, False, (3.0, 0.0, 0.0)), (3, True, None)])
+def test_periodic_box(tmp_path, dim, spin, tilt):
     """Merges across periodic boundaries and borders of processors."""
     frames = []
     for ranks in (1, 2, 4):
         folder = tmp_path / str(ranks)
         folder.mkdir()
         lammps = Lammps(folder)
-        particles = disordered(2, 16, speed=0.1, tilt=tilt, spread=0.3)
-        text = fluid_box(lammps, particles, False) + 'variable phase equal "floor((step+1)/20)%2"\n' \
+        particles = disordered(dim, 16 if dim == 2 else 7, speed=0.1, tilt=tilt, spread=0.3)
+        text = fluid_box(lammps, particles, spin) + 'variable phase equal "floor((step+1)/20)%2"\n' \
             'variable target equal "0.3+1.5*v_phase"\nfix R all sph/refine 5 volume v_target wait 0.0\n'
-        result = lammps(text + output(False, 100) + "run 100\n", ranks=ranks)
+        result = lammps(text + output(spin, 100) + "run 100\n", ranks=ranks)
         first, last = lammps.frames("refine.dump")
-        (before, scale), (after, _) = sums(first, False), sums(last, False)
+        (before, scale), (after, _) = sums(first, spin), sums(last, spin)
         for name in ("mass", "momentum"):
             assert np.abs(after[name] - before[name]).max() < 1e-13 * scale[name], name
         assert ledger(result, MERGES) > 300 and ledger(result, SPLITS) > 200
@@ -315,20 +315,51 @@ def test_wait_and_fraction(lammps):
     assert some["f_R[1]"][1] == 25
 
 
-def test_restart(lammps):
-    """A continued run goes on as if it had not stopped, with its ledger and its waiting times."""
-    particles = drop(2, 6, speed=0.05)
-    text = fluid_box(lammps, particles, False, boundary=free(2))
+@pytest.mark.parametrize("dim, spin", [(2, False), (3, True)])
+def test_restart(lammps, dim, spin):
+    """A continued run goes on as if it had not stopped, with its ledger, its waiting times, and whose daughter each particle is."""
+    particles = drop(dim, 6 if dim == 2 else 4, speed=0.05)
+    text = fluid_box(lammps, particles, spin, boundary=free(dim))
     rest = PHASES.format(period=25, middle=0.0) + "fix R all sph/refine 5 volume v_target wait 0.05\n"
-    whole = lammps(text + rest + output(False, 50) + "run 50\nwrite_restart half\nrun 50\n")
+    whole = lammps(text + rest + output(spin, 50) + "run 35\nwrite_restart half\nrun 65\n")
     one = lammps.frame("refine.dump")
-    style = "fix FLUID all sph/bulk\ntimestep 0.002\n"
-    again = lammps("read_restart half\n" + style + rest + output(False, 50) + "run 50\n", ranks=2)
+    style = f"fix FLUID all {'sph/micropolar' if spin else 'sph/bulk'}\ntimestep 0.002\n"
+    again = lammps("read_restart half\n" + style + rest + output(spin, 50) + "run 65\n", ranks=2)
     other = lammps.frame("refine.dump")
     assert np.array_equal(one["id"], other["id"])
-    assert relative(one["v"] - other["v"], one["v"]) < 1e-9
+    for name in ("v", "c_P[2]"):
+        assert relative(one[name] - other[name], one[name]) < 1e-9, name
     for k in range(1, 17):
         assert abs(ledger(whole, k) - ledger(again, k)) < 1e-9 * (1.0 + abs(ledger(whole, k))), k
+
+
+def test_life(lammps):
+    """Read before a run, runs of all kinds, steps counted anew, defined anew, particles deleted and created between runs."""
+    text = fluid_box(lammps, disordered(2, 12, speed=0.1, spread=0.3), False)
+    fix = "fix R all sph/refine 5 volume v_target wait 0.0\n"
+    result = lammps(text + 'variable phase equal "floor((step+1)/20)%2"\nvariable target equal "0.3+1.5*v_phase"\n' + fix
+                    + """comm_style tiled
+fix B all balance 10 1.0 rcb
+variable early equal f_R[1]
+print "EARLY ${early}"
+fix A all store/state 0 vx vy
+run 0
+run 20
+run 20 pre no
+run 40 every 10 NULL
+reset_timestep 3
+variable m equal mass(all)
+thermo_style custom step atoms v_m f_R[1] f_R[2]
+thermo_modify format float %.15g
+run 40
+region half block 0 6 INF INF INF INF
+delete_atoms region half
+unfix R
+""" + fix + "create_atoms 1 single 3 3 0\nset region half mass 1.0\nrun 40\nminimize 0 0 3 3\n", ranks=4)
+    assert "EARLY 0" in result.output
+    for table in (result.thermo()[-3], result.thermo()[-2]):
+        assert abs(table["v_m"][-1] / table["v_m"][0] - 1.0) < 1e-13
+        assert table["f_R[1]"][-1] + table["f_R[2]"][-1] > 50
 
 
 def test_nothing_to_do(lammps):
