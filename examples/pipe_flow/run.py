@@ -150,6 +150,29 @@ def draw_decay(path, runs, wrong):
     plt.close(figure)
 
 
+def draw_refined(path, constant, changing):
+    """Errors with and without splitting and merging, and where the particles are halfway."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(1, 4, figsize=(15.0, 3.2), layout="constrained")
+    for look, (what, run) in zip(("-", "--"), (("constant particles", constant), ("splitting and merging", changing))):
+        axes[0].plot(run.at, 100 * (run.u / run.exact.center(run.at) - 1), look, label=what)
+        axes[1].plot(run.time, 100 * (run.energy / run.exact.kinetic(run.time) - 1), look)
+    axes[0].set(xlabel="$t U_0/L$", title="velocity at the centre, error in %")
+    axes[1].set(xlabel="$t U_0/L$", title="kinetic energy, error in %")
+    axes[0].legend()
+    for axis, run in zip(axes[2:], (constant, changing)):
+        t, frame = list(run.frames.items())[len(run.frames) // 2]
+        inside = (frame["y"] > 0) & (frame["y"] < 0.5)
+        axis.plot(frame["x"][inside], frame["y"][inside], ".", ms=1.5)
+        axis.set(xlim=(-1, 1), ylim=(0, 0.5), xlabel="$x/L$", ylabel="$y/L$",
+                 title=f"{'constant' if run is constant else 'splitting and merging'}, $t = {t:.3g}$")
+    figure.savefig(path, dpi=95)
+    plt.close(figure)
+
+
 def main():
     example = Example(HERE, "Accelerating and decelerating flow through a pipe with open ends.")
     args = example.arguments()
@@ -205,10 +228,11 @@ def main():
     example.merit("splitting and merging: error of the kinetic energy, more than without", kinetic - before[1], -1.0, 2 * SMALL)
     example.merit("splitting and merging: error of the mass, more than without", mass - before[2], -1.0, SMALL_MASS)
     example.merit("splitting and merging: particles lost", lost, 0.0, 0.0)
-    decay, fields = example.out / "decay.png", example.out / "velocity.png"
+    decay, fields, refining = (example.out / f"{name}.png" for name in ("decay", "velocity", "refined"))
     draw_decay(decay, runs, wrong)
     draw_fields(fields, runs)
-    return example.finish(decay, fields, table)
+    draw_refined(refining, constant, changing)
+    return example.finish(decay, fields, refining, table)
 
 
 if __name__ == "__main__":
