@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-only
+"""Prints a complete LAMMPS input for a fluid, a length, and a velocity, with the numbers that follow from them.
+
+    ./sphd plan --fluid water --length 1e-3 --velocity 0.01 > in.flow
+    ./sphd plan --rho 1 --mu 0.01 --kappa 0.02 --length 1 --velocity 1 --dim 3 --particles 32
+    ./sphd plan --fluid water --length 1e-6 --velocity 100 --c real      # sound: the speed of sound of the fluid itself
+    ./sphd plan --rho 1 --mu 0.5 --length 16 --velocity 0.1 --c 3 --particles 16 --temperature 0.02
+
+With --fluid, a name of potentials/fluids.sph, all numbers are in SI units; else in the units of --units. The input is a
+periodic box, filled with a stream; the flow is to be put in its place. What the choices are made by is in the manual,
+"Choosing numbers".
+"""
+import argparse
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+FLUIDS = ROOT / "potentials" / "fluids.sph"
+
+# square of the stability length over that of rc, in 2 and 3 dimensions: eq. "hstab" of the theory page
+STABILITY = {
+    "wendland/c2": (1 / 4, 1 / 4),
+    "wendland/c4": (7 / 36, 21 / 110),
+    "wendland/c6": (49 / 312, 2 / 13),
+    "cubic": (49 / 160, 7 / 24),
+    "quintic": (0.20117845, 7 / 36),
+    "lucy": (7 / 20, 1 / 3),
+}
+# of each form of the shear term: the factor C of eq. "timestep", and kappa0/mu of eq. "limits"
+SHEAR = {
+    "mg": (0.045, lambda n: 1 + 2 / n),
+    "mg/fr": (0.05, lambda n: 1 + 2 / n),
+    "morris": (0.126, lambda n: 2 / n - 1),
+    "espanol": (0.091, lambda n: (3 - n) * (n + 2) / (n * (n + 3))),
+}
+BOLTZMANN = {"lj": 1.0, "si": 1.380649e-23}
+# lattice constant in particle distances, particles and edges of its cell: area or volume of a particle = 1
+LATTICE = {2: ("hex", math.sqrt(2 / math.sqrt(3)), 2, (1, math.sqrt(3))), 3: ("bcc", 2 ** (1 / 3), 2, (1, 1, 1))}
+
+
+def read_fluid(name):
+    """rho, c, mu, kappa in three dimensions"""
+    fluids = {}
+    for line in FLUIDS.read_text().splitlines():
+        words = line.partition("#")[0].split()
+        if words:
+            fluids[words[0]] = [float(word) for word in words[2:6]]
+    if name not in fluids:
+        raise SystemExit(f"plan: no fluid {name} in {FLUIDS.name}, which has: {' '.join(fluids)}")
+    return fluids[name]
+
+
+@dataclass
+class Plan:
+    """All that follows from the arguments."""
+
+    args: argparse.Namespace
+
+    def __post_init__(self):
+        args = self.args
+        self.dim, self.units = args.dim, "si" if args.fluid else args.units
+        if args.fluid:
+            self.rho, self.c_fluid, self.mu, kappa = read_fluid(args.fluid)
+            self.kappa = kappa + (self.mu / 3 if self.dim == 2 else 0.0)    # the plane flow of the real fluid
+        else:
+            self.rho, self.c_fluid, self.mu, self.kappa = args.rho, None, args.mu, args.kappa
+        intrinsic = SHEAR[args.shear][1](self.dim) * self.mu
+        if self.kappa is None and intrinsic < 0.0:
+            raise SystemExit(f"plan: shear {args.shear} has no bulk viscosity of its own in {self.dim}d, give --kappa")
+        self.zeta = 0.0 if self.kappa is None else self.kappa - intrinsic
+        self.set_sound_speed()
+
+        self.dx = args.length / args.particles
+        self.rc = args.support * self.dx
+        name, constant, per_cell, edges = LATTICE[self.dim]
+        self.lattice = f"{name} {1 / self.dx**self.dim:.8g}" if self.units == "lj" else f"{name} {constant * self.dx:.8g}"
+        self.cells = [max(round(args.particles / (constant * edge)), 1) for edge in edges]
+        self.number = per_cell * math.prod(self.cells)
+        if min(n * e for n, e in zip(self.cells, edges)) * constant < 2 * args.support:
+            raise SystemExit(f"plan: {args.particles} particles across are less than two support radii, {2 * args.support:g}")
+        self.set_time_step()
+        self.steps = math.ceil((args.time or 10 * args.length / args.velocity) / self.dt)
+
+    def set_sound_speed(self):
+        u, wanted = self.args.velocity, self.args.c
+        if wanted == "real":
+            if self.c_fluid is None:
+                raise SystemExit("plan: --c real is for --fluid")
+            self.c0 = self.c_fluid
+        else:
+            self.c0 = float(wanted) if wanted else 10 * u
+            if not wanted and self.c_fluid and self.c0 > self.c_fluid:
+                self.c0 = self.c_fluid
+
+    def set_time_step(self):
+        """the limits of the pair style's table, eqs. "timestep" and "combined" of the theory page"""
+        args = self.args
+        hsq = STABILITY[args.kernel][self.dim - 2] * self.rc**2
+        nu = self.mu / self.rho
+        self.limits = {
+            "acoustic": 0.25 * math.sqrt(hsq) / (self.c0 + args.velocity),
+            "shear": SHEAR[args.shear][0] * hsq / nu if nu else math.inf,
+            "bulk": 0.4 * self.rho * hsq / abs(self.zeta) if self.zeta else math.inf,
+        }
+        self.rate = 1 / self.limits["shear"] + 1 / self.limits["bulk"]    # of the fastest viscous mode
+        self.largest = min(self.limits["acoustic"], 1 / self.rate if self.rate else math.inf)
+        self.dt = float(f"{args.fraction * self.largest:.3g}")
+        if args.temperature is not None:
+            self.dt = float(f"{min(self.largest / 3, 0.095 / self.rate if self.rate else math.inf):.3g}")
+
+    def thermal_mach(self):
+        energy = BOLTZMANN[self.units] * self.args.temperature
+        return math.sqrt(energy / (self.rho * self.dx**self.dim)) / self.c0
+
+    def notes(self):
+        args = self.args
+        lines = [f"{args.fluid or 'fluid'}, {self.dim}d, length {args.length:g}, velocity {args.velocity:g}, units {self.units}",
+                 f"Reynolds number     {self.rho * args.velocity * args.length / self.mu:.4g}" if self.mu else "no shear viscosity",
+                 f"Mach number         {args.velocity / self.c0:.3g} with c0 = {self.c0:g}: the density varies by about {(args.velocity / self.c0) ** 2:.1g}"]
+        if self.c_fluid and self.c0 != self.c_fluid:
+            lines.append(f"                    of the fluid itself {args.velocity / self.c_fluid:.3g}, c = {self.c_fluid:g}")
+        if args.velocity > 0.3 * self.c0:
+            lines.append("                    NOTE: the flow is compressible")
+        if self.mu:
+            lines.append(f"times               passage {args.length / args.velocity:.4g}, viscous {self.rho * args.length**2 / self.mu:.4g}")
+        steps = ", ".join(f"{name} {step:.4g}" for name, step in self.limits.items() if step < math.inf)
+        lines.append(f"largest stable step {self.largest:.4g}: {steps}")
+        if args.temperature is not None:
+            lines.append(f"thermal noise       viscous rate times step {self.rate * self.dt:.3g}, thermal speed over c0 {self.thermal_mach():.2g}"
+                         + ("; NOTE: above 0.1, raise c0 or the particle size" if self.thermal_mach() > 0.1 else ""))
+        lines.append(f"particles           {self.number}, {args.particles} across; steps {self.steps}")
+        return lines
+
+    def input(self, time=""):
+        args = self.args
+        noise = "" if args.temperature is None else (" limit yes" if self.zeta < 0.0 else "") + f" temp {args.temperature:g} 4711"
+        kappa = "intrinsic" if self.kappa is None else f"{self.kappa:.6g}"
+        shift = "" if args.temperature is not None else f" shift {args.velocity:g}    # no shift with a free surface"
+        box = " ".join(f"0 {n}" for n in self.cells) + (" -0.5 0.5" if self.dim == 2 else "")
+        return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
+units           {self.units}
+dimension       {self.dim}
+atom_style      sph/bulk
+
+lattice         {self.lattice}
+region          box block {box}
+create_box      1 box
+create_atoms    1 box
+set             group all mass {self.rho * self.dx**self.dim:.8g}
+velocity        all set {args.velocity:g} 0.0 0.0 units box    # put the flow here
+
+neighbor        {0.3 * self.dx:.4g} bin
+pair_style      sph/bulk kernel {args.kernel} shear {args.shear}{noise}
+pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa} {self.rc:.6g}    # rho0 c0 mu kappa rc
+fix             1 all sph/bulk density rho0{shift}
+
+timestep        {self.dt:.3g}
+thermo          {max(self.steps // 100, 1)}
+variable        steps index {self.steps}
+run             ${{steps}}
+"""
+
+
+def measured_time(plan, lmp):
+    """seconds of one core per particle and step; of a box that is smaller, if it is large"""
+    most = 30000
+    args = argparse.Namespace(**vars(plan.args))
+    if plan.number > most:
+        args.particles = max(int(args.particles * (most / plan.number) ** (1 / plan.dim)), math.ceil(2 * args.support) + 2)
+        args.length = plan.dx * args.particles
+    small = Plan(args)
+    steps = max(10, min(200, 400000 // small.number))
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "in.plan").write_text(small.input())
+        done = subprocess.run([str(lmp), "-in", "in.plan", "-var", "steps", str(steps), "-nocite", "-log", "none"], cwd=folder,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, check=False,
+                              env={**os.environ, "OMP_NUM_THREADS": "1"})
+    loop = re.search(r"^Loop time of (\S+) on", done.stdout, re.MULTILINE)
+    share = re.search(r"([\d.]+)% CPU use", done.stdout)    # others may use the machine, too
+    if done.returncode or not loop or not share:
+        raise SystemExit(f"plan: {lmp} does not run this input:\n{done.stdout[-1000:]}")
+    return float(loop[1]) * min(float(share[1]) / 100, 1.0) / steps / small.number
+
+
+def duration(seconds):
+    for size, name in ((86400, "days"), (3600, "hours"), (60, "minutes")):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.2g} {name}"
+    return f"{seconds:.2g} seconds"
+
+
+def positive(text):
+    number = float(text)
+    if not (0.0 < number < math.inf):
+        raise argparse.ArgumentTypeError(f"must be > 0, not {text}")
+    return number
+
+
+def not_negative(text):
+    number = float(text)
+    if not (0.0 <= number < math.inf):
+        raise argparse.ArgumentTypeError(f"must be >= 0, not {text}")
+    return number
+
+
+def sound_speed(text):
+    return text if text == "real" else positive(text)
+
+
+def arguments(argv):
+    parser = argparse.ArgumentParser(prog="./sphd plan", description=__doc__.partition("\n")[0], epilog=__doc__.partition("\n\n")[2],
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--fluid", help=f"name in {FLUIDS.relative_to(ROOT)}")
+    parser.add_argument("--rho", type=positive, help="density")
+    parser.add_argument("--mu", type=not_negative, help="shear viscosity")
+    parser.add_argument("--kappa", type=not_negative, help="bulk viscosity (default: what the shear term brings along)")
+    parser.add_argument("--units", choices=BOLTZMANN, default="lj", help="without --fluid (default: %(default)s)")
+    parser.add_argument("--length", type=positive, required=True, help="of the flow; the box is as wide")
+    parser.add_argument("--velocity", type=positive, required=True, help="the largest of the flow")
+    parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real (default: ten times the velocity)")
+    parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
+    parser.add_argument("--particles", type=int, default=50, metavar="N", help="across the length (default: %(default)s)")
+    parser.add_argument("--support", type=positive, default=4.0, help="support radius over particle distance (default: %(default)s)")
+    parser.add_argument("--kernel", choices=STABILITY, default="wendland/c2", metavar="NAME", help="(default: %(default)s)")
+    parser.add_argument("--shear", choices=SHEAR, default="mg", metavar="FORM", help="form of the shear term (default: %(default)s)")
+    parser.add_argument("--temperature", type=not_negative, metavar="T", help="of thermal noise")
+    parser.add_argument("--fraction", type=positive, default=0.5, help="time step over the largest stable one, without noise (default: %(default)s)")
+    parser.add_argument("--time", type=positive, help="to simulate (default: ten passages of the length)")
+    parser.add_argument("--lmp", type=Path, default=ROOT / "build" / "lmp", help="LAMMPS that is timed (default: build/lmp)")
+    args = parser.parse_args(argv)
+    if bool(args.fluid) == (args.rho is not None) or (args.fluid and (args.mu, args.kappa) != (None, None)):
+        parser.error("give --fluid, or --rho, --mu, and --kappa")
+    if not args.fluid and args.mu is None:
+        parser.error("--mu is missing")
+    if args.particles < 1:
+        parser.error("--particles must be > 0")
+    if args.fraction > 1.0:
+        parser.error("--fraction must not be above 1")
+    return args
+
+
+def main(argv=None):
+    plan = Plan(arguments(argv))
+    time = "run time            not measured, there is no LAMMPS at build/lmp; ./sphd build makes it"
+    if plan.args.lmp.exists():
+        seconds = measured_time(plan, plan.args.lmp.resolve()) * plan.number * plan.steps
+        time = f"run time            about {duration(seconds)} of one core, from a short run on this machine"
+    sys.stdout.write(plan.input(time))
+
+
+if __name__ == "__main__":
+    main()
