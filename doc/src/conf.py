@@ -28,5 +28,7 @@ if importlib.util.find_spec("sphinx_rtd_theme"):
 else:
     html_theme = "alabaster"
     html_theme_options = {"page_width": "1250px", "body_max_width": "none", "sidebar_width": "250px"}
+html_static_path = ["_static"]
+html_css_files = ["tables.css"]
 html_title = "SPH-DISSIPATION"
 html_show_sourcelink = False
