@@ -63,7 +63,7 @@ RENAMED = {
     "index": None,
     "Build_SPH_DISSIPATION": None,
 }
-LINKS = {"index": "Packages_details", "Build_SPH_DISSIPATION": "Build_package"}
+LINKS = {"index": "Howto_sph_overview", "Build_SPH_DISSIPATION": "Build_package"}
 
 # files of an example that belong there: inputs, logs, what makes initial states
 

@@ -16,6 +16,7 @@ copyright = "the SPH-DISSIPATION authors; GNU General Public License, version 2"
 needs_sphinx = "5.3"
 extensions = ["sphinx.ext.mathjax", "lammps_pages", "local_mathjax"]
 master_doc = "index"
+exclude_patterns = ["Howto_sph_overview.rst"]    # a part of the start page
 language = "en"
 
 highlight_language = "none"
