@@ -55,3 +55,12 @@ def test_commands_below_pictures():
     assert sorted(figures) == sorted(pictures.SOURCES)
     for name, caption in zip(figures, captions):
         assert f"``./sphd run {pictures.SOURCES[name].split('/')[0]}``" in re.split(r"\n\n(?=\S)", caption)[0]
+
+
+@pytest.mark.parametrize("document", ["README.md", "CONTRIBUTING.md"])
+def test_files_named_are_there(document):
+    text = (ROOT / document).read_text()
+    named = set(re.findall(r"\]\((?!http)([^)#]+)\)", text)) | set(re.findall(r"`((?:src|doc|unittest|tools|examples)/[\w./-]+)`", text))
+    assert len(named) > 10
+    for name in sorted(named):
+        assert (ROOT / name).exists(), name
