@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = {"g++", "make", "cmake", "ninja-build", "ccache", "ca-certificates", "openmpi-bin", "libopenmpi-dev",
          "libfftw3-dev"}
-TESTS = {"libeigen3-dev", "libgtest-dev", "libgmock-dev", "libyaml-dev", "valgrind"}
+TESTS = {"libeigen3-dev", "libgtest-dev", "libgmock-dev", "libyaml-dev", "valgrind", "git", "hunspell-en-us"}
 STAND_INS = {
     "dpkg-query": "exit 1",  # none of the packages is there
     "sudo": 'exec "$@"',
