@@ -166,7 +166,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
   if (!open->empty()) open->run();
   if (walls) boundary->run(list);
   if (crowding_requested) crowd->run(list);
-  if (has_noise()) noise->run(list, limited ? limit->bound : nullptr, boundary->bits(), tally);
+  if (has_noise()) noise->run(limited ? limit->bound : nullptr, boundary->bits());
   forces->run(list, tally);
   if (!open->empty()) open->sum_impacts(list);
 

@@ -123,6 +123,14 @@ void Engine::setup(Kernel kernel_in, int n, double support, Shear shear_in, Bulk
 
 /* ---------------------------------------------------------------------- */
 
+void Engine::add_noise(const NoiseForm &form, const NoiseData *noise)
+{
+  data.noise = noise;
+  force_loop = loops->noisy_forces(form, volume);
+}
+
+/* ---------------------------------------------------------------------- */
+
 void Engine::grow_atoms()
 {
   if (nmax >= atom->nmax) return;

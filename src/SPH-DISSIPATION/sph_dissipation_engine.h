@@ -91,6 +91,9 @@ namespace SPHDissipation {
     virtual void tally(int i, int j, const double *force_on_i, const double *rij) = 0;
   };
 
+  struct NoiseData;
+  struct NoiseForm;
+
   // Pairs are worked off in blocks of as many as a vector has doubles; this is the widest one.  The
   // last block of a particle is filled up with spare particles, of which there are as many behind the
   // owned and ghost ones.
@@ -130,13 +133,11 @@ namespace SPHDissipation {
     int *neighbor;
     double *slope;    // F
 
-    PairTally *tally;    // nullptr if nobody asks
+    const NoiseData *noise;    // of pass 2 with noise
+    PairTally *tally;          // nullptr if nobody asks
   };
 
   typedef void (*Loop)(LoopData &);
-
-  struct NoiseData;
-  struct NoiseForm;
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
 
   // the loops compiled for one instruction set
@@ -145,8 +146,8 @@ namespace SPHDissipation {
     const char *name;
     Loop (*density)(Kernel, Volume);
     Loop (*forces)(Shear, Bulk, Volume);
+    Loop (*noisy_forces)(const NoiseForm &, Volume);
     NoiseLoop (*noise_sums)(const NoiseForm &);
-    NoiseLoop (*noise)(const NoiseForm &);
     void (*noise_pressure)(const NoiseData &, int n);    // of n particles
   };
 
@@ -195,6 +196,10 @@ namespace SPHDissipation {
     // rho0 = reference density by type, from 1, for the reference volumes m/rho0 (volume mass)
     void setup(Kernel, int n, double support, Shear, Bulk, Volume,
                const std::vector<PairCoeff> &coeff, const std::vector<double> &rho0);
+
+    // pass 2 then adds the random forces and torques of the pairs, until setup() is called again; noise is read by each
+    // pass 2
+    void add_noise(const NoiseForm &, const NoiseData *noise);
 
     // pass 1: particle[] from atom->x and vest, spin[] from omegaest (micropolar), which are zero
     // where these are nullptr; density[] of owned atoms (with the particle itself) and the

@@ -28,8 +28,8 @@ namespace SPHDissipation {
   const LoopSet loops_plain = {"plain",
                                LOOPS::choose_density_loop,
                                LOOPS::choose_force_loop,
+                               LOOPS::choose_noisy_force_loop,
                                LOOPS::choose_eta_loop,
-                               LOOPS::choose_impulse_loop,
                                LOOPS::pressure_loop};
 }
 }    // namespace LAMMPS_NS

@@ -47,15 +47,6 @@ namespace SPHDissipation {
       return reinterpret_cast<double *>(row);
     }
 
-    // one number of each of LANES particles
-
-    SPH_INLINE Vec gather(const double *from, const int *i)
-    {
-      double lane[LANES];
-      for (int l = 0; l < LANES; l++) lane[l] = from[i[l]];
-      return load(lane);
-    }
-
     // pass 1: c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED
     // leaves the pairs inside the support for pass 2
 
@@ -166,12 +157,16 @@ namespace SPHDissipation {
       }
     }
 
+#include "sph_dissipation_noise_loops.h"
+
     // pass 2: pressure, shear and bulk forces and the heating of shear (half to each partner)
     // VOLUME: the bulk form P1 (64) with its own pair weights, and D_i = -sum_j V_j F r_ij.u_ij, by
     // which it heats; the form P1 (18) acts through g and heats by cdot
     // MICROPOLAR: torques, too; half of the torque of a pair force to each partner, P3 (12), (18)
+    // Noise: random forces and torques of the pairs
 
-    template <Shear SHEAR, bool VOLUME, bool WEIGHTED> void force_loop(LoopData &data)
+    template <Shear SHEAR, bool VOLUME, bool WEIGHTED, class Noise = NoNoise>
+    void force_loop(LoopData &data)
     {
       constexpr bool SPIN = (SHEAR == Shear::MICROPOLAR);
       constexpr bool ALONG_R =
@@ -180,9 +175,11 @@ namespace SPHDissipation {
 
       const Particle *const particle = data.particle;
       Coeff coeff(data.coeff[data.ntypes_1 + 1]);
+      Noise noise(data);
 
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
+        noise.begin(ii);
         const Particle pi = particle[i];
         const Spin spin_i = SPIN ? data.spin[i] : Spin();
         const double zeta_term_i = VOLUME ? data.zeta_term[i] : 0.0;
@@ -220,10 +217,15 @@ namespace SPHDissipation {
 
           if ((ALONG_R || ALONG_U) && !data.uniform) coeff.load(data, i, j, n - k);
 
-          Vec by_metric = all(0.0);
-          if constexpr (ALONG_R) {
-            const Vec metric = (SHEAR == Shear::MG_FR) ? square_root(rsq) : rsq;
+          const Vec metric = (SHEAR == Shear::MG_FR) ? square_root(rsq) : rsq;
+          Vec by_metric = all(0.0), inverse = all(0.0);
+          if constexpr (Noise::VECTOR) {
+            inverse = 1.0 / (rsq + TINY);
+            by_metric = vv_slope * inverse;
+          } else if constexpr (ALONG_R || Noise::ON)
             by_metric = vv_slope / (metric + TINY);
+
+          if constexpr (ALONG_R) {
             const Vec drag = coeff.along_r * by_metric * approach;
             central -= drag;
             heat = 0.5 * drag * approach;
@@ -234,7 +236,12 @@ namespace SPHDissipation {
             total_flux += flux * vol;
             add_column<1>(data.divergence, j, -pi.vol * flux);
           }
+          if constexpr (Noise::ON) {
+            noise.draw(j, n - k, dx, dy, dz, slope, vv_slope, metric, by_metric, inverse);
+            central += noise.central;
+          }
           Vec fx = central * dx, fy = central * dy, fz = central * dz;
+          if constexpr (Noise::ON) noise.add_force(fx, fy, fz);
           Vec wx, wy, wz;
           if constexpr (SPIN) {
             Vec wj[4];
@@ -255,23 +262,20 @@ namespace SPHDissipation {
             fz -= drag * uz;
             const Vec heat_u = half_drag * (ux * ux + uy * uy + uz * uz);
             if constexpr (SPIN) {
-              const Vec tx = half_drag * (dy * uz - dz * uy);
-              const Vec ty = half_drag * (dz * ux - dx * uz);
-              const Vec tz = half_drag * (dx * uy - dy * ux);
+              Vec t[3] = {half_drag * (dy * uz - dz * uy), half_drag * (dz * ux - dx * uz),
+                          half_drag * (dx * uy - dy * ux)};
               const Vec sx = spin_i.w[0] - wx, sy = spin_i.w[1] - wy, sz = spin_i.w[2] - wz;
               const Vec along = dx * sx + dy * sy + dz * sz;
               const Vec drag1 = coeff.xi1 * by_metric * along;
               const Vec drag2 = coeff.xi2 * vv_slope;
-              const Vec spin_x = drag1 * dx + drag2 * sx;
-              const Vec spin_y = drag1 * dy + drag2 * sy;
-              const Vec spin_z = drag1 * dz + drag2 * sz;
+              Vec spin[3] = {drag1 * dx + drag2 * sx, drag1 * dy + drag2 * sy,
+                             drag1 * dz + drag2 * sz};
               const Vec heat_spin = 0.5 * (drag1 * along + drag2 * (sx * sx + sy * sy + sz * sz));
-              const Vec on_j[4] = {tx + spin_x, ty + spin_y, tz + spin_z, heat_u};
+              if constexpr (Noise::ON) noise.add_torque(t, spin);
+              const Vec on_j[4] = {t[0] + spin[0], t[1] + spin[1], t[2] + spin[2], heat_u};
               add_4_columns<WIDTH<TorqueSum>>(numbers(data.torque), j, on_j);
               add_column<WIDTH<TorqueSum>>(numbers(data.torque) + 4, j, heat_spin);
-              total_t[0] += tx - spin_x;
-              total_t[1] += ty - spin_y;
-              total_t[2] += tz - spin_z;
+              for (int d = 0; d < 3; d++) total_t[d] += t[d] - spin[d];
               total_t[3] += heat_u;
               total_spin += heat_spin;
             } else
@@ -357,7 +361,49 @@ namespace SPHDissipation {
                                       : choose_bulk<false>(shear, bulk);
     }
 
-#include "sph_dissipation_noise_loops.h"
+    // with noise: forms that only act along e, and all in one dimension, have no numbers across; there is no noise for
+    // the bulk form volume
+
+    template <Shear SHEAR, bool WEIGHTED, bool DIRECTED> Loop choose_noise_of(int dim)
+    {
+      constexpr bool SPIN = (SHEAR == Shear::MICROPOLAR);
+      if constexpr (SHEAR != Shear::MG && SHEAR != Shear::MG_FR) {
+        if (dim == 3) return force_loop<SHEAR, false, WEIGHTED, PairNoise<3, SPIN, DIRECTED>>;
+        if (dim == 2 || SPIN)
+          return force_loop<SHEAR, false, WEIGHTED, PairNoise<2, SPIN, DIRECTED>>;
+      }
+      if constexpr (!SPIN) return force_loop<SHEAR, false, WEIGHTED, PairNoise<0, false, DIRECTED>>;
+    }
+
+    template <bool WEIGHTED, bool DIRECTED> Loop choose_noise(const NoiseForm &form)
+    {
+      switch (form.shear) {
+        case Shear::MG_FR:
+          return choose_noise_of<Shear::MG_FR, WEIGHTED, DIRECTED>(form.dim);
+        case Shear::MORRIS:
+          return choose_noise_of<Shear::MORRIS, WEIGHTED, DIRECTED>(form.dim);
+        case Shear::ESPANOL:
+          return choose_noise_of<Shear::ESPANOL, WEIGHTED, DIRECTED>(form.dim);
+        case Shear::MICROPOLAR:
+          return choose_noise_of<Shear::MICROPOLAR, WEIGHTED, DIRECTED>(form.dim);
+        default:
+          return choose_noise_of<Shear::MG, WEIGHTED, DIRECTED>(form.dim);
+      }
+    }
+
+    inline Loop choose_noisy_force_loop(const NoiseForm &form, Volume volume)
+    {
+      if (volume == Volume::MASS)
+        return form.directed ? choose_noise<true, true>(form) : choose_noise<true, false>(form);
+      return form.directed ? choose_noise<false, true>(form) : choose_noise<false, false>(form);
+    }
+
+    inline NoiseLoop choose_eta_loop(const NoiseForm &form)
+    {
+      if (form.shear == Shear::MG_FR) return eta_loop<true, 0>;
+      if (form.shear == Shear::MG || form.dim == 1) return eta_loop<false, 0>;
+      return (form.dim == 3) ? eta_loop<false, 3> : eta_loop<false, 2>;
+    }
 
   }    // namespace LOOPS
 }    // namespace SPHDissipation

@@ -17,7 +17,6 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
-#include "neigh_list.h"
 #include "neighbor.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
@@ -39,7 +38,7 @@ NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const Fl
 
 /* ---------------------------------------------------------------------- */
 
-void NoiseStage::run(NeighList *list, const double *bound, int not_fluid, PairTally *tally)
+void NoiseStage::run(const double *bound, int not_fluid)
 {
   if (neighbor->ago == 0) check_box();
   form = {engine.shear_form(), engine.dimension(), false};
@@ -52,13 +51,16 @@ void NoiseStage::run(NeighList *list, const double *bound, int not_fluid, PairTa
   data.seed = static_cast<std::uint64_t>(model.choice.seed);
   data.step = static_cast<std::uint64_t>(update->ntimestep);
   data.type = atom->type;
-  data.tally = tally;
 
-  set_rows();
+  set_tags();
   add_pressure(factor, not_fluid);
   if (!set_coeffs(factor)) return;
   if (form.directed) set_shares(bound, not_fluid);
-  add_impulses();
+  const LoopData &pairs = engine.pairs();
+  const int most = pairs.inum ? *std::max_element(pairs.count, pairs.count + pairs.inum) : 0;
+  random.resize(MOST_NUMBERS * (most + BLOCK));
+  data.random = random.data();
+  engine.add_noise(form, &data);
 }
 
 /* ----------------------------------------------------------------------
@@ -82,17 +84,14 @@ void NoiseStage::check_box() const
 
 /* ---------------------------------------------------------------------- */
 
-void NoiseStage::set_rows()
+void NoiseStage::set_tags()
 {
   const int nall = atom->nlocal + atom->nghost;
-  row.resize(nall + BLOCK);
+  tag.resize(nall + BLOCK);
   pressure.resize(nall + BLOCK);
-  for (int i = 0; i < nall; i++) {
-    const Particle &p = engine.particle[i];
-    row[i] = {{p.x[0], p.x[1], p.x[2]}, p.vol, static_cast<double>(atom->tag[i]), 0.0, 0.0, 0.0};
-  }
-  std::fill_n(row.begin() + nall, BLOCK, NoiseRow());
-  data.row = row.data();
+  std::copy_n(atom->tag, nall, tag.begin());
+  std::fill_n(tag.begin() + nall, BLOCK, 0.0);
+  data.tag = tag.data();
   data.pressure = pressure.data();
 }
 
@@ -139,12 +138,16 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
 {
   const int nall = atom->nlocal + atom->nghost;
   engine.loop_set().noise_pressure(data, nall);
+  std::vector<double> amplitude(atom->ntypes + 1, 0.0);
+  for (int type = 1; type <= atom->ntypes; type++)
+    if (!model.coeffs[type].other)
+      amplitude[type] = sqrt(factor * std::max(model.coeffs[type].zeta, 0.0));
   for (int i = 0; i < nall; i++) {
-    const TypeCoeff &type = model.coeffs[atom->type[i]];
-    if (type.other || (atom->mask[i] & not_fluid) || !(type.zeta > 0.0)) continue;
+    const double strength = amplitude[atom->type[i]];
+    if (!(strength > 0.0) || (atom->mask[i] & not_fluid)) continue;
     Particle &particle = engine.particle[i];
     const double c_inv = particle.vol / engine.weight(i);
-    particle.g += sqrt(factor * type.zeta / particle.vol) * pressure[i] * c_inv * c_inv;
+    particle.g += strength * pressure[i] * c_inv * c_inv / sqrt(particle.vol);
   }
 }
 
@@ -156,8 +159,12 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
   eta.assign(nall + BLOCK, 0.0);
-  for (int i = 0; i < nall; i++) row[i].reach = engine.weight(i) / sqrt(row[i].vol);
+  reach.assign(nall + BLOCK, 0.0);
+  share.assign(nall + BLOCK, 0.0);
+  for (int i = 0; i < nall; i++) reach[i] = engine.weight(i) / sqrt(engine.particle[i].vol);
   data.eta = eta.data();
+  data.reach = reach.data();
+  data.share = share.data();
   engine.loop_set().noise_sums(form)(engine.pairs(), data);
   exchange.reverse({{eta.data(), 1, 1}});
 
@@ -169,39 +176,16 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
     const double rest = 1.0 + 2.0 * zeta * bound[i];
     const double s = 1.0 - ((rest > ROUNDOFF) ? sqrt(rest) : 0.0);
     const double c_inv = engine.particle[i].vol / engine.weight(i);
-    row[i].share = (bound[i] > 0.0) ? s * eta[i] * c_inv * c_inv / bound[i] : 0.0;
+    share[i] = (bound[i] > 0.0) ? s * eta[i] * c_inv * c_inv / bound[i] : 0.0;
   }
-  exchange.forward({field(row.data(), &row.data()->share, 1)});
-}
-
-/* ----------------------------------------------------------------------
-   by way of the sums of pass 2, which starts them anew
-------------------------------------------------------------------------- */
-
-void NoiseStage::add_impulses()
-{
-  const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
-  const int nrow = atom->nlocal + atom->nghost + BLOCK;
-  data.force = engine.force;
-  data.torque = engine.torque;
-  std::fill_n(engine.force, nrow, ForceSum());
-  if (engine.has_spin()) std::fill_n(engine.torque, nrow, TorqueSum());
-
-  engine.loop_set().noise(form)(engine.pairs(), data);
-
-  double **f = atom->f;
-  for (int i = 0; i < n; i++)
-    for (int d = 0; d < 3; d++) f[i][d] += engine.force[i].f[d];
-  if (!engine.has_spin()) return;
-  double **torque = atom->torque;
-  for (int i = 0; i < n; i++)
-    for (int d = 0; d < 3; d++) torque[i][d] += engine.torque[i].t[d];
+  exchange.forward({{share.data(), 1, 1}});
 }
 
 /* ---------------------------------------------------------------------- */
 
 double NoiseStage::memory_usage() const
 {
-  return (double) row.capacity() * sizeof(NoiseRow) +
-      (double) (eta.capacity() + pressure.capacity()) * sizeof(double);
+  return static_cast<double>((tag.capacity() + reach.capacity() + share.capacity() +
+                              eta.capacity() + pressure.capacity() + random.capacity()) *
+                             sizeof(double));
 }

@@ -41,11 +41,11 @@ namespace SPHDissipation {
     NoiseStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
     static constexpr int FORWARD = 1, REVERSE = 1;    // values per atom
 
-    // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and the rest onto
-    // forces and torques.  bound = of LimitStage, nullptr without; not_fluid = bits of the groups of
-    // boundary particles, which have no pressure of their own; tally of each pair, or nullptr
+    // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and has it add the rest.
+    // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure
+    // of their own
 
-    void run(NeighList *, const double *bound, int not_fluid, PairTally *);
+    void run(const double *bound, int not_fluid);
 
     double memory_usage() const override;
 
@@ -53,17 +53,15 @@ namespace SPHDissipation {
     const FluidModel &model;
     NoiseForm form;
     NoiseData data;
-    std::vector<NoiseRow> row;
     std::vector<NoiseCoeff> coeff;
-    std::vector<double> eta, pressure;
+    std::vector<double> tag, reach, share, eta, pressure, random;
 
     void check_box() const;
-    void set_rows();
+    void set_tags();
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);
     void set_shares(const double *bound, int not_fluid);
-    void add_impulses();
   };
 
 }    // namespace SPHDissipation

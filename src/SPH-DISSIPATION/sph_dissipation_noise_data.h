@@ -21,14 +21,10 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  class PairTally;
-  struct ForceSum;
-  struct TorqueSum;
-
   // Random numbers belong to a pair or a particle, the step, and a channel: the keys of the generator
   // are the seed and the channel, its counter the two IDs and the number of the step.
 
-  enum class NoiseChannel { PRESSURE, PAIR, PAIR_MORE };
+  enum class NoiseChannel { PRESSURE, PAIR };
 
   // of the pairs of two types: what the random numbers are multiplied with, in units of
   // sqrt(F V_i V_j), with F r instead of F for mg/fr
@@ -41,30 +37,22 @@ namespace SPHDissipation {
     double inverse_central;    // 1 / what the shear term puts before (u.e)^2, or 0
   };
 
-  // what the loops of the noise read of a particle: one cache line
-
-  struct NoiseRow {
-    double x[3];     // position
-    double vol;      // V
-    double tag;      // ID; zero for spare ones
-    double reach;    // c sqrt(V)
-    double share;    // s eta/(D c), if its bulk term has a negative coefficient, see NoiseStage
-    double unused;
-  };
-
-  // input and output of the loops of the noise, beside the pairs that pass 1 has found
+  // input and output of the loops, beside the pairs that pass 1 has found; arrays of owned, ghost, and spare particles
 
   struct NoiseData {
-    const NoiseRow *row;    // owned, ghost, and spare
+    const double *tag;      // ID; zero of spare particles
+    const double *reach;    // c sqrt(V), if DIRECTED
+    const double *
+        share;    // s eta/(D c), of those whose bulk term has a negative coefficient, see NoiseStage
     std::uint64_t seed, step;
     const int *type;            // read if the coefficients differ between types
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
     double *eta;                // sums of the numbers of a particle, accumulated
     double *pressure;           // number of each particle
-    ForceSum *force;            // owned, ghost, and spare; accumulated
-    TorqueSum *torque;          // the same
-    PairTally *tally;           // nullptr if nobody asks
+    double *random;             // for the numbers of the pairs of one particle
   };
+
+  constexpr int MOST_NUMBERS = 8;    // of a pair
 
   // which numbers a pair needs
 

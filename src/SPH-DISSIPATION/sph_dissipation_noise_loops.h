@@ -11,36 +11,61 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The loops of the thermal noise, over the pairs that pass 1 has found; compiled as
-// sph_dissipation_loops.h, which includes this file inside its namespace.
+// The thermal noise in the loops, over the pairs that pass 1 has found: what pass 2 adds to each of them, and the sums
+// that this needs before; compiled as sph_dissipation_loops.h, which includes this file inside its namespace.
 
 #include "sph_dissipation_random.h"
 
 // Numbers of a pair:
 //   forms along e only: 0 = along e, 1 = back
 //   2d: 0 = along e, 1 = across e, 2 = spin, 3 = back
-//   3d: 0 = along e, 1 to 3 = vector; more: 0 to 2 = vector of the spin, 3 = back
-// "Back" is the number of the particle with the higher ID, if each of both has its own along e, then
-// "along e" is that of the other one.  Vectors are those of the particle with the lower ID, and
-// opposite for the other one; numbers along and across e need no sign, since e_ji = -e_ij.
+//   3d: 0 to 2 = vector
+//   3d with more, 16 bits each: 0 to 2 = vector, 3 = along e, 4 to 6 = vector of the spin, 7 = back
+// "Back" is the number of the particle with the higher ID, if each of both has its own along e, then "along e" is that
+// of the other one.  Vectors are those of the particle with the lower ID, and opposite for the other one; numbers along
+// and across e need no sign, since e_ji = -e_ij.
 
-SPH_INLINE void numbers_of(const Words *counter, const PhiloxKeys &keys, Vec *number_of)
-{
-  Words random[4];
-  philox(counter, keys, random);
-  for (int k = 0; k < 4; k++) number_of[k] = uniform(random[k]);
-}
+template <int ACROSS, bool SPIN, bool DIRECTED> struct PairNumbers {
+  static constexpr bool MANY = (ACROSS == 3 && (SPIN || DIRECTED));
+  static constexpr int NONE = -1;
+  static constexpr int ALONG = MANY ? 3 : (ACROSS == 3) ? NONE : 0;
+  static constexpr int BACK = MANY ? 7 : (ACROSS == 3) ? NONE : (ACROSS == 2) ? 3 : 1;
+  static constexpr int N = MANY ? 8 : 4;
+  Vec z[N];
+
+  static constexpr bool is_used(int k)
+  {
+    if (k == BACK) return DIRECTED;
+    if (k == ALONG) return DIRECTED || ACROSS != 3;
+    return k < ACROSS || (SPIN && is_of_vector(k));
+  }
+  static constexpr bool is_of_vector(int k)
+  {
+    return (ACROSS == 3) ? k != ALONG && k != BACK : ACROSS == 2 && k == 2;
+  }
+
+  SPH_INLINE PairNumbers(const Words *counter, const PhiloxKeys &keys)
+  {
+    Words random[4];
+    philox(counter, keys, random);
+    for (int k = 0; k < 4; k++)
+      if constexpr (MANY) {
+        z[k] = uniform_of_half(masked(random[k], 0xffff));
+        z[4 + k] = uniform_of_half(shifted<16>(random[k]));
+      } else
+        z[k] = uniform(random[k]);
+  }
+};
 
 // keys and part of the counter that are the same for all pairs
 
 struct NoiseStep {
-  PhiloxKeys pair, more, pressure;
+  PhiloxKeys pair, pressure;
   std::uint64_t low, high;
 
   NoiseStep(const NoiseData &data) :
-      pair(keys_of(data, NoiseChannel::PAIR)), more(keys_of(data, NoiseChannel::PAIR_MORE)),
-      pressure(keys_of(data, NoiseChannel::PRESSURE)), low(data.step & 0xffffffff),
-      high(data.step >> 32)
+      pair(keys_of(data, NoiseChannel::PAIR)), pressure(keys_of(data, NoiseChannel::PRESSURE)),
+      low(data.step & 0xffffffff), high(data.step >> 32)
   {
   }
   static PhiloxKeys keys_of(const NoiseData &data, NoiseChannel channel)
@@ -67,26 +92,6 @@ struct PairCounter {
                      product(shifted<32>(word[1]), all_words(1 << 18)));
     sign = if_positive(tag_j - all(tag_i), all(2.0)) - all(1.0);
   }
-};
-
-// neighbors of a block, relative to particle i
-
-struct NoiseBlock {
-  Vec row[8], dx, dy, dz, rsq;
-
-  SPH_INLINE NoiseBlock(const NoiseData &data, const NoiseRow &i, const int *j)
-  {
-    load_4_columns<WIDTH<NoiseRow>>(numbers(data.row), j, row);
-    load_4_columns<WIDTH<NoiseRow>>(numbers(data.row) + 4, j, row + 4);
-    dx = i.x[0] - row[0];
-    dy = i.x[1] - row[1];
-    dz = i.x[2] - row[2];
-    rsq = dx * dx + dy * dy + dz * dz;
-  }
-  SPH_INLINE Vec vol() const { return row[3]; }
-  SPH_INLINE Vec tag() const { return row[4]; }
-  SPH_INLINE Vec reach() const { return row[5]; }
-  SPH_INLINE Vec share() const { return row[6]; }
 };
 
 struct NoiseCoeffs {
@@ -118,149 +123,174 @@ struct NoiseCoeffs {
   }
 };
 
-// gamma_ij = root times reach of j over c of i
+// gamma_ij = root times reach of j over c of i; metric = r^2, or r for mg/fr
 
-template <bool FR> SPH_INLINE Vec root_of(Vec slope, Vec rsq, Vec inverse_central)
+SPH_INLINE Vec root_of(Vec slope, Vec metric, Vec inverse_central)
 {
-  const Vec metric = FR ? square_root(rsq) : rsq;
   return square_root(slope * metric * inverse_central);
 }
 
 // eta_i c_i = sum_j c_i gamma_ij xi_ij with the number xi_ij of i
 
-template <bool FR, int TRANSVERSE> void eta_loop(const LoopData &pairs, const NoiseData &data)
+template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseData &data)
 {
   NoiseCoeffs coeff(data.coeff[pairs.ntypes_1 + 1]);
   const NoiseStep step(data);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
-    const NoiseRow own = data.row[i];
+    const Particle &pi = pairs.particle[i];
     const int n = pairs.count[ii];
     const int *const neighbor = pairs.neighbor + pairs.first[ii];
     const double *const slope_of = pairs.slope + pairs.first[ii];
     Vec total = all(0.0);
     for (int k = 0; k < n; k += LANES) {
       const int *const j = neighbor + k;
-      const NoiseBlock block(data, own, j);
+      Vec pj[4];
+      load_4_columns<WIDTH<Particle>>(numbers(pairs.particle), j, pj);
+      const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
+      const Vec rsq = dx * dx + dy * dy + dz * dz;
+      const Vec metric = FR ? square_root(rsq) : rsq;
       if (!pairs.uniform) coeff.load(pairs, data, i, j, n - k);
-      const PairCounter counter(step, own.tag, block.tag());
-      Vec z[4];
-      numbers_of(counter.word, step.pair, z);
-      const Vec forth = z[0];
-      if constexpr (TRANSVERSE == 3) numbers_of(counter.word, step.more, z);
-      const Vec back = z[TRANSVERSE ? 3 : 1];
+      const PairCounter counter(step, data.tag[i], gather(data.tag, j));
+      using Numbers = PairNumbers<ACROSS, false, true>;
+      const Numbers random(counter.word, step.pair);
+      const Vec forth = random.z[Numbers::ALONG], back = random.z[Numbers::BACK];
       const Vec mean = 0.5 * (forth + back);
       const Vec odd = 0.5 * counter.sign * (forth - back);
-      const Vec root = root_of<FR>(load(slope_of + k), block.rsq, coeff.inverse_central);
-      total += block.reach() * root * (mean + odd);
-      add_column<1>(data.eta, j, own.reach * root * (mean - odd));
+      const Vec root = root_of(load(slope_of + k), metric, coeff.inverse_central);
+      total += gather(data.reach, j) * root * (mean + odd);
+      add_column<1>(data.eta, j, data.reach[i] * root * (mean - odd));
     }
     data.eta[i] += sum(total);
   }
 }
 
-// random forces and torques of the pairs, onto the sums of both particles
+// what pass 2 adds to the force and torques of a block of pairs
 
-template <bool FR, int TRANSVERSE, bool SPIN, bool DIRECTED>
-void impulse_loop(const LoopData &pairs, const NoiseData &data)
-{
-  NoiseCoeffs coeff(data.coeff[pairs.ntypes_1 + 1]);
-  const NoiseStep step(data);
-  for (int ii = 0; ii < pairs.inum; ii++) {
-    const int i = pairs.ilist[ii];
-    const NoiseRow own = data.row[i];
+struct NoNoise {
+  static constexpr bool ON = false, VECTOR = false;
+  SPH_INLINE NoNoise(const LoopData &) {}
+  SPH_INLINE void begin(int) {}
+};
+
+// The numbers of all pairs of a particle are made before its pairs are worked off: alone, the long chain of operations
+// of one block overlaps with those of the next ones.
+
+template <int ACROSS, bool SPIN, bool DIRECTED> struct PairNoise {
+  static constexpr bool ON = true, VECTOR = (ACROSS == 3);
+
+  Vec central;      // force on i along r_ij, times 1/r
+  Vec rest[3];      // and in other directions, if there is any
+  Vec torque[3];    // on both, which balances the force
+  Vec spin[3];      // torque on i, opposite on j
+
+  SPH_INLINE PairNoise(const LoopData &pairs) :
+      pairs(pairs), data(*pairs.noise), step(data), coeff(data.coeff[pairs.ntypes_1 + 1])
+  {
+  }
+  SPH_INLINE void begin(int ii)
+  {
+    i = pairs.ilist[ii];
     const int n = pairs.count[ii];
     const int *const neighbor = pairs.neighbor + pairs.first[ii];
-    const double *const slope_of = pairs.slope + pairs.first[ii];
-    Vec total_f[3] = {all(0.0), all(0.0), all(0.0)};
-    Vec total_t[3] = {all(0.0), all(0.0), all(0.0)};
-
+    next = data.random;
     for (int k = 0; k < n; k += LANES) {
-      const int *const j = neighbor + k;
-      const NoiseBlock block(data, own, j);
-      for (int l = 0; l < LANES; l++) {
-        prefetch(data.row + j[l + AHEAD]);
-        if constexpr (SPIN) {
-          prefetch(data.force + j[l + AHEAD]);
-          prefetch(data.torque + j[l + AHEAD]);
-        }
-      }
-      const Vec dx = block.dx, dy = block.dy, dz = block.dz, rsq = block.rsq;
-      const Vec slope = load(slope_of + k);
-      const Vec vv_slope = if_positive(rsq, own.vol * block.vol() * slope);
-      const Vec vv = FR ? vv_slope * square_root(rsq) : vv_slope;
-      const Vec inverse_rsq = 1.0 / (rsq + TINY);
-      if (!pairs.uniform) coeff.load(pairs, data, i, j, n - k);
-
-      const PairCounter counter(step, own.tag, block.tag());
-      Vec z[4], more[4];
-      numbers_of(counter.word, step.pair, z);
-      if constexpr (TRANSVERSE == 3 && (SPIN || DIRECTED))
-        numbers_of(counter.word, step.more, more);
-
-      Vec along = z[0];
-      if constexpr (DIRECTED) {
-        const Vec root = root_of<FR>(slope, rsq, coeff.inverse_central);
-        const Vec back = (TRANSVERSE == 3) ? more[3] : z[TRANSVERSE ? 3 : 1];
-        along += back - root * (block.reach() * own.share + own.reach * block.share());
-      }
-
-      const Vec by_r = square_root(vv * inverse_rsq);
-      const Vec central = coeff.central * by_r * along;
-      Vec fx = central * dx, fy = central * dy, fz = central * dz;
-      Vec spin[3] = {all(0.0), all(0.0), all(0.0)};
-      if constexpr (TRANSVERSE == 2) {
-        const Vec across = coeff.transverse * by_r * z[1];
-        fx -= across * dy;
-        fy += across * dx;
-        if constexpr (SPIN) spin[2] = counter.sign * coeff.spin_across * square_root(vv) * z[2];
-      }
-
-      // of a vector, the part across e, or different parts along and across it
-
-      if constexpr (TRANSVERSE == 3) {
-        const Vec strength = counter.sign * square_root(vv);
-        const Vec across = strength * coeff.transverse;
-        const Vec part = across * (dx * z[1] + dy * z[2] + dz * z[3]) * inverse_rsq;
-        fx += across * z[1] - part * dx;
-        fy += across * z[2] - part * dy;
-        fz += across * z[3] - part * dz;
-        if constexpr (SPIN) {
-          const Vec spin_across = strength * coeff.spin_across;
-          const Vec remainder = (strength * coeff.spin_along - spin_across) * inverse_rsq *
-              (dx * more[0] + dy * more[1] + dz * more[2]);
-          spin[0] = spin_across * more[0] + remainder * dx;
-          spin[1] = spin_across * more[1] + remainder * dy;
-          spin[2] = spin_across * more[2] + remainder * dz;
-        }
-      }
-
-      // the torque that balances the force is the same for both, that of the spins opposite
-
-      if constexpr (SPIN) {
-        const Vec torque[3] = {-0.5 * (dy * fz - dz * fy), -0.5 * (dz * fx - dx * fz),
-                               -0.5 * (dx * fy - dy * fx)};
-        for (int d = 0; d < 3; d++) total_t[d] += torque[d] + spin[d];
-        const Vec on_j[4] = {torque[0] - spin[0], torque[1] - spin[1], torque[2] - spin[2],
-                             all(0.0)};
-        add_4_columns<WIDTH<TorqueSum>>(numbers(data.torque), j, on_j);
-      }
-      total_f[0] += fx;
-      total_f[1] += fy;
-      total_f[2] += fz;
-      const Vec on_j[4] = {-fx, -fy, -fz, all(0.0)};
-      add_4_columns<WIDTH<ForceSum>>(numbers(data.force), j, on_j);
-
-      if (data.tally) {
-        const Vec f[3] = {fx, fy, fz}, r[3] = {dx, dy, dz};
-        tally_block(data.tally, i, j, n - k, f, r);
+      const PairCounter counter(step, data.tag[i], gather(data.tag, neighbor + k));
+      const Numbers random(counter.word, step.pair);
+      for (int c = 0; c < Numbers::N; c++) {
+        if (!Numbers::is_used(c)) continue;
+        store(next, Numbers::is_of_vector(c) ? counter.sign * random.z[c] : random.z[c]);
+        next += LANES;
       }
     }
-    for (int d = 0; d < 3; d++) data.force[i].f[d] += sum(total_f[d]);
-    if constexpr (SPIN)
-      for (int d = 0; d < 3; d++) data.torque[i].t[d] += sum(total_t[d]);
+    next = data.random;
   }
-}
+
+  // d = r_ij, by_metric = vv/metric, inverse = 1/r^2 if VECTOR
+
+  SPH_INLINE void draw(const int *j, int n, Vec dx, Vec dy, Vec dz, Vec slope, Vec vv, Vec metric,
+                       Vec by_metric, Vec inverse)
+  {
+    if (!pairs.uniform) coeff.load(pairs, data, i, j, n);
+    Vec z[Numbers::N];
+    for (int c = 0; c < Numbers::N; c++) {
+      if (!Numbers::is_used(c)) continue;
+      z[c] = load(next);
+      next += LANES;
+    }
+
+    if constexpr (DIRECTED || !VECTOR) {
+      Vec along = z[Numbers::ALONG];
+      if constexpr (DIRECTED) {
+        const Vec root = root_of(slope, metric, coeff.inverse_central);
+        along += z[Numbers::BACK] -
+            root * (gather(data.reach, j) * data.share[i] + data.reach[i] * gather(data.share, j));
+      }
+      const Vec by_r = square_root(by_metric);
+      central = coeff.central * by_r * along;
+      if constexpr (ACROSS == 2) {
+        const Vec across = coeff.transverse * by_r * z[1];
+        rest[0] = -across * dy;
+        rest[1] = across * dx;
+        torque[2] = -0.5 * across * metric;
+        if constexpr (SPIN) spin[2] = coeff.spin_across * square_root(vv) * z[2];
+      }
+    }
+
+    // of a vector, the part across e, or different parts along and across it
+
+    if constexpr (VECTOR) {
+      const Vec strength = square_root(vv);
+      const Vec across = strength * coeff.transverse;
+      const Vec along = DIRECTED ? -across : strength * coeff.central - across;
+      const Vec part = along * inverse * (dx * z[0] + dy * z[1] + dz * z[2]);
+      if constexpr (DIRECTED)
+        central += part;
+      else
+        central = part;
+      for (int k = 0; k < 3; k++) rest[k] = across * z[k];
+      if constexpr (SPIN) {
+        torque[0] = -0.5 * (dy * rest[2] - dz * rest[1]);
+        torque[1] = -0.5 * (dz * rest[0] - dx * rest[2]);
+        torque[2] = -0.5 * (dx * rest[1] - dy * rest[0]);
+        const Vec spin_across = strength * coeff.spin_across;
+        const Vec remainder = (strength * coeff.spin_along - spin_across) * inverse *
+            (dx * z[4] + dy * z[5] + dz * z[6]);
+        spin[0] = spin_across * z[4] + remainder * dx;
+        spin[1] = spin_across * z[5] + remainder * dy;
+        spin[2] = spin_across * z[6] + remainder * dz;
+      }
+    }
+  }
+
+  SPH_INLINE void add_force(Vec &fx, Vec &fy, Vec &fz) const
+  {
+    if constexpr (ACROSS > 0) {
+      fx += rest[0];
+      fy += rest[1];
+    }
+    if constexpr (VECTOR) fz += rest[2];
+  }
+
+  // to the torque on both and to the one on j, which is opposite on i
+
+  SPH_INLINE void add_torque(Vec *on_both, Vec *on_j) const
+  {
+    for (int k = VECTOR ? 0 : 2; k < 3; k++) {
+      on_both[k] += torque[k];
+      on_j[k] -= spin[k];
+    }
+  }
+
+ private:
+  using Numbers = PairNumbers<ACROSS, SPIN, DIRECTED>;
+  const LoopData &pairs;
+  const NoiseData &data;
+  const NoiseStep step;
+  NoiseCoeffs coeff;
+  int i;
+  double *next;    // of the numbers of i
+};
 
 // one number of each of n particles, and of some behind them
 
@@ -268,54 +298,10 @@ inline void pressure_loop(const NoiseData &data, int n)
 {
   const NoiseStep step(data);
   for (int k = 0; k < n; k += LANES) {
-    double lane[LANES];
-    for (int l = 0; l < LANES; l++) lane[l] = data.row[k + l].tag;
-    const Words tag = words(load(lane));
+    const Words tag = words(load(data.tag + k));
     const Words counter[4] = {tag, shifted<32>(tag), all_words(step.low), all_words(step.high)};
-    Vec z[4];
-    numbers_of(counter, step.pressure, z);
-    store(data.pressure + k, z[0]);
+    Words random[4];
+    philox(counter, step.pressure, random);
+    store(data.pressure + k, uniform(random[0]));
   }
-}
-
-// forms that only act along e, and all in one dimension, have no numbers across
-
-inline int transverse_of(const NoiseForm &form)
-{
-  const bool central = (form.shear == Shear::MG || form.shear == Shear::MG_FR || form.dim == 1);
-  return central ? 0 : form.dim;
-}
-
-inline NoiseLoop choose_eta_loop(const NoiseForm &form)
-{
-  if (form.shear == Shear::MG_FR) return eta_loop<true, 0>;
-  switch (transverse_of(form)) {
-    case 2:
-      return eta_loop<false, 2>;
-    case 3:
-      return eta_loop<false, 3>;
-    default:
-      return eta_loop<false, 0>;
-  }
-}
-
-template <bool DIRECTED> NoiseLoop choose_impulse(const NoiseForm &form)
-{
-  const bool spin = (form.shear == Shear::MICROPOLAR);
-  if (form.shear == Shear::MG_FR) return impulse_loop<true, 0, false, DIRECTED>;
-  switch (transverse_of(form)) {
-    case 2:
-      return spin ? impulse_loop<false, 2, true, DIRECTED>
-                  : impulse_loop<false, 2, false, DIRECTED>;
-    case 3:
-      return spin ? impulse_loop<false, 3, true, DIRECTED>
-                  : impulse_loop<false, 3, false, DIRECTED>;
-    default:
-      return impulse_loop<false, 0, false, DIRECTED>;
-  }
-}
-
-inline NoiseLoop choose_impulse_loop(const NoiseForm &form)
-{
-  return form.directed ? choose_impulse<true>(form) : choose_impulse<false>(form);
 }

@@ -58,5 +58,14 @@ SPH_INLINE void philox(const Words *counter, const PhiloxKeys &keys, Words *rand
 SPH_INLINE Vec uniform(Words word)
 {
   constexpr double SQRT_3 = 1.7320508075688772935, UNIT = 1.0 / 2147483648.0;
-  return (number(word) + all(0.5)) * all(SQRT_3 * UNIT) - all(SQRT_3);
+  return middle(word) * all(SQRT_3 * UNIT) - all(SQRT_3);
+}
+
+// The same for a word of 16 bits, with the factor that makes the variance of these few numbers 1, too.
+
+SPH_INLINE Vec uniform_of_half(Words word)
+{
+  constexpr double SQRT_3 = 1.7320508075688772935 * (1.0 + 0.5 / 4294967296.0);
+  constexpr double UNIT = 1.0 / 32768.0;
+  return middle(word) * all(SQRT_3 * UNIT) - all(SQRT_3);
 }

@@ -26,6 +26,7 @@
 //                       the next LANES entries is undefined
 //   copy_neighbors()    copy n indices, without the bits that LAMMPS puts into them, and fill up the
 //                       last block by fill, fill + 1, ...
+//   gather(from, i)     from[i[0]] to from[i[LANES-1]]
 //   sum(a)              of all lanes
 //   prefetch(p)         the cache line of p will be read soon
 //
@@ -65,6 +66,11 @@ namespace SPHDissipation {
     SPH_INLINE void store(double *to, Vec a)
     {
       _mm512_storeu_pd(to, a);
+    }
+    SPH_INLINE Vec gather(const double *from, const int *i)
+    {
+      return _mm512_setr_pd(from[i[0]], from[i[1]], from[i[2]], from[i[3]], from[i[4]], from[i[5]],
+                            from[i[6]], from[i[7]]);
     }
     SPH_INLINE Vec square_root(Vec a)
     {
@@ -207,6 +213,10 @@ namespace SPHDissipation {
     {
       _mm256_storeu_pd(to, a);
     }
+    SPH_INLINE Vec gather(const double *from, const int *i)
+    {
+      return _mm256_setr_pd(from[i[0]], from[i[1]], from[i[2]], from[i[3]]);
+    }
     SPH_INLINE Vec square_root(Vec a)
     {
       return _mm256_sqrt_pd(a);
@@ -336,6 +346,10 @@ namespace SPHDissipation {
     SPH_INLINE void store(double *to, Vec a)
     {
       *to = a;
+    }
+    SPH_INLINE Vec gather(const double *from, const int *i)
+    {
+      return from[*i];
     }
     SPH_INLINE Vec square_root(Vec a)
     {

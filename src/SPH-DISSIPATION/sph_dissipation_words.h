@@ -19,7 +19,7 @@
 //   product(a, b)       of the lower 32 bits of each
 //   shifted<N>(a)       to the right by N bits
 //   masked(a, bits)     the bits of a that are set in bits, which is one number
-//   number(a)           as a number, a < 2^52
+//   number(a)           as a number, a < 2^52; middle(a): a + 1/2
 //   pattern(a)          the bits of a number; value(a): the number that has these bits
 //   words(a)            whole numbers 0 <= a < 2^52
 
@@ -141,6 +141,10 @@ namespace SPHDissipation {
     SPH_INLINE Vec number(Words a)
     {
       return value(a ^ all_words(OFFSET_PATTERN)) - all(OFFSET);
+    }
+    SPH_INLINE Vec middle(Words a)
+    {
+      return value(a ^ all_words(OFFSET_PATTERN)) - all(OFFSET - 0.5);
     }
     SPH_INLINE Words words(Vec a)
     {

@@ -89,19 +89,21 @@ Noise System::noise(const std::string &form, bool has_bulk, bool limited, Real k
 
   // pairs, from the particle with the lower number
 
-  const int last = across ? 3 + (n == 3 ? 4 : 0) : 1;
+  const bool vector = (across && n == 3);
+  const int base = (vector && (spins || directed)) ? NoiseNumber::HALVES : 0;
+  const int first = vector ? base + 3 : 0;
+  const int last = !across ? 1 : vector ? base + 7 : 3;
   std::vector<std::vector<std::pair<const Pair *, int>>> own(
       N);    // pairs of i and the column of its number
   for (const auto &p : pairs) {
     if (p.i > p.j || form == "none") continue;
     const Coefficients a = coefficients(p, form);
     const SmallVector e = p.r / p.dist;
-    const int forth = add(p.i, p.j, 0);
     if (directed) {
-      own[p.i].emplace_back(&p, forth);
+      own[p.i].emplace_back(&p, add(p.i, p.j, first));
       own[p.j].emplace_back(&p, add(p.i, p.j, last));
-    } else {
-      push(forth, p, std::sqrt(2.0L * kT * a.along) * e);
+    } else if (!vector) {
+      push(add(p.i, p.j, first), p, std::sqrt(2.0L * kT * a.along) * e);
     }
     if (!across) continue;
     const SmallMatrix dyad = e * e.transpose();
@@ -111,12 +113,14 @@ Noise System::noise(const std::string &form, bool has_bulk, bool limited, Real k
       t << -e(1), e(0);
       push(add(p.i, p.j, 1), p, std::sqrt(2.0L * kT * a.across) * t);
     } else {
+      const Real along = directed ? 0.0L : std::sqrt(2.0L * kT * a.along);
       for (int k = 0; k < 3; k++)
-        push(add(p.i, p.j, 1 + k), p, std::sqrt(2.0L * kT * a.across) * complement.col(k));
+        push(add(p.i, p.j, base + k), p,
+             along * dyad.col(k) + std::sqrt(2.0L * kT * a.across) * complement.col(k));
     }
     if (!spins) continue;
     for (int k = 0; k < s; k++) {
-      const int column = add(p.i, p.j, n == 2 ? 2 : 4 + k);
+      const int column = add(p.i, p.j, n == 2 ? 2 : base + 4 + k);
       SmallVector spin(s);
       if (n == 2)
         spin(0) = std::sqrt(2.0L * kT * a.spin_across);

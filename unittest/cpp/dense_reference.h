@@ -147,8 +147,9 @@ struct Micropolar {
 // root of the time, are B times the numbers. A number belongs to a particle (pressure) or to two, low < high.
 
 struct NoiseNumber {
+  static constexpr int HALVES = 4;
   int low, high;    // high < 0: pressure
-  int index;        // of the numbers of the pair
+  int index;        // of the numbers of the pair: four of a word each, or, from HALVES on, eight of half a word
 };
 
 struct Noise {

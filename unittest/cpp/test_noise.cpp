@@ -35,7 +35,7 @@ static constexpr std::uint32_t SEED = 987654321;
 
 // ---- the numbers, from the description of the generator ------------------------------------------
 
-static std::array<Real, 4> random_numbers(std::array<std::uint32_t, 4> c, std::uint32_t k0,
+static std::array<std::uint32_t, 4> random_words(std::array<std::uint32_t, 4> c, std::uint32_t k0,
                                           std::uint32_t k1)
 {
   for (int round = 0; round < 10; round++) {
@@ -45,19 +45,28 @@ static std::array<Real, 4> random_numbers(std::array<std::uint32_t, 4> c, std::u
     k0 += 0x9E3779B9;
     k1 += 0xBB67AE85;
   }
-  std::array<Real, 4> z;
-  for (int k = 0; k < 4; k++) z[k] = std::sqrt(3.0L) * ((c[k] + 0.5L) / 2147483648.0L - 1.0L);
-  return z;
+  return c;
+}
+
+// number of 2^bits, of the mean 0 and the variance 1
+
+static Real uniform(std::uint32_t number, int bits)
+{
+  const Real levels = std::pow(2.0L, bits);
+  return std::sqrt(3.0L / (1.0L - 1.0L / (levels * levels))) *
+      (2.0L * (number + 0.5L) / levels - 1.0L);
 }
 
 static Real value(const NoiseNumber &number, std::uint64_t step)
 {
   const auto lo = static_cast<std::uint32_t>(step), hi = static_cast<std::uint32_t>(step >> 32);
   const auto low = static_cast<std::uint32_t>(number.low + 1);
-  if (number.high < 0) return random_numbers({low, 0, lo, hi}, SEED, 0)[0];
+  if (number.high < 0) return uniform(random_words({low, 0, lo, hi}, SEED, 0)[0], 32);
   const auto high = static_cast<std::uint32_t>(number.high + 1);
-  const std::uint32_t channel = (number.index < 4) ? 1 : 2;
-  return random_numbers({low, high, lo, hi}, SEED, channel)[number.index % 4];
+  const auto word = random_words({low, high, lo, hi}, SEED, 1);
+  const int half = number.index - NoiseNumber::HALVES;
+  if (half < 0) return uniform(word[number.index], 32);
+  return (half < 4) ? uniform(word[half] & 0xffff, 16) : uniform(word[half - 4] >> 16, 16);
 }
 
 // ---- cases ----------------------------------------------------------------------------------------

@@ -77,6 +77,21 @@ TEST(Random, uniform_distribution)
   }
 }
 
+// half a word: as few as 65536 numbers, whose mean and variance are exact
+
+TEST(Random, uniform_distribution_of_half_a_word)
+{
+  double mean = 0.0, square = 0.0;
+  for (Words word = 0; word < 65536; word++) {
+    const double z = uniform_of_half(word);
+    EXPECT_NEAR(uniform_of_half(65535 - word), -z, 1e-9);
+    mean += z / 65536.0;
+    square += z * z / 65536.0;
+  }
+  EXPECT_NEAR(mean, 0.0, 1e-9);
+  EXPECT_NEAR(square, 1.0, 1e-13);
+}
+
 TEST(Random, words_and_numbers)
 {
   for (const double a : {0.0, 1.0, 4294967295.0, 4294967296.0, 70368744177663.0}) {
