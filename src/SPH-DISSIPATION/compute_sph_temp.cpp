@@ -18,13 +18,14 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "pair_sph_bulk.h"
 #include "update.h"
 
 #include <algorithm>
 
 using namespace LAMMPS_NS;
 
-enum { SPIN = 3, NVALUE = 4 };    // after those of the three directions
+enum { SPIN = 3, INTERNAL, NVALUE };    // after those of the three directions
 
 /* ---------------------------------------------------------------------- */
 
@@ -109,6 +110,27 @@ double ComputeSPHTemp::rotational() const
 }
 
 /* ----------------------------------------------------------------------
+   of the heat of the particles: 1/T is the mean of 1/T_i, since that of a particle with
+   fluctuating energy is the derivative of its entropy
+------------------------------------------------------------------------- */
+
+double ComputeSPHTemp::internal() const
+{
+  const auto *const pair = PairSPHBulk::find(force);
+  if (!pair || !pair->has_own_temperatures()) return 0.0;
+  double own[2] = {}, all[2];    // particles with heat, and their 1/T_i
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit) || !pair->has_type(atom->type[i])) continue;
+    const double temperature = pair->internal_temperature(i);
+    if (!(temperature > 0.0)) continue;
+    own[0] += 1.0;
+    own[1] += 1.0 / temperature;
+  }
+  MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  return (all[0] > 0.0) ? all[0] / all[1] : 0.0;
+}
+
+/* ----------------------------------------------------------------------
    mean of the directions in which particles move
 ------------------------------------------------------------------------- */
 
@@ -129,4 +151,5 @@ void ComputeSPHTemp::compute_vector()
   invoked_vector = update->ntimestep;
   translational(vector);
   vector[SPIN] = rotational();
+  vector[INTERNAL] = internal();
 }

@@ -37,6 +37,7 @@ class ComputeSPHTemp : public Compute {
  private:
   void translational(double *) const;    // of each direction
   double rotational() const;
+  double internal() const;
 };
 
 }    // namespace LAMMPS_NS

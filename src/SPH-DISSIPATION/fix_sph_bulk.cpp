@@ -32,9 +32,9 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), extrapolation(1.0), density_done(0), density_flag(0),
-    shift_speed(0.0), pair(nullptr), remap_v_flag(0), integrated_groups(0), first_instance(false),
-    last_instance(false), not_integrated(0)
+    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), extrapolation(1.0), balanced(false), density_done(0),
+    density_flag(0), shift_speed(0.0), pair(nullptr), remap_v_flag(0), integrated_groups(0),
+    first_instance(false), last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -93,6 +93,7 @@ void FixSPHBulk::init()
   pair = dynamic_cast<PairSPHBulk *>(force->pair_match(style, 1));
   const bool noise = pair && pair->has_noise();
   extrapolation = noise ? 0.0 : 1.0;
+  balanced = pair && pair->has_own_temperatures();
   if (noise && shift_speed > 0.0)
     error->all(FLERR,
                "Fix {} shift cannot be used with temp of pair style {}: a shifted fluid has no "
@@ -231,7 +232,8 @@ void FixSPHBulk::setup_pre_force(int /*vflag*/)
 /* ----------------------------------------------------------------------
    the internal energy, too, is extrapolated to the end of the step, so that the
    pressure of an ideal gas is accurate to second order in the time step;
-   final_integrate() corrects it with the new rate
+   final_integrate() corrects it with the new rate; with random forces, which have
+   no future, it gets half of the rate at each end of the step
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::initial_integrate(int /*vflag*/)
@@ -247,12 +249,14 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
   int *mask = atom->mask;
   const int nlocal = nlocal_group();
   const double keep = remap_v_flag ? 0.0 : 1.0;
+  const double ahead = balanced ? 0.5 : 1.0;
+  if (balanced) balance_heat();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
-    desph_before[i] = desph[i];
-    esph[i] += dtv * desph[i];
+    desph_before[i] = balanced ? 0.0 : desph[i];
+    esph[i] += ahead * dtv * desph[i];
     for (int d = 0; d < 3; d++) {
       const double dv = dtfm * f[i][d];
       v[i][d] += dv;
@@ -329,12 +333,33 @@ void FixSPHBulk::final_integrate()
   double *desph_before = avec()->desph_before;
   int *mask = atom->mask;
   const int nlocal = nlocal_group();
+  if (balanced) balance_heat();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
     esph[i] += 0.5 * dtv * (desph[i] - desph_before[i]);
     for (int d = 0; d < 3; d++) v[i][d] += dtfm * f[i][d];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::balance_heat()
+{
+  double **v = atom->v;
+  double **f = atom->f;
+  double **vest = atom->vest;
+  const double *const rmass = atom->rmass;
+  double *const esph = atom->esph;
+  const int *const mask = atom->mask;
+  const int nlocal = nlocal_group();
+  for (int i = 0; i < nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double half_kick = 0.5 * dtf / rmass[i];
+    double power = 0.0;
+    for (int d = 0; d < 3; d++) power += f[i][d] * (v[i][d] + half_kick * f[i][d] - vest[i][d]);
+    esph[i] -= 0.5 * dtv * power;
   }
 }
 

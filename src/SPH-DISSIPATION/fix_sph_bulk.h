@@ -52,6 +52,7 @@ class FixSPHBulk : public Fix {
  protected:
   double dtv, dtf;
   double extrapolation;    // of velocities over half a step: 1, with thermal noise 0
+  bool balanced;           // motion and heat exchange energy exactly, temp energy of the pair style
   int density_done;        // the masses were set, in this run or before a restart
   int nlocal_group() const;
   class AtomVecSPHBulk *avec() const;
@@ -63,6 +64,10 @@ class FixSPHBulk : public Fix {
   // a bit of the third in their mask: at the start of a run, when they arrive, or if no such fix
   // integrates them
   virtual void reset_extrapolation(int, int, int);
+
+  // before each half of the kick: the forces work at its mean velocity, not at the one that they have seen, and the
+  // difference comes out of the heat of the particle
+  virtual void balance_heat();
 
  private:
   void check_integrated_once();

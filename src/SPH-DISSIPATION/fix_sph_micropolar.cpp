@@ -176,6 +176,26 @@ void FixSPHMicropolar::final_integrate()
   integrate_spin(false);
 }
 
+/* ---------------------------------------------------------------------- */
+
+void FixSPHMicropolar::balance_heat()
+{
+  FixSPHBulk::balance_heat();
+  double **omega = atom->omega;
+  double **torque = atom->torque;
+  double **omegaest = spinning()->omegaest;
+  const double *const inertia = spinning()->inertia;
+  const int nlocal = nlocal_group();
+  for (int i = 0; i < nlocal; i++) {
+    if (!(atom->mask[i] & groupbit) || !(inertia[i] > 0.0)) continue;
+    const double half_kick = 0.5 * dtf / (atom->rmass[i] * inertia[i]);
+    double power = 0.0;
+    for (int d = 0; d < 3; d++)
+      power += torque[i][d] * (omega[i][d] + half_kick * torque[i][d] - omegaest[i][d]);
+    atom->esph[i] -= 0.5 * dtv * power;
+  }
+}
+
 /* ----------------------------------------------------------------------
    half a step; particles without inertia keep their spin; check_inertia() has seen to
    it that they have no torque

@@ -259,6 +259,18 @@ bool PairSPHBulk::has_noise() const
 
 /* ---------------------------------------------------------------------- */
 
+bool PairSPHBulk::has_own_temperatures() const
+{
+  return model->choice.own_temperatures;
+}
+
+double PairSPHBulk::internal_temperature(int i) const
+{
+  return noise->internal_temperature(i);
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool PairSPHBulk::has_forces() const
 {
   return engine->has_forces();
@@ -520,12 +532,14 @@ void PairSPHBulk::announce()
 void PairSPHBulk::announce_noise(double rate)
 {
   noise_step = update->dt;
+  const std::string temperature = has_own_temperatures()
+      ? "the temperatures of the particles"
+      : fmt::format("temperature {:g}", model->choice.temperature);
   if (comm->me == 0)
-    utils::logmesg(
-        lmp,
-        "Pair style {}: thermal noise of temperature {:g}, seed {}, largest viscous rate "
-        "times time step {:.3g}\n",
-        fluid_style, model->choice.temperature, model->choice.seed, rate * update->dt);
+    utils::logmesg(lmp,
+                   "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
+                   "step {:.3g}\n",
+                   fluid_style, temperature, model->choice.seed, rate * update->dt);
   if (rate * update->dt > ACCURATE_NOISE && comm->me == 0)
     error->warning(
         FLERR,

@@ -113,7 +113,9 @@ class PairSPHBulk : public Pair {
   void request_crowding() { crowding_requested = true; }
   const double *crowding(int i) const;
 
-  bool has_noise() const;    // keyword temp
+  bool has_noise() const;               // keyword temp
+  bool has_own_temperatures() const;    // temp energy: of the particles
+  double internal_temperature(int i) const;
 
   double support_radius() const { return support; }
   int dimension() const { return dim; }    // of the kernel

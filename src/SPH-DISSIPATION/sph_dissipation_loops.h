@@ -163,7 +163,7 @@ namespace SPHDissipation {
     // VOLUME: the bulk form P1 (64) with its own pair weights, and D_i = -sum_j V_j F r_ij.u_ij, by
     // which it heats; the form P1 (18) acts through g and heats by cdot
     // MICROPOLAR: torques, too; half of the torque of a pair force to each partner, P3 (12), (18)
-    // Noise: random forces and torques of the pairs
+    // Noise: random forces and torques of the pairs; Noise::ENERGY: what they do to the motion comes out of the heat
 
     template <Shear SHEAR, bool VOLUME, bool WEIGHTED, class Noise = NoNoise>
     void force_loop(LoopData &data)
@@ -212,8 +212,15 @@ namespace SPHDissipation {
           const Vec vv_slope = if_positive(rsq, pi.vol * vol * slope);
           const Vec approach = dx * ux + dy * uy + dz * uz;
           Vec heat = all(0.0);
-          Vec central = (pi.g + g) * slope;
-          if constexpr (WEIGHTED) central *= data.weight[i] * gather(data.weight, j);
+          Vec central = (pi.g + g) * slope, pressing = slope;
+          if constexpr (WEIGHTED) {
+            const Vec weights = data.weight[i] * gather(data.weight, j);
+            central *= weights;
+            pressing *= weights;
+          }
+
+          const Vec by_pressure = central;
+          Vec given = all(0.0);    // heat, to i by j
 
           if ((ALONG_R || ALONG_U) && !data.uniform) coeff.load(data, i, j, n - k);
 
@@ -225,8 +232,18 @@ namespace SPHDissipation {
           } else if constexpr (ALONG_R || Noise::ON)
             by_metric = vv_slope / (metric + TINY);
 
+          if constexpr (Noise::ON) {
+            noise.draw(j, n - k, dx, dy, dz, slope, vv_slope, metric, by_metric, inverse);
+            central += noise.central;
+          }
+          Vec vv_drag = vv_slope, by_drag = by_metric;
+          if constexpr (Noise::ENERGY) {
+            vv_drag *= noise.friction;
+            by_drag *= noise.friction;
+          }
+
           if constexpr (ALONG_R) {
-            const Vec drag = coeff.along_r * by_metric * approach;
+            const Vec drag = coeff.along_r * by_drag * approach;
             central -= drag;
             heat = 0.5 * drag * approach;
           }
@@ -235,10 +252,6 @@ namespace SPHDissipation {
             const Vec flux = slope * approach;
             total_flux += flux * vol;
             add_column<1>(data.divergence, j, -pi.vol * flux);
-          }
-          if constexpr (Noise::ON) {
-            noise.draw(j, n - k, dx, dy, dz, slope, vv_slope, metric, by_metric, inverse);
-            central += noise.central;
           }
           Vec fx = central * dx, fy = central * dy, fz = central * dz;
           if constexpr (Noise::ON) noise.add_force(fx, fy, fz);
@@ -255,7 +268,7 @@ namespace SPHDissipation {
             uz = uz - mx * dy + my * dx;
           }
           if constexpr (ALONG_U) {
-            const Vec drag = coeff.along_u * vv_slope;
+            const Vec drag = coeff.along_u * vv_drag;
             const Vec half_drag = 0.5 * drag;
             fx -= drag * ux;
             fy -= drag * uy;
@@ -266,12 +279,14 @@ namespace SPHDissipation {
                           half_drag * (dx * uy - dy * ux)};
               const Vec sx = spin_i.w[0] - wx, sy = spin_i.w[1] - wy, sz = spin_i.w[2] - wz;
               const Vec along = dx * sx + dy * sy + dz * sz;
-              const Vec drag1 = coeff.xi1 * by_metric * along;
-              const Vec drag2 = coeff.xi2 * vv_slope;
+              const Vec drag1 = coeff.xi1 * by_drag * along;
+              const Vec drag2 = coeff.xi2 * vv_drag;
               Vec spin[3] = {drag1 * dx + drag2 * sx, drag1 * dy + drag2 * sy,
                              drag1 * dz + drag2 * sz};
-              const Vec heat_spin = 0.5 * (drag1 * along + drag2 * (sx * sx + sy * sy + sz * sz));
+              Vec heat_spin = 0.5 * (drag1 * along + drag2 * (sx * sx + sy * sy + sz * sz));
+              if constexpr (Noise::ENERGY) heat_spin -= 0.5 * noise.spin_power(sx, sy, sz);
               if constexpr (Noise::ON) noise.add_torque(t, spin);
+              if constexpr (Noise::ENERGY) given = noise.given_by_torque(t, spin);
               const Vec on_j[4] = {t[0] + spin[0], t[1] + spin[1], t[2] + spin[2], heat_u};
               add_4_columns<WIDTH<TorqueSum>>(numbers(data.torque), j, on_j);
               add_column<WIDTH<TorqueSum>>(numbers(data.torque) + 4, j, heat_spin);
@@ -285,8 +300,17 @@ namespace SPHDissipation {
           total_f[0] += fx;
           total_f[1] += fy;
           total_f[2] += fz;
+          Vec heat_j = heat;
+          if constexpr (Noise::ENERGY) {
+            const Vec work = 0.5 * noise.power(approach, ux, uy, uz);
+            const Vec viscous[3] = {fx - by_pressure * dx, fy - by_pressure * dy,
+                                    fz - by_pressure * dz};
+            given += noise.given(viscous, rsq, pressing);
+            heat -= work - given;
+            heat_j -= work + given;
+          }
           total_f[3] += heat;
-          const Vec on_j[4] = {-fx, -fy, -fz, heat};
+          const Vec on_j[4] = {-fx, -fy, -fz, heat_j};
           add_4_columns<WIDTH<ForceSum>>(numbers(data.force), j, on_j);
 
           if (data.tally) {
@@ -364,38 +388,48 @@ namespace SPHDissipation {
     // with noise: forms that only act along e, and all in one dimension, have no numbers across; there is no noise for
     // the bulk form volume
 
-    template <Shear SHEAR, bool WEIGHTED, bool DIRECTED> Loop choose_noise_of(int dim)
+    template <Shear SHEAR, bool WEIGHTED, NoiseKind KIND> Loop choose_noise_of(int dim)
     {
       constexpr bool SPIN = (SHEAR == Shear::MICROPOLAR);
       if constexpr (SHEAR != Shear::MG && SHEAR != Shear::MG_FR) {
-        if (dim == 3) return force_loop<SHEAR, false, WEIGHTED, PairNoise<3, SPIN, DIRECTED>>;
-        if (dim == 2 || SPIN)
-          return force_loop<SHEAR, false, WEIGHTED, PairNoise<2, SPIN, DIRECTED>>;
+        if (dim == 3) return force_loop<SHEAR, false, WEIGHTED, PairNoise<3, SPIN, KIND>>;
+        if (dim == 2 || SPIN) return force_loop<SHEAR, false, WEIGHTED, PairNoise<2, SPIN, KIND>>;
       }
-      if constexpr (!SPIN) return force_loop<SHEAR, false, WEIGHTED, PairNoise<0, false, DIRECTED>>;
+      if constexpr (!SPIN) return force_loop<SHEAR, false, WEIGHTED, PairNoise<0, false, KIND>>;
     }
 
-    template <bool WEIGHTED, bool DIRECTED> Loop choose_noise(const NoiseForm &form)
+    template <bool WEIGHTED, NoiseKind KIND> Loop choose_noise(const NoiseForm &form)
     {
       switch (form.shear) {
         case Shear::MG_FR:
-          return choose_noise_of<Shear::MG_FR, WEIGHTED, DIRECTED>(form.dim);
+          return choose_noise_of<Shear::MG_FR, WEIGHTED, KIND>(form.dim);
         case Shear::MORRIS:
-          return choose_noise_of<Shear::MORRIS, WEIGHTED, DIRECTED>(form.dim);
+          return choose_noise_of<Shear::MORRIS, WEIGHTED, KIND>(form.dim);
         case Shear::ESPANOL:
-          return choose_noise_of<Shear::ESPANOL, WEIGHTED, DIRECTED>(form.dim);
+          return choose_noise_of<Shear::ESPANOL, WEIGHTED, KIND>(form.dim);
         case Shear::MICROPOLAR:
-          return choose_noise_of<Shear::MICROPOLAR, WEIGHTED, DIRECTED>(form.dim);
+          return choose_noise_of<Shear::MICROPOLAR, WEIGHTED, KIND>(form.dim);
         default:
-          return choose_noise_of<Shear::MG, WEIGHTED, DIRECTED>(form.dim);
+          return choose_noise_of<Shear::MG, WEIGHTED, KIND>(form.dim);
+      }
+    }
+
+    template <bool WEIGHTED> Loop choose_noise_kind(const NoiseForm &form)
+    {
+      switch (form.kind) {
+        case NoiseKind::DIRECTED:
+          return choose_noise<WEIGHTED, NoiseKind::DIRECTED>(form);
+        case NoiseKind::ENERGY:
+          return choose_noise<WEIGHTED, NoiseKind::ENERGY>(form);
+        default:
+          return choose_noise<WEIGHTED, NoiseKind::PLAIN>(form);
       }
     }
 
     inline Loop choose_noisy_force_loop(const NoiseForm &form, Volume volume)
     {
-      if (volume == Volume::MASS)
-        return form.directed ? choose_noise<true, true>(form) : choose_noise<true, false>(form);
-      return form.directed ? choose_noise<false, true>(form) : choose_noise<false, false>(form);
+      return (volume == Volume::MASS) ? choose_noise_kind<true>(form)
+                                      : choose_noise_kind<false>(form);
     }
 
     inline NoiseLoop choose_eta_loop(const NoiseForm &form)

@@ -32,14 +32,15 @@ using namespace SPHDissipation;
 
 Settings::Settings() :
     kernel(Kernel::WENDLAND_C2), eos(Eos::LINEAR), shear(Shear::MG), bulk(Bulk::DENSITY), dim(0),
-    limit(Limit::NO), volume(Volume::NUMBER), thermal(false), temperature(0.0), seed(0)
+    limit(Limit::NO), volume(Volume::NUMBER), thermal(false), temperature(0.0),
+    own_temperatures(false), heat_capacity(0.0), seed(0)
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
 TypeCoeff::TypeCoeff() :
-    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), intrinsic(0), other(0), zeta(0.0)
+    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0), other(0), zeta(0.0)
 {
 }
 
@@ -124,14 +125,18 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
   simd = "auto";
   choice.shear = default_shear;
 
-  for (int iarg = 0; iarg < narg; iarg += (strcmp(arg[iarg], "temp") == 0) ? 3 : 2) {
+  for (int iarg = 0, nwords; iarg < narg; iarg += nwords) {
     const std::string keyword = arg[iarg];
+    const bool energy =
+        (keyword == "temp" && iarg + 1 < narg && strcmp(arg[iarg + 1], "energy") == 0);
+    nwords = energy ? 4 : (keyword == "temp") ? 3 : 2;
     if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "bulk" &&
         keyword != "volume" && keyword != "limit" && keyword != "simd" && keyword != "temp" &&
         (keyword != "shear" || default_shear != Shear::MG))
       error->all(FLERR, place(arg[iarg]), "Unknown pair_style {} keyword: {}", style, keyword);
-    if (iarg + (keyword == "temp" ? 3 : 2) > narg)
-      utils::missing_cmd_args(FLERR, "pair_style " + style + " " + keyword, error);
+    if (iarg + nwords > narg)
+      utils::missing_cmd_args(
+          FLERR, "pair_style " + style + " " + keyword + (energy ? " energy" : ""), error);
     const std::string word = arg[iarg + 1];
     auto unknown = [&](const char *what) {
       error->all(FLERR, place(arg[iarg + 1]), "Unknown {} {} for pair_style {}", what, word, style);
@@ -171,14 +176,24 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
       simd = word;
     } else if (keyword == "temp") {
       choice.thermal = true;
-      choice.temperature = utils::numeric(FLERR, word, false, lmp);
-      if (!(choice.temperature >= 0.0))
-        error->all(FLERR, place(arg[iarg + 1]), "Pair_style {} temp must be >= 0, not {}", style,
-                   word);
-      choice.seed = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
+      choice.own_temperatures = energy;
+      if (energy) {
+        choice.heat_capacity = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+        if (!(choice.heat_capacity > 0.0) || !std::isfinite(choice.heat_capacity))
+          error->all(FLERR, place(arg[iarg + 2]),
+                     "Pair_style {} temp energy: the heat capacity must be > 0, not {}", style,
+                     arg[iarg + 2]);
+      } else {
+        choice.temperature = utils::numeric(FLERR, word, false, lmp);
+        if (!(choice.temperature >= 0.0))
+          error->all(FLERR, place(arg[iarg + 1]), "Pair_style {} temp must be >= 0, not {}", style,
+                     word);
+      }
+      const char *const seed = arg[iarg + nwords - 1];
+      choice.seed = utils::inumeric(FLERR, seed, false, lmp);
       if (choice.seed <= 0)
-        error->all(FLERR, place(arg[iarg + 2]), "Pair_style {} temp: the seed must be > 0, not {}",
-                   style, arg[iarg + 2]);
+        error->all(FLERR, place(seed), "Pair_style {} temp: the seed must be > 0, not {}", style,
+                   seed);
     } else {
       choice.dim = utils::inumeric(FLERR, word, false, lmp);
       if (choice.dim < 1 || choice.dim > 3)
@@ -206,7 +221,7 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
 
 static bool is_type_keyword(const std::string &word)
 {
-  for (const auto &keyword : {"rho0", "c0", "kappa", "rc", "pb", "gamma"})
+  for (const auto &keyword : {"rho0", "c0", "kappa", "rc", "pb", "gamma", "cv"})
     if (word == keyword) return true;
   return false;
 }
@@ -282,13 +297,18 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
 
   for (int iarg = nvalues; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
-    if (keyword != "pb" && keyword != "gamma")
+    if (keyword != "pb" && keyword != "gamma" && keyword != "cv")
       error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
                  keyword);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
     if (keyword == "pb")
       one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    else
+    else if (keyword == "cv") {
+      if (!choice.own_temperatures)
+        error->all(FLERR, place(arg[iarg]),
+                   "Pair_coeff cv needs keyword temp energy of pair_style {}", style);
+      one.cv = positive("cv", arg[iarg + 1]);
+    } else
       one.gamma = positive("gamma", arg[iarg + 1]);
   }
 

@@ -41,8 +41,10 @@ namespace SPHDissipation {
     int dim;    // 0: dimension of the simulation
     Limit limit;
     Volume volume;
-    bool thermal;          // thermal noise
-    double temperature;    // of it
+    bool thermal;             // thermal noise
+    double temperature;       // of it
+    bool own_temperatures;    // each particle has that of its internal energy instead
+    double heat_capacity;     // per mass, of types that have none of their own
     int seed;
   };
 
@@ -57,6 +59,7 @@ namespace SPHDissipation {
     double kappa;
     double rc;
     double gamma;     // 0: default of the equation of state
+    double cv;        // heat capacity per mass; 0: that of the pair style
     int intrinsic;    // 1: kappa is what the shear term gives
     int other;        // 1: its particles belong to another style of pair_style hybrid
     double zeta;      // coefficient of the bulk term
@@ -113,6 +116,7 @@ namespace SPHDissipation {
 
     double viscosity(int k, int i, int j) const { return variables[k].value[i][j]; }
     int is_viscosity(const std::string &name) const;    // its k, or -1
+    double heat_capacity(int type) const;               // per mass
     bool is_mixed(int i, int j) const { return !viscosity_set[0][i][j]; }
 
     Settings choice;

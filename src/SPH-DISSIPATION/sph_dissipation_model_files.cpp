@@ -25,7 +25,7 @@ using namespace SPHDissipation;
 // first number of the settings in a restart file; the settings of older versions begin with one
 // below 10.  A new one for every change of what is stored.
 
-static constexpr int FORMAT = 1002;
+static constexpr int FORMAT = 1003;
 
 /* ----------------------------------------------------------------------
    numbers to and from a restart file; proc 0 reads and checks, all get them
@@ -101,6 +101,8 @@ void FluidModel::write_settings(FILE *fp) const
   put(fp, static_cast<int>(choice.volume));
   put(fp, static_cast<int>(choice.thermal));
   put(fp, choice.temperature);
+  put(fp, static_cast<int>(choice.own_temperatures));
+  put(fp, choice.heat_capacity);
   put(fp, choice.seed);
 }
 
@@ -131,6 +133,8 @@ void FluidModel::read_settings(FILE *fp, Shear default_shear)
   choice.volume = static_cast<Volume>(read.integer("volume", 0, static_cast<int>(Volume::MASS)));
   choice.thermal = read.integer("flag of thermal noise", 0, 1);
   choice.temperature = read.number("temperature");
+  choice.own_temperatures = read.integer("flag of temperatures", 0, 1);
+  choice.heat_capacity = read.number("heat capacity");
   choice.seed = read.integer("seed", 0, MAXSMALLINT);
 }
 
@@ -147,7 +151,7 @@ void FluidModel::write_coeffs(FILE *fp, int **setflag) const
     if (setflag[i][i]) {
       const TypeCoeff &type = coeffs[i];
       for (double value :
-           {type.eos.rho0, type.eos.c0, type.eos.pb, type.gamma, type.kappa, type.rc})
+           {type.eos.rho0, type.eos.c0, type.eos.pb, type.gamma, type.cv, type.kappa, type.rc})
         put(fp, value);
       put(fp, type.intrinsic);
       for (int k = 0; k < nviscosity(); k++) put(fp, type.viscosity[k]);
@@ -176,6 +180,7 @@ void FluidModel::read_coeffs(FILE *fp, int **setflag)
       type.eos.c0 = read.number("c0", true);
       type.eos.pb = read.number("pb");
       type.gamma = read.number("gamma");
+      type.cv = read.number("cv");
       type.kappa = read.number("kappa");
       type.rc = read.number("rc", true);
       type.intrinsic = read.integer("flag of intrinsic kappa", 0, 1);
@@ -230,6 +235,7 @@ std::string FluidModel::type_line(int i) const
                                  c.intrinsic ? "intrinsic" : fmt::format("{:.17g}", c.kappa));
   for (int k = 1; k < nviscosity(); k++) line += fmt::format(" {:.17g}", c.viscosity[k]);
   line += fmt::format(" {:.17g} pb {:.17g}", c.rc, c.eos.pb);
+  if (c.cv > 0.0) line += fmt::format(" cv {:.17g}", c.cv);
   if (c.gamma > 0.0) line += fmt::format(" gamma {:.17g}", c.gamma);
   return line;
 }

@@ -61,12 +61,24 @@ void FluidModel::check_balance(int i, double intrinsic) const
 {
   constexpr double ROUNDOFF = 1.0e-12;
   const TypeCoeff &type = coeffs[i];
-  if (type.other || choice.limit == Limit::YES || type.zeta >= -ROUNDOFF * std::fabs(intrinsic))
-    return;
+  if (type.other || type.zeta >= -ROUNDOFF * std::fabs(intrinsic)) return;
+  if (choice.own_temperatures)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {} temp energy cannot be used with kappa {} of type {}, below the {} of "
+               "its shear term",
+               style, type.kappa, i, intrinsic);
+  if (choice.limit == Limit::YES) return;
   error->all(FLERR, Error::NOLASTLINE,
              "Pair style {} temp requires limit yes with kappa {} of type {}, below the {} of its "
              "shear term: particles beyond the bound have no noise in balance with their friction",
              style, type.kappa, i, intrinsic);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FluidModel::heat_capacity(int type) const
+{
+  return (coeffs[type].cv > 0.0) ? coeffs[type].cv : choice.heat_capacity;
 }
 
 /* ---------------------------------------------------------------------- */

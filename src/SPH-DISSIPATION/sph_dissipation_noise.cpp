@@ -14,11 +14,13 @@
 #include "sph_dissipation_noise.h"
 
 #include "atom.h"
+#include "atom_vec_sph_micropolar.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "neighbor.h"
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_eos.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_model.h"
 #include "update.h"
@@ -41,21 +43,28 @@ NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const Fl
 void NoiseStage::run(const double *bound, int not_fluid)
 {
   if (neighbor->ago == 0) check_box();
-  form = {engine.shear_form(), engine.dimension(), false};
+  const bool energy = model.choice.own_temperatures;
+  form = {engine.shear_form(), engine.dimension(), energy ? NoiseKind::ENERGY : NoiseKind::PLAIN};
   for (int type = 1; type <= atom->ntypes; type++)
-    if (bound && !model.coeffs[type].other && model.coeffs[type].zeta < 0.0) form.directed = true;
+    if (!energy && bound && !model.coeffs[type].other && model.coeffs[type].zeta < 0.0)
+      form.kind = NoiseKind::DIRECTED;
+  if (energy && not_fluid)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style with temp energy cannot be used with walls, whose particles have no "
+               "temperature");
 
   // the force of a step is that of an impulse over its time
 
-  const double factor = 2.0 * force->boltz * model.choice.temperature / update->dt;
+  const double factor = 2.0 * force->boltz * (energy ? 1.0 : model.choice.temperature) / update->dt;
   data.seed = static_cast<std::uint64_t>(model.choice.seed);
   data.step = static_cast<std::uint64_t>(update->ntimestep);
   data.type = atom->type;
 
   set_tags();
+  if (energy) set_temperatures();
   add_pressure(factor, not_fluid);
   if (!set_coeffs(factor)) return;
-  if (form.directed) set_shares(bound, not_fluid);
+  if (form.kind == NoiseKind::DIRECTED) set_shares(bound, not_fluid);
   const LoopData &pairs = engine.pairs();
   const int most = pairs.inum ? *std::max_element(pairs.count, pairs.count + pairs.inum) : 0;
   random.resize(MOST_NUMBERS * (most + BLOCK));
@@ -96,6 +105,69 @@ void NoiseStage::set_tags()
 }
 
 /* ----------------------------------------------------------------------
+   what the internal energy of a particle has beyond that of the equation of state
+------------------------------------------------------------------------- */
+
+double NoiseStage::heat_of(int i) const
+{
+  const TypeCoeff &type = model.coeffs[atom->type[i]];
+  return atom->esph[i] - atom->rmass[i] * elastic_energy(model.choice.eos, type.eos, atom->rho[i]);
+}
+
+double NoiseStage::internal_temperature(int i) const
+{
+  return heat_of(i) / (atom->rmass[i] * model.heat_capacity(atom->type[i]));
+}
+
+/* ----------------------------------------------------------------------
+   In a step, internal energies are those of its middle here and lack half of its work of compression.  A particle
+   without heat has temperature 0: it gets no noise, and friction warms it.
+------------------------------------------------------------------------- */
+
+void NoiseStage::set_temperatures()
+{
+  const int nlocal = atom->nlocal;
+  const int nall = nlocal + atom->nghost;
+  const double missing = update->setupflag ? 0.0 : 0.5 * update->dt;
+  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  const bool spins = engine.has_spin() && avec;
+  row.assign(nall + BLOCK, NoiseRow());
+  if (spins) spin_mobility.assign(nall + BLOCK, 0.0);
+  int without = 0, without_all;
+  for (int i = 0; i < nall; i++) {
+    const int type = atom->type[i];
+    if (model.coeffs[type].other) continue;
+    const double capacity = atom->rmass[i] * model.heat_capacity(type);
+    row[i].softness = force->boltz / capacity;
+    row[i].mobility = update->dt * force->ftm2v / atom->rmass[i];
+    if (i >= nlocal) continue;
+    if (spins && avec->inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / avec->inertia[i];
+    const Particle &particle = engine.particle[i];
+    const double c_inv = particle.vol / engine.weight(i);
+    const double p = particle.g / (c_inv * c_inv) - engine.zeta_term[i];
+    const double work = missing * p * particle.vol * engine.density[i].cdot * c_inv;
+    const double heat = heat_of(i) + work;
+    if (!(heat > 0.0)) without++;
+    row[i].temperature = std::max(heat, 0.0) / capacity;
+  }
+  data.row = row.data();
+  data.spin_mobility = spin_mobility.data();
+  const Field temperatures = field(row.data(), &row.data()->temperature, 1);
+  if (spins)
+    exchange.forward({temperatures, {spin_mobility.data(), 1, 1}});
+  else
+    exchange.forward({temperatures});
+
+  if (!update->setupflag) return;
+  MPI_Allreduce(&without, &without_all, 1, MPI_INT, MPI_SUM, world);
+  if (without_all)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style with temp energy: {} particles have no heat, an internal energy that "
+               "does not exceed their elastic energy; use set ... sph/e",
+               without_all);
+}
+
+/* ----------------------------------------------------------------------
    false if there is no friction between pairs
 ------------------------------------------------------------------------- */
 
@@ -103,7 +175,7 @@ bool NoiseStage::set_coeffs(double factor)
 {
   const LoopData &pairs = engine.pairs();
   const bool by_r = (form.shear == Shear::MG_FR);
-  const double share = form.directed ? 0.5 : 1.0;
+  const double share = (form.kind == NoiseKind::DIRECTED) ? 0.5 : 1.0;
   bool any = false;
   coeff.assign(pairs.ntypes_1 * pairs.ntypes_1, NoiseCoeff());
   for (int i = 1; i < pairs.ntypes_1; i++)
@@ -127,7 +199,7 @@ bool NoiseStage::set_coeffs(double factor)
 
 bool NoiseStage::is_negative(int i) const
 {
-  return form.directed && model.coeffs[atom->type[i]].zeta < 0.0;
+  return form.kind == NoiseKind::DIRECTED && model.coeffs[atom->type[i]].zeta < 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -147,7 +219,15 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
     if (!(strength > 0.0) || (atom->mask[i] & not_fluid)) continue;
     Particle &particle = engine.particle[i];
     const double c_inv = particle.vol / engine.weight(i);
-    particle.g += strength * pressure[i] * c_inv * c_inv / sqrt(particle.vol);
+    const double random = strength * pressure[i] / sqrt(particle.vol);
+    if (form.kind == NoiseKind::ENERGY) {
+      const double own = random * sqrt(row[i].temperature);
+      const double change = own + row[i].softness * engine.zeta_term[i];
+      row[i].pressure = own * c_inv * c_inv;
+      engine.zeta_term[i] += change;
+      particle.g += change * c_inv * c_inv;
+    } else
+      particle.g += random * c_inv * c_inv;
   }
 }
 
@@ -185,7 +265,9 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
 
 double NoiseStage::memory_usage() const
 {
-  return static_cast<double>((tag.capacity() + reach.capacity() + share.capacity() +
-                              eta.capacity() + pressure.capacity() + random.capacity()) *
-                             sizeof(double));
+  return static_cast<double>(row.capacity() * sizeof(NoiseRow)) +
+      static_cast<double>((spin_mobility.capacity() + tag.capacity() + reach.capacity() +
+                           share.capacity() + eta.capacity() + pressure.capacity() +
+                           random.capacity()) *
+                          sizeof(double));
 }

@@ -35,17 +35,24 @@ namespace SPHDissipation {
   // sum_j gamma_ij^2, and eta_i = sum_j gamma_ij xi_ij, the numbers
   //   chi_ij = xi_ij - s_i gamma_ij eta_i/D_i,  s_i = 1 - sqrt(1 + 2 zeta_i D_i)
   // have the covariance 1 + 2 zeta_i gamma_i gamma_i^T.  D_i is the bound of LimitStage.
+  //
+  // temp energy: each particle has the temperature T_i of its heat, what its internal energy has beyond the elastic one.
+  // Pairs have T_ij = 2 T_i T_j/(T_i + T_j) and more friction, by derivatives of T_ij, see the theory page.
 
   class NoiseStage : public Stage {
    public:
     NoiseStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
-    static constexpr int FORWARD = 1, REVERSE = 1;    // values per atom
+    static constexpr int FORWARD = 2, REVERSE = 1;    // values per atom
 
     // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and has it add the rest.
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure
     // of their own
 
     void run(const double *bound, int not_fluid);
+
+    // of a particle with its density and its energy as they are now (temp energy)
+
+    double internal_temperature(int i) const;
 
     double memory_usage() const override;
 
@@ -54,10 +61,14 @@ namespace SPHDissipation {
     NoiseForm form;
     NoiseData data;
     std::vector<NoiseCoeff> coeff;
+    std::vector<NoiseRow> row;
+    std::vector<double> spin_mobility;
     std::vector<double> tag, reach, share, eta, pressure, random;
 
     void check_box() const;
     void set_tags();
+    void set_temperatures();
+    double heat_of(int i) const;
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);

@@ -37,6 +37,15 @@ namespace SPHDissipation {
     double inverse_central;    // 1 / what the shear term puts before (u.e)^2, or 0
   };
 
+  // of a particle that has a temperature of its own
+
+  struct NoiseRow {
+    double temperature;
+    double softness;    // k over its heat capacity
+    double mobility;    // dt/m
+    double pressure;    // random pressure / c^2
+  };
+
   // input and output of the loops, beside the pairs that pass 1 has found; arrays of owned, ghost, and spare particles
 
   struct NoiseData {
@@ -44,6 +53,8 @@ namespace SPHDissipation {
     const double *reach;    // c sqrt(V), if DIRECTED
     const double *
         share;    // s eta/(D c), of those whose bulk term has a negative coefficient, see NoiseStage
+    const NoiseRow *row;            // if ENERGY
+    const double *spin_mobility;    // dt/J, if ENERGY with spins
     std::uint64_t seed, step;
     const int *type;            // read if the coefficients differ between types
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
@@ -54,12 +65,17 @@ namespace SPHDissipation {
 
   constexpr int MOST_NUMBERS = 8;    // of a pair
 
+  // DIRECTED: two numbers along e, one of each partner
+  // ENERGY: at the temperatures of the particles, with the energy of motion and heat together constant
+
+  enum class NoiseKind { PLAIN, DIRECTED, ENERGY };
+
   // which numbers a pair needs
 
   struct NoiseForm {
     Shear shear;
-    int dim;          // of the kernel
-    bool directed;    // two numbers along e, one of each partner
+    int dim;    // of the kernel
+    NoiseKind kind;
   };
 
 }    // namespace SPHDissipation

@@ -168,7 +168,7 @@ template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseD
 // what pass 2 adds to the force and torques of a block of pairs
 
 struct NoNoise {
-  static constexpr bool ON = false, VECTOR = false;
+  static constexpr bool ON = false, VECTOR = false, ENERGY = false;
   SPH_INLINE NoNoise(const LoopData &) {}
   SPH_INLINE void begin(int) {}
 };
@@ -176,13 +176,16 @@ struct NoNoise {
 // The numbers of all pairs of a particle are made before its pairs are worked off: alone, the long chain of operations
 // of one block overlaps with those of the next ones.
 
-template <int ACROSS, bool SPIN, bool DIRECTED> struct PairNoise {
+template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   static constexpr bool ON = true, VECTOR = (ACROSS == 3);
+  static constexpr bool DIRECTED = (KIND == NoiseKind::DIRECTED);
+  static constexpr bool ENERGY = (KIND == NoiseKind::ENERGY);
 
   Vec central;      // force on i along r_ij, times 1/r
   Vec rest[3];      // and in other directions, if there is any
   Vec torque[3];    // on both, which balances the force
   Vec spin[3];      // torque on i, opposite on j
+  Vec friction;     // factor of that of the pair, if ENERGY
 
   SPH_INLINE PairNoise(const LoopData &pairs) :
       pairs(pairs), data(*pairs.noise), step(data), coeff(data.coeff[pairs.ntypes_1 + 1])
@@ -217,6 +220,18 @@ template <int ACROSS, bool SPIN, bool DIRECTED> struct PairNoise {
       if (!Numbers::is_used(c)) continue;
       z[c] = load(next);
       next += LANES;
+    }
+
+    if constexpr (ENERGY) {
+      load_4_columns<WIDTH<NoiseRow>>(numbers(data.row), j, other);
+      if constexpr (SPIN) other_spin_mobility = gather(data.spin_mobility, j);
+      const NoiseRow &own = data.row[i];
+      const Vec sum = own.temperature + other[TEMPERATURE] + TINY;
+      const Vec share_i = own.temperature / sum, share_j = other[TEMPERATURE] / sum;
+      const Vec common = 2.0 * own.temperature * share_j;
+      friction = 1.0 + own.softness * share_j * share_j + other[SOFTNESS] * share_i * share_i;
+      vv *= common;
+      by_metric *= common;
     }
 
     if constexpr (DIRECTED || !VECTOR) {
@@ -282,6 +297,48 @@ template <int ACROSS, bool SPIN, bool DIRECTED> struct PairNoise {
     }
   }
 
+  // of the noise; u = relative velocity at the point of contact, s = difference of the spins
+
+  SPH_INLINE Vec power(Vec approach, Vec ux, Vec uy, Vec uz) const
+  {
+    Vec sum = central * approach;
+    if constexpr (ACROSS > 0) sum += rest[0] * ux + rest[1] * uy;
+    if constexpr (VECTOR) sum += rest[2] * uz;
+    return sum;
+  }
+  SPH_INLINE Vec spin_power(Vec sx, Vec sy, Vec sz) const
+  {
+    Vec sum = spin[2] * sz;
+    if constexpr (VECTOR) sum += spin[0] * sx + spin[1] * sy;
+    return sum;
+  }
+
+  // Heat that i gets from j, on average of the noise: each particle pays for the kinetic energy that the impulses of a
+  // step give to it, while of those of a pair each partner should pay half, and of those of a random pressure its
+  // particle all.  f = viscous and random force of the pair on i; pressing times P/c^2 times r: of pressures P
+
+  SPH_INLINE Vec given(const Vec *f, Vec rsq, Vec pressing) const
+  {
+    const NoiseRow &own = data.row[i];
+    const Vec square = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+    const Vec by_i = own.pressure * pressing, by_j = other[PRESSURE] * pressing;
+    return 0.25 * square * (own.mobility - other[MOBILITY]) +
+        0.5 * rsq * (by_j * by_j * own.mobility - by_i * by_i * other[MOBILITY]);
+  }
+
+  // the same for the torques on both and the one on j, which is opposite on i
+
+  SPH_INLINE Vec given_by_torque(const Vec *on_both, const Vec *on_j) const
+  {
+    Vec square_i = all(0.0), square_j = all(0.0);
+    for (int k = VECTOR ? 0 : 2; k < 3; k++) {
+      const Vec torque_i = on_both[k] - on_j[k], torque_j = on_both[k] + on_j[k];
+      square_i += torque_i * torque_i;
+      square_j += torque_j * torque_j;
+    }
+    return 0.25 * (square_i * data.spin_mobility[i] - square_j * other_spin_mobility);
+  }
+
  private:
   using Numbers = PairNumbers<ACROSS, SPIN, DIRECTED>;
   const LoopData &pairs;
@@ -290,6 +347,8 @@ template <int ACROSS, bool SPIN, bool DIRECTED> struct PairNoise {
   NoiseCoeffs coeff;
   int i;
   double *next;    // of the numbers of i
+  enum { TEMPERATURE, SOFTNESS, MOBILITY, PRESSURE, NROW };
+  Vec other[NROW], other_spin_mobility;    // of j
 };
 
 // one number of each of n particles, and of some behind them

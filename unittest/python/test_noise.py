@@ -338,3 +338,131 @@ def test_temperature_between_walls(lammps, options, kappa):
     error = 0.3 * np.sqrt(2.0 / (200 * 36 * 0.5))
     for name in ("f_av[1]", "f_av[2]", "f_av[3]"):
         assert abs(thermo[name][-1] - 0.3) < 5 * error, name
+
+
+# ---- temperatures of the particles -------------------------------------------------------------------------------
+
+ENERGY = "temp energy 20.0 4711"
+
+
+def heated(style="sph/bulk", options="", ranks=1, extra="", mass=2.0, kappa=0.8, dt=0.004):
+    """Two fluids with heat capacities of their own; all particles begin at temperature 1."""
+    spin = " 0.1 0.02 -0.02" if style == "sph/micropolar" else ""
+    return (f"units lj\ndimension 2\natom_style {style}\nlattice sq 1.0\nregion box block 0 12 0 12 -0.5 0.5\n"
+            "create_box 2 box\ncreate_atoms 1 box\nset group all type/fraction 2 0.5 77\n"
+            f"set type 1 mass 1.0\nset type 2 mass {mass}\n"
+            "displace_atoms all random 0.1 0.1 0.0 5\nvelocity all create 1.0 87 loop geom\n"
+            f"pair_style {style} {ENERGY} {options}\n"
+            f"pair_coeff 1 1 1.0 6.0 0.3 {kappa}{spin} 3.0 pb 20.0\n"
+            f"pair_coeff 2 2 {mass} 6.0 0.3 {kappa}{spin} 3.0 pb 20.0 cv 15.0\n"
+            f"fix 1 all {style}" + (" inertia 0.16 0.0" if spin else "") + f"\ntimestep {dt}\n"
+            "set group all sph/e 1000.0\ncompute elastic all pe/atom\nrun 0\n"
+            f"variable start atom c_elastic+mass*(20.0*(type==1)+15.0*(type==2))\n"
+            "dump D all custom 1 start.dump v_start\nrun 0\nundump D\nset group all sph/e v_start\n"
+            "compute E all sph/energy\ncompute T all sph/temp\nthermo_modify norm no\n" + extra)
+
+
+@pytest.mark.parametrize("style, options", [
+    ("sph/bulk", ""), ("sph/bulk", "shear mg/fr volume mass"), ("sph/bulk", "shear espanol"), ("sph/bulk", "bulk none"),
+    ("sph/micropolar", "")])
+@pytest.mark.parametrize("ranks, newton", [(1, "on"), (1, "off"), (2, "on")])
+def test_total_energy_over_1000_steps(lammps, style, options, ranks, newton):
+    """Motion, spin, and internal energy together are constant; each of them is not."""
+    if (ranks == 2 or newton == "off") and style == "sph/bulk":
+        pytest.skip("one case is enough")
+    text = f"newton {newton}\n" + heated(style, options, extra="thermo_style custom step c_E c_E[1] c_E[2] c_T[5]\nthermo 50\n"
+                  "thermo_modify norm no format float %.17g\n")
+    thermo = lammps(text + "run 1000\n", ranks=ranks, timeout=300).thermo()[-1]
+    energy = thermo["c_E"]
+    assert np.abs(energy - energy[0]).max() < 1e-13 * energy[0]
+    assert np.ptp(thermo["c_E[1]"]) > 1e-3 * energy[0]
+    assert thermo["c_T[5]"][0] == pytest.approx(1.0, rel=1e-12)
+
+
+def test_same_noise_of_own_temperatures_on_any_number_of_ranks(lammps):
+    lammps(heated("sph/micropolar", mass=3.0) + "write_restart hot.restart\n")
+    reference = None
+    for ranks, newton in ((1, "on"), (1, "off"), (2, "on"), (4, "off")):
+        lammps(f"newton {newton}\nread_restart hot.restart\nfix 1 all sph/micropolar inertia 0.16 0.0\ntimestep 0.004\n"
+               + dump("f.dump", 1) + "run 5\n", ranks=ranks)
+        frame = lammps.frames("f.dump")[-1]
+        reference = frame["f"] if reference is None else reference
+        assert relative(frame["f"] - reference, reference) < 1e-11, (ranks, newton)
+
+
+PAIRS, APART = 500, 20.0
+
+
+@pytest.mark.parametrize("mass", [1.0, 3.0])
+def test_energy_of_two_particles(lammps, mass):
+    """Of the motion of a pair that shares a constant energy with the heat of both: mean 0.5/(2 C/k + 1.5) of it.
+    Without the terms of order k/C in the friction it would be 15 percent higher."""
+    capacity, total = 3.0, 1e-6
+    heat = total * capacity / (2.0 * capacity + 1.5)
+    reduced = mass / (1.0 + mass)
+    speed = np.sqrt(2.0 * (total - 2.0 * heat) / reduced)
+    atoms, velocities = "", ""
+    for k in range(PAIRS):
+        for one, (place, m, sign) in enumerate(((5.0, 1.0, 1.0), (6.0, mass, -1.0))):
+            atoms += f"{2 * k + one + 1} {one + 1} {m} {heat:.17g} {APART * k + place} 0 0\n"
+            velocities += f"{2 * k + one + 1} {sign * speed * reduced / m:.17g} 0 0\n"
+    lammps.path("pairs.data").write_text(
+        f"pairs\n\n{2 * PAIRS} atoms\n2 atom types\n0 {APART * PAIRS} xlo xhi\n-10 10 ylo yhi\n-0.5 0.5 zlo zhi\n\n"
+        f"Atoms # sph/bulk\n\n{atoms}\nVelocities\n\n{velocities}")
+    result = lammps(
+        "units lj\ndimension 2\natom_style sph/bulk\nread_data pairs.data\nneighbor 1.0 bin\n"
+        f"pair_style sph/bulk dim 1 temp energy {capacity} 5\npair_coeff 1 1 1.0 1e-7 0.4 intrinsic 3.0\n"
+        f"pair_coeff 2 2 {mass} 1e-7 0.4 intrinsic 3.0 cv {capacity / mass}\nfix 1 all sph/bulk\ntimestep 0.02\n"
+        "compute E all sph/energy\nthermo_style custom step c_E[1] c_E\nthermo 50\n"
+        "thermo_modify norm no format float %.17g\nrun 3000\nrun 20000\n", timeout=300)
+    thermo = result.thermo()[-1]
+    share = thermo["c_E[1]"] / thermo["c_E"]
+    assert np.ptp(thermo["c_E"]) < 1e-13 * thermo["c_E"][0]
+    exact = 0.5 / (2.0 * capacity + 1.5)
+    blocks = share[1:].reshape(20, -1).mean(axis=1)
+    error = blocks.std(ddof=1) / np.sqrt(len(blocks))
+    assert error < 0.01 * exact
+    assert abs(share.mean() - exact) < 4 * error + 0.01 * exact  # and one percent of the time step
+
+
+def test_motion_spin_and_heat_have_one_temperature(lammps):
+    """Kinetic temperature, that of the spins, and that of the heat of the particles agree, and those of both masses."""
+    text = heated("sph/micropolar", mass=3.0, extra=(
+        "group light type 1\ngroup heavy type 2\ncompute light light sph/temp\ncompute heavy heavy sph/temp\nrun 1000\n"
+        "reset_timestep 0\nfix av all ave/time 1 6000 6000 c_T c_T[4] c_T[5] c_light c_heavy c_light[5] c_heavy[5]\n"
+        "thermo_style custom step f_av[*]\nthermo 6000\n"))
+    thermo = lammps(text + "run 6000\n", timeout=300).thermo()[-1]
+    values = [column[-1] for name, column in thermo.items() if name.startswith("f_av")]
+    error = np.sqrt(2.0 / (144 * 24 * 0.5))
+    for value in values:
+        assert abs(value / values[0] - 1.0) < 5 * error
+    for light, heavy in ((3, 4), (5, 6)):
+        assert abs(values[light] / values[heavy] - 1.0) < 10 * error
+
+
+def test_restart_keeps_the_temperatures(lammps):
+    lammps(heated() + "run 10\nwrite_restart ten.restart\n" + dump("whole.dump", 5) + "run 10\n")
+    lammps("read_restart ten.restart\nfix 1 all sph/bulk\ntimestep 0.004\n" + dump("rest.dump", 5) + "run 10\n")
+    for one, other in zip(lammps.frames("whole.dump"), lammps.frames("rest.dump")):
+        for field in "xvf":
+            assert relative(one[field] - other[field], one[field]) < 1e-12, (one.step, field)
+
+
+@pytest.mark.parametrize("options, words", [
+    ("temp energy 0.0 5", "heat capacity must be > 0, not 0.0"), ("temp energy -1.0 5", "must be > 0, not -1.0"),
+    ("temp energy 5", "[Mm]issing"), ("temp energy", "[Mm]issing"), ("temp energy 1.0 0", "seed must be > 0, not 0"),
+    ("temp energy 1.0 5", "particles have no heat.*set ... sph/e"), ("temp energy 1.0 5 limit yes", "kappa 0.1 of type 1"),
+    ("temp energy 1.0 5 eos ideal", "eos ideal"), ("temp energy 1.0 5 bulk volume", "bulk volume.*not symmetric")])
+def test_wrong_arguments_of_temp_energy(lammps, options, words):
+    make_box(lammps)
+    kappa = 0.1 if "limit" in options else 2.0
+    fails(lammps, deck(options=options, kappa=kappa, extra="set group all sph/e 0.0\n") + "run 1\n", words, ranks=(1,))
+
+
+def test_what_temp_energy_does_not_go_with(lammps):
+    make_box(lammps)
+    fails(lammps, deck(coeff="pair_coeff * * 1.0 10.0 0.5 2.0 3.0 cv 3.0\n") + "run 1\n", "cv needs keyword temp energy",
+          ranks=(1,))
+    text = deck(options=ENERGY).replace("fix FLUID all", "region low block INF INF INF 2.9 INF INF\ngroup wall region low\n"
+                                        "group fluid subtract all wall\nfix FLUID fluid")
+    fails(lammps, text + "fix W wall sph/wall\nset group all sph/e 100.0\nrun 1\n", "cannot be used with walls", ranks=(1,))
