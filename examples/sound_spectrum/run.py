@@ -10,62 +10,136 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from scipy.integrate import quad
 from scipy.optimize import least_squares
+from scipy.special import j0
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from run_lammps import Example      # noqa: E402
 
-MU, C0, T, SUPPORT = 0.5, 3.0, 0.02, 3.5
-KAPPAS = (0, 1, 10)    # over mu
-STEPS, QUICK = 500000, 40000
-EVERY = 10             # steps between two rows of the series
+C0, MU, SUPPORT = 3.0, 1.5, 5.0
+WAVES = ((1, 0), (0, 1), (2, 0), (0, 2), (1, 1), (1, -1))    # in the order of the columns
+# by kappa/mu: steps, time step, steps between two rows. The long waves lose (1 - a) and not exp(-a) in a step, so a
+# larger viscosity has a smaller step
+RUNS = {0: (400000, 0.05, 10), 1: (300000, 0.05, 10), 10: (200000, 0.02, 25)}
+QUICK = {1: (20000, 0.05, 10)}
+# many neighbours, for the structure; without a bulk term, and about critically damped
+STRUCTURE = {"kappa": 2, "mu": 2.0, "T": 0.02, "support": 12, "dt": 0.2, "nx": 28, "ny": 16, "settle": 500, "every": 4}
+STRUCTURE_STEPS, STRUCTURE_QUICK = 40000, 400
+PIECES = 8             # of a series, for its statistical error
 
 
-def series(path):
-    """Fluctuating amplitudes of the first two waves: density, longitudinal and transverse velocity; time between rows."""
+def box(nx=24, ny=14):
+    """Lengths of the box and number of particles, of a hexagonal lattice of density 1."""
+    a = np.sqrt(2 / np.sqrt(3))
+    return np.array([nx * a, ny * a * np.sqrt(3)]), 2 * nx * ny
+
+
+def series(path, lengths):
+    """By wave: wave number, amplitudes of density, longitudinal and transverse velocity; rows of the series are steps."""
     data = np.loadtxt(path)
-    waves = []
-    for first in (1, 7):
-        columns = data[:, first:first + 6]
-        waves.append([columns[:, 2 * k] + 1j * columns[:, 2 * k + 1] for k in range(3)])
-    return waves, data[1, 0] - data[0, 0]
+    sums = data[:, 1:].reshape(len(data), len(WAVES), 3, 2) @ [1, 1j]
+    found = []
+    for number, wave in enumerate(WAVES):
+        k = 2 * np.pi * np.array(wave) / lengths
+        e = k / np.linalg.norm(k)
+        density, u = sums[:, number, 0], sums[:, number, 1:]
+        found.append((np.linalg.norm(k), density, u @ e, u @ np.array([-e[1], e[0]])))
+    return found
 
 
-def correlation(z, count):
-    """<z(t) z*(0)> for the first `count` lags."""
-    n = len(z)
-    f = np.fft.fft(z - z.mean(), 2 * n)
-    return np.fft.ifft(f * f.conj()).real[:count] / np.arange(n, n - count, -1)
-
-
-def longitudinal(time, gamma, omega):
-    """C(t)/C(0) of a damped wave: exp(-g t) [cos w t - (g/w) sin w t]."""
-    return np.exp(-gamma * time) * (np.cos(omega * time) - gamma / omega * np.sin(omega * time))
-
-
-def fit(function, time, values, guess):
-    return least_squares(lambda p: function(time, *p) - values, guess, x_scale=np.abs(guess)).x
+def kernel(q):
+    """Fourier transform of wendland/c2 in two dimensions; q = k times its support."""
+    return quad(lambda s: 14 * s * (1 - s)**4 * (1 + 4 * s) * j0(q * s), 0, 1)[0]
 
 
 def theory(k, kappa):
     """Rates of shear and sound of this fluid at wave number k: continuum, finite wavelength (theory page)."""
     kh2 = (0.5 * k * SUPPORT)**2
-    longitudinal_mg = 3 * MU * (1 - 0.077 * kh2)
-    bulk = (kappa * MU - 2 * MU) * (1 - 0.28 * kh2)
-    shear = MU * (1 - 0.046 * kh2)
-    return shear * k**2, 0.5 * (longitudinal_mg + bulk) * k**2
+    along = 3 * MU * (1 - 0.077 * kh2) + (kappa - 2) * MU * (1 - 0.28 * kh2)
+    return MU * (1 - 0.046 * kh2) * k**2, 0.5 * along * k**2
+
+
+def correlation(z, count):
+    """Re <z(t) z*(0)> for the first `count` lags."""
+    n = len(z)
+    f = np.fft.fft(z, 2 * n)
+    return np.fft.ifft(f * f.conj()).real[:count] / np.arange(n, n - count, -1)
+
+
+def decay(time, rate):
+    return np.exp(-rate * time)
+
+
+def wave(time, gamma, square):
+    """Current of a damped wave: exp(-g t) [cos w t - (g/w) sin w t] with w^2 = square - g^2, also beyond critical damping."""
+    w = np.sqrt(complex(square - gamma**2)) + 1e-9
+    return (np.exp(-gamma * time) * (np.cos(w * time) - gamma / w * np.sin(w * time))).real
+
+
+def fit(function, time, values, guess):
+    return least_squares(lambda p: function(time, *p) - values / values[0], guess, x_scale=np.abs(guess)).x
+
+
+def fluid(example, kappa, steps, dt, every, waves):
+    """Rates of the correlations and of the fluid without noise, for each wave, shear and sound."""
+    lengths, particles = box()
+    name = f"kappa{kappa}"
+    noisy = series(example.out / f"{name}.series.txt", lengths)
+    rest = series(example.out / f"{name}.rest.series.txt", lengths)
+    step, found = every * dt, []
+    for number in waves:
+        k, density, *currents = noisy[number]
+        guesses = theory(k, kappa)
+        for along in (1, 0):
+            own = series(example.out / f"{name}.{number}.{along}.series.txt", lengths)[number]
+            answer = (own[3 - along] - rest[number][3 - along]).real * (1 if along else 1)
+            guess = guesses[along]
+            count = min(int((2.0 if along else 1.2) / guess / step), len(answer))
+            time = step * np.arange(count)
+            function, first = (wave, [guess, (C0 * kernel(k * SUPPORT) * k)**2]) if along else (decay, [guess])
+            z = currents[1 - along]
+            pieces = np.array([correlation(p, count) for p in np.array_split(z, PIECES)])
+            # jackknife
+            rates = [fit(function, time, values, first)[0] for values in
+                     (np.mean(pieces, axis=0), *((np.sum(pieces, axis=0) - p) for p in pieces))]
+            alone = fit(function, time, answer[:count], first)
+            found.append({"kappa": kappa, "wave": WAVES[number], "k": k, "along": along, "rate": rates[0],
+                          "others": np.array(rates[1:]), "alone": alone[0], "square": alone[-1], "theory": guess,
+                          "time": time, "correlation": np.mean(pieces, axis=0) / np.mean(pieces[:, 0]),
+                          "answer": answer[:count] / answer[0], "power": np.mean(np.abs(z)**2) / particles,
+                          "samples": len(z) * step * guess, "density": density})
+    return found
+
+
+def mean_ratio(results):
+    """Rate of the correlations over that without noise, mean over waves by their number of decay times, and its error."""
+    weights = np.array([r["samples"] for r in results])
+    weights /= weights.sum()
+    ratio = sum(w * r["rate"] / r["alone"] for w, r in zip(weights, results))
+    others = sum(w * r["others"] / r["alone"] for w, r in zip(weights, results))
+    return ratio, np.sqrt((PIECES - 1) * np.var(others))
+
+
+def structure(example, support, T, **numbers):
+    """S(k) over that of the theory, for each wave."""
+    lengths, particles = box(numbers["nx"], numbers["ny"])
+    ratios = []
+    for k, density, *_ in series(example.out / "structure.series.txt", lengths):
+        sound = (C0 * kernel(k * support))**2
+        ratios.append([np.mean(np.abs(p)**2) / particles * (1 + sound / T) for p in np.array_split(density, PIECES)])
+    return np.array(ratios)
 
 
 def spectrum(z, dt, parts):
     """Power of z by frequency, mean over pieces of the series."""
     n = len(z) // parts
-    pieces = z[:parts * n].reshape(parts, n)
-    pieces = (pieces - z.mean()) * np.hanning(n)
+    pieces = z[:parts * n].reshape(parts, n) * np.hanning(n)
     power = np.mean(np.abs(np.fft.fft(pieces))**2, axis=0) * dt / np.sum(np.hanning(n)**2)
     omega = 2 * np.pi * np.fft.fftfreq(n, dt)
-    keep = omega > 0
-    return omega[keep], 0.5 * (power[keep] + power[::-1][keep])
+    order = np.argsort(omega[omega > 0])
+    return omega[omega > 0][order], 0.5 * (power[omega > 0] + power[::-1][:-1][omega[1:] > 0])[order]
 
 
 def plot(path, results):
@@ -75,22 +149,22 @@ def plot(path, results):
 
     plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.5, 3.4), layout="constrained")
-    for index, (kappa, r) in enumerate(results.items()):
+    for index, kappa in enumerate(results):
         color = f"C{index}"
-        omega, power = r["spectrum"]
-        rate_shear, gamma = theory(r["k"], kappa)
-        w2 = r["omega"]**2 + r["gamma"]**2
+        sound, shear = (next(r for r in results[kappa] if r["wave"] == WAVES[0] and r["along"] == a) for a in (1, 0))
+        step = sound["time"][1]
+        omega, power = spectrum(sound["density"], step, int(len(sound["density"]) * step / 400) + 1)
+        w2, gamma = sound["square"], sound["alone"]
         peak = 4 * gamma * w2 / ((omega**2 - w2)**2 + 4 * gamma**2 * omega**2)
-        left.semilogy(omega, power / r["S"], color + ".", ms=3, alpha=0.5)
+        left.semilogy(omega, power / np.mean(np.abs(sound["density"])**2), color + ".", ms=3, alpha=0.5)
         left.semilogy(omega, peak, color, lw=1.2, label=f"$\\kappa/\\mu$ = {kappa}")
-        time, transverse, along = r["time"], r["transverse"], r["along"]
-        middle.plot(time, along, color + ".", ms=2)
-        middle.plot(time, longitudinal(time, gamma, r["omega"]), color, lw=0.9)
-        right.semilogy(time, np.clip(transverse, 1e-3, None), color + ".", ms=3, label=f"$\\kappa/\\mu$ = {kappa}")
-    right.semilogy(time, np.exp(-rate_shear * time), "k", lw=0.9, label="$\\exp(-\\nu k^2t)$")
-    left.set(xlim=(0, 1.6), ylim=(3e-2, 2e3), xlabel="$\\omega$", title="dynamic structure factor $S(k,\\omega)/S(k)$")
-    middle.set(xlabel="$t$", title="longitudinal current", xlim=(0, 60))
-    right.set(xlabel="$t$", title="transverse current", ylim=(2e-2, 1.2), xlim=(0, 70))
+        for axes, r in ((middle, sound), (right, shear)):
+            few = max(1, len(r["time"]) // 60)
+            axes.plot(r["time"][::few], r["correlation"][::few], color + ".", ms=3, label=f"$\\kappa/\\mu$ = {kappa}")
+            axes.plot(r["time"], r["answer"], color, lw=0.9)
+    left.set(xlim=(0, 1.6), ylim=(3e-2, 3e2), xlabel="$\\omega$", title="dynamic structure factor $S(k,\\omega)/S(k)$")
+    middle.set(xlabel="$t$", title="longitudinal current", xlim=(0, 40))
+    right.set(xlabel="$t$", title="transverse current", yscale="log", ylim=(0.2, 1.1))
     for axes in (left, middle, right):
         axes.grid(alpha=0.3)
     left.legend()
@@ -99,53 +173,57 @@ def plot(path, results):
     plt.close(figure)
 
 
-def analyse(path, kappa, dt, length):
-    waves, stride = series(path)
-    found = {}
-    for number, (density, vx, vy) in enumerate(waves, 1):
-        k, step = 2 * np.pi * number / length, stride * dt
-        shear, gamma = theory(k, kappa)
-        count = int(1.2 / shear / step)
-        time = step * np.arange(count)
-        transverse, along = correlation(vy, count), correlation(vx, count)
-        decay, = fit(lambda t, g: np.exp(-g * t), time, transverse / transverse[0], [shear])
-        short = time < 2.0 / gamma
-        gamma_fit, omega = fit(longitudinal, time[short], along[short] / along[0], [gamma, C0 * k])
-        found[number] = {"k": k, "shear": decay, "gamma": gamma_fit, "omega": omega, "theory": (shear, gamma),
-                         "transverse": transverse / transverse[0], "along": along / along[0], "time": time,
-                         "power": (transverse[0], along[0]), "S": np.var(density),
-                         "spectrum": spectrum(density, step, 60)}
-    return found
+def jobs(example, runs, waves, structure_steps):
+    """The fluids with noise first, then each from its last particles without noise: at rest, and with one wave each."""
+    example.run({**{f"kappa{kappa}": {"kappa": kappa, "steps": steps, "dt": dt, "every": every}
+                    for kappa, (steps, dt, every) in runs.items()},
+                 "structure": {**STRUCTURE, "steps": structure_steps}})
+    calm = {}
+    for kappa, (_, dt, every) in runs.items():
+        name = f"kappa{kappa}"
+        lengths, _ = box()
+        needed = []
+        for number in waves:
+            m, n = WAVES[number]
+            for along in (1, 0):
+                rate = theory(2 * np.pi * np.hypot(m / lengths[0], n / lengths[1]), kappa)[along]
+                needed.append(every * (int(2.0 / rate / dt / every) + 2))
+                calm[f"{name}.{number}.{along}"] = {"m": m, "n": n, "along": along, "steps": needed[-1]}
+        calm[f"{name}.rest"] = {"steps": max(needed)}
+        for job in calm:
+            if job.startswith(name + "."):
+                calm[job].update({"start": name, "T": 0, "kappa": kappa, "dt": dt, "every": every})
+    example.run(calm)
 
 
 def main():
     example = Example(HERE, "Sound and shear in thermal fluctuations.")
     args = example.arguments()
-    steps = QUICK if args.quick else STEPS
-    kappas = (1,) if args.quick else KAPPAS
-    dt, nx, ny = 0.05, 24, 7
-    a = np.sqrt(2 / np.sqrt(3))
-    length, particles = nx * a, 2 * nx * ny
-    example.run({f"kappa{kappa}": {"kappa": kappa, "steps": steps} for kappa in kappas})
-    results = {}
-    for kappa in kappas:
-        found = analyse(example.out / f"kappa{kappa}.series.txt", kappa, dt, length)
-        results[kappa] = found[1]
-        for number, r in found.items():
-            name = f"kappa/mu = {kappa}, wave {number}: "
-            # relative error of a rate from a series of that many decay times, real and imaginary part
-            samples = [2 * steps * dt * rate for rate in r["theory"]]
-            bar = max(0.03, 3 * np.sqrt(2 / samples[0]))
-            print(f"{name}shear rate {r['shear']:.5f}, theory {r['theory'][0]:.5f}; sound damping {r['gamma']:.5f}, "
-                  f"theory {r['theory'][1]:.5f}; frequency over c0 k {r['omega'] / C0 / r['k']:.4f}")
-            example.merit(name + "rate of shear over theory, minus 1", abs(r["shear"] / r["theory"][0] - 1), 0, bar)
-            for what, power, n in zip(("transverse", "longitudinal"), r["power"], samples):
-                example.merit(f"{name}power of the {what} current over N kT/m, minus 1",
-                              abs(power / (particles * T) - 1), 0, 3 * np.sqrt(2 / n))
+    runs = QUICK if args.quick else RUNS
+    waves = (4, 5) if args.quick else range(len(WAVES))
+    jobs(example, runs, waves, STRUCTURE_QUICK if args.quick else STRUCTURE_STEPS)
+    results = {kappa: fluid(example, kappa, *runs[kappa], waves) for kappa in runs}
+    for kappa, found in results.items():
+        for along, what in ((0, "shear"), (1, "sound")):
+            mine = [r for r in found if r["along"] == along]
+            for r in mine:
+                print(f"kappa/mu = {kappa}, {what}, wave {r['wave']}: rate {r['rate']:.5f}, without noise "
+                      f"{r['alone']:.5f}, theory {r['theory']:.5f}; power over N kT/m {r['power'] / T:.3f}")
+            ratio, error = mean_ratio(mine)
+            example.merit(f"kappa/mu = {kappa}: decay of {what} in correlations over that without noise "
+                          f"(standard error {error:.3f})", ratio, 1 - max(0.03, 3 * error), 1 + max(0.03, 3 * error))
+    ratios = structure(example, **STRUCTURE)
+    means = ratios.mean(axis=0)
+    error = np.std(means) / np.sqrt(PIECES - 1)
+    print("S(k) over theory by wave:", " ".join(f"{r:.3f}" for r in ratios.mean(axis=1)))
+    example.merit(f"S(k) over theory, mean over waves (standard error {error:.3f})", means.mean(),
+                  1 - max(0.03, 3 * error), 1 + max(0.03, 3 * error))
     picture = example.out / "sound_spectrum.png"
     plot(picture, results)
     return example.finish(picture)
 
+
+T = 0.009
 
 if __name__ == "__main__":
     sys.exit(main())

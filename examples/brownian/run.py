@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-only
+"""Brownian motion in a fluctuating fluid, against the drag on the same particle in the same fluid without noise.
+
+    ./sphd run brownian          or
+    SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from run_lammps import Example, frames      # noqa: E402
+
+MU, T, PULL, DT = 2.0, 0.2, 4.0, 0.01
+CELL = 2**(1 / 3)                             # of the bcc lattice of density 1
+# by width of the box in cells: steps with noise, and steps of a pulled particle
+RUNS, QUICK = {6: (400000, 16000), 8: (150000, 16000), 10: (2000, 16000)}, {6: (16000, 4000)}
+NAMES = {2: "heavy", 1: "of the fluid"}
+FORCES = {2: PULL, 1: 0.4 * PULL}             # on a particle of each type
+HASIMOTO = 2.837297                           # periodic array of Stokeslets, simple cubic
+LAGS = 3.0, 6.0                               # longer than the momentum stays in the box
+PIECES = 8
+
+
+def paths(path):
+    """Times and positions [frame, particle, 3], particles in the order of their IDs, and these."""
+    found = frames(path)
+    order = [np.argsort(f["id"]) for f in found.values()]
+    x = np.array([np.stack([f[c][o] for c in ("xu", "yu", "zu")], axis=1) for o, f in zip(order, found.values())])
+    first = next(iter(found.values()))
+    return DT * np.array(list(found)), x, first["id"][order[0]].astype(int), first.get("type", first["id"])[order[0]]
+
+
+def spread(x, lag):
+    """Mean square displacement of each particle over that many frames."""
+    return np.mean(np.sum((x[lag:] - x[:-lag])**2, axis=2), axis=0)
+
+
+def diffusion(time, x, near, far):
+    """Half the slope of the mean square displacement per direction between two times, and its standard error."""
+    step = time[1] - time[0]
+    a, b = round(near / step), round(far / step)
+    pieces = np.array([np.mean(spread(p, b) - spread(p, a)) for p in np.array_split(x, PIECES)]) / (6 * step * (b - a))
+    return pieces.mean(), pieces.std() / np.sqrt(PIECES - 1)
+
+
+def mobility(path, pull):
+    """Mean velocity over force of the pulled particle, after it has begun to move steadily, and its standard error."""
+    time, x, *_ = paths(path)
+    marks = np.linspace(len(time) // 8, len(time) - 1, PIECES + 1).astype(int)
+    speed = np.diff(x[marks, 0, 0]) / np.diff(time[marks]) / pull
+    return speed.mean(), speed.std() / np.sqrt(PIECES - 1)
+
+
+def drag(radius, length):
+    """Mobility times 6 pi mu of a sphere in a periodic cube, to the third order in radius over length."""
+    return 1 / radius - HASIMOTO / length + 4 * np.pi / 3 * radius**2 / length**3
+
+
+def hydrodynamic_radius(mobility, length):
+    radius = 0.5
+    for _ in range(60):
+        radius = 1 / (6 * np.pi * MU * mobility + HASIMOTO / length - 4 * np.pi / 3 * radius**2 / length**3)
+    return radius
+
+
+def plot(path, found):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.5), layout="constrained")
+    for index, ((cells, kind), r) in enumerate((key, r) for key, r in found.items() if "lags" in r and key[1] == 2):
+        left.plot(r["lags"], r["spread"], f"C{index}.", ms=4, label=f"heavy particle, L = {r['length']:.2f}")
+        left.plot(r["lags"], 6 * T * r["mobility"] * r["lags"], f"C{index}", lw=0.9)
+    left.set(xlabel="$t$", title="mean square displacement; lines $6 k_BT\\,(U/F)\\,t$", xlim=(0, None), ylim=(0, None))
+    for kind, color in ((2, "C0"), (1, "C2")):
+        mine = [r for (_, k), r in found.items() if k == kind]
+        inverse = np.array([1 / r["length"] for r in mine])
+        right.errorbar(inverse, [6 * np.pi * MU * r["mobility"] for r in mine], color=color, fmt="s", mfc="none",
+                       yerr=[6 * np.pi * MU * r["mobility_error"] for r in mine], label=f"drag, {NAMES[kind]}")
+        shown = [r for r in mine if "diffusion" in r]
+        right.errorbar([1 / r["length"] for r in shown], [6 * np.pi * MU * r["diffusion"] / T for r in shown],
+                       [6 * np.pi * MU * r["error"] / T for r in shown], color=color, fmt=".",
+                       label=f"diffusion, {NAMES[kind]}")
+        x = np.linspace(1e-9, 1.1 * inverse.max(), 60)
+        right.plot(x, drag(mine[-1]["radius"], 1 / x), color, lw=0.9)
+    right.set(xlabel="$1/L$", title="$6\\pi\\mu\\,U/F$ and $6\\pi\\mu\\,D/k_BT$")
+    for axes in (left, right):
+        axes.grid(alpha=0.3)
+        axes.legend()
+    figure.savefig(path, dpi=90)
+    plt.close(figure)
+
+
+def main():
+    example = Example(HERE, "Brownian motion and drag.")
+    args = example.arguments()
+    runs = QUICK if args.quick else RUNS
+    example.run({f"box{cells}": {"cells": cells, "steps": steps, "T": T, "dt": DT}
+                 for cells, (steps, _) in reversed(runs.items())})
+    pulled = {}
+    for cells, (_, steps) in runs.items():
+        _, _, ids, types = paths(example.out / f"box{cells}.all.dump")
+        for kind in (2, 1):
+            pulled[f"pull{cells}.{kind}"] = {"start": f"box{cells}", "T": 0, "dt": DT, "steps": steps,
+                                            "pulled": ids[types == kind][-1], "pull": FORCES[kind]}
+    example.run(pulled)
+
+    found = {}
+    for cells, (steps, _) in runs.items():
+        length = cells * CELL
+        for kind in (2, 1):
+            r = {"length": length}
+            r["mobility"], r["mobility_error"] = mobility(example.out / f"pull{cells}.{kind}.dump", FORCES[kind])
+            r["radius"] = hydrodynamic_radius(r["mobility"], length)
+            if steps > 10000:
+                time, x, _, types = paths(example.out / f"box{cells}.{'heavy' if kind == 2 else 'all'}.dump")
+                x = x if kind == 2 else x[:, types == 1]
+                r["diffusion"], r["error"] = diffusion(time, x, *LAGS)
+                if kind == 2:
+                    step = time[1] - time[0]
+                    count = np.unique(np.linspace(1, 10.0 / step, 25).astype(int))
+                    r["lags"], r["spread"] = step * count, np.array([spread(x, c).mean() for c in count])
+            found[cells, kind] = r
+    largest = max(runs)
+    for (cells, kind), r in found.items():
+        what = f"{NAMES[kind]}, L = {r['length']:.2f}: "
+        print(f"{what}U/F = {r['mobility']:.5f} +- {r['mobility_error']:.5f}, hydrodynamic radius {r['radius']:.4f}")
+        if cells != largest:
+            off = r["radius"] / found[largest, kind]["radius"] - 1
+            example.merit(what + "radius over that of the widest box, minus 1", abs(off), 0, 0.03)
+        if "diffusion" in r:
+            error = np.hypot(r["error"] / r["diffusion"], r["mobility_error"] / r["mobility"])
+            bar = max(0.03, 3 * error)
+            example.merit(f"{what}D over kT U/F (standard error {error:.3f})", r["diffusion"] / (T * r["mobility"]),
+                          1 - bar, 1 + bar)
+            stokes = T / (6 * np.pi * MU) * drag(found[largest, kind]["radius"], r["length"])
+            example.merit(f"{what}D over Stokes and Einstein with the radius of the widest box",
+                          r["diffusion"] / stokes, 1 - bar, 1 + bar)
+    picture = example.out / "brownian.png"
+    plot(picture, found)
+    return example.finish(picture)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
