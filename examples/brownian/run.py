@@ -18,12 +18,13 @@ from run_lammps import Example, frames      # noqa: E402
 MU, T, PULL, DT = 2.0, 0.2, 4.0, 0.01
 CELL = 2**(1 / 3)                             # of the bcc lattice of density 1
 # by width of the box in cells: steps with noise, and steps of a pulled particle
-RUNS, QUICK = {6: (400000, 16000), 8: (150000, 16000), 10: (2000, 16000)}, {6: (16000, 4000)}
+RUNS, QUICK = {6: (300000, 16000), 8: (2000, 16000), 10: (2000, 16000)}, {6: (16000, 4000)}
 NAMES = {2: "heavy", 1: "of the fluid"}
 FORCES = {2: PULL, 1: 0.4 * PULL}             # on a particle of each type
 HASIMOTO = 2.837297                           # periodic array of Stokeslets, simple cubic
 LAGS = 3.0, 6.0                               # longer than the momentum stays in the box
 PIECES = 8
+COLUMNS = "length", "mobility", "mobility_error", "radius", "diffusion", "error"
 
 
 def paths(path):
@@ -143,9 +144,12 @@ def main():
             stokes = T / (6 * np.pi * MU) * drag(found[largest, kind]["radius"], r["length"])
             example.merit(f"{what}D over Stokes and Einstein with the radius of the widest box",
                           r["diffusion"] / stokes, 1 - bar, 1 + bar)
+    table = example.out / "brownian.csv"
+    np.savetxt(table, [[kind, *(r.get(name, np.nan) for name in COLUMNS)] for (_, kind), r in found.items()],
+               fmt="%.6g", delimiter=",", comments="", header=",".join(["type", *COLUMNS]))
     picture = example.out / "brownian.png"
     plot(picture, found)
-    return example.finish(picture)
+    return example.finish(table, picture)
 
 
 if __name__ == "__main__":

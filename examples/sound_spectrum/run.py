@@ -18,15 +18,15 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from run_lammps import Example      # noqa: E402
 
-C0, MU, SUPPORT = 3.0, 1.5, 5.0
+C0, MU, T, SUPPORT = 3.0, 1.5, 0.009, 5.0
 WAVES = ((1, 0), (0, 1), (2, 0), (0, 2), (1, 1), (1, -1))    # in the order of the columns
 # by kappa/mu: steps, time step, steps between two rows. The long waves lose (1 - a) and not exp(-a) in a step, so a
 # larger viscosity has a smaller step
-RUNS = {0: (400000, 0.05, 10), 1: (300000, 0.05, 10), 10: (200000, 0.02, 25)}
+RUNS = {0: (400000, 0.05, 10), 1: (300000, 0.05, 10), 10: (400000, 0.02, 25)}
 QUICK = {1: (12000, 0.05, 10)}
 # many neighbours, for the structure; without a bulk term, and about critically damped
 STRUCTURE = {"kappa": 2, "mu": 2.0, "T": 0.02, "support": 12, "dt": 0.2, "nx": 28, "ny": 16, "settle": 500, "every": 4}
-STRUCTURE_STEPS, STRUCTURE_QUICK = 40000, 400
+STRUCTURE_STEPS, STRUCTURE_QUICK = 30000, 400
 PIECES = 8             # of a series, for its statistical error
 
 
@@ -122,13 +122,13 @@ def mean_ratio(results):
     return ratio, np.sqrt((PIECES - 1) * np.var(others))
 
 
-def structure(example, support, T, **numbers):
-    """S(k) over that of the theory, for each wave."""
-    lengths, particles = box(numbers["nx"], numbers["ny"])
+def over_theory(waves, particles, support, temperature):
+    """S(k) over that of the theory page, for each wave and piece of the series."""
     ratios = []
-    for k, density, *_ in series(example.out / "structure.series.txt", lengths):
+    for k, density, *_ in waves:
         sound = (C0 * kernel(k * support))**2
-        ratios.append([np.mean(np.abs(p)**2) / particles * (1 + sound / T) for p in np.array_split(density, PIECES)])
+        ratios.append([np.mean(np.abs(p)**2) / particles * (1 + sound / temperature)
+                       for p in np.array_split(density, PIECES)])
     return np.array(ratios)
 
 
@@ -213,18 +213,27 @@ def main():
             ratio, error = mean_ratio(mine)
             example.merit(f"kappa/mu = {kappa}: decay of {what} in correlations over that without noise "
                           f"(standard error {error:.3f})", ratio, 1 - max(0.03, 3 * error), 1 + max(0.03, 3 * error))
-    ratios = structure(example, **STRUCTURE)
+    for kappa in runs:
+        lengths, particles = box()
+        ratios = over_theory(series(example.out / f"kappa{kappa}.series.txt", lengths), particles, SUPPORT, T)
+        print(f"kappa/mu = {kappa}: S(k) over theory {ratios.mean():.3f}")
+    lengths, particles = box(STRUCTURE["nx"], STRUCTURE["ny"])
+    ratios = over_theory(series(example.out / "structure.series.txt", lengths), particles, STRUCTURE["support"],
+                         STRUCTURE["T"])
     means = ratios.mean(axis=0)
     error = np.std(means) / np.sqrt(PIECES - 1)
-    print("S(k) over theory by wave:", " ".join(f"{r:.3f}" for r in ratios.mean(axis=1)))
-    example.merit(f"S(k) over theory, mean over waves (standard error {error:.3f})", means.mean(),
+    print("many neighbours: S(k) over theory by wave", " ".join(f"{r:.3f}" for r in ratios.mean(axis=1)))
+    example.merit(f"many neighbours: S(k) over theory, mean over waves (standard error {error:.3f})", means.mean(),
                   1 - max(0.03, 3 * error), 1 + max(0.03, 3 * error))
+    table = example.out / "rates.csv"
+    np.savetxt(table, [[kappa, *r["wave"], r["along"], r["rate"], np.sqrt((PIECES - 1) * np.var(r["others"])),
+                        r["alone"], r["theory"]] for kappa, found in results.items() for r in found],
+               fmt="%.5g", delimiter=",", comments="",
+               header="kappa_over_mu,m,n,longitudinal,rate,standard_error,rate_without_noise,rate_theory")
     picture = example.out / "sound_spectrum.png"
     plot(picture, results)
-    return example.finish(picture)
+    return example.finish(table, picture)
 
-
-T = 0.009
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -20,7 +20,7 @@ sys.path.insert(0, str(HERE.parent))
 from run_lammps import Example      # noqa: E402
 
 MU, MU_R, GAMMA1, INERTIA, SUPPORT, T, DT, EVERY, WIDTH = 2.0, 0.5, 1.0, 2.0, 5.0, 0.2, 0.025, 10, 24
-STEPS, QUICK = 400000, 20000
+STEPS, QUICK = 300000, 20000
 PARTICLES = 2 * WIDTH * 7
 PIECES = 8      # of the series, for its statistical error
 SCALE = np.sqrt(np.array([1, 1 / INERTIA]))
@@ -142,9 +142,14 @@ def main():
         # a liquid of particles has a few percent less viscosity than a lattice or many neighbours, see README
         example.merit(f"{name} rate without noise over the exact one", d / x, 0.95, 1.05)
         example.merit(f"{name} rate of the correlations over that without noise", r / d, 1 - bar, 1 + bar)
+    table = example.out / "correlations.csv"
+    np.savetxt(table, np.column_stack([time, *(x[a, b] / SCALE[a] / SCALE[b] for x in (found, answer, exact)
+                                               for a, b in NAMES)]), fmt="%.5g", delimiter=",", comments="",
+               header="t," + ",".join(f"{what}_{NAMES[key].replace(' ', '_')}"
+                                      for what in ("noise", "without_noise", "exact") for key in NAMES))
     picture = example.out / "spin_spectrum.png"
     plot(picture, time, found, answer, exact)
-    return example.finish(picture)
+    return example.finish(table, picture)
 
 
 if __name__ == "__main__":
