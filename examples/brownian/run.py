@@ -18,7 +18,7 @@ from run_lammps import Example, frames      # noqa: E402
 MU, T, PULL, DT = 2.0, 0.2, 4.0, 0.01
 CELL = 2**(1 / 3)                             # of the bcc lattice of density 1
 # by width of the box in cells: steps with noise, and steps of a pulled particle
-RUNS, QUICK = {6: (300000, 16000), 8: (2000, 16000), 10: (2000, 16000)}, {6: (16000, 4000)}
+RUNS, QUICK = {6: (300000, 16000), 8: (2000, 10000), 10: (2000, 8000)}, {6: (16000, 4000)}
 NAMES = {2: "heavy", 1: "of the fluid"}
 FORCES = {2: PULL, 1: 0.4 * PULL}             # on a particle of each type
 HASIMOTO = 2.837297                           # periodic array of Stokeslets, simple cubic
