@@ -17,11 +17,13 @@ from run_lammps import Example, frames      # noqa: E402
 
 MU, T, PULL, DT = 2.0, 0.2, 4.0, 0.01
 CELL = 2**(1 / 3)                             # of the bcc lattice of density 1
-# by width of the box in cells: steps with noise, and steps of a pulled particle
-RUNS, QUICK = {6: (300000, 16000), 8: (2000, 10000), 10: (2000, 8000)}, {6: (16000, 4000)}
+# by width of the box in cells: steps with noise, and how many particles are pulled, each from the same state
+RUNS, QUICK = {6: (300000, 12), 8: (2000, 12), 10: (2000, 6)}, {6: (10000, 3)}
+PULLED = 3000                                 # steps of each
 NAMES = {2: "heavy", 1: "of the fluid"}
 FORCES = {2: PULL, 1: 0.4 * PULL}             # on a particle of each type
 HASIMOTO = 2.837297                           # periodic array of Stokeslets, simple cubic
+SEEDS = 4712, 4713                            # of more runs with noise of the narrowest box
 LAGS = 3.0, 6.0                               # longer than the momentum stays in the box
 PIECES = 8
 COLUMNS = "length", "mobility", "mobility_error", "radius", "diffusion", "error"
@@ -41,20 +43,22 @@ def spread(x, lag):
     return np.mean(np.sum((x[lag:] - x[:-lag])**2, axis=2), axis=0)
 
 
-def diffusion(time, x, near, far):
+def diffusion(step, samples, near, far):
     """Half the slope of the mean square displacement per direction between two times, and its standard error."""
-    step = time[1] - time[0]
     a, b = round(near / step), round(far / step)
-    pieces = np.array([np.mean(spread(p, b) - spread(p, a)) for p in np.array_split(x, PIECES)]) / (6 * step * (b - a))
-    return pieces.mean(), pieces.std() / np.sqrt(PIECES - 1)
+    pieces = np.array([np.mean(spread(p, b) - spread(p, a)) for x in samples for p in np.array_split(x, PIECES)])
+    pieces /= 6 * step * (b - a)
+    return pieces.mean(), pieces.std() / np.sqrt(len(pieces) - 1)
 
 
-def mobility(path, pull):
-    """Mean velocity over force of the pulled particle, after it has begun to move steadily, and its standard error."""
-    time, x, *_ = paths(path)
-    marks = np.linspace(len(time) // 8, len(time) - 1, PIECES + 1).astype(int)
-    speed = np.diff(x[marks, 0, 0]) / np.diff(time[marks]) / pull
-    return speed.mean(), speed.std() / np.sqrt(PIECES - 1)
+def mobility(folder, name, pull, count):
+    """Mean velocity over force of the pulled particles, after they have begun to move steadily, and its standard error."""
+    speeds = []
+    for number in range(count):
+        time, x, *_ = paths(folder / f"{name}.{number}.dump")
+        first = len(time) // 8
+        speeds.append((x[-1, 0] - x[first, 0])[number % 3] / (time[-1] - time[first]) / pull)
+    return np.mean(speeds), np.std(speeds) / np.sqrt(count - 1)
 
 
 def drag(radius, length):
@@ -103,31 +107,40 @@ def main():
     example = Example(HERE, "Brownian motion and drag.")
     args = example.arguments()
     runs = QUICK if args.quick else RUNS
-    example.run({f"box{cells}": {"cells": cells, "steps": steps, "T": T, "dt": DT}
-                 for cells, (steps, _) in reversed(runs.items())})
+    noisy = {f"box{cells}": {"cells": cells, "steps": steps, "T": T, "dt": DT} for cells, (steps, _) in runs.items()}
+    narrow = f"box{min(runs)}"
+    example.run({**noisy, **{f"{narrow}.{seed}": {**noisy[narrow], "seed": seed} for seed in SEEDS}})
     pulled = {}
-    for cells, (_, steps) in runs.items():
+    for cells, (_, count) in runs.items():
         _, _, ids, types = paths(example.out / f"box{cells}.all.dump")
         for kind in (2, 1):
-            pulled[f"pull{cells}.{kind}"] = {"start": f"box{cells}", "T": 0, "dt": DT, "steps": steps,
-                                            "pulled": ids[types == kind][-1], "pull": FORCES[kind]}
+            mine = ids[types == kind]
+            # the heavy ones in turn in all directions; particles of the fluid all over the box
+            for number in range(count):
+                one = mine[number // 3 if kind == 2 else number * len(mine) // count]
+                pulled[f"pull{cells}.{kind}.{number}"] = {
+                    "start": f"box{cells}", "T": 0, "dt": DT, "steps": PULLED, "pulled": one, "pull": FORCES[kind],
+                    "along": number % 3 + 1}
     example.run(pulled)
 
     found = {}
-    for cells, (steps, _) in runs.items():
+    for cells, (steps, count) in runs.items():
         length = cells * CELL
         for kind in (2, 1):
             r = {"length": length}
-            r["mobility"], r["mobility_error"] = mobility(example.out / f"pull{cells}.{kind}.dump", FORCES[kind])
+            r["mobility"], r["mobility_error"] = mobility(example.out, f"pull{cells}.{kind}", FORCES[kind], count)
             r["radius"] = hydrodynamic_radius(r["mobility"], length)
             if steps > 10000:
-                time, x, _, types = paths(example.out / f"box{cells}.{'heavy' if kind == 2 else 'all'}.dump")
-                x = x if kind == 2 else x[:, types == 1]
-                r["diffusion"], r["error"] = diffusion(time, x, *LAGS)
+                samples = []
+                for name in (f"box{cells}", *(f"box{cells}.{seed}" for seed in SEEDS)):
+                    time, x, _, types = paths(example.out / f"{name}.{'heavy' if kind == 2 else 'all'}.dump")
+                    samples.append(x if kind == 2 else x[:, types == 1])
+                step = time[1] - time[0]
+                r["diffusion"], r["error"] = diffusion(step, samples, *LAGS)
                 if kind == 2:
-                    step = time[1] - time[0]
-                    count = np.unique(np.linspace(1, 10.0 / step, 25).astype(int))
-                    r["lags"], r["spread"] = step * count, np.array([spread(x, c).mean() for c in count])
+                    lags = np.unique(np.linspace(1, 10.0 / step, 25).astype(int))
+                    r["lags"] = step * lags
+                    r["spread"] = np.array([np.mean([spread(x, lag) for x in samples]) for lag in lags])
             found[cells, kind] = r
     largest = max(runs)
     for (cells, kind), r in found.items():
