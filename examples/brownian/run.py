@@ -15,15 +15,15 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from run_lammps import Example, frames      # noqa: E402
 
-MU, T, PULL, DT = 2.0, 0.2, 4.0, 0.01
+MU, T, PULL, DT = 2.0, 0.2, 0.1, 0.01
 CELL = 2**(1 / 3)                             # of the bcc lattice of density 1
-# by width of the box in cells: steps with noise, and how many particles are pulled, each from the same state
-RUNS, QUICK = {6: (300000, 12), 8: (2000, 12), 10: (2000, 6)}, {6: (10000, 3)}
-PULLED = 3000                                 # steps of each
+RUNS, QUICK = {6: 300000, 8: 2000, 10: 2000}, {6: 10000}    # by width of the box in cells: steps with noise
+PULLS, QUICK_PULLS = 12, 4                    # how many particles of each kind are pulled, each from the same state
+STEADY, PULLED = 300, 1000                    # steps until they move steadily, and in all
 NAMES = {2: "heavy", 1: "of the fluid"}
-FORCES = {2: PULL, 1: 0.4 * PULL}             # on a particle of each type
+SCATTER = {2: 0.07, 1: 0.2}                   # of one mobility, for the error of a few
 HASIMOTO = 2.837297                           # periodic array of Stokeslets, simple cubic
-SEEDS = 4712, 4713                            # of more runs with noise of the narrowest box
+SEEDS = (4712,)                               # of more runs with noise of the narrowest box
 LAGS = 3.0, 6.0                               # longer than the momentum stays in the box
 PIECES = 8
 COLUMNS = "length", "mobility", "mobility_error", "radius", "diffusion", "error"
@@ -51,14 +51,21 @@ def diffusion(step, samples, near, far):
     return pieces.mean(), pieces.std() / np.sqrt(len(pieces) - 1)
 
 
-def mobility(folder, name, pull, count):
-    """Mean velocity over force of the pulled particles, after they have begun to move steadily, and its standard error."""
+def mobility(folder, starts, kind, count):
+    """Mean velocity over force of the pulled particles, once they move steadily, and its standard error.
+
+    The velocity is what the force adds to that of the same particle without force.
+    """
     speeds = []
-    for number in range(count):
-        time, x, *_ = paths(folder / f"{name}.{number}.dump")
-        first = len(time) // 8
-        speeds.append((x[-1, 0] - x[first, 0])[number % 3] / (time[-1] - time[first]) / pull)
-    return np.mean(speeds), np.std(speeds) / np.sqrt(count - 1)
+    for start in starts:
+        time, alone, ids, _ = paths(folder / f"rest.{start}.dump")
+        first = np.searchsorted(time, (STEADY - 0.5) * DT)
+        for number in range(count):
+            _, x, one, _ = paths(folder / f"pull.{start}.{kind}.{number}.dump")
+            way = (x[:, 0] - alone[:, list(ids).index(one[0])])[:, number % 3]
+            speeds.append((way[-1] - way[first]) / (time[-1] - time[first]) / PULL)
+    mean = np.mean(speeds)
+    return mean, max(np.std(speeds), SCATTER[kind] * mean) / np.sqrt(len(speeds) - 1)
 
 
 def drag(radius, length):
@@ -107,32 +114,36 @@ def main():
     example = Example(HERE, "Brownian motion and drag.")
     args = example.arguments()
     runs = QUICK if args.quick else RUNS
-    noisy = {f"box{cells}": {"cells": cells, "steps": steps, "T": T, "dt": DT} for cells, (steps, _) in runs.items()}
-    narrow = f"box{min(runs)}"
-    example.run({**noisy, **{f"{narrow}.{seed}": {**noisy[narrow], "seed": seed} for seed in SEEDS}})
-    pulled = {}
-    for cells, (_, count) in runs.items():
-        _, _, ids, types = paths(example.out / f"box{cells}.all.dump")
+    boxes = {cells: [f"box{cells}"] for cells in runs}
+    seeds = () if args.quick else SEEDS
+    boxes[min(runs)] += [f"box{min(runs)}s{seed}" for seed in seeds]
+    noisy = {name: {"cells": cells, "steps": steps, "T": T, "dt": DT}
+             for cells, steps in runs.items() for name in boxes[cells]}
+    for name, seed in zip(boxes[min(runs)][1:], seeds):
+        noisy[name]["seed"] = seed
+    example.run(noisy)
+    pulled, count = {}, QUICK_PULLS if args.quick else PULLS
+    for start in noisy:
+        _, _, ids, types = paths(example.out / f"{start}.all.dump")
+        calm = {"start": start, "T": 0, "dt": DT, "steps": PULLED}
+        pulled[f"rest.{start}"] = {**calm, "pulled": 0}
         for kind in (2, 1):
             mine = ids[types == kind]
-            # the heavy ones in turn in all directions; particles of the fluid all over the box
             for number in range(count):
-                one = mine[number // 3 if kind == 2 else number * len(mine) // count]
-                pulled[f"pull{cells}.{kind}.{number}"] = {
-                    "start": f"box{cells}", "T": 0, "dt": DT, "steps": PULLED, "pulled": one, "pull": FORCES[kind],
-                    "along": number % 3 + 1}
+                pulled[f"pull.{start}.{kind}.{number}"] = {**calm, "pulled": mine[number * len(mine) // count],
+                                                          "pull": PULL, "along": number % 3 + 1}
     example.run(pulled)
 
     found = {}
-    for cells, (steps, count) in runs.items():
+    for cells, steps in runs.items():
         length = cells * CELL
         for kind in (2, 1):
             r = {"length": length}
-            r["mobility"], r["mobility_error"] = mobility(example.out, f"pull{cells}.{kind}", FORCES[kind], count)
+            r["mobility"], r["mobility_error"] = mobility(example.out, boxes[cells], kind, count)
             r["radius"] = hydrodynamic_radius(r["mobility"], length)
-            if steps > 10000:
+            if steps > 2000:
                 samples = []
-                for name in (f"box{cells}", *(f"box{cells}.{seed}" for seed in SEEDS)):
+                for name in boxes[cells]:
                     time, x, _, types = paths(example.out / f"{name}.{'heavy' if kind == 2 else 'all'}.dump")
                     samples.append(x if kind == 2 else x[:, types == 1])
                 step = time[1] - time[0]
@@ -146,17 +157,22 @@ def main():
     for (cells, kind), r in found.items():
         what = f"{NAMES[kind]}, L = {r['length']:.2f}: "
         print(f"{what}U/F = {r['mobility']:.5f} +- {r['mobility_error']:.5f}, hydrodynamic radius {r['radius']:.4f}")
+        wide = found[largest, kind]
         if cells != largest:
-            off = r["radius"] / found[largest, kind]["radius"] - 1
-            example.merit(what + "radius over that of the widest box, minus 1", abs(off), 0, 0.03)
+            error = np.hypot(r["mobility_error"] / r["mobility"], wide["mobility_error"] / wide["mobility"])
+            bar = max(0.03, 3 * error)
+            example.merit(f"{what}radius over that of the widest box (standard error {error:.3f})",
+                          r["radius"] / wide["radius"], 1 - bar, 1 + bar)
         if "diffusion" in r:
             error = np.hypot(r["error"] / r["diffusion"], r["mobility_error"] / r["mobility"])
             bar = max(0.03, 3 * error)
             example.merit(f"{what}D over kT U/F (standard error {error:.3f})", r["diffusion"] / (T * r["mobility"]),
                           1 - bar, 1 + bar)
-            stokes = T / (6 * np.pi * MU) * drag(found[largest, kind]["radius"], r["length"])
-            example.merit(f"{what}D over Stokes and Einstein with the radius of the widest box",
-                          r["diffusion"] / stokes, 1 - bar, 1 + bar)
+            stokes = T / (6 * np.pi * MU) * drag(wide["radius"], r["length"])
+            error = np.hypot(r["error"] / r["diffusion"], wide["mobility_error"] / wide["mobility"])
+            bar = max(0.03, 3 * error)
+            example.merit(f"{what}D over Stokes and Einstein with the radius of the widest box (standard error "
+                          f"{error:.3f})", r["diffusion"] / stokes, 1 - bar, 1 + bar)
     table = example.out / "brownian.csv"
     np.savetxt(table, [[kind, *(r.get(name, np.nan) for name in COLUMNS)] for (_, kind), r in found.items()],
                fmt="%.6g", delimiter=",", comments="", header=",".join(["type", *COLUMNS]))
