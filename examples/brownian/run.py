@@ -18,7 +18,8 @@ from run_lammps import Example, frames      # noqa: E402
 MU, T, PULL, DT = 2.0, 0.2, 0.1, 0.01
 CELL = 2**(1 / 3)                             # of the bcc lattice of density 1
 RUNS, QUICK = {6: 300000, 8: 2000, 10: 2000}, {6: 10000}    # by width of the box in cells: steps with noise
-PULLS, QUICK_PULLS = 12, 4                    # how many particles of each kind are pulled, each from the same state
+# how many particles of each kind are pulled, each from the same state
+PULLS, QUICK_PULLS = {2: 12, 1: 24}, {2: 4, 1: 4}
 STEADY, PULLED = 300, 1000                    # steps until they move steadily, and in all
 NAMES = {2: "heavy", 1: "of the fluid"}
 SCATTER = {2: 0.07, 1: 0.2}                   # of one mobility, for the error of a few
@@ -130,9 +131,10 @@ def main():
         pulled[f"rest.{start}"] = {**calm, "pulled": 0}
         for kind in (2, 1):
             mine = ids[types == kind]
-            for number in range(count):
-                pulled[f"pull.{start}.{kind}.{number}"] = {**calm, "pulled": mine[number * len(mine) // count],
-                                                          "pull": PULL, "along": number % 3 + 1}
+            for number in range(count[kind]):
+                # evenly among the IDs, so that each heavy one is pulled in each direction
+                one = mine[(2 * (number % 12) + number // 12) * len(mine) // 24]
+                pulled[f"pull.{start}.{kind}.{number}"] = {**calm, "pulled": one, "pull": PULL, "along": number % 3 + 1}
     example.run(pulled)
 
     found = {}
@@ -140,7 +142,7 @@ def main():
         length = cells * CELL
         for kind in (2, 1):
             r = {"length": length}
-            r["mobility"], r["mobility_error"] = mobility(example.out, boxes[cells], kind, count)
+            r["mobility"], r["mobility_error"] = mobility(example.out, boxes[cells], kind, count[kind])
             r["radius"] = hydrodynamic_radius(r["mobility"], length)
             if steps > 2000:
                 samples = []
