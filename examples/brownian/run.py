@@ -90,8 +90,10 @@ def plot(path, found):
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.5), layout="constrained")
     for index, ((cells, kind), r) in enumerate((key, r) for key, r in found.items() if "lags" in r and key[1] == 2):
         left.plot(r["lags"], r["spread"], f"C{index}.", ms=4, label=f"heavy particle, L = {r['length']:.2f}")
-        left.plot(r["lags"], 6 * T * r["mobility"] * r["lags"], f"C{index}", lw=0.9)
-    left.set(xlabel="$t$", title="mean square displacement; lines $6 k_BT\\,(U/F)\\,t$", xlim=(0, None), ylim=(0, None))
+        late = r["lags"] >= LAGS[0]
+        line = 6 * T * r["mobility"] * (r["lags"] - r["lags"][late][0]) + r["spread"][late][0]
+        left.plot(r["lags"][late], line[late], f"C{index}", lw=0.9, label="slope $6 k_BT\\,U/F$ from $t = 3$")
+    left.set(xlabel="$t$", title="mean square displacement", xlim=(0, None), ylim=(0, None))
     for kind, color in ((2, "C0"), (1, "C2")):
         mine = [r for (_, k), r in found.items() if k == kind]
         inverse = np.array([1 / r["length"] for r in mine])
