@@ -43,11 +43,16 @@ configure() {    # SOURCE BUILD [options]
     -D CMAKE_C_COMPILER_LAUNCHER="$LAUNCHER" "$@" >"$build.log" 2>&1 || { tail -n 30 "$build.log"; exit 1; }
 }
 
-lammps_by_cmake() {    # BUILD [options]
+configure_lammps() {    # BUILD [options]
   local build=$1
   shift
   configure "$build/lammps-source/cmake" "$build" -D BUILD_SHARED_LIBS=on -D BUILD_OMP=off -D PKG_SPH=on -D PKG_DPD-SMOOTH=on \
     -D PKG_PLUGIN=on "$@"
+}
+
+lammps_by_cmake() {    # BUILD [options]
+  local build=$1
+  configure_lammps "$@"
   ninja -C "$build" -j "$jobs" lmp >>"$build.log" 2>&1 || { tail -n 30 "$build.log"; exit 1; }
 }
 
@@ -62,13 +67,29 @@ spectrum() {
   "$@" -log none -var result none >spectrum.out 2>&1 && grep -qx "spectrum 1" spectrum.out ||
     { tail -n 5 spectrum.out; exit 1; }
 }
+
+# fft_of BUILD: the symbols of the package's one file that knows LAMMPS's FFTs
+fft_of() {
+  local object
+  object=$(ninja -C "$1" -t targets all | sed -n 's/^\(.*sph_dissipation_fft.cpp.o\): .*/\1/p')
+  ninja -C "$1" "$object" >>"$1.log" 2>&1 || { tail -n 30 "$1.log" >&2; exit 1; }
+  nm -C "$1/$object"
+}
+
 no_spectrum="needs the FFTs of the KSPACE package"
 
 case $way in
   hook)
-    lammps_by_cmake build -D PKG_SPH-DISSIPATION=on -D CMAKE_PROJECT_lammps_INCLUDE="$tree/package/cmake/SPH-DISSIPATION.cmake"
+    hook=(-D PKG_SPH-DISSIPATION=on -D CMAKE_PROJECT_lammps_INCLUDE="$tree/package/cmake/SPH-DISSIPATION.cmake")
+    lammps_by_cmake build "${hook[@]}"
     smoke build/lmp smoke
     spectrum build/lmp -in spectrum.in
+    fft_of build | grep FFT3d >/dev/null || { echo "the FFTs of KSPACE are not used"; exit 1; }
+
+    # SPH_DISSIPATION_FFT=off: nothing of KSPACE is compiled, nor asked for
+    configure_lammps build-no-fft "${hook[@]}" -D SPH_DISSIPATION_FFT=off
+    ! grep -q "KSPACE/[a-z0-9_]*[.]cpp" build-no-fft/build.ninja || { echo "KSPACE is in the build without FFTs"; exit 1; }
+    ! fft_of build-no-fft | grep FFT3d || { echo "FFTs are used in the build without them"; exit 1; }
     ;;
 
   upstream)
