@@ -314,6 +314,50 @@ def test_group(lammps):
 
 
 # ---------------------------------------------------------------------------------------------
+# cost
+
+
+@pytest.mark.parametrize("dim, keywords, per_point", [(3, "deconvolve yes", 264), (3, "", 256), (3, "order 0", 184),
+                                                      (2, "deconvolve yes", 232)])
+@pytest.mark.parametrize("ranks", [1, 2, 4])
+def test_memory(lammps, dim, keywords, per_point, ranks):
+    """Bytes per point of the grid on the processor that owns it, as the page counts them; next to none before the first use."""
+    disordered(dim, {3: 12, 2: 30}[dim]).write(lammps.path("box.data"))
+    counts = [(18, 18, 18), (36, 36, 36)] if dim == 3 else [(150, 150, 1), (300, 300, 1)]
+    used = []
+    for count in counts:
+        text = (header(dim) + "read_data box.data\n" + fluid(dim) + INTEGRATE + "run 0\n"
+                + f"compute S all sph/spectrum {' '.join(map(str, count))} {keywords}\nrun 0\n"
+                "thermo_style custom step c_S[1]\nrun 0\nrun 0\n")
+        log = lammps(text, ranks=ranks).log
+        before, idle, _, after = [2**20 * float(found) for found in re.findall(r"Per MPI.*\| (\S+) \| \S+ Mbytes", log)]
+        print(f"{count}: {before:.4g} bytes, idle {idle - before:.4g}, used {after - before:.4g}")
+        assert idle - before < 0.4 * (after - before)
+        used.append(after - before)
+    points = [np.prod(count) / ranks for count in counts]
+    found = (used[1] - used[0]) / (points[1] - points[0])
+    print(f"{found:.1f} bytes per point")
+    assert per_point * 0.99 < found < 1.01 * (per_point + (0 if ranks == 1 else 24))    # buffers of the FFT
+
+
+def test_time(lammps):
+    """A spectrum takes less time than ten steps: processor time, the smallest of three runs."""
+    disordered(3, 24).write(lammps.path("box.data"))
+    text = (header(3) + "read_data box.data\n" + fluid(3, support=4.0) + INTEGRATE + "run 10\n"
+            "compute S all sph/spectrum 24 24 24 deconvolve yes\nfix S all ave/time 1 1 1 c_S[1]\nrun 10\n")
+    steps, both = [], []
+    for _ in range(3):
+        log = lammps(text).log
+        loops = re.findall(r"Loop time of (\S+)", log)
+        use = re.findall(r"(\S+)% CPU use", log)
+        for times, loop, share in zip((steps, both), loops, use):
+            times.append(float(loop) * float(share) / 100 / 10)
+    step, spectrum = min(steps), min(both) - min(steps)
+    print(f"step {step:.4f} s, spectrum {spectrum:.4f} s: {spectrum / step:.1f} steps")
+    assert spectrum < 10 * step
+
+
+# ---------------------------------------------------------------------------------------------
 # physics: each mode decays with its own rate
 
 
