@@ -51,6 +51,11 @@ class Flow:
         power = 0.5 * self.half * (np.abs(self.u)**2).sum(axis=0) / self.n**6
         return power.sum(), 2 * self.nu * (self.k2 * power).sum()
 
+    def vorticity(self):
+        """Its size at the points 2 pi/n (i, j, k)."""
+        omega = irfftn(1j * np.cross(self.k, self.u, axis=0), axes=AXES, s=[self.n] * 3)
+        return np.sqrt((omega**2).sum(axis=0))
+
 
 def solve(n, re, times):
     flow, rows, steps = Flow(n, re), [], 2
