@@ -59,7 +59,7 @@ def plot(out, runs):
         k, _, solenoidal, dilatational = run.last_spectrum(out)[:4]
         axes[2].loglog(k[1:], solenoidal[1:], "-", color=color)
         axes[2].loglog(k[1:], dilatational[1:], "--", color=color, label=label)
-    axes[0].set_ylabel("energy: solenoidal (lines), dilatational (dashed)")
+    axes[0].set_ylabel("energy: $E^s$ (lines), $E^d$ (dashed)")
     axes[1].set_ylabel("rms div u")
     axes[2].set_ylabel("$E^s$ (lines), $E^d$ (dashed), end")
     for axis, x in zip(axes, ("time", "time", "wave number")):

@@ -188,18 +188,18 @@ def main():
         writer.writerow(["re", "kappa_over_mu", "n", "t", "energy", "energy_over_spectral", "heat_shear", "heat_bulk"])
         for run in runs:
             for row in zip(run.t, run.kinetic, run.error + 1, run.shear, run.bulk):
-                writer.writerow([run.re, run.kappa, run.n, *(f"{value:.6g}" for value in row)])
+                writer.writerow([f"{run.re:g}", f"{run.kappa:g}", run.n, *(f"{value:.6g}" for value in row)])
     columns = ("grid_vortical", "vortical", "grid_dilatational", "dilatational", "heat")
     with open(power, "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["re", "kappa_over_mu", "n", "t", *columns])
         for run in runs:
             for row in zip(run.spectra_t, *(getattr(run, name) for name in columns)):
-                writer.writerow([run.re, run.kappa, run.n, *(f"{value:.6g}" for value in row)])
+                writer.writerow([f"{run.re:g}", f"{run.kappa:g}", run.n, *(f"{value:.6g}" for value in row)])
     for run in runs:
         worst = abs(run.error).max()
         print(f"Re = {run.re:g}, kappa/mu = {run.kappa:g}: energy within {100 * worst:.2f} %, largest loss {run.peak[0]:.5f} at "
-              f"{run.peak[1]:.2f}, account of the energy {abs(run.total - run.total[0]).max() / run.kinetic[0]:.1e} of that at the start")
+              f"{run.peak[1]:.2f} (spectral {run.exact_peak[0]:.5f} at {run.exact_peak[1]:.2f}), account of the energy {abs(run.total - run.total[0]).max() / run.kinetic[0]:.1e} of that at the start")
         print("   t, and power of the grid over that of the particles: all, vortical, dilatational")
         for time, *row in zip(run.spectra_t, run.grid_vortical + run.grid_dilatational, run.heat, run.grid_vortical, run.vortical,
                               run.grid_dilatational, run.dilatational):
