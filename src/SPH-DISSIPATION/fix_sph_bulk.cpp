@@ -22,26 +22,49 @@
 #include "math_extra.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_viscous.h"
+#include "sph_dissipation_viscous_keywords.h"
 #include "update.h"
 
 #include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
+using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), extrapolation(1.0), balanced(false), density_done(0),
-    density_flag(0), shift_speed(0.0), pair(nullptr), remap_v_flag(0), integrated_groups(0),
-    first_instance(false), last_instance(false), not_integrated(0)
+    viscous(new ViscousKeywords(lmp, style)), pair(nullptr), density_flag(0), shift_speed(0.0),
+    remap_v_flag(0), integrated_groups(0), first_instance(false), last_instance(false),
+    not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
+  finish_keywords();
 
   time_integrate = 1;
   create_attribute = 1;
   restart_global = density_flag;
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHBulk::~FixSPHBulk()
+{
+  delete viscous;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::finish_keywords()
+{
+  if (viscous->settings().mode == Viscous::EXPLICIT) return;
+  vector_flag = 1;
+  size_vector = ViscousStage::NSTATISTICS;
+  extvector = 0;
+  global_freq = 1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -56,6 +79,7 @@ int FixSPHBulk::keyword_argument(int iarg, int narg, char **arg)
     density_flag = (strcmp(arg[iarg + 1], "rho0") == 0);
     return 2;
   }
+  if (const int nwords = viscous->argument(iarg, narg, arg)) return nwords;
   if (strcmp(arg[iarg], "shift") != 0)
     error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[iarg]);
   if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, fmt::format("fix {} shift", style), error);
@@ -92,7 +116,7 @@ void FixSPHBulk::init()
 
   pair = dynamic_cast<PairSPHBulk *>(force->pair_match(style, 1));
   const bool noise = pair && pair->has_noise();
-  extrapolation = noise ? 0.0 : 1.0;
+  extrapolation = viscous->settings().extrapolation(noise);
   balanced = pair && pair->has_own_temperatures();
   if (noise && shift_speed > 0.0)
     error->all(FLERR,
@@ -111,10 +135,60 @@ void FixSPHBulk::init()
     pair->request_crowding();
   }
 
+  init_viscous();
+
   remap_v_flag = domain->deform_vremap;
   if (remap_v_flag && !comm->ghost_velocity)
     error->all(FLERR, "Fix {} requires comm_modify vel yes when fix deform remaps velocities",
                style);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::init_viscous()
+{
+  const ViscousSettings &settings = viscous->settings();
+  for (const auto &ifix : modify->get_fix_by_style("^" + std::string(style) + "$")) {
+    const auto *other = dynamic_cast<FixSPHBulk *>(ifix);
+    if (other && other->viscous->settings() != settings)
+      error->all(FLERR,
+                 "Fixes {} and {} treat the viscous terms in different ways: keyword viscous, and "
+                 "those that belong to it, must be the same in all fixes {}",
+                 id, ifix->id, style);
+  }
+  if (settings.mode == Viscous::EXPLICIT) return;
+
+  if (update->whichflag == 2)
+    error->all(FLERR,
+               "Fix {} viscous rkl2 or implicit cannot be used in a minimization, which has no "
+               "velocities",
+               style);
+  if (!pair || !pair->compute_flag)
+    error->all(FLERR, "Fix {} viscous rkl2 or implicit requires the forces of pair style {}", style,
+               style);
+  if (pair->has_noise() &&
+      !(settings.mode == Viscous::IMPLICIT && settings.scheme == Scheme::TRAPEZOIDAL))
+    error->all(FLERR,
+               "Pair style {} with temp needs fix {} viscous explicit or implicit with scheme "
+               "trapezoidal: others damp the fast motions more than the noise excites them",
+               style, style);
+  pair->set_viscous(settings, integrated_groups);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixSPHBulk::has_viscous_stage() const
+{
+  return viscous->settings().mode != Viscous::EXPLICIT;
+}
+
+/* ----------------------------------------------------------------------
+   of the friction, see ViscousStage
+------------------------------------------------------------------------- */
+
+double FixSPHBulk::compute_vector(int n)
+{
+  return pair ? pair->viscous_statistics()[n] : 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -251,12 +325,14 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
   const double keep = remap_v_flag ? 0.0 : 1.0;
   const double ahead = balanced ? 0.5 : 1.0;
   if (balanced) balance_heat();
+  const bool exact = has_viscous_stage();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
     desph_before[i] = balanced ? 0.0 : desph[i];
     esph[i] += ahead * dtv * desph[i];
+    if (exact) esph[i] += rest_of_heat(v[i], vest[i], f[i], pair->own_force(i), 1.0 / rmass[i]);
     for (int d = 0; d < 3; d++) {
       const double dv = dtfm * f[i][d];
       v[i][d] += dv;
@@ -265,6 +341,20 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
     }
   }
   if (shift_speed > 0.0) shift_particles();
+}
+
+/* ----------------------------------------------------------------------
+   The heat that the pair style books is the work of its forces against the velocity that acts in the
+   friction, acting.  Over half a kick, before it, they do their work at the mean velocity of the kick: the
+   difference, with which kinetic and internal energy are conserved exactly.  The same of spins.
+------------------------------------------------------------------------- */
+
+double FixSPHBulk::rest_of_heat(const double *v, const double *acting, const double *f,
+                                const double *own, double mass_inv) const
+{
+  double power = 0.0;
+  for (int d = 0; d < 3; d++) power += own[d] * (acting[d] - v[d] - 0.5 * dtf * mass_inv * f[d]);
+  return 0.5 * dtv * power;
 }
 
 /* ----------------------------------------------------------------------
@@ -332,13 +422,16 @@ void FixSPHBulk::final_integrate()
   double *desph = atom->desph;
   double *desph_before = avec()->desph_before;
   int *mask = atom->mask;
+  double **vest = atom->vest;
   const int nlocal = nlocal_group();
   if (balanced) balance_heat();
+  const bool exact = has_viscous_stage();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
     esph[i] += 0.5 * dtv * (desph[i] - desph_before[i]);
+    if (exact) esph[i] += rest_of_heat(v[i], vest[i], f[i], pair->own_force(i), 1.0 / rmass[i]);
     for (int d = 0; d < 3; d++) v[i][d] += dtfm * f[i][d];
   }
 }

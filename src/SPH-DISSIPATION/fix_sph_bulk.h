@@ -23,15 +23,20 @@ FixStyle(sph/bulk,FixSPHBulk);
 #include "fix.h"
 
 namespace LAMMPS_NS {
+namespace SPHDissipation {
+  class ViscousKeywords;
+}    // namespace SPHDissipation
 
 // Velocity Verlet for position, velocity and internal energy of a particle fluid, with the
 // velocity extrapolated to the end of the step for the forces: vest = v + dt f/m.  With thermal
 // noise, it is the velocity in the middle of the step: then those at its ends have the temperature of
-// the noise exactly in the linear regime, whatever the time step.
+// the noise exactly in the linear regime, whatever the time step.  With large viscosities, it is
+// the first guess of ViscousStage.
 
 class FixSPHBulk : public Fix {
  public:
   FixSPHBulk(class LAMMPS *, int, char **);
+  ~FixSPHBulk() override;
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;
@@ -42,6 +47,7 @@ class FixSPHBulk : public Fix {
   void pre_force(int) override;
   void final_integrate() override;
   void reset_dt() override;
+  double compute_vector(int) override;
   void set_arrays(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
@@ -59,6 +65,12 @@ class FixSPHBulk : public Fix {
 
   // # of words of the keyword at arg[iarg] that all integrators of this kind have
   int keyword_argument(int iarg, int narg, char **arg);
+  void finish_keywords();
+  bool has_viscous_stage() const;
+  double rest_of_heat(const double *v, const double *acting, const double *f, const double *own,
+                      double mass_inv) const;
+  SPHDissipation::ViscousKeywords *viscous;
+  class PairSPHBulk *pair;    // of the same name, if there is one
 
   // extrapolated quantities of particles from the first number to before the second, but those with
   // a bit of the third in their mask: at the start of a run, when they arrive, or if no such fix
@@ -71,18 +83,18 @@ class FixSPHBulk : public Fix {
 
  private:
   void check_integrated_once();
+  void init_viscous();
   void warn_not_integrated();
   void add_remapped_velocity();
   void shift_particles();
 
-  int density_flag;           // set the masses so that the mean density is rho0
-  double shift_speed;         // scale and twice the limit of the velocity of particle shifting
-  class PairSPHBulk *pair;    // of the same name, if there is one
-  int remap_v_flag;           // fix deform remaps velocities at periodic boundaries
-  int integrated_groups;      // bits of all groups with an integrator of this kind
-  bool first_instance;        // acts for the particles outside all these groups
-  bool last_instance;         // acts when all are set up
-  bigint not_integrated;      // # of fluid particles that the last warning was about
+  int density_flag;         // set the masses so that the mean density is rho0
+  double shift_speed;       // scale and twice the limit of the velocity of particle shifting
+  int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
+  int integrated_groups;    // bits of all groups with an integrator of this kind
+  bool first_instance;      // acts for the particles outside all these groups
+  bool last_instance;       // acts when all are set up
+  bigint not_integrated;    // # of fluid particles that the last warning was about
 };
 
 }    // namespace LAMMPS_NS

@@ -51,6 +51,7 @@ FixSPHMicropolar::FixSPHMicropolar(LAMMPS *lmp, int narg, char **arg) :
                  arg[iarg + 1], arg[iarg + 2]);
     iarg += 3;
   }
+  finish_keywords();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -61,6 +62,16 @@ void FixSPHMicropolar::init()
   if (inertia_flag && !force->pair_match(style, 1))
     error->all(FLERR, "Fix {} inertia requires pair style {}, which gives the volumes", style,
                style);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHMicropolar::setup_pre_force(int vflag)
+{
+  FixSPHBulk::setup_pre_force(vflag);
+  if (!has_viscous_stage()) return;    // which needs the inertia for the first forces
+  pair->find_volumes();
+  set_inertia();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -210,9 +221,13 @@ void FixSPHMicropolar::integrate_spin(bool extrapolate)
   const double *const rmass = atom->rmass;
   const int *const mask = atom->mask;
   const int nlocal = nlocal_group();
+  const bool exact = has_viscous_stage();
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
-    const double dtirotate = (inertia[i] > 0.0) ? dtf / (rmass[i] * inertia[i]) : 0.0;
+    const double inverse = (inertia[i] > 0.0) ? 1.0 / (rmass[i] * inertia[i]) : 0.0;
+    const double dtirotate = dtf * inverse;
+    if (exact)
+      atom->esph[i] += rest_of_heat(omega[i], omegaest[i], torque[i], pair->own_torque(i), inverse);
     for (int d = 0; d < 3; d++) {
       const double domega = dtirotate * torque[i][d];
       omega[i][d] += domega;

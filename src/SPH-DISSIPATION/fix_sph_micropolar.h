@@ -31,6 +31,7 @@ class FixSPHMicropolar : public FixSPHBulk {
  public:
   FixSPHMicropolar(class LAMMPS *, int, char **);
   void init() override;
+  void setup_pre_force(int) override;
   void setup(int) override;
   void initial_integrate(int) override;
   void pre_force(int) override;

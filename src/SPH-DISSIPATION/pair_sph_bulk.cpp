@@ -40,6 +40,7 @@
 #include "sph_dissipation_stress.h"
 #include "sph_dissipation_surface.h"
 #include "sph_dissipation_table.h"
+#include "sph_dissipation_viscous.h"
 #include "update.h"
 
 #include <algorithm>
@@ -90,10 +91,10 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
       new Exchange(lmp, this,
                    std::max({DensityStage::FORWARD, LimitStage::FORWARD, SurfaceStage::FORWARD,
                              OpenStage::FORWARD, BoundaryStage::FORWARD, NoiseStage::FORWARD,
-                             FluidState::FORWARD}),
+                             ViscousStage::FORWARD, FluidState::FORWARD}),
                    std::max({DensityStage::REVERSE, LimitStage::REVERSE, SurfaceStage::REVERSE,
                              BoundaryStage::REVERSE, CrowdingStage::REVERSE, NoiseStage::REVERSE,
-                             FluidState::REVERSE}));
+                             ViscousStage::REVERSE, FluidState::REVERSE}));
   density = new DensityStage(lmp, *engine, *exchange, *model);
   limit = new LimitStage(lmp, *engine, *exchange);
   pressure = new PressureStage(lmp, *engine, *exchange, *model);
@@ -102,6 +103,7 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
   crowd = new CrowdingStage(lmp, *engine, *exchange);
   noise = new NoiseStage(lmp, *engine, *exchange, *model);
   forces = new ForceStage(lmp, *engine, *exchange);
+  viscous = new ViscousStage(lmp, *engine, *exchange, *model, *pressure, *boundary);
 
   restartinfo = 1;
   writedata = 1;
@@ -131,6 +133,7 @@ PairSPHBulk::~PairSPHBulk()
   delete crowd;
   delete noise;
   delete forces;
+  delete viscous;
   delete exchange;
   delete engine;
   delete model;
@@ -144,13 +147,30 @@ void PairSPHBulk::compute(int eflag, int vflag)
   if (stale) derive_coeffs();
   if (neighbor->ago == 0) check_masses(lmp, fluid_style, *model);
 
-  const Settings &choice = model->choice;
-  const bool limited = (choice.limit != Limit::NO);
   StressTally stress(this, atom->nlocal, force->newton_pair);
   CentroidTally centroid(stress, cvatom, atom->nlocal, force->newton_pair);
   PairTally *tally = vflag_either ? &stress : nullptr;
   if (cvflag_atom) tally = &centroid;
 
+  if (viscous->active()) find_viscous_velocity();
+  const bigint nbeyond = sum_before_forces();
+  if (crowding_requested) crowd->run(list);
+  forces->run(list, tally);
+  if (!open->empty()) open->sum_impacts(list);
+  if (viscous->active()) forces->collect();
+
+  pvector[0] = static_cast<double>(nbeyond);
+  if (eflag_either) tally_energy();
+  if (vflag_fdotr) virial_fdotr_compute();
+}
+
+/* ----------------------------------------------------------------------
+   all that pass 2 needs, and the forces of the noise; returns the number of particles beyond the bound of
+   the limit
+------------------------------------------------------------------------- */
+
+bigint PairSPHBulk::sum_before_forces()
+{
   // a minimization has no velocities: what is minimized is the energy of the equation of state
 
   const bool at_rest = (update->whichflag == 2);
@@ -158,21 +178,71 @@ void PairSPHBulk::compute(int eflag, int vflag)
 
   // noise needs the bound of the limit for the volumes that act in its pairs, those of walls as well
 
+  const bool limited = (model->choice.limit != Limit::NO);
   const bool walls = !boundary->empty();
   if (walls && has_noise()) boundary->set_reference_volume();
   if (limited) limit->run(list);
   if (walls && !has_noise()) boundary->set_reference_volume();
-  const bigint nbeyond = pressure->run(limited ? limit->bound : nullptr, boundary->bits());
+  const double *const bound = limited ? limit->bound : nullptr;
+  const bigint nbeyond = pressure->run(bound, boundary->bits());
   if (!open->empty()) open->run();
   if (walls) boundary->run(list);
-  if (crowding_requested) crowd->run(list);
-  if (has_noise()) noise->run(limited ? limit->bound : nullptr, boundary->bits());
-  forces->run(list, tally);
-  if (!open->empty()) open->sum_impacts(list);
+  if (has_noise()) noise->run(bound, boundary->bits());
+  return nbeyond;
+}
 
-  pvector[0] = static_cast<double>(nbeyond);
-  if (eflag_either) tally_energy();
-  if (vflag_fdotr) virial_fdotr_compute();
+/* ----------------------------------------------------------------------
+   friction that is extended behind walls, and the form P1 (64), have no symmetric matrix
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::find_viscous_velocity()
+{
+  if (neighbor->ago == 0) {
+    find_smallest_inertia();
+    viscous->set_rate(coeff_table(0.0).fastest_rate());
+  }
+  viscous->begin();
+  sum_before_forces();
+  forces->run(list, nullptr);
+  const bool symmetric = (boundary->empty() || has_noise()) && engine->bulk_form() != Bulk::VOLUME;
+  viscous->run(list, (model->choice.limit != Limit::NO) ? limit->bound : nullptr, not_fluid(),
+               symmetric, extrapolated_spin(), spin_inertia());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::set_viscous(const ViscousSettings &settings, int groups)
+{
+  viscous->configure(settings, groups, fluid_style);
+}
+
+bool PairSPHBulk::is_viscous_stage() const
+{
+  return viscous->active();
+}
+
+const double *PairSPHBulk::viscous_statistics() const
+{
+  return viscous->statistics;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const double *PairSPHBulk::own_force(int i) const
+{
+  return engine->force[i].f;
+}
+
+const double *PairSPHBulk::own_torque(int i) const
+{
+  return engine->torque[i].t;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::find_volumes()
+{
+  density->run(list, nullptr, nullptr);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -331,6 +401,7 @@ void PairSPHBulk::coeff(int narg, char **arg)
 void PairSPHBulk::init_style()
 {
   crowding_requested = false;
+  viscous->configure(ViscousSettings(), 0, fluid_style);
   check_setup();
   derive_coeffs();
   neighbor->add_request(this);
@@ -480,38 +551,24 @@ void PairSPHBulk::announce()
   MPI_Allreduce(&speed, &fastest, 1, MPI_DOUBLE, MPI_MAX, world);
   fastest = sqrt(fastest);
 
-  const double hsq =
-      stability_length_squared(kernel_slope_integral(model->choice.kernel, dim, support));
-  CoeffTable table;
-  for (int i = 1; i <= atom->ntypes; i++) {
-    if (!announced) model->warn_of_ignored(i, intrinsic_kappa_of(i, i));
-    for (int j = i; j <= atom->ntypes; j++) {
-      const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
-      if (a.other || b.other) continue;
-      const double zeta = 0.5 * (a.zeta + b.zeta);
-      const double rho = std::min(a.eos.rho0, b.eos.rho0);
-      Columns steps = viscous_steps(i, j, hsq, rho);
-      steps.insert(steps.begin() + 1, {"bulk", bulk_step(hsq, zeta / rho)});
-      table.add_row(i, j, table_columns(i, j, zeta + intrinsic_kappa_of(i, j), zeta),
-                    acoustic_step(sqrt(hsq), std::max(a.eos.c0, b.eos.c0) + fastest), steps);
-    }
-  }
-
+  find_smallest_inertia();
+  const CoeffTable table = coeff_table(fastest);
   if (!announced) {
+    for (int i = 1; i <= atom->ntypes; i++) model->warn_of_ignored(i, intrinsic_kappa_of(i, i));
     warned_step = noise_step = 0.0;
     FluidState state(lmp, *engine, *exchange, *model);
     state.run(list, 1, not_fluid());
     if (comm->me == 0)
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", fluid_style,
-                     model->summary(dim, support), engine->instruction_set(), table.text(),
-                     state.table());
+                     model->summary(dim, support), engine->instruction_set(),
+                     table.text(update->dt), state.table());
     check_sizes(lmp, fluid_style, *model, not_fluid());
     state.warn(list, fluid_style, crowding_requested);
   }
   announced = true;
   if (has_noise() && update->dt != noise_step) announce_noise(table.fastest_rate());
 
-  const double smallest = table.smallest_step();
+  const double smallest = viscous->active() ? table.acoustic_step() : table.smallest_step();
   if (update->dt > smallest && update->dt != warned_step) {
     warned_step = update->dt;
     if (comm->me == 0)
@@ -523,6 +580,29 @@ void PairSPHBulk::announce()
 
   check_energies(lmp, fluid_style, *model, not_fluid());
   check_neighbors(lmp, fluid_style, *model, *engine, not_fluid(), dim, support);
+}
+
+/* ----------------------------------------------------------------------
+   of the pairs of types, for particles of a speed
+------------------------------------------------------------------------- */
+
+CoeffTable PairSPHBulk::coeff_table(double speed) const
+{
+  const double hsq =
+      stability_length_squared(kernel_slope_integral(model->choice.kernel, dim, support));
+  CoeffTable table;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
+      if (a.other || b.other) continue;
+      const double zeta = 0.5 * (a.zeta + b.zeta);
+      const double rho = std::min(a.eos.rho0, b.eos.rho0);
+      Columns steps = viscous_steps(i, j, hsq, rho);
+      steps.insert(steps.begin() + 1, {"bulk", bulk_step(hsq, zeta / rho)});
+      table.add_row(i, j, table_columns(i, j, zeta + intrinsic_kappa_of(i, j), zeta),
+                    acoustic_step(sqrt(hsq), std::max(a.eos.c0, b.eos.c0) + speed), steps);
+    }
+  return table;
 }
 
 /* ----------------------------------------------------------------------
@@ -540,7 +620,7 @@ void PairSPHBulk::announce_noise(double rate)
                    "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
                    "step {:.3g}\n",
                    fluid_style, temperature, model->choice.seed, rate * update->dt);
-  if (rate * update->dt > ACCURATE_NOISE && comm->me == 0)
+  if (rate * update->dt > ACCURATE_NOISE && !viscous->active() && comm->me == 0)
     error->warning(
         FLERR,
         "Pair style {}: the largest viscous rate times the time step is {:.3g}, above {:g}; "
@@ -656,5 +736,5 @@ double PairSPHBulk::memory_usage()
 {
   return Pair::memory_usage() + engine->memory_usage() + limit->memory_usage() +
       open->memory_usage() + boundary->memory_usage() + crowd->memory_usage() +
-      noise->memory_usage();
+      noise->memory_usage() + viscous->memory_usage();
 }

@@ -26,6 +26,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Boundary;
   class BoundaryStage;
+  class CoeffTable;
   class Columns;
   class CrowdingStage;
   class DensityStage;
@@ -38,7 +39,9 @@ namespace SPHDissipation {
   class OpenStage;
   class OpenZone;
   class PressureStage;
+  class ViscousStage;
   struct PairCoeff;
+  struct ViscousSettings;
   enum class Shear;
 }    // namespace SPHDissipation
 
@@ -113,6 +116,17 @@ class PairSPHBulk : public Pair {
   void request_crowding() { crowding_requested = true; }
   const double *crowding(int i) const;
 
+  // from the init() of all integrators of the fluid, in every run, with the bits of their groups
+  void set_viscous(const SPHDissipation::ViscousSettings &, int groups);
+  bool is_viscous_stage() const;    // the velocity in the friction is found by a stage of its own
+  const double *viscous_statistics() const;    // see ViscousStage
+
+  // of the last step, on an owned particle, without what other styles add
+  const double *own_force(int i) const;
+  const double *own_torque(int i) const;
+
+  void find_volumes();    // before the first step, from the positions alone
+
   bool has_noise() const;               // keyword temp
   bool has_own_temperatures() const;    // temp energy: of the particles
   double internal_temperature(int i) const;
@@ -148,6 +162,7 @@ class PairSPHBulk : public Pair {
   SPHDissipation::CrowdingStage *crowd;
   SPHDissipation::NoiseStage *noise;
   SPHDissipation::ForceStage *forces;
+  SPHDissipation::ViscousStage *viscous;
   bool crowding_requested;
 
   PairSPHBulk(class LAMMPS *, const std::string &, const std::vector<std::string> &);
@@ -163,10 +178,15 @@ class PairSPHBulk : public Pair {
   virtual SPHDissipation::Columns table_columns(int, int, double, double) const;
   virtual SPHDissipation::Columns viscous_steps(int, int, double, double) const;
   virtual double **extrapolated_spin() { return nullptr; }
+  virtual const double *spin_inertia() { return nullptr; }    // per mass
+  virtual void find_smallest_inertia() {}                     // for viscous_steps()
 
   virtual void check_setup();
   void find_own_types();
   void derive_coeffs();
+  bigint sum_before_forces();
+  void find_viscous_velocity();
+  SPHDissipation::CoeffTable coeff_table(double speed) const;
   void announce_noise(double rate);
   void tally_energy();
 };

@@ -103,15 +103,14 @@ void PairSPHMicropolar::check_setup()
 
 /* ---------------------------------------------------------------------- */
 
-void PairSPHMicropolar::announce()
+void PairSPHMicropolar::find_smallest_inertia()
 {
-  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(fluid_style.c_str()));
+  const double *const inertia = spin_inertia();
   double smallest = UNLIMITED_STEP;
   for (int i = 0; i < atom->nlocal; i++)
-    if (avec->inertia[i] > 0.0 && !model->coeffs[atom->type[i]].other)
-      smallest = std::min(smallest, avec->inertia[i]);
+    if (inertia[i] > 0.0 && !model->coeffs[atom->type[i]].other)
+      smallest = std::min(smallest, inertia[i]);
   MPI_Allreduce(&smallest, &smallest_inertia, 1, MPI_DOUBLE, MPI_MIN, world);
-  PairSPHBulk::announce();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -161,7 +160,17 @@ Columns PairSPHMicropolar::viscous_steps(int i, int j, double hsq, double rho) c
 
 /* ---------------------------------------------------------------------- */
 
+AtomVecSPHMicropolar *PairSPHMicropolar::spinning() const
+{
+  return dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(fluid_style.c_str()));
+}
+
 double **PairSPHMicropolar::extrapolated_spin()
 {
-  return dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(fluid_style.c_str()))->omegaest;
+  return spinning()->omegaest;
+}
+
+const double *PairSPHMicropolar::spin_inertia()
+{
+  return spinning()->inertia;
 }

@@ -33,7 +33,6 @@ class PairSPHMicropolar : public PairSPHBulk {
 
   void *extract(const char *, int &) override;
   bool has_torques() const;    // any vortex or spin viscosity
-  void announce() override;
 
  protected:
   SPHDissipation::Shear default_shear() const override;
@@ -44,8 +43,11 @@ class PairSPHMicropolar : public PairSPHBulk {
   SPHDissipation::Columns table_columns(int, int, double, double) const override;
   SPHDissipation::Columns viscous_steps(int, int, double, double) const override;
   double **extrapolated_spin() override;
+  const double *spin_inertia() override;
+  void find_smallest_inertia() override;
 
  private:
+  class AtomVecSPHMicropolar *spinning() const;
   double smallest_inertia;    // per mass, of all particles that have one; limits the time step
 };
 

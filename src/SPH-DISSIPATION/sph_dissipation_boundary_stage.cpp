@@ -99,7 +99,13 @@ void BoundaryStage::run(NeighList *list)
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
   for (auto boundary : boundaries) boundary->move_surface(surface->surface, before);
+  extend();
+}
 
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::extend()
+{
   accumulate();
   const Field sums = field(sum, &sum->weight, offsetof(BoundarySum, w) / sizeof(double));
   if (engine.has_spin())

@@ -55,6 +55,9 @@ namespace SPHDissipation {
     // after the pressures, before pass 2
     void run(NeighList *);
 
+    // the same once more in the step, for other velocities and pressures of the fluid
+    void extend();
+
     double memory_usage() const override;
 
    private:

@@ -32,10 +32,10 @@ using namespace SPHDissipation;
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
     zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
-    density_loop(nullptr), force_loop(nullptr), data(), kernel(Kernel::WENDLAND_C2), dim(0),
-    shear(Shear::NONE), bulk(Bulk::NONE), volume(Volume::NUMBER), self_weight(0.0),
-    weights(nullptr), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0), imax(0),
-    pair_max(0)
+    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), data(),
+    kernel(Kernel::WENDLAND_C2), dim(0), shear(Shear::NONE), bulk(Bulk::NONE),
+    volume(Volume::NUMBER), self_weight(0.0), weights(nullptr), nlocal_forces(-1),
+    nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
   choose_loops("auto");
 }
@@ -96,6 +96,7 @@ void Engine::setup(Kernel kernel_in, int n, double support, Shear shear_in, Bulk
   shear = shear_in;
   coeff = coeff_in;
   density_loop = loops->density(kernel, volume);
+  rate_loop = loops->rates(volume);
 
   data.coeff = coeff.data();
   data.ntypes_1 = ntypes + 1;
@@ -250,6 +251,15 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.spare = nall;
   data.density = density;
   density_loop(data);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_rates()
+{
+  const int nrow = atom->nlocal + atom->nghost + BLOCK;
+  for (int i = 0; i < nrow; i++) density[i].cdot = 0.0;
+  rate_loop(data);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -145,6 +145,7 @@ namespace SPHDissipation {
   struct LoopSet {
     const char *name;
     Loop (*density)(Kernel, Volume);
+    Loop (*rates)(Volume);
     Loop (*forces)(Shear, Bulk, Volume);
     Loop (*noisy_forces)(const NoiseForm &, Volume);
     NoiseLoop (*noise_sums)(const NoiseForm &);
@@ -206,6 +207,10 @@ namespace SPHDissipation {
     // contributions to ghost atoms
     void accumulate_density(NeighList *, double **vest, double **omegaest);
 
+    // cdot of density[] alone, of the velocities that the caller has set in particle[] on owned and
+    // ghost atoms, by the pairs of pass 1
+    void accumulate_rates();
+
     // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller
     // on owned and ghost atoms
     void accumulate_forces(NeighList *, PairTally *);
@@ -242,7 +247,7 @@ namespace SPHDissipation {
 
    private:
     const LoopSet *loops;
-    Loop density_loop, force_loop;
+    Loop density_loop, rate_loop, force_loop;
     LoopData data;
     std::vector<PairCoeff> coeff;
     std::vector<double> rho0;    // by type

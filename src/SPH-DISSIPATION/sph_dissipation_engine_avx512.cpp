@@ -42,6 +42,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   const LoopSet loops_avx512 = {"avx512",
                                 LOOPS::choose_density_loop,
+                                LOOPS::choose_rate_loop,
                                 LOOPS::choose_force_loop,
                                 LOOPS::choose_noisy_force_loop,
                                 LOOPS::choose_eta_loop,

@@ -27,6 +27,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   const LoopSet loops_plain = {"plain",
                                LOOPS::choose_density_loop,
+                               LOOPS::choose_rate_loop,
                                LOOPS::choose_force_loop,
                                LOOPS::choose_noisy_force_loop,
                                LOOPS::choose_eta_loop,

@@ -16,6 +16,7 @@
 #include "atom.h"
 #include "force.h"
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
 
 #include <algorithm>
 
@@ -51,6 +52,17 @@ void ForceStage::run(NeighList *list, PairTally *tally)
     for (int d = 0; d < 3; d++) torque[i][d] += total.t[d];
     desph[i] += total.heat_vortex + total.heat_spin;
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ForceStage::collect()
+{
+  const Field f = field(engine.force, engine.force->f, 3);
+  if (engine.has_spin())
+    exchange.reverse({f, field(engine.torque, engine.torque->t, 3)});
+  else
+    exchange.reverse({f});
 }
 
 /* ----------------------------------------------------------------------

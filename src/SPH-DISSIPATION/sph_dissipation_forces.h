@@ -32,7 +32,12 @@ namespace SPHDissipation {
    public:
     using Stage::Stage;
 
+    static constexpr int REVERSE = 6;      // values per atom
     void run(NeighList *, PairTally *);    // tally of each pair, or nullptr
+
+    // what ghosts have got onto the force and torque of their owners in the engine, too
+
+    void collect();
 
     // Heat of the dissipative forces, energy per time: of each owned and ghost atom as this rank
     // summed it (with newton on, the sums of ghosts belong to their owners), heat may be nullptr; by

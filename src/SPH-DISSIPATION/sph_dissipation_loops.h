@@ -113,6 +113,41 @@ namespace SPHDissipation {
       for (int k = 0; k < AHEAD; k++) data.neighbor[next + k] = data.spare;
     }
 
+    // cdot of pass 1 alone, by the pairs that it has left
+
+    template <bool WEIGHTED> void rate_loop(LoopData &data)
+    {
+      const Particle *const particle = data.particle;
+      double *const cdot = numbers(data.density) + 1;
+
+      for (int ii = 0; ii < data.inum; ii++) {
+        const int i = data.ilist[ii];
+        const Particle pi = particle[i];
+        const int *const neighbor = data.neighbor + data.first[ii];
+        const double *const slope_of = data.slope + data.first[ii];
+        Vec total = all(0.0);
+
+        for (int k = 0; k < data.count[ii]; k += LANES) {
+          const int *const j = neighbor + k;
+          Vec pj[8];
+          load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
+          load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
+          for (int l = 0; l < LANES; l++) prefetch(particle + j[l + AHEAD]);
+          const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
+          const Vec ux = pi.u[0] - pj[3], uy = pi.u[1] - pj[4], uz = pi.u[2] - pj[5];
+          const Vec flux = load(slope_of + k) * (dx * ux + dy * uy + dz * uz);
+          if constexpr (WEIGHTED) {
+            total -= gather(data.weight, j) * flux;
+            add_column<WIDTH<DensitySum>>(cdot, j, -data.weight[i] * flux);
+          } else {
+            total -= flux;
+            add_column<WIDTH<DensitySum>>(cdot, j, -flux);
+          }
+        }
+        data.density[i].cdot += sum(total);
+      }
+    }
+
     // coefficients of the pair terms of a block of pairs
 
     struct Coeff {
@@ -371,6 +406,11 @@ namespace SPHDissipation {
     inline Loop choose_density_loop(Kernel kernel, Volume volume)
     {
       return (volume == Volume::MASS) ? choose_kernel<true>(kernel) : choose_kernel<false>(kernel);
+    }
+
+    inline Loop choose_rate_loop(Volume volume)
+    {
+      return (volume == Volume::MASS) ? rate_loop<true> : rate_loop<false>;
     }
 
     template <bool WEIGHTED> Loop choose_bulk(Shear shear, Bulk bulk)

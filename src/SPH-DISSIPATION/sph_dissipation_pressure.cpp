@@ -31,6 +31,19 @@ PressureStage::PressureStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
 
 /* ---------------------------------------------------------------------- */
 
+bool PressureStage::is_beyond(int i, const double *bound) const
+{
+  return bound && beyond_bound(model.coeffs[atom->type[i]].zeta, bound[i]);
+}
+
+double PressureStage::bulk_coefficient(int i, const double *bound) const
+{
+  if (model.choice.limit == Limit::YES && is_beyond(i, bound)) return zeta_at_bound(bound[i]);
+  return model.coeffs[atom->type[i]].zeta;
+}
+
+/* ---------------------------------------------------------------------- */
+
 bigint PressureStage::run(const double *bound, int not_fluid)
 {
   const double *const rmass = atom->rmass;
@@ -43,7 +56,6 @@ bigint PressureStage::run(const double *bound, int not_fluid)
   const int nall = nlocal + atom->nghost;
   const TypeCoeff *const coeffs = model.coeffs;
   const Eos eos = model.choice.eos;
-  const bool cut_off = (model.choice.limit == Limit::YES);
   const bool by_density = (model.choice.bulk == Bulk::DENSITY);
   bigint nbeyond = 0;
 
@@ -57,18 +69,31 @@ bigint PressureStage::run(const double *bound, int not_fluid)
     const double c_inv = particle.vol / engine.weight(i);
     const double rate = engine.density[i].cdot * c_inv;
 
-    double zeta = coeff.zeta;
-    if (bound && beyond_bound(zeta, bound[i])) {
-      if (i < nlocal) nbeyond++;
-      if (cut_off) zeta = zeta_at_bound(bound[i]);
-    }
+    if (i < nlocal && is_beyond(i, bound)) nbeyond++;
 
     const double p = pressure(eos, coeff.eos, rho[i], esph[i] / rmass[i]);
-    engine.zeta_term[i] = zeta * rate;
+    engine.zeta_term[i] = bulk_coefficient(i, bound) * rate;
     particle.g = (by_density ? p + engine.zeta_term[i] : p) * c_inv * c_inv;
     if (i < nlocal) desph[i] += p * particle.vol * rate;
   }
   return nbeyond;
+}
+
+/* ----------------------------------------------------------------------
+   the volume of a particle of an open zone is prescribed, its c is not
+------------------------------------------------------------------------- */
+
+void PressureStage::set_bulk_term(const double *bound, int not_fluid) const
+{
+  const bool by_density = (model.choice.bulk == Bulk::DENSITY);
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+    Particle &particle = engine.particle[i];
+    engine.zeta_term[i] = particle.g = 0.0;
+    if (model.coeffs[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
+    const double c_inv = particle.vol / engine.weight(i);
+    engine.zeta_term[i] = bulk_coefficient(i, bound) * engine.density[i].cdot / engine.density[i].c;
+    if (by_density) particle.g = engine.zeta_term[i] * c_inv * c_inv;
+  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -33,12 +33,19 @@ namespace SPHDissipation {
 
     bigint run(const double *bound, int not_fluid);
 
+    // the bulk term alone, of the rates that pass 1 has left: what the passes leave of Gamma u
+
+    void set_bulk_term(const double *bound, int not_fluid) const;
+
     // elastic energy of owned particles; each_atom = what it is added to, or nullptr
 
     double elastic_energy(double *each_atom, int not_fluid) const;
 
    private:
     const FluidModel &model;
+
+    bool is_beyond(int i, const double *bound) const;
+    double bulk_coefficient(int i, const double *bound) const;    // in effect
   };
 
 }    // namespace SPHDissipation

@@ -13,6 +13,7 @@
 
 #include "sph_dissipation_table.h"
 
+#include "sph_dissipation_rkl2.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -28,27 +29,35 @@ static constexpr double ONE_PERCENT_STEP = 0.15, TENTH_PERCENT_STEP = 0.05;
 
 /* ---------------------------------------------------------------------- */
 
-std::string CoeffTable::text() const
+std::string CoeffTable::text(double dt) const
 {
-  return lines +
+  std::string result =
+      lines +
       fmt::format(
-             "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
-             "of the largest stable time step\n",
-             ONE_PERCENT_STEP, TENTH_PERCENT_STEP);
+          "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
+          "of the largest stable time step\n",
+          ONE_PERCENT_STEP, TENTH_PERCENT_STEP);
+  if (fastest > 0.0)
+    result += fmt::format("  largest stable time step with viscous explicit {:.4g}, with rkl2 or "
+                          "implicit {:.4g}; the time step {:g} times the largest viscous rate is "
+                          "{:.3g}: rkl2 takes {} stages\n",
+                          smallest, acoustic, dt, fastest * dt, RKL2::stages_for(fastest * dt));
+  return result;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void CoeffTable::add_row(int i, int j, const Columns &values, double acoustic,
+void CoeffTable::add_row(int i, int j, const Columns &values, double acoustic_of_pair,
                          const Columns &viscous)
 {
   std::vector<double> viscous_steps;
   for (const auto &step : viscous) viscous_steps.push_back(step.second);
 
-  Columns steps = {{"acoustic", acoustic}};
+  Columns steps = {{"acoustic", acoustic_of_pair}};
   steps.insert(steps.end(), viscous.begin(), viscous.end());
-  steps.emplace_back("all", combined_step(acoustic, viscous_steps));
+  steps.emplace_back("all", combined_step(acoustic_of_pair, viscous_steps));
   smallest = std::min(smallest, steps.back().second);
+  acoustic = std::min(acoustic, acoustic_of_pair);
   fastest = std::max(fastest, 1.0 / combined_step(UNLIMITED_STEP, viscous_steps));
 
   if (lines.empty()) {

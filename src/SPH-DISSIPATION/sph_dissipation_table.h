@@ -36,18 +36,20 @@ namespace SPHDissipation {
 
   class CoeffTable {
    public:
-    CoeffTable() : smallest(UNLIMITED_STEP), fastest(0.0) {}
+    CoeffTable() : smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP), fastest(0.0) {}
 
     // values = viscosities and coefficients, viscous = time steps of the viscous terms
 
     void add_row(int i, int j, const Columns &values, double acoustic, const Columns &viscous);
-    std::string text() const;    // with a line on the accuracy of these steps
+    // with lines on the accuracy of these steps, and on what dt needs
+    std::string text(double dt) const;
     double smallest_step() const { return smallest; }    // with all terms together, of all rows
+    double acoustic_step() const { return acoustic; }    // without the viscous terms
     double fastest_rate() const { return fastest; }    // damping by all viscous terms, of all rows
 
    private:
     std::string lines;
-    double smallest, fastest;
+    double smallest, acoustic, fastest;
   };
 
 }    // namespace SPHDissipation

@@ -1,0 +1,157 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// Solution of (M + h Gamma) x = b with a diagonal M of masses, whose inverse is the preconditioner: the
+// residual r = b - (M + h Gamma) x and the search directions M^-1 r have the momentum of b, and the
+// error of x is at most the residual in the norm of M.
+//   conjugate gradients, for a symmetric Gamma
+//   BiCGSTAB, H. A. van der Vorst, SIAM J. Sci. Stat. Comput. 13, 631 (1992), for others
+// Unknowns without mass stay zero.
+
+#ifndef LMP_SPH_DISSIPATION_KRYLOV_H
+#define LMP_SPH_DISSIPATION_KRYLOV_H
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  using Unknowns = std::vector<double>;
+
+  struct Solution {
+    int applications;    // of the operator
+    double residual;     // relative to the scale
+    bool converged;
+    bool indefinite;    // the operator is not positive: no solution by conjugate gradients
+  };
+
+  // System has
+  //   mass, inverse_mass, x     Unknowns; x is 0 at the start and the solution at the end
+  //   residual                  Unknowns; b at the start, b - (M + h Gamma) x at the end
+  //   void apply(in, out)       out = (M + h Gamma) in
+  //   void sum(values, n)       over all processors, in place
+  //   double scale_sq()         part of this processor of the square, in the norm of M, that tolerance
+  //                             times is the largest residual; may depend on x
+
+  template <class System> class Krylov {
+   public:
+    Krylov(System &system, double tolerance, int most) :
+        system(system), tolerance(tolerance), most(most)
+    {
+    }
+
+    Solution conjugate_gradients()
+    {
+      const std::size_t n = system.x.size();
+      Unknowns &r = system.residual;
+      Unknowns p(n), ap(n);
+      double before = 1.0;
+      while (!finished()) {
+        const double beta = (result.applications == 0) ? 0.0 : rr / before;
+        for (std::size_t k = 0; k < n; k++) p[k] = system.inverse_mass[k] * r[k] + beta * p[k];
+        apply(p, ap);
+        double curvature = 0.0;
+        for (std::size_t k = 0; k < n; k++) curvature += p[k] * ap[k];
+        system.sum(&curvature, 1);
+        if (!(curvature > 0.0)) {
+          result.indefinite = true;
+          break;
+        }
+        const double alpha = rr / curvature;
+        for (std::size_t k = 0; k < n; k++) {
+          system.x[k] += alpha * p[k];
+          r[k] -= alpha * ap[k];
+        }
+        before = rr;
+      }
+      return result;
+    }
+
+    Solution bi_conjugate_gradients()
+    {
+      const std::size_t n = system.x.size();
+      Unknowns &r = system.residual;
+      Unknowns p(n), ap(n), q(n), aq(n), z(n);
+      Unknowns shadow = r;
+      double rho = 1.0, alpha = 1.0, omega = 1.0;
+      while (!finished()) {
+        double next = product(shadow, r);
+        system.sum(&next, 1);
+        if (next == 0.0) break;
+        const double beta = (result.applications == 0) ? 0.0 : next / rho * alpha / omega;
+        rho = next;
+        for (std::size_t k = 0; k < n; k++) {
+          p[k] = r[k] + beta * (p[k] - omega * ap[k]);
+          z[k] = system.inverse_mass[k] * p[k];
+        }
+        apply(z, ap);
+        double along = product(shadow, ap);
+        system.sum(&along, 1);
+        if (along == 0.0) break;
+        alpha = rho / along;
+        for (std::size_t k = 0; k < n; k++) {
+          system.x[k] += alpha * z[k];
+          r[k] -= alpha * ap[k];
+        }
+        if (finished()) break;
+        for (std::size_t k = 0; k < n; k++) q[k] = system.inverse_mass[k] * r[k];
+        apply(q, aq);
+        double sums[2] = {product(aq, r), product(aq, aq)};
+        system.sum(sums, 2);
+        if (!(sums[1] > 0.0) || sums[0] == 0.0) break;
+        omega = sums[0] / sums[1];
+        for (std::size_t k = 0; k < n; k++) {
+          system.x[k] += omega * q[k];
+          r[k] -= omega * aq[k];
+        }
+      }
+      return result;
+    }
+
+   private:
+    System &system;
+    const double tolerance;
+    const int most;
+    Solution result = {0, 0.0, false, false};
+    double rr = 0.0;    // square of the residual
+
+    double product(const Unknowns &a, const Unknowns &b) const
+    {
+      double total = 0.0;
+      for (std::size_t k = 0; k < a.size(); k++) total += a[k] * system.inverse_mass[k] * b[k];
+      return total;
+    }
+
+    void apply(const Unknowns &in, Unknowns &out)
+    {
+      system.apply(in, out);
+      result.applications++;
+    }
+
+    bool finished()
+    {
+      double sums[2] = {product(system.residual, system.residual), system.scale_sq()};
+      system.sum(sums, 2);
+      rr = sums[0];
+      result.residual = (sums[1] > 0.0) ? std::sqrt(rr / sums[1]) : (rr > 0.0) ? 1.0 : 0.0;
+      result.converged = (rr <= tolerance * tolerance * sums[1]);
+      return result.converged || result.applications >= most;
+    }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

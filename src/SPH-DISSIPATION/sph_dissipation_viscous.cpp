@@ -1,0 +1,407 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_viscous.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "platform.h"
+#include "sph_dissipation_boundary_stage.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_pressure.h"
+#include "sph_dissipation_rkl2.h"
+#include "update.h"
+
+#include <algorithm>
+#include <utility>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const FluidModel &model,
+                           const PressureStage &pressure, BoundaryStage &boundary) :
+    Stage(lmp, engine, exchange),
+    statistics(), model(model), pressure(pressure), boundary(boundary), groups(0), rate(0.0),
+    warned(false), list(nullptr), bound(nullptr), omegaest(nullptr), symmetric(true), width(3),
+    h(0.0), mean()
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::configure(const ViscousSettings &settings_in, int groups_in,
+                             const std::string &style_in)
+{
+  settings = settings_in;
+  groups = groups_in;
+  style = style_in;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::begin()
+{
+  const std::size_t nall = atom->nlocal + atom->nghost;
+  if (nall == 0) return;
+  double *const f = atom->f[0];
+  forces_before.assign(f, f + 3 * nall);
+  std::fill_n(f, 3 * nall, 0.0);
+  heat_before.assign(atom->desph, atom->desph + nall);
+  if (!engine.has_spin()) return;
+  double *const torque = atom->torque[0];
+  torques_before.assign(torque, torque + 3 * nall);
+  std::fill_n(torque, 3 * nall, 0.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::restore()
+{
+  if (atom->nlocal + atom->nghost == 0) return;
+  std::copy(forces_before.begin(), forces_before.end(), atom->f[0]);
+  std::copy(heat_before.begin(), heat_before.end(), atom->desph);
+  if (engine.has_spin()) std::copy(torques_before.begin(), torques_before.end(), atom->torque[0]);
+}
+
+/* ----------------------------------------------------------------------
+   at the start of a run the velocity is that of the time of the positions, with half a step to the middle
+   of the first one
+------------------------------------------------------------------------- */
+
+void ViscousStage::run(NeighList *list_in, const double *bound_in, int prescribed,
+                       bool symmetric_in, double **omegaest_in, const double *inertia)
+{
+  const double begin = platform::walltime();
+  list = list_in;
+  bound = bound_in;
+  symmetric = symmetric_in;
+  omegaest = omegaest_in;
+  width = omegaest ? 6 : 3;
+  if (update->setupflag) {
+    warned = false;
+    statistics[APPLICATIONS] = 0.0;
+  }
+  statistics[ITERATIONS] = statistics[RESIDUAL] = 0.0;
+
+  const Field f = {atom->nmax ? atom->f[0] : nullptr, 3, 3};
+  if (omegaest)
+    exchange.reverse({f, {atom->nmax ? atom->torque[0] : nullptr, 3, 3}});
+  else
+    exchange.reverse({f});
+  find_unknowns(prescribed);
+  gather(inertia);
+  restore();
+  if (!boundary.empty()) find_rest();
+
+  const double interval = update->setupflag ? 0.5 * update->dt : update->dt;
+  if (settings.mode == Viscous::RKL2)
+    rkl2_step(interval);
+  else if (settings.scheme == Scheme::SDIRK2)
+    sdirk2_step(interval);
+  else
+    implicit_step((settings.scheme == Scheme::EULER) ? interval : 0.5 * interval);
+  statistics[SECONDS] = platform::walltime() - begin;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::find_unknowns(int prescribed)
+{
+  unknown.clear();
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groups) && !(atom->mask[i] & prescribed) &&
+        !model.coeffs[atom->type[i]].other)
+      unknown.push_back(i);
+}
+
+/* ----------------------------------------------------------------------
+   the spin of a particle without inertia stays as it is; there are no torques then
+------------------------------------------------------------------------- */
+
+void ViscousStage::gather(const double *inertia)
+{
+  const std::size_t n = width * unknown.size();
+  for (Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force})
+    one->resize(n);
+
+  double sums[4] = {0.0, 0.0, 0.0, 0.0};
+  for (std::size_t k = 0; k < unknown.size(); k++) {
+    const int i = unknown[k];
+    const double m = atom->rmass[i];
+    for (int d = 0; d < width; d++) {
+      const bool turns = (d >= 3);
+      const std::size_t row = width * k + d;
+      mass[row] = turns ? m * inertia[i] : m;
+      inverse_mass[row] = (mass[row] > 0.0) ? 1.0 / mass[row] : 0.0;
+      before[row] = turns ? atom->omega[i][d - 3] : atom->v[i][d];
+      guess[row] = turns ? omegaest[i][d - 3] : atom->vest[i][d];
+      force[row] = turns ? atom->torque[i][d - 3] : atom->f[i][d];
+      if (!turns) sums[d] += m * before[row];
+    }
+    sums[3] += m;
+  }
+  if (settings.mode != Viscous::IMPLICIT) return;    // nobody needs the scale
+  sum(sums, 4);
+  for (int d = 0; d < 3; d++) mean[d] = (sums[3] > 0.0) ? sums[d] / sums[3] : 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   of owned and ghost particles; those that are not unknown stay as they are, as increments zero
+------------------------------------------------------------------------- */
+
+void ViscousStage::set_velocities(const Unknowns &values)
+{
+  Particle *const particle = engine.particle;
+  for (int i = 0; i < atom->nlocal; i++) {
+    std::fill_n(particle[i].u, 3, 0.0);
+    if (omegaest) std::fill_n(engine.spin[i].w, 3, 0.0);
+  }
+  for (std::size_t k = 0; k < unknown.size(); k++) {
+    const double *const value = &values[width * k];
+    std::copy_n(value, 3, particle[unknown[k]].u);
+    if (omegaest) std::copy_n(value + 3, 3, engine.spin[unknown[k]].w);
+  }
+  const Field u = field(particle, particle->u, 3);
+  if (omegaest)
+    exchange.forward({u, field(engine.spin, engine.spin->w, 3)});
+  else
+    exchange.forward({u});
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::set_bulk_term()
+{
+  DensitySum *const density = engine.density;
+  if (engine.bulk_form() != Bulk::NONE) {
+    engine.accumulate_rates();
+    const Field cdot = field(density, &density->cdot, 1);
+    exchange.reverse({cdot});
+    exchange.forward({cdot});
+  }
+  pressure.set_bulk_term(bound, boundary.bits());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::find_rest()
+{
+  rest.clear();
+  set_velocities(Unknowns(width * unknown.size(), 0.0));
+  set_bulk_term();
+  boundary.extend();
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+    if (!(atom->mask[i] & boundary.bits())) continue;
+    const Particle &p = engine.particle[i];
+    Rest one = {i, {p.u[0], p.u[1], p.u[2]}, p.g, engine.zeta_term[i], {0.0, 0.0, 0.0}};
+    if (omegaest) std::copy_n(engine.spin[i].w, 3, one.w);
+    rest.push_back(one);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   out = Gamma in
+------------------------------------------------------------------------- */
+
+void ViscousStage::friction(const Unknowns &in, Unknowns &out)
+{
+  statistics[APPLICATIONS] += 1.0;
+  set_velocities(in);
+  set_bulk_term();
+  if (!boundary.empty()) {
+    boundary.extend();
+    for (const auto &one : rest) {
+      Particle &p = engine.particle[one.i];
+      p.g -= one.g;
+      engine.zeta_term[one.i] -= one.zeta_term;
+      for (int d = 0; d < 3; d++) {
+        p.u[d] -= one.u[d];
+        if (omegaest) engine.spin[one.i].w[d] -= one.w[d];
+      }
+    }
+  }
+
+  engine.accumulate_forces(list, nullptr);
+  const Field f = field(engine.force, engine.force->f, 3);
+  if (omegaest)
+    exchange.reverse({f, field(engine.torque, engine.torque->t, 3)});
+  else
+    exchange.reverse({f});
+  for (std::size_t k = 0; k < unknown.size(); k++) {
+    const int i = unknown[k];
+    for (int d = 0; d < 3; d++) {
+      out[width * k + d] = -engine.force[i].f[d];
+      if (omegaest) out[width * k + 3 + d] = -engine.torque[i].t[d];
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::apply(const Unknowns &in, Unknowns &out)
+{
+  friction(in, out);
+  for (std::size_t k = 0; k < in.size(); k++) out[k] = mass[k] * in[k] + h * out[k];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::sum(double *values, int n) const
+{
+  MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, world);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ViscousStage::scale_sq() const
+{
+  double total = 0.0;
+  for (std::size_t k = 0; k < x.size(); k++) {
+    const std::size_t d = k % width;
+    const double frame = (d < 3) ? mean[d] : 0.0;
+    const double v0 = before[k] - frame, v = guess[k] + x[k] - frame;
+    total += 0.5 * mass[k] * (v0 * v0 + v * v);
+  }
+  return total;
+}
+
+/* ----------------------------------------------------------------------
+   (M + h Gamma) x = residual
+------------------------------------------------------------------------- */
+
+void ViscousStage::solve()
+{
+  std::fill(x.begin(), x.end(), 0.0);
+  Krylov<ViscousStage> krylov(*this, settings.tolerance, settings.iterations);
+  const Solution found = symmetric ? krylov.conjugate_gradients() : krylov.bi_conjugate_gradients();
+  statistics[ITERATIONS] += found.applications;
+  statistics[RESIDUAL] = std::max(statistics[RESIDUAL], found.residual);
+  if (found.converged) return;
+
+  if (found.indefinite)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix {} viscous implicit: there is a motion with negative friction at step {}; the "
+               "bulk viscosity is too small for the arrangement of the particles, use limit yes of "
+               "pair style {} or a larger kappa",
+               style, update->ntimestep, style);
+  const std::string message =
+      fmt::format("Fix {} viscous implicit: residual {:.3g}, above the tolerance {:g}, after {} "
+                  "iterations at step {}",
+                  style, found.residual, settings.tolerance, found.applications, update->ntimestep);
+  if (settings.must_converge) error->all(FLERR, Error::NOLASTLINE, message);
+  if (!warned && comm->me == 0) error->warning(FLERR, message);
+  warned = true;
+}
+
+/* ----------------------------------------------------------------------
+   M (v_b - v-) = h F(v_b) with v_b = guess + x, F(v_b) = F(guess) - Gamma x
+------------------------------------------------------------------------- */
+
+void ViscousStage::implicit_step(double part)
+{
+  h = part;
+  for (std::size_t k = 0; k < x.size(); k++)
+    residual[k] = mass[k] * (before[k] - guess[k]) + h * force[k];
+  solve();
+  set_guess(x);
+}
+
+/* ----------------------------------------------------------------------
+   M (Y1 - v-) = h F(Y1), M (Y2 - v-) = (dt - h) F(Y1) + h F(Y2), h = gamma dt
+   the residual of the first solution is h F(Y1) - M (Y1 - v-), which gives F(Y1) without another
+   application of Gamma
+------------------------------------------------------------------------- */
+
+void ViscousStage::sdirk2_step(double interval)
+{
+  constexpr double GAMMA = SDIRK2_GAMMA;
+  implicit_step(GAMMA * interval);
+  for (std::size_t k = 0; k < x.size(); k++)
+    residual[k] = (1.0 / GAMMA - 1.0) * mass[k] * (guess[k] - before[k]) + residual[k] / GAMMA;
+  solve();
+  for (double &value : x) value *= GAMMA;
+  set_guess(x);
+}
+
+/* ----------------------------------------------------------------------
+   Increments Y_j of the stages, and what is multiplied with Gamma to give them,
+   M Y_j = dt (theta_j F(v-) - Gamma Z_j) with theta_s = 1: v_b = v- + Z_s.
+------------------------------------------------------------------------- */
+
+void ViscousStage::rkl2_step(double interval)
+{
+  const double modes = rate * interval;
+  const int s = settings.stages ? settings.stages : RKL2::stages_for(modes);
+  if (modes > RKL2::rate_limit(s))
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Fix {} viscous rkl2: the largest viscous rate times the time step is {:.4g} at step {}, "
+        "which needs {} stages, not {}",
+        style, modes, update->ntimestep, RKL2::stages_for(modes), s);
+  statistics[ITERATIONS] = s;
+
+  const RKL2 rkl2(s);
+  const std::size_t n = x.size();
+  Unknowns first(n), y(n), y_old(n, 0.0), z(n, 0.0), z_old(n, 0.0), drag(n);
+  for (std::size_t k = 0; k < n; k++) {
+    first[k] = interval * inverse_mass[k] * force[k];
+    y[k] = rkl2.first().mu_rate * first[k];
+  }
+  for (int j = 2; j <= s; j++) {
+    const RKL2::Stage stage = rkl2.stage(j);
+    for (std::size_t k = 0; k < n; k++) {
+      z_old[k] = stage.mu * z[k] + stage.nu * z_old[k] + stage.mu_rate * y[k];
+      std::swap(z[k], z_old[k]);
+    }
+    if (j == s) break;
+    friction(y, drag);
+    for (std::size_t k = 0; k < n; k++) {
+      y_old[k] = stage.mu * y[k] + stage.nu * y_old[k] + stage.gamma_rate * first[k] +
+          stage.mu_rate * (first[k] - interval * inverse_mass[k] * drag[k]);
+      std::swap(y[k], y_old[k]);
+    }
+  }
+  set_guess(z);
+}
+
+/* ----------------------------------------------------------------------
+   the ghosts, too, get the increment, for fix deform may have changed their velocities
+------------------------------------------------------------------------- */
+
+void ViscousStage::set_guess(const Unknowns &increment)
+{
+  for (std::size_t k = 0; k < guess.size(); k++) guess[k] += increment[k];
+  set_velocities(increment);
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    for (int d = 0; d < 3; d++) {
+      atom->vest[i][d] += engine.particle[i].u[d];
+      if (omegaest) omegaest[i][d] += engine.spin[i].w[d];
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ViscousStage::memory_usage() const
+{
+  double values = 0.0;
+  for (const Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force,
+                              &forces_before, &torques_before, &heat_before})
+    values += static_cast<double>(one->capacity());
+  return values * sizeof(double) + static_cast<double>(unknown.capacity() * sizeof(int)) +
+      static_cast<double>(rest.capacity() * sizeof(Rest));
+}

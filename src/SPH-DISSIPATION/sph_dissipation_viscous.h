@@ -1,0 +1,131 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_VISCOUS_H
+#define LMP_SPH_DISSIPATION_VISCOUS_H
+
+#include "sph_dissipation_krylov.h"
+#include "sph_dissipation_stage.h"
+#include "sph_dissipation_viscous_settings.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  class BoundaryStage;
+  class FluidModel;
+  class PressureStage;
+
+  // Large viscosities.  In the step from the middle of one to the middle of the next, v- to v+ with the
+  // positions of the time between, the velocities obey M dv/dt = F(v) with F(v) = F(0) - Gamma v.  What
+  // an integrator makes of it is v+ = v- + dt M^-1 F(v_b): this stage finds v_b and sets it as
+  // the velocity that the forces see (vest, omegaest), on owned and ghost atoms.
+  //   rkl2:         v_b = a combination of v- and of the velocities of the stages, see RKL2
+  //   trapezoidal:  v_b = (v- + v+)/2
+  //   euler:        v_b = v+
+  //   sdirk2:       v_b = (1 - gamma) Y1 + gamma Y2 of its two stages
+  // Unknown are the velocities, with spins, of the particles of the fluid that the integrators move.
+  // One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
+
+  class ViscousStage : public Stage {
+   public:
+    ViscousStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &, const PressureStage &,
+                 BoundaryStage &);
+    static constexpr int FORWARD = 6, REVERSE = 6;    // values per atom
+
+    // of all integrators of the fluid, and bits of their groups; style = of the fluid, for messages
+
+    void configure(const ViscousSettings &, int groups, const std::string &style);
+    bool active() const { return settings.mode != Viscous::EXPLICIT; }
+    const ViscousSettings &choice() const { return settings; }
+    void set_rate(double rate_in) { rate = rate_in; }    // of the fastest mode
+
+    // One step: begin() sets the forces aside; then the passes, with the guess of v_b that vest is; then
+    // run(), after which the forces are those of begin() again, and the passes follow with v_b.
+    // Particles with a bit of prescribed are not unknown; omega, omegaest and inertia: nullptr
+    // without spin
+
+    void begin();
+    void run(NeighList *, const double *bound, int prescribed, bool symmetric, double **omegaest,
+             const double *inertia);
+
+    // of the last step: iterations, or stages; residual; seconds; and applications of Gamma in this run
+
+    enum { ITERATIONS, RESIDUAL, SECONDS, APPLICATIONS, NSTATISTICS };
+    double statistics[NSTATISTICS];
+
+    double memory_usage() const override;
+
+    // The system of equations, see Krylov.  The scale is the velocity, relative to the mean one, of the
+    // fluid before the step and in the solution.
+
+    Unknowns mass, inverse_mass, x, residual;
+    void apply(const Unknowns &in, Unknowns &out);
+    void sum(double *values, int n) const;
+    double scale_sq() const;
+
+   private:
+    const FluidModel &model;
+    const PressureStage &pressure;
+    BoundaryStage &boundary;
+    ViscousSettings settings;
+    std::string style;
+    int groups;
+    double rate;
+    bool warned;    // of iterations that were not enough, in this run
+
+    // of this step
+
+    NeighList *list;
+    const double *bound;
+    double **omegaest;
+    bool symmetric;
+    int width;                   // unknowns per particle: velocity, and spin
+    double h;                    // of M + h Gamma
+    std::vector<int> unknown;    // owned particles
+    Unknowns before;             // v-
+    Unknowns guess, force;       // v_b, F(v_b) of the beginning
+    double mean[3];              // velocity
+
+    // forces, torques and heat of begin()
+
+    std::vector<double> forces_before, torques_before, heat_before;
+
+    // what a boundary particle brings in where the fluid is at rest
+
+    struct Rest {
+      int i;
+      double u[3], g, zeta_term, w[3];
+    };
+    std::vector<Rest> rest;
+
+    void find_unknowns(int prescribed);
+    void gather(const double *inertia);
+    void restore();
+    void set_velocities(const Unknowns &);
+    void set_bulk_term();
+    void find_rest();
+    void friction(const Unknowns &in, Unknowns &out);
+    void solve();
+    void implicit_step(double interval);
+    void sdirk2_step(double interval);
+    void rkl2_step(double interval);
+    void set_guess(const Unknowns &increment);
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
