@@ -26,6 +26,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -36,9 +37,9 @@ using namespace SPHDissipation;
 ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const FluidModel &model,
                            const PressureStage &pressure, BoundaryStage &boundary) :
     Stage(lmp, engine, exchange),
-    statistics(), model(model), pressure(pressure), boundary(boundary), groups(0), rate(0.0),
-    warned(false), list(nullptr), bound(nullptr), omegaest(nullptr), symmetric(true), width(3),
-    h(0.0), mean()
+    statistics(), model(model), pressure(pressure), boundary(boundary), groups(0), known_rate(0.0),
+    rate(0.0), warned(false), list(nullptr), bound(nullptr), omegaest(nullptr), symmetric(true),
+    width(3), h(0.0), mean()
 {
 }
 
@@ -339,12 +340,49 @@ void ViscousStage::sdirk2_step(double interval)
 }
 
 /* ----------------------------------------------------------------------
+   Power iteration from a vector without order: of particles that are not on a lattice, or near a free surface,
+   where volumes are large, the fastest mode may be faster than the coefficients tell.
+------------------------------------------------------------------------- */
+
+double ViscousStage::estimated_rate()
+{
+  constexpr int NITERATION = 12;
+  constexpr double WAVES[6] = {391.7, 577.3, 733.1, 811.9, 929.3, 1117.7};    // per support radius
+  const double unit = 1.0 / engine.pairs().support;
+  const std::size_t n = mass.size();
+  Unknowns u(n), drag(n);
+  for (std::size_t k = 0; k < n; k++) {
+    const double *const position = atom->x[unknown[k / width]];
+    const std::size_t d = k % width;
+    const double phase = position[0] * WAVES[d] + position[1] * WAVES[(d + 1) % 6] +
+        position[2] * WAVES[(d + 2) % 6];
+    drag[k] = mass[k] * sin(phase * unit);
+  }
+
+  double estimate = 0.0;
+  for (int iteration = 0; iteration <= NITERATION; iteration++) {
+    double square = 0.0;
+    for (std::size_t k = 0; k < n; k++) square += drag[k] * inverse_mass[k] * drag[k];
+    sum(&square, 1);
+    estimate = sqrt(square);
+    if (iteration == NITERATION || !(square > 0.0)) break;
+    for (std::size_t k = 0; k < n; k++) u[k] = inverse_mass[k] * drag[k] / estimate;
+    friction(u, drag);
+  }
+  return estimate;
+}
+
+/* ----------------------------------------------------------------------
    Increments Y_j of the stages, and what is multiplied with Gamma to give them,
    M Y_j = dt (theta_j F(v-) - Gamma Z_j) with theta_s = 1: v_b = v- + Z_s.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::rkl2_step(double interval)
 {
+  constexpr int OFTEN = 20;          // steps between estimates
+  constexpr double SAFETY = 1.15;    // for they are too low
+  if (update->setupflag || update->ntimestep % OFTEN == 0)
+    rate = std::max(known_rate, SAFETY * estimated_rate());
   const double modes = rate * interval;
   const int s = settings.stages ? settings.stages : RKL2::stages_for(modes);
   if (modes > RKL2::rate_limit(s))

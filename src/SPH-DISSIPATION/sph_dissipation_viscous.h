@@ -50,7 +50,7 @@ namespace SPHDissipation {
     void configure(const ViscousSettings &, int groups, const std::string &style);
     bool active() const { return settings.mode != Viscous::EXPLICIT; }
     const ViscousSettings &choice() const { return settings; }
-    void set_rate(double rate_in) { rate = rate_in; }    // of the fastest mode
+    void set_rate(double rate_in) { known_rate = rate_in; }    // of the fastest mode, on lattices
 
     // One step: begin() sets the forces aside; then the passes, with the guess of v_b that vest is; then
     // run(), after which the forces are those of begin() again, and the passes follow with v_b.
@@ -83,8 +83,8 @@ namespace SPHDissipation {
     ViscousSettings settings;
     std::string style;
     int groups;
-    double rate;
-    bool warned;    // of iterations that were not enough, in this run
+    double known_rate, rate;    // of the fastest mode: on lattices; of these particles, at least
+    bool warned;                // of iterations that were not enough, in this run
 
     // of this step
 
@@ -122,6 +122,7 @@ namespace SPHDissipation {
     void implicit_step(double interval);
     void sdirk2_step(double interval);
     void rkl2_step(double interval);
+    double estimated_rate();
     void set_guess(const Unknowns &increment);
   };
 

@@ -1,0 +1,215 @@
+"""Keyword viscous of fix sph/bulk and fix sph/micropolar: large viscosities at the acoustic time step.
+
+That a step is the one of the dense friction matrix is tested in unittest/cpp/test_viscous.cpp.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+import test_micropolar as micro
+import test_wall as walls
+from helpers import SUPPORT, disordered, drop, dump, fluid, free, header, lattice, relative
+
+RKL2 = "viscous rkl2"
+SCHEMES = {"rkl2": RKL2, **{scheme: f"viscous implicit scheme {scheme}" for scheme in ("trapezoidal", "sdirk2", "euler")}}
+SECOND_ORDER = ["rkl2", "trapezoidal", "sdirk2"]
+STATISTICS = " ".join(f"f_FLUID[{k}]" for k in (1, 2, 3, 4))
+FULL = "thermo_modify norm no format float %.17g\n"
+SOUND_STEP = 0.0478  # 0.25 h/c0 of the line of particles with c0 = 10, printed by the pair style
+
+
+def integrate(keywords, style="sph/bulk", group="all"):
+    return f"fix FLUID {group} {style} {keywords}\n"
+
+
+def thermo(columns="", every=1):
+    return f"thermo_style custom step {columns}\nthermo {every}\n" + FULL
+
+
+# ---- accuracy ----------------------------------------------------------------------------------------------------
+
+
+def pulse(lammps, keywords, timestep, kappa, end=96 * SOUND_STEP):
+    """Velocity of a sound pulse of 256 particles at the end."""
+    particles = lattice(1, 256)
+    particles.v[:, 0] = 0.1 * np.exp(-0.5 * ((particles.x[:, 0] - 128.0) / 8.0) ** 2)
+    particles.write(lammps.path("box.data"))
+    steps = round(end / timestep)
+    lammps(header(1) + "read_data box.data\n" + fluid(1, kappa=kappa) + integrate(f"density rho0 {keywords}")
+           + f"timestep {timestep!r}\n" + dump("out.dump", steps) + f"run {steps}\n")
+    return lammps.frame("out.dump")["v"][:, 0]
+
+
+@pytest.mark.parametrize("kappa", [20.0, 200.0])
+def test_sound_pulse_at_the_acoustic_step(lammps, kappa):
+    """Against the explicit step a hundred times shorter: within 1e-3, and four times nearer at half the step."""
+    expected = pulse(lammps, "", SOUND_STEP / 100, kappa)
+    for name in SECOND_ORDER:
+        precise = "" if name == "rkl2" else " tolerance 1e-8"
+        error = [np.linalg.norm(pulse(lammps, SCHEMES[name] + precise, step, kappa) - expected)
+                 / np.linalg.norm(expected) for step in (SOUND_STEP, SOUND_STEP / 2, SOUND_STEP / 4)]
+        print(f"{name}: {error}")
+        assert error[0] < 1e-3
+        assert error[1] / error[2] == pytest.approx(4.0, rel=0.1), name
+    error = [np.linalg.norm(pulse(lammps, SCHEMES["euler"], step, kappa) - expected) for step in (SOUND_STEP / 2, SOUND_STEP / 4)]
+    assert error[0] / error[1] == pytest.approx(2.0, rel=0.1)
+
+
+def stiff(lammps, keywords, steps=10, mu=1000.0, kappa=10000.0):
+    """Sizes of the velocity after each step, from random ones; all rates are larger than 1 over the time step."""
+    disordered(2, 12, spread=0.04).write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\n" + fluid(2, mu=mu, kappa=kappa, c0=0.01)
+           + integrate(keywords) + "timestep 0.05\n" + dump("out.dump") + f"run {steps}\n")
+    size = np.array([np.linalg.norm(frame["v"] - frame["v"].mean(axis=0)) for frame in lammps.frames("out.dump")])
+    return size / size[0]
+
+
+def test_stiff_start(lammps):
+    """All steps damp; those that are L-stable damp the fast modes at once, the trapezoidal one hardly."""
+    left = {name: stiff(lammps, keywords) for name, keywords in SCHEMES.items()}
+    for name, size in left.items():
+        print(name, size)
+        assert np.all(np.diff(size[:6]) < 0.0), name
+    for name in ("sdirk2", "euler"):
+        assert left[name][5] < 0.01 * left["trapezoidal"][5]
+
+
+@pytest.mark.parametrize("name", SECOND_ORDER)
+def test_shear_waves_do_not_notice_kappa(lammps, name):
+    def amplitude(kappa):
+        particles = lattice(2, 24)
+        wave = np.sin(2 * np.pi * particles.x[:, 1] / 24)
+        particles.v[:, 0] = 1e-3 * wave
+        particles.write(lammps.path("box.data"))
+        lammps(header(2) + "read_data box.data\n" + fluid(2, mu=0.5, kappa=kappa)
+               + integrate(f"density rho0 {SCHEMES[name]}") + "timestep 0.03\n" + dump("out.dump", 200) + "run 200\n")
+        return 2e3 * np.mean(lammps.frame("out.dump")["v"][:, 0] * wave)
+
+    one, thousand = amplitude(1.0), amplitude(500.0)
+    assert 0.5 < one < 0.9  # it decays by exp(-0.21)
+    assert thousand == pytest.approx(one, rel=1e-4)
+
+
+# ---- conservation ------------------------------------------------------------------------------------------------
+
+
+def momenta(frame):
+    x, p = frame["x"], frame["mass"][:, None] * frame["v"]
+    return p.sum(0), np.cross(x, p).sum(0), np.linalg.norm(p, axis=1).sum(), np.linalg.norm(np.cross(x, p), axis=1).sum()
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+@pytest.mark.parametrize("dim, options", [(2, ""), (2, "bulk volume"), (3, "volume mass"), (3, "shear none")])
+def test_momentum_and_energy_of_a_drop_at_a_coarse_tolerance(lammps, name, dim, options):
+    """In every step, to round-off: the friction acts between pairs, however wrong its velocities may be."""
+    drop(dim, 6.0 if dim == 2 else 3.2).write(lammps.path("box.data"))
+    coarse = "" if name == "rkl2" else " tolerance 1e-2"
+    mu = 0.0 if "none" in options else 0.5
+    lammps(header(dim, boundary=free(dim)) + "read_data box.data\n" + fluid(dim, options, mu=mu, kappa=500.0)
+           + integrate(SCHEMES[name] + coarse) + "timestep 0.01\ncompute E all sph/energy\n"
+           + thermo(f"c_E {STATISTICS}") + dump("out.dump") + "run 50\n")
+    frames = lammps.frames("out.dump")
+    for before, after in zip(frames, frames[1:]):
+        p, l, p_size, l_size = momenta(before)
+        q, k, _, _ = momenta(after)
+        assert np.abs(q - p).max() < 1e-13 * p_size
+        assert np.abs(k - l).max() < 1e-13 * l_size
+    energy = lammps.results[-1].thermo()[0]["c_E"]
+    assert np.abs(np.diff(energy)).max() < 1e-12 * energy[0]
+    assert np.abs(energy - energy[0]).max() < 1e-11 * energy[0]
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_micropolar_drop(lammps, name):
+    dim = 2
+    particles = drop(dim, 6.0)
+    micro.write(particles, lammps.path("box.data"), inertia=0.05)
+    coarse = "" if name == "rkl2" else " tolerance 1e-2"
+    lammps(header(dim, boundary=free(dim), style=micro.STYLE) + "read_data box.data\n"
+           + micro.fluid(dim, mu=5.0, kappa=500.0, mu_r=4.0, gamma1=0.5)
+           + integrate(SCHEMES[name] + coarse, micro.STYLE)
+           + "timestep 0.01\ncompute E all sph/energy\ncompute L all sph/angmom\ncompute Q all sph/dissipation\n"
+           + thermo("c_E c_L[*] c_Q[*]") + "run 50\n")
+    table = lammps.results[-1].thermo()[0]
+    assert np.abs(np.diff(table["c_E"])).max() < 1e-12 * table["c_E"][0]
+    scale = np.abs(table["c_L[3]"]).max()
+    assert scale > 1.0 and np.abs(table["c_L[3]"] - table["c_L[3]"][0]).max() < 1e-11 * scale
+    for k in range(1, 5):
+        assert np.all(table[f"c_Q[{k}]"] > 0.0)
+
+
+@pytest.mark.parametrize("name", ["trapezoidal", "euler"])
+def test_friction_heats_in_every_step(lammps, name):
+    """Without pressure to speak of, the heat of a step is that of the friction."""
+    disordered(2, 12, spread=0.04).write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\n" + fluid(2, mu=5.0, kappa=500.0, c0=1e-6)
+           + integrate(SCHEMES[name] + " tolerance 1e-9")
+           + "timestep 0.01\ncompute e all property/atom esph\ncompute H all reduce sum c_e\n"
+           + "compute Q all sph/dissipation\n"
+           + thermo("c_H c_Q[1] c_Q[2]") + "run 30\n")
+    table = lammps.results[-1].thermo()[0]
+    assert np.all(np.diff(table["c_H"]) > 0.0)
+    assert np.all(table["c_Q[1]"] > 0.0) and np.all(table["c_Q[2]"] > 0.0)
+
+
+# ---- ranks, walls, open ends, noise ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_ranks(lammps, name):
+    """20 steps with exchanges of atoms, at a tight tolerance."""
+    disordered(2, 16, ntypes=2).write(lammps.path("box.data"))
+    coeff = "pair_coeff 1 1 1.0 10.0 0.5 200.0 3.0\npair_coeff 2 2 1.1 12.0 0.2 100.0 3.0\n"
+    tight = "" if name == "rkl2" else " tolerance 1e-14"
+    x = {}
+    for ranks, newton in ((1, "on"), (2, "on"), (4, "on"), (4, "off")):
+        lammps(header(2, newton=newton) + "read_data box.data\n" + fluid(2, coeff=coeff)
+               + integrate(SCHEMES[name] + tight) + "timestep 0.01\n" + dump("out.dump", 20) + "run 20\n", ranks=ranks)
+        x[ranks, newton] = lammps.frame("out.dump")["x"]
+    first = x[1, "on"]
+    moved = np.abs(first - lammps.frames("out.dump")[0]["x"]).max()
+    assert moved > 0.02
+    for key, other in x.items():
+        assert np.abs(other - first).max() < 1e-12 * moved, key
+
+
+def affine_force(lammps, before, after, group, axes):
+    """F(0), and the matrix of F(u) of a group of particles, by explicit forces at rest and at one velocity each."""
+    write = "write_dump all custom f.{}.dump id fx fy fz modify sort id format float %.17g\n"
+    text = before + integrate("", group="fluid") + after
+    text += "velocity fluid set 0 0 0\nrun 0\n" + write.format("rest")
+    names = [f"{i + 1}{'xyz'[d]}" for i in group for d in range(axes)]
+    for name in names:
+        text += (f"velocity fluid set 0 0 0\nset atom {name[:-1]} v{name[-1]} 1.0\nrun 0\n" + write.format(name))
+    lammps(text, timeout=300)
+    force = {name: lammps.frame(f"f.{name}.dump")["f"][group][:, :axes].ravel() for name in ["rest", *names]}
+    return force["rest"], np.array([force[name] - force["rest"] for name in names]).T
+
+
+@pytest.mark.parametrize("wall", ["velocity 0.3 0.0 0.0 gravity 0.0 -1.0 0.0", "slip free"])
+def test_walls(lammps, wall):
+    """The velocity goes on behind the wall, at once: against the dense solution with the matrix of the explicit forces."""
+    particles = lattice(2, (7, 12))
+    random = np.random.default_rng(5)
+    particles.x[:, :2] += random.uniform(-0.1, 0.1, (len(particles), 2))
+    particles.v[:, :2] = random.normal(0.0, 0.5, (len(particles), 2))
+    particles, owner = walls.arrange(particles, [(particles.x[:, 1] < 3.3) | (particles.x[:, 1] > 8.7)])
+    particles.v[owner == 0] = 0.0
+    particles.write(lammps.path("box.data"))
+    group = np.flatnonzero(owner < 0)
+    before = (header(2) + "read_data box.data\n" + walls.groups(owner) + fluid(2, kappa=200.0)
+              + "neighbor 0.5 bin\n")
+    after = f"fix W wall0 sph/wall {wall}\ntimestep 0.04\n"
+    rest, matrix = affine_force(lammps, before, after, group, 2)
+    mass = np.repeat(particles.mass[group], 2)
+    v = particles.v[group, :2].ravel()
+    assert relative(matrix - matrix.T, matrix) > 1e-3
+    for name, part in (("trapezoidal", 0.01), ("euler", 0.02)):
+        acting = np.linalg.solve(np.diag(mass) - part * matrix, mass * v + part * rest)
+        lammps(before + integrate(SCHEMES[name] + " tolerance 1e-13", group="fluid") + after + dump("v.dump") + "run 0\n")
+        force = lammps.frame("v.dump")["f"][group][:, :2].ravel()
+        assert relative(force - rest - matrix @ acting, rest + matrix @ acting) < 1e-10, name
+
+
