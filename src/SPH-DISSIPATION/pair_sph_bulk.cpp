@@ -17,6 +17,7 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -216,7 +217,7 @@ void PairSPHBulk::set_viscous(const ViscousSettings &settings, int groups)
   viscous->configure(settings, groups, fluid_style);
 }
 
-bool PairSPHBulk::is_viscous_stage() const
+bool PairSPHBulk::has_viscous_stage() const
 {
   return viscous->active();
 }
@@ -588,8 +589,7 @@ void PairSPHBulk::announce()
 
 CoeffTable PairSPHBulk::coeff_table(double speed) const
 {
-  const double hsq =
-      stability_length_squared(kernel_slope_integral(model->choice.kernel, dim, support));
+  const double h = stability_length(), hsq = h * h;
   CoeffTable table;
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
@@ -600,9 +600,49 @@ CoeffTable PairSPHBulk::coeff_table(double speed) const
       Columns steps = viscous_steps(i, j, hsq, rho);
       steps.insert(steps.begin() + 1, {"bulk", bulk_step(hsq, zeta / rho)});
       table.add_row(i, j, table_columns(i, j, zeta + intrinsic_kappa_of(i, j), zeta),
-                    acoustic_step(sqrt(hsq), std::max(a.eos.c0, b.eos.c0) + speed), steps);
+                    acoustic_step(h, std::max(a.eos.c0, b.eos.c0) + speed), steps);
     }
   return table;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairSPHBulk::stability_length() const
+{
+  return sqrt(stability_length_squared(kernel_slope_integral(model->choice.kernel, dim, support)));
+}
+
+/* ----------------------------------------------------------------------
+   the rates of the table are those of the reference densities
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::fastest(double &crossing_time, double &viscous_rate)
+{
+  double mine[2] = {0.0, 0.0}, all[2];    // speed, thinness
+  for (int i = 0; i < atom->nlocal; i++) {
+    const TypeCoeff &coeff = model->coeffs[atom->type[i]];
+    if (coeff.other || is_boundary(i)) continue;
+    const double speed =
+        sound_speed(model->choice.eos, coeff.eos, atom->rho[i], atom->esph[i] / atom->rmass[i]);
+    mine[0] = std::max(mine[0], speed + MathExtra::len3(atom->v[i]));
+    mine[1] = std::max(mine[1], coeff.eos.rho0 / atom->rho[i]);
+  }
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  crossing_time = (all[0] > 0.0) ? stability_length() / all[0] : UNLIMITED_STEP;
+  find_smallest_inertia();
+  viscous_rate = all[1] * coeff_table(0.0).fastest_rate();
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairSPHBulk::fall_time() const
+{
+  double mine = 0.0, largest;    // acceleration
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!model->coeffs[atom->type[i]].other && !is_boundary(i))
+      mine = std::max(mine, MathExtra::len3(atom->f[i]) / atom->rmass[i]);
+  MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
+  return (largest > 0.0) ? sqrt(stability_length() / largest) : UNLIMITED_STEP;
 }
 
 /* ----------------------------------------------------------------------

@@ -118,7 +118,7 @@ class PairSPHBulk : public Pair {
 
   // from the init() of all integrators of the fluid, in every run, with the bits of their groups
   void set_viscous(const SPHDissipation::ViscousSettings &, int groups);
-  bool is_viscous_stage() const;    // the velocity in the friction is found by a stage of its own
+  bool has_viscous_stage() const;    // the velocity in the friction is found by a stage of its own
   const double *viscous_statistics() const;    // see ViscousStage
 
   // of the last step, on an owned particle, without what other styles add
@@ -126,6 +126,12 @@ class PairSPHBulk : public Pair {
   const double *own_torque(int i) const;
 
   void find_volumes();    // before the first step, from the positions alone
+
+  // of the fluid as it is now: time in which a particle with the speed of sound crosses the length
+  // that stability knows, at least; largest viscous rate; time in which one falls as far, at least
+
+  void fastest(double &crossing_time, double &viscous_rate);
+  double fall_time() const;
 
   bool has_noise() const;               // keyword temp
   bool has_own_temperatures() const;    // temp energy: of the particles
@@ -187,6 +193,7 @@ class PairSPHBulk : public Pair {
   bigint sum_before_forces();
   void find_viscous_velocity();
   SPHDissipation::CoeffTable coeff_table(double speed) const;
+  double stability_length() const;
   void announce_noise(double rate);
   void tally_energy();
 };

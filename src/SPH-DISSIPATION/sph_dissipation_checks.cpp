@@ -125,11 +125,11 @@ void SPHDissipation::check_noise(LAMMPS *lmp, const std::string &style)
         "Pair style {} with temp needs a time step > 0, not {}: its random forces are those of "
         "one step",
         style, lmp->update->dt);
-  if (!lmp->modify->get_fix_by_style("^dt/reset").empty())
+  for (const auto &ifix : lmp->modify->get_fix_by_style("^(dt/reset|sph/dt)"))
     error->all(FLERR, Error::NOLASTLINE,
-               "Pair style {} with temp cannot be used with fix dt/reset: its random forces are "
-               "those of one time step",
-               style);
+               "Pair style {} with temp cannot be used with fix {}: its random forces are those of "
+               "one time step",
+               style, ifix->style);
 }
 
 /* ----------------------------------------------------------------------

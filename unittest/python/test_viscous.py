@@ -3,12 +3,13 @@
 That a step is the one of the dense friction matrix is tested in unittest/cpp/test_viscous.cpp.
 """
 
-import re
 
 import numpy as np
 import pytest
 
+import open_boundaries as ends
 import test_micropolar as micro
+import test_open_ledger as ledger
 import test_wall as walls
 from helpers import SUPPORT, disordered, drop, dump, fluid, free, header, lattice, relative
 
@@ -213,3 +214,72 @@ def test_walls(lammps, wall):
         assert relative(force - rest - matrix @ acting, rest + matrix @ acting) < 1e-10, name
 
 
+
+@pytest.mark.parametrize("name", SCHEMES)
+@pytest.mark.parametrize("style, options", [("sph/bulk", "bulk density"), ("sph/micropolar", "volume mass")])
+def test_open_ends(lammps, name, style, options):
+    """The account of mass and momentum in a jet of a fluid with a hundred times its viscosities."""
+    channel = ends.Channel(box="free", zone=9.0)
+    spin = "spin 0 0 0.3" if style != "sph/bulk" else ""
+    settings = ledger.keywords(style, coeff="1.0 1.0 0.1 20.0 {R}" if not spin else "1.0 1.0 1.0 20.0 0.5 0.5 -0.5 {R}")
+    settings["integrate"] += " " + SCHEMES[name]
+    lammps(channel.text(lammps, f"velocity {channel.vector(ledger.U)} average 40 {spin}", "density 1.0",
+                        velocity=ledger.agitated(channel), options=options, spin=0.2, **settings)
+           + ledger.output(channel, style) + "run 300\n", ranks=2)
+    (table,) = lammps.results[-1].thermo()
+    assert table["f_in[1]"][-1] > 8 and table["f_out[11]"][-1] > 8
+    ledger.assert_balance(table, ledger.PLANE)
+
+
+def temperature_of_the_drift(lammps, keywords, timestep):
+    """Of the velocities between the steps, over kT."""
+    particles = lattice(2, 16)
+    particles.v[:, :2] = np.random.default_rng(3).normal(0.0, 1.0, (256, 2))
+    particles.v -= particles.v.mean(axis=0)
+    particles.write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\n" + fluid(2, "temp 1.0 4711", mu=2.0, kappa=200.0, c0=20.0)
+           + integrate(keywords) + f"timestep {timestep}\nrun 200\n" + dump("out.dump", 5) + "run 2500\n")
+    squares = [np.mean((frame["v"] + 0.5 * timestep * frame["f"] / frame["mass"][:, None])[:, :2] ** 2)
+               for frame in lammps.frames("out.dump")]
+    return np.mean(squares) * 256 / 255
+
+
+def test_temperature_with_noise(lammps):
+    """The trapezoidal step has kT between the steps at any time step, here with rates of thirty times its inverse."""
+    assert temperature_of_the_drift(lammps, SCHEMES["trapezoidal"], 0.015) == pytest.approx(1.0, abs=0.01)
+
+
+# ---- work --------------------------------------------------------------------------------------------------------
+
+
+def work(lammps, keywords, timestep=0.0625, steps=10, kappa=500.0):
+    """Statistics of the steps with a rate of a hundred over the time step, and the rate times it, from random velocities."""
+    disordered(2, 24, spread=0.04, jitter=0.1).write(lammps.path("box.data"))
+    coeff = f"pair_coeff * * 1.0 5.0 0.5 {kappa} 4.0\n"
+    result = lammps(header(2) + "read_data box.data\n" + fluid(2, coeff=coeff) + integrate(keywords)
+                    + f"timestep {timestep}\n" + thermo(STATISTICS) + f"run {steps}\n")
+    modes = float(result.log.split("largest viscous rate is ")[1].split(":")[0])
+    return result.thermo()[0], modes
+
+
+def test_work_at_a_hundred_times_the_explicit_step(lammps):
+    """Evaluations of the force in a step: two of all terms, and the applications of the friction."""
+    table, modes = work(lammps, RKL2, timestep=0.3)
+    assert 95 < modes < 130
+    assert np.all(table["f_FLUID[1]"][1:] <= 17)
+    applications = np.diff(table["f_FLUID[4]"])
+    assert np.all(applications + 2 <= 20)
+    table, modes = work(lammps, SCHEMES["trapezoidal"], timestep=0.3)
+    assert np.all(np.diff(table["f_FLUID[4]"]) + 2 <= 40)
+    assert np.all(np.diff(table["f_FLUID[4]"]) == table["f_FLUID[1]"][1:])
+    assert np.all(table["f_FLUID[2]"] < 1e-6) and np.all(table["f_FLUID[3]"] > 0.0)
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_stokes_fluid(lammps, name):
+    """kappa = 0: the bulk term takes away what the shear term gives too much, cut off where it is more than that."""
+    disordered(2, 12, spread=0.04).write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\n" + fluid(2, "limit yes", mu=50.0, kappa=0.0)
+           + integrate(SCHEMES[name]) + "timestep 0.03\ncompute Q all sph/dissipation\n" + thermo("ke c_Q") + "run 30\n")
+    table = lammps.results[-1].thermo()[0]
+    assert np.all(table["c_Q"] >= 0.0) and table["KinEng"][-1] < 0.1 * table["KinEng"][0]

@@ -1,0 +1,160 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "fix_sph_dt.h"
+
+#include "error.h"
+#include "force.h"
+#include "integrate.h"
+#include "modify.h"
+#include "output.h"
+#include "pair.h"
+#include "pair_sph_bulk.h"
+#include "sph_dissipation_coeffs.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using SPHDissipation::UNLIMITED_STEP;
+
+// largest factor between a time step and the next one: forces are those of the time step before
+
+static constexpr double GROWTH = 1.25;
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHDt::FixSPHDt(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), pair(nullptr), part{0.25, 1.0, 0.25}, given(), smallest(0.0),
+    largest(UNLIMITED_STEP), limits()
+{
+  if (narg < 4) utils::missing_cmd_args(FLERR, "fix sph/dt", error);
+  if (igroup != 0) error->all(FLERR, "Fix {} must use group all", style);
+  nevery = utils::inumeric(FLERR, arg[3], false, lmp);
+  if (nevery < 1) error->all(FLERR, "Fix {} N must be >= 1, not {}", style, arg[3]);
+
+  const char *const names[NLIMIT] = {"acoustic", "viscous", "force"};
+  for (int iarg = 4; iarg < narg; iarg += 2) {
+    const std::string keyword = arg[iarg];
+    if (iarg + 2 > narg)
+      utils::missing_cmd_args(FLERR, fmt::format("fix {} {}", style, keyword), error);
+    const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    if (!(value > 0.0))
+      error->all(FLERR, "Fix {} {} must be > 0, not {}", style, keyword, arg[iarg + 1]);
+    const auto *const found = std::find(names, names + NLIMIT, keyword);
+    if (found != names + NLIMIT) {
+      part[found - names] = value;
+      given[found - names] = true;
+    } else if (keyword == "min")
+      smallest = value;
+    else if (keyword == "max")
+      largest = value;
+    else
+      error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
+  }
+  if (smallest > largest)
+    error->all(FLERR, "Fix {} min {:g} is larger than max {:g}", style, smallest, largest);
+
+  time_depend = 1;    // the elapsed time is not the number of steps times one of them
+  scalar_flag = vector_flag = 1;
+  size_vector = NLIMIT;
+  extscalar = extvector = 0;
+  global_freq = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHDt::setmask()
+{
+  return PRE_FORCE | END_OF_STEP;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHDt::init()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix {} does not support run_style respa", style);
+  if (modify->get_fix_by_style("^(sph/dt|dt/reset)$").size() > 1)
+    error->all(FLERR, "Fix {}: only one fix can set the time step", style);
+  pair = PairSPHBulk::find(force);
+  if (!pair || !pair->compute_flag)
+    error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
+}
+
+/* ----------------------------------------------------------------------
+   before the first forces, which may be those of half a step; they are not known yet
+------------------------------------------------------------------------- */
+
+void FixSPHDt::setup_pre_force(int /*vflag*/)
+{
+  pair->find_volumes();
+  limits[FORCE] = UNLIMITED_STEP;
+  reset_step(allowed_step());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHDt::end_of_step()
+{
+  limits[FORCE] = part[FORCE] * pair->fall_time();
+  reset_step(std::min(allowed_step(), GROWTH * update->dt));
+}
+
+/* ----------------------------------------------------------------------
+   a stage of its own for the viscous terms allows any time step; the limit is then one of accuracy, if
+   it is asked for
+------------------------------------------------------------------------- */
+
+double FixSPHDt::allowed_step()
+{
+  double rate;
+  pair->fastest(limits[ACOUSTIC], rate);
+  limits[ACOUSTIC] *= part[ACOUSTIC];
+  const bool limited = given[VISCOUS] || !pair->has_viscous_stage();
+  limits[VISCOUS] = (limited && rate > 0.0) ? part[VISCOUS] / rate : UNLIMITED_STEP;
+  const double step = *std::min_element(limits, limits + NLIMIT);
+  return std::max(smallest, std::min(step, largest));
+}
+
+/* ----------------------------------------------------------------------
+   as fix dt/reset does
+------------------------------------------------------------------------- */
+
+void FixSPHDt::reset_step(double dt)
+{
+  if (dt == update->dt) return;
+  update->update_time();
+  update->dt = dt;
+  update->dt_default = 0;
+  force->pair->reset_dt();
+  for (const auto &ifix : modify->get_fix_list()) ifix->reset_dt();
+  output->reset_dt();
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixSPHDt::compute_scalar()
+{
+  return update->dt;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixSPHDt::compute_vector(int n)
+{
+  return limits[n];
+}

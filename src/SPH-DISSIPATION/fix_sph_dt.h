@@ -1,0 +1,54 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(sph/dt,FixSPHDt);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_SPH_DT_H
+#define LMP_FIX_SPH_DT_H
+
+#include "fix.h"
+
+namespace LAMMPS_NS {
+
+// The time step follows the limits that sound, viscosity, and forces set to a particle fluid.
+
+class FixSPHDt : public Fix {
+ public:
+  FixSPHDt(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup_pre_force(int) override;
+  void end_of_step() override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+
+ private:
+  enum { ACOUSTIC, VISCOUS, FORCE, NLIMIT };
+  class PairSPHBulk *pair;
+  double part[NLIMIT];         // of the limits
+  bool given[NLIMIT];          // by the keyword
+  double smallest, largest;    // time steps
+  double limits[NLIMIT];       // time steps; the last ones
+
+  double allowed_step();
+  void reset_step(double);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
