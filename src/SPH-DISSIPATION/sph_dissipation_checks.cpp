@@ -125,11 +125,13 @@ void SPHDissipation::check_noise(LAMMPS *lmp, const std::string &style)
         "Pair style {} with temp needs a time step > 0, not {}: its random forces are those of "
         "one step",
         style, lmp->update->dt);
-  for (const auto &ifix : lmp->modify->get_fix_by_style("^(dt/reset|sph/dt)"))
-    error->all(FLERR, Error::NOLASTLINE,
-               "Pair style {} with temp cannot be used with fix {}: its random forces are those of "
-               "one time step",
-               style, ifix->style);
+  for (const std::string fix_style : {"dt/reset", "sph/dt"})
+    if (!lmp->modify->get_fix_by_style("^" + fix_style).empty())
+      error->all(
+          FLERR, Error::NOLASTLINE,
+          "Pair style {} with temp cannot be used with fix {}: its random forces are those of "
+          "one time step",
+          style, fix_style);
 }
 
 /* ----------------------------------------------------------------------

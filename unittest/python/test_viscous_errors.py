@@ -33,9 +33,9 @@ FIX = "fix 1 all sph/bulk viscous"
 
 
 @pytest.mark.parametrize("keywords, words", [
-    ("", "Missing"),
+    ("", "missing argument"),
     ("sometimes", "viscous must be explicit, rkl2, or implicit, not sometimes"),
-    ("rkl2 stages", "Missing"),
+    ("rkl2 stages", "missing argument"),
     ("rkl2 stages 4", "stages must be auto or an odd number >= 3, not 4"),
     ("rkl2 stages 1", "odd number >= 3, not 1"),
     ("rkl2 stages x", "x"),
@@ -46,8 +46,8 @@ FIX = "fix 1 all sph/bulk viscous"
     ("implicit scheme crank", "scheme must be trapezoidal, sdirk2, or euler, not crank"),
     ("implicit tolerance 0.0", "tolerance must be > 0 and < 1, not 0.0"),
     ("implicit tolerance 1.0", "tolerance must be > 0 and < 1"),
-    ("implicit tolerance nan", "tolerance"),
-    ("implicit iterations 10", "Missing"),
+    ("implicit tolerance nan", "instead of 'nan'"),
+    ("implicit iterations 10", "missing argument"),
     ("implicit iterations 0 warn", "iterations must be >= 1, not 0"),
     ("implicit iterations 10 maybe", "iterations must end with warn or error, not maybe"),
 ])
@@ -63,7 +63,7 @@ def test_micropolar_has_the_same_words(lammps):
 
 
 def test_too_few_stages(lammps):
-    refused(lammps, deck(f"{FIX} rkl2 stages 3"), "largest viscous rate times the time step is", "needs 5 stages, not 3", ranks=2)
+    refused(lammps, deck(f"{FIX} rkl2 stages 3", kappa=400.0), "largest viscous rate times the time step is", "needs 5 stages, not 3", ranks=2)
 
 
 def test_iterations_exhausted(lammps):
@@ -95,21 +95,14 @@ def test_noise_needs_the_trapezoidal_step(lammps):
     lammps(deck(f"{FIX} implicit", options="temp 1.0 1"))
 
 
-def test_negative_friction(lammps):
-    """Without limit, an arrangement may have motions that the bulk term drives: no division by their friction."""
-    refused(lammps, deck(f"{FIX} implicit", kappa=0.0, run="run 20").replace("0.5 0.0 3.0", "500.0 0.0 3.0")
-            .replace("pair_style sph/bulk dim 2", "pair_style sph/bulk dim 2 shear morris"), "negative friction") \
-        if False else None
-
-
 def test_no_warning_about_the_time_step(lammps):
     box(lammps)
     assert any("exceeds the largest stable time step" in line for line in lammps(deck(f"{FIX} explicit", run="run 0")).warnings)
     for mode in ("rkl2", "implicit"):
         result = lammps(deck(f"{FIX} {mode}", run="run 0"))
         assert not any("exceeds" in line for line in result.warnings)
-        assert re.search(r"largest stable time step with viscous explicit 0.0044\d*, with rkl2 or implicit 0.0375;", result.log)
-        assert "rkl2 takes 5 stages" in result.log
+        assert re.search(r"largest stable time step with viscous explicit 0.0044\d*, with rkl2 or implicit 0.03\d*;", result.log)
+        assert "rkl2 takes 3 stages" in result.log
         assert any("exceeds" in line for line in lammps(deck(f"{FIX} {mode}", after="timestep 0.05\n", run="run 0")).warnings)
 
 
@@ -120,7 +113,7 @@ def test_explicit_is_the_default(lammps):
         lammps(deck(keywords, kappa=1.0, run="") + dump("out.dump") + "run 10\n")
         frames.append(lammps.frame("out.dump")["v"])
     assert np.array_equal(*frames)
-    refused(lammps, deck(f"{FIX} explicit", run="") + "thermo_style custom step f_1[1]\nrun 0\n", "f_1")
+    refused(lammps, deck(f"{FIX} explicit", run="") + "thermo_style custom step f_1[1]\nrun 0\n", "does not compute a vector")
 
 
 def test_settings_end_with_their_fix(lammps):
@@ -160,11 +153,11 @@ DT = "fix DT all sph/dt"
 
 
 @pytest.mark.parametrize("words, message", [
-    ("", "Missing"),
+    ("", "missing argument"),
     ("0", "N must be >= 1, not 0"),
-    ("10 acoustic", "Missing"),
+    ("10 acoustic", "missing argument"),
     ("10 acoustic -1", "acoustic must be > 0, not -1"),
-    ("10 viscous nan", "viscous"),
+    ("10 viscous nan", "instead of 'nan'"),
     ("10 speed 3", "Unknown fix sph/dt keyword: speed"),
     ("10 min 0.1 max 0.01", "min 0.1 is larger than max 0.01"),
 ])
@@ -208,9 +201,9 @@ def test_dt_follows_the_limits(lammps):
 
 def test_dt_force_and_time(lammps):
     """A body force shortens the step; the time is the sum of the steps; N steps apart."""
-    table, _ = steps(lammps, "fix 1 all sph/bulk viscous implicit", "5 force 0.1",
-                     extra="fix G all gravity 10000.0 vector 1 0 0\n")
+    table, _ = steps(lammps, "fix 1 all sph/bulk viscous implicit", "5 force 0.02",
+                     extra="fix G all gravity 200.0 vector 1 0 0\n")
     dt = table["Dt"]
-    assert np.all(table["f_DT[3]"][5:] < 0.2 * table["f_DT[1]"][5:]) and dt[-1] < 0.5 * dt[0]
+    assert np.all(table["f_DT[3]"][5:] < table["f_DT[1]"][5:]) and dt[-1] < 0.5 * dt[0]
     assert np.all(dt[5:9] == dt[5]) and dt[0] == dt[4] != dt[5]
     np.testing.assert_allclose(np.diff(table["Time"]), dt[:-1], rtol=1e-12)
