@@ -188,7 +188,8 @@ bool FixSPHBulk::has_viscous_stage() const
 
 double FixSPHBulk::compute_vector(int n)
 {
-  return pair ? pair->viscous_statistics()[n] : 0.0;
+  const auto *now = PairSPHBulk::find(force);    // it may have been replaced since
+  return now ? now->viscous_statistics()[n] : 0.0;
 }
 
 /* ----------------------------------------------------------------------
