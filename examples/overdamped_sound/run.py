@@ -63,7 +63,7 @@ class Wave:
 def seconds(log):
     """Of the run, per unit of its time."""
     time, steps = re.search(r"^Loop time of (\S+) on \d+ procs for (\d+) steps", log, re.MULTILINE).groups()
-    step = float(re.search(r"^  Time step     : (\S+)", log, re.MULTILINE)[1])
+    step = float(re.search(r"^timestep (\d\S*)", log, re.MULTILINE)[1])
     return float(time) / (int(steps) * step)
 
 
