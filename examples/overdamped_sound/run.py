@@ -22,6 +22,7 @@ RATIOS, QUICK_RATIOS = (1, 3, 10, 30, 60, 150, 300, 1000), (3, 30, 300, 1000)
 MODES = {"rkl2": "viscous rkl2", "trapezoidal": "viscous implicit"}
 N, MU, K, SUPPORT = 96, 0.003422, 2 * np.pi, 4.0     # as in the input
 CONTINUUM, LATTICE = 0.03, 0.002                     # rate over that of the dispersion relation
+APPLICATION = 0.65                                   # of the friction, in force computations, measured
 COST = 5                                             # time of explicit steps over that of rkl2, kappa/mu = 1000
 
 
@@ -70,13 +71,16 @@ def seconds(log):
 class Run:
     def __init__(self, ratio, mode):
         self.ratio, self.mode, self.name = ratio, mode, f"{mode}.{ratio}"
-        self.variables = {"ratio": ratio, "viscous": MODES[mode], "n": N}
+        self.variables = {"ratio": ratio, "viscous": MODES[mode], "n": N, "count": "yes"}
         self.continuum, self.lattice = Wave(ratio), Wave(ratio, *lattice_sums())
 
     def measure(self, out):
         self.t, a = np.loadtxt(out / f"{self.name}.wave.txt", usecols=(1, 2)).T
         self.amplitude = a / a[0]
-        self.stiffness = float(re.search(r"largest viscous rate is (\S+):", (out / f"{self.name}.log").read_text())[1])
+        log = (out / f"{self.name}.log").read_text()
+        self.stiffness = float(re.search(r"largest viscous rate is (\S+):", log)[1])
+        steps = float(re.search(r"^Loop time of .* for (\d+) steps", log, re.MULTILINE)[1])
+        self.work = 2 + APPLICATION * float(re.search(r"^applications (\S+)", log, re.MULTILINE)[1]) / steps
         d = self.lattice.damping
         if d < K:
             (_, self.rate, _, _), _ = curve_fit(lambda t, a, g, w, phase: a * np.exp(-g * t) * np.cos(w * t + phase),
@@ -91,7 +95,7 @@ def plot(path, runs):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.8))
+    figure, (left, right, work) = plt.subplots(1, 3, figsize=(12.6, 3.8))
     for color, run in zip(("C0", "C1", "C2", "C3", "C4", "C5", "C6", "C7"), [r for r in runs if r.mode == "rkl2"]):
         left.plot(run.t, run.continuum.amplitude(run.t), "-", color=color, lw=0.8)
         left.plot(run.t[::8], run.amplitude[::8], "o", color=color, ms=3, mfc="none", label=f"{run.ratio}")
@@ -107,7 +111,15 @@ def plot(path, runs):
     right.set_xlabel("$\\Gamma k/c$")
     right.set_ylabel("decay rate / $ck$")
     right.legend()
-    for axis in (left, right):
+    for mark, mode in zip("ox", MODES):
+        some = [run for run in runs if run.mode == mode]
+        work.loglog([r.stiffness for r in some], [r.work for r in some], f"{mark}-", mfc="none", label=mode)
+    g = np.array([min(run.stiffness for run in runs), 1, max(run.stiffness for run in runs)])
+    work.loglog(g, np.maximum(1, g / 0.9), "k--", lw=0.8, label="explicit")
+    work.set_xlabel("largest viscous rate times the time step")
+    work.set_ylabel("force computations per step")
+    work.legend()
+    for axis in (left, right, work):
         axis.grid(alpha=0.3)
     figure.tight_layout()
     figure.savefig(path, dpi=110)
@@ -128,14 +140,15 @@ def main():
     table = example.out / "overdamped_sound.csv"
     with open(table, "w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(["kappa_over_mu", "mode", "Gamma_k_over_c", "rate_times_dt", "rate_over_ck", "over_continuum", "over_lattice"])
-        print("\nkappa/mu  mode          Gamma k/c  g dt    rate/(c k)  over continuum  over lattice sums")
+        writer.writerow(["kappa_over_mu", "mode", "Gamma_k_over_c", "rate_times_dt", "rate_over_ck", "over_continuum", "over_lattice",
+                         "force_computations_per_step"])
+        print("\nkappa/mu  mode          Gamma k/c  g dt    rate/(c k)  over continuum  over lattice sums  force computations/step")
         for run in runs:
             run.measure(example.out)
             row = [run.ratio, run.mode, f"{run.continuum.number:.4f}", f"{run.stiffness:.3g}", f"{run.rate / K:.6f}",
-                   f"{run.rate / run.continuum.rate():.5f}", f"{run.rate / run.lattice.rate():.5f}"]
+                   f"{run.rate / run.continuum.rate():.5f}", f"{run.rate / run.lattice.rate():.5f}", f"{run.work:.2f}"]
             writer.writerow(row)
-            print(f"{row[0]:<9} {row[1]:<13} {row[2]:<10} {row[3]:<7} {row[4]:<11} {row[5]:<15} {row[6]}")
+            print(f"{row[0]:<9} {row[1]:<13} {row[2]:<10} {row[3]:<7} {row[4]:<11} {row[5]:<15} {row[6]:<18} {row[7]}")
     time = {mode: seconds((example.out / f"cost.{mode}.log").read_text()) for mode in costs}
     print("\nseconds per unit of time, kappa/mu = 1000: " + ", ".join(f"{mode} {s:.3g}" for mode, s in time.items()) + "\n")
     example.merit("time of explicit steps over that of rkl2", time["explicit"] / time["rkl2"], COST, 1e3)
