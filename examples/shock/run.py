@@ -78,7 +78,7 @@ class Run:
         rise = np.abs(self.x) < 3 * d
         quarters = np.interp([U2 + 0.25 * (U1 - U2), U2 + 0.75 * (U1 - U2)], u[rise], self.x[rise])
         self.thickness = (quarters[1] - quarters[0]) / d
-        behind = (self.x < -7 * d) & (self.x > -11 * d)
+        behind = (self.x < -4 * d) & (x > 0.08)     # nearer to x = 0 the start is seen
         self.density = rho[behind].mean() / DENSITY
         reach = np.abs(self.x) < 5 * d
         theory = np.array([brentq(lambda w, s=s: exact(w, self.viscosity) + s, U2 + 1e-14, U1 - 1e-14) for s in self.x[reach]])
