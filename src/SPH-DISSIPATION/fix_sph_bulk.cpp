@@ -172,6 +172,11 @@ void FixSPHBulk::init_viscous()
                "Pair style {} with temp needs fix {} viscous explicit or implicit with scheme "
                "trapezoidal: others damp the fast motions more than the noise excites them",
                style, style);
+  if (pair->has_own_temperatures())
+    error->all(FLERR,
+               "Pair style {} with temp energy needs fix {} viscous explicit: its friction depends "
+               "on the temperatures",
+               style, style);
   pair->set_viscous(settings, integrated_groups);
 }
 

@@ -166,8 +166,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   all that pass 2 needs, and the forces of the noise; returns the number of particles beyond the bound of
-   the limit
+   all that pass 2 needs; returns the number of particles beyond the bound of the limit
 ------------------------------------------------------------------------- */
 
 bigint PairSPHBulk::sum_before_forces()

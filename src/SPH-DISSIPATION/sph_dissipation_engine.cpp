@@ -32,7 +32,7 @@ using namespace SPHDissipation;
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
     zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
-    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), data(),
+    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), friction_loop(nullptr), data(),
     kernel(Kernel::WENDLAND_C2), dim(0), shear(Shear::NONE), bulk(Bulk::NONE),
     volume(Volume::NUMBER), self_weight(0.0), weights(nullptr), nlocal_forces(-1),
     nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
@@ -113,6 +113,7 @@ void Engine::setup(Kernel kernel_in, int n, double support, Shear shear_in, Bulk
     }
   force_loop =
       loops->forces((inviscid && shear != Shear::MICROPOLAR) ? Shear::NONE : shear, bulk, volume);
+  friction_loop = force_loop;
 
   data.support = support;
   self_weight = kernel_weight(kernel, n, 0.0, support);
@@ -264,7 +265,7 @@ void Engine::accumulate_rates()
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_forces(NeighList *list, PairTally *tally)
+void Engine::begin_forces(NeighList *list)
 {
   const int nall = atom->nlocal + atom->nghost;
   const bigint nrow = (bigint) nall + BLOCK;
@@ -279,10 +280,26 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
   data.force = force;
   data.spin = spin;
   data.torque = torque;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_forces(NeighList *list, PairTally *tally)
+{
+  begin_forces(list);
   data.tally = tally;
   force_loop(data);
   nlocal_forces = atom->nlocal;
   nghost_forces = atom->nghost;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_friction(NeighList *list)
+{
+  begin_forces(list);
+  data.tally = nullptr;
+  friction_loop(data);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -215,6 +215,9 @@ namespace SPHDissipation {
     // on owned and ghost atoms
     void accumulate_forces(NeighList *, PairTally *);
 
+    // the same without noise
+    void accumulate_friction(NeighList *);
+
     // forces, torques, heat and divergence of those pairs alone, added to arrays with room for the
     // spare particles; after pass 2
     void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *, double *divergence);
@@ -247,7 +250,7 @@ namespace SPHDissipation {
 
    private:
     const LoopSet *loops;
-    Loop density_loop, rate_loop, force_loop;
+    Loop density_loop, rate_loop, force_loop, friction_loop;    // the last one without noise
     LoopData data;
     std::vector<PairCoeff> coeff;
     std::vector<double> rho0;    // by type
@@ -265,6 +268,7 @@ namespace SPHDissipation {
 
     void grow_atoms();
     void set_weights();
+    void begin_forces(NeighList *);
     void grow_pairs(NeighList *);
   };
 

@@ -237,7 +237,7 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
     }
   }
 
-  engine.accumulate_forces(list, nullptr);
+  engine.accumulate_friction(list);
   const Field f = field(engine.force, engine.force->f, 3);
   if (omegaest)
     exchange.reverse({f, field(engine.torque, engine.torque->t, 3)});
