@@ -93,6 +93,7 @@ def test_noise_needs_the_trapezoidal_step(lammps):
     for mode in ("rkl2", "implicit scheme euler", "implicit scheme sdirk2"):
         refused(lammps, deck(f"{FIX} {mode}", options="temp 1.0 1"), "implicit with scheme trapezoidal")
     lammps(deck(f"{FIX} implicit", options="temp 1.0 1"))
+    refused(lammps, deck(f"{FIX} implicit", options="temp energy 20.0 1"), "temp energy needs fix sph/bulk viscous explicit")
 
 
 def test_no_warning_about_the_time_step(lammps):
