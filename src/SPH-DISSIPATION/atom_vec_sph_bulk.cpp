@@ -37,8 +37,9 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) : AtomVecSPHBulk(lmp, COMPLETE) {}
 /* ---------------------------------------------------------------------- */
 
 AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
-    AtomVec(lmp), desph_before(nullptr), owner(atom), nmax_own(0), rmass(nullptr), rho(nullptr),
-    drho(nullptr), vfrac(nullptr), esph(nullptr), desph(nullptr), vest(nullptr)
+    AtomVec(lmp), desph_before(nullptr), owner(atom), in_views(complete == IN_VIEWS), nmax_own(0),
+    rmass(nullptr), rho(nullptr), drho(nullptr), vfrac(nullptr), esph(nullptr), desph(nullptr),
+    vest(nullptr)
 {
   molecular = Atom::ATOMIC;
   mass_type = PER_ATOM;
@@ -86,7 +87,7 @@ AtomVecSPHBulk::~AtomVecSPHBulk()
                                   return field.name == own.name;
                                 }),
                  fields.end());
-    owner->remove_custom(own.index, CUSTOM_DOUBLE, own.cols);
+    if (!in_views) owner->remove_custom(own.index, CUSTOM_DOUBLE, own.cols);
   }
 }
 
@@ -101,7 +102,7 @@ void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double 
   int flag, known_cols;
   if (atom->find_custom(name.c_str(), flag, known_cols) >= 0)
     error->all(FLERR, "Atom style needs a custom property {}, which is there already", name);
-  const int index = atom->add_custom(name.c_str(), CUSTOM_DOUBLE, cols);
+  const int index = in_views ? -1 : atom->add_custom(name.c_str(), CUSTOM_DOUBLE, cols);
   own_arrays.push_back({name, index, cols, vector, array});
   atom->add_peratom(name, array ? (void *) array : (void *) vector, Atom::DOUBLE, cols);
 }
@@ -115,6 +116,7 @@ void AtomVecSPHBulk::grow_pointers()
 {
   const int n = nmax_own = std::max(nmax_own, owner->nmax);
   for (const auto &own : own_arrays) {
+    if (in_views) break;
     if (own.cols)
       *own.array = memory->grow(owner->darray[own.index], n, own.cols, "atom:own");
     else

@@ -28,11 +28,13 @@ namespace LAMMPS_NS {
 // velocity extrapolated to the end of the step (vest); from the last force computation, density
 // rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.
 
-class AtomVecSPHBulk : public AtomVec {
+class AtomVecSPHBulk : virtual public AtomVec {
  public:
   AtomVecSPHBulk(class LAMMPS *);
 
-  enum Complete { COMPLETE, TO_BE_EXTENDED };    // by a derived class, which calls setup_fields()
+  // by a derived class, which calls setup_fields(); IN_VIEWS: which also allocates all arrays
+
+  enum Complete { COMPLETE, TO_BE_EXTENDED, IN_VIEWS };
   AtomVecSPHBulk(class LAMMPS *, Complete);
   ~AtomVecSPHBulk() override;
 
@@ -57,17 +59,19 @@ class AtomVecSPHBulk : public AtomVec {
     add_array(name, nullptr, array, cols);
   }
 
+  class Atom *const owner;    // of the arrays
+
  private:
   struct OwnArray {
     std::string name;
-    int index;          // of the custom property
+    int index;          // of the custom property, -1 if it is none
     int cols;           // 0: vector
     double **vector;    // the pointers to be kept up to date
     double ***array;
   };
   std::vector<OwnArray> own_arrays;
-  class Atom *const owner;    // of the arrays
-  int nmax_own;               // their allocated size
+  const bool in_views;
+  int nmax_own;    // allocated size of the own arrays
   void add_array(const std::string &, double **, double ***, int);
 
   double *rmass, *rho, *drho, *vfrac, *esph, *desph;

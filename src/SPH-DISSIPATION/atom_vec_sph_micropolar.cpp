@@ -27,7 +27,7 @@ static constexpr int FIRST = 100;
 /* ---------------------------------------------------------------------- */
 
 AtomVecSPHMicropolar::AtomVecSPHMicropolar(LAMMPS *lmp) :
-    AtomVecSPHBulk(lmp, TO_BE_EXTENDED), inertia(nullptr), omegaest(nullptr)
+    AtomVec(lmp), AtomVecSPHBulk(lmp, TO_BE_EXTENDED), inertia(nullptr), omegaest(nullptr)
 {
   add_array("inertia", &inertia);
   add_array("omegaest", &omegaest, 3);

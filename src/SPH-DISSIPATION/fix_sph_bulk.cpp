@@ -22,6 +22,8 @@
 #include "math_extra.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_integrate.h"
+#include "sph_dissipation_suffix.h"
 #include "sph_dissipation_viscous.h"
 #include "sph_dissipation_viscous_keywords.h"
 #include "update.h"
@@ -35,10 +37,10 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), extrapolation(1.0), balanced(false), density_done(0),
-    viscous(new ViscousKeywords(lmp, style)), pair(nullptr), density_flag(0), shift_speed(0.0),
-    remap_v_flag(0), integrated_groups(0), first_instance(false), last_instance(false),
-    not_integrated(0)
+    Fix(lmp, narg, arg), fluid_style(without_suffix(style)), dtv(0.0), dtf(0.0), extrapolation(1.0),
+    balanced(false), density_done(0), viscous(new ViscousKeywords(lmp, style)), pair(nullptr),
+    shift_speed(0.0), remap_v_flag(0), integrated_groups(0), first_instance(false), density_flag(0),
+    last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -106,7 +108,7 @@ void FixSPHBulk::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix {} does not support run_style respa", style);
 
-  const auto &integrators = modify->get_fix_by_style("^" + std::string(style) + "$");
+  const auto &integrators = modify->get_fix_by_style("^" + fluid_style);
   integrated_groups = 0;
   for (const auto &ifix : integrators) integrated_groups |= ifix->groupbit;
   first_instance = (integrators.front() == this);
@@ -114,7 +116,7 @@ void FixSPHBulk::init()
 
   if (first_instance) check_integrated_once();
 
-  pair = dynamic_cast<PairSPHBulk *>(force->pair_match(style, 1));
+  pair = dynamic_cast<PairSPHBulk *>(force->pair_match("^" + fluid_style, 0));
   const bool noise = pair && pair->has_noise();
   extrapolation = viscous->settings().extrapolation(noise);
   balanced = pair && pair->has_own_temperatures();
@@ -309,12 +311,14 @@ void FixSPHBulk::setup_pre_force(int /*vflag*/)
   if (update->whichflag == 1) add_remapped_velocity();
 }
 
-/* ----------------------------------------------------------------------
-   the internal energy, too, is extrapolated to the end of the step, so that the
-   pressure of an ideal gas is accurate to second order in the time step;
-   final_integrate() corrects it with the new rate; with random forces, which have
-   no future, it gets half of the rate at each end of the step
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
+
+TimeStep FixSPHBulk::time_step() const
+{
+  return {dtv, dtf, remap_v_flag ? 0.0 : 1.0, extrapolation, balanced};
+}
+
+/* ---------------------------------------------------------------------- */
 
 void FixSPHBulk::initial_integrate(int /*vflag*/)
 {
@@ -328,23 +332,16 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
   double *desph_before = avec()->desph_before;
   int *mask = atom->mask;
   const int nlocal = nlocal_group();
-  const double keep = remap_v_flag ? 0.0 : 1.0;
-  const double ahead = balanced ? 0.5 : 1.0;
+  const TimeStep step = time_step();
   if (balanced) balance_heat();
   const bool exact = has_viscous_stage();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
-    desph_before[i] = balanced ? 0.0 : desph[i];
-    esph[i] += ahead * dtv * desph[i];
+    step.begin_energy(desph[i], esph[i], desph_before[i]);
     if (exact) esph[i] += rest_of_heat(v[i], vest[i], f[i], pair->own_force(i), 1.0 / rmass[i]);
-    for (int d = 0; d < 3; d++) {
-      const double dv = dtfm * f[i][d];
-      v[i][d] += dv;
-      vest[i][d] = keep * v[i][d] + extrapolation * dv;
-      x[i][d] += dtv * v[i][d];
-    }
+    for (int d = 0; d < 3; d++) step.begin(dtfm, f[i][d], x[i][d], v[i][d], vest[i][d]);
   }
   if (shift_speed > 0.0) shift_particles();
 }
@@ -430,15 +427,16 @@ void FixSPHBulk::final_integrate()
   int *mask = atom->mask;
   double **vest = atom->vest;
   const int nlocal = nlocal_group();
+  const TimeStep step = time_step();
   if (balanced) balance_heat();
   const bool exact = has_viscous_stage();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
-    esph[i] += 0.5 * dtv * (desph[i] - desph_before[i]);
+    step.end_energy(desph[i], desph_before[i], esph[i]);
     if (exact) esph[i] += rest_of_heat(v[i], vest[i], f[i], pair->own_force(i), 1.0 / rmass[i]);
-    for (int d = 0; d < 3; d++) v[i][d] += dtfm * f[i][d];
+    for (int d = 0; d < 3; d++) step.end(dtfm, f[i][d], v[i][d]);
   }
 }
 
@@ -483,7 +481,7 @@ int FixSPHBulk::nlocal_group() const
 
 AtomVecSPHBulk *FixSPHBulk::avec() const
 {
-  return dynamic_cast<AtomVecSPHBulk *>(atom->style_match(style));
+  return dynamic_cast<AtomVecSPHBulk *>(atom->style_match(fluid_style.c_str()));
 }
 
 /* ----------------------------------------------------------------------

@@ -25,6 +25,7 @@ FixStyle(sph/bulk,FixSPHBulk);
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class ViscousKeywords;
+  struct TimeStep;
 }    // namespace SPHDissipation
 
 // Velocity Verlet for position, velocity and internal energy of a particle fluid, with the
@@ -55,12 +56,20 @@ class FixSPHBulk : public Fix {
   // a particle joins the group within a step, after the first half of the kick
   virtual void arrive(int i);
 
+  bool shifts_particles() const { return shift_speed > 0.0; }
+
  protected:
+  const std::string fluid_style;    // also of the atom style and the pair style, without suffix
   double dtv, dtf;
-  double extrapolation;    // of velocities over half a step: 1, with thermal noise 0
-  bool balanced;           // motion and heat exchange energy exactly, temp energy of the pair style
-  int density_done;        // the masses were set, in this run or before a restart
+  double extrapolation;     // of velocities over half a step: 1, with thermal noise 0
+  bool balanced;            // motion and heat exchange energy exactly, temp energy of the pair style
+  int density_done;         // the masses were set, in this run or before a restart
+  double shift_speed;       // scale and twice the limit of the velocity of particle shifting
+  int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
+  int integrated_groups;    // bits of all groups with an integrator of this kind
+  bool first_instance;      // acts for the particles outside all these groups
   int nlocal_group() const;
+  SPHDissipation::TimeStep time_step() const;
   class AtomVecSPHBulk *avec() const;
 
   // # of words of the keyword at arg[iarg] that all integrators of this kind have
@@ -89,10 +98,6 @@ class FixSPHBulk : public Fix {
   void shift_particles();
 
   int density_flag;         // set the masses so that the mean density is rho0
-  double shift_speed;       // scale and twice the limit of the velocity of particle shifting
-  int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
-  int integrated_groups;    // bits of all groups with an integrator of this kind
-  bool first_instance;      // acts for the particles outside all these groups
   bool last_instance;       // acts when all are set up
   bigint not_integrated;    // # of fluid particles that the last warning was about
 };

@@ -171,7 +171,7 @@ void FixSPHRefine::init()
                "Fix {} requires pair_style {} volume mass: with volume number, particles of "
                "unequal size next to each other have volumes that are wrong by half, whatever "
                "their distance",
-               style, force->pair_match("sph/bulk", 1) ? "sph/bulk" : "sph/micropolar");
+               style, force->pair_match("^sph/bulk", 0) ? "sph/bulk" : "sph/micropolar");
   if (pair->dimension() != domain->dimension)
     error->all(FLERR, "Fix {} requires a kernel of the dimension of the simulation", style);
   if (utils::strmatch(update->integrate_style, "^respa"))

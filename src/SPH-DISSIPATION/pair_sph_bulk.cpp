@@ -266,8 +266,8 @@ void PairSPHBulk::tally_energy()
 PairSPHBulk *PairSPHBulk::find(Force *force)
 {
   if (!force) return nullptr;    // LAMMPS is being taken down, fixes go last
-  auto *pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/bulk", 1));
-  if (!pair) pair = dynamic_cast<PairSPHBulk *>(force->pair_match("sph/micropolar", 1));
+  auto *pair = dynamic_cast<PairSPHBulk *>(force->pair_match("^sph/bulk", 0));
+  if (!pair) pair = dynamic_cast<PairSPHBulk *>(force->pair_match("^sph/micropolar", 0));
   return pair;
 }
 

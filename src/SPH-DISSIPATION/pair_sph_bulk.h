@@ -84,18 +84,18 @@ class PairSPHBulk : public Pair {
   // masses of the particles of a group, times a factor of each type, for which their mean density
   // is rho0; from the setup_pre_force() of the integrator
 
-  void set_mean_density(int groupbit);
+  virtual void set_mean_density(int groupbit);
 
   // of the last force computation, see ForceStage::heating()
 
-  void heating(double *heat, double *power) const;
-  bool has_forces() const;    // of the last step, for the particles that are there now
+  virtual void heating(double *heat, double *power) const;
+  virtual bool has_forces() const;    // of the last step, for the particles that are there now
 
   // of the equation of state, on this processor: of the last force computation, or where particles,
   // with their ghosts, are now
 
   enum Moment { LAST_FORCES, NOW };
-  double elastic_energy(Moment);
+  virtual double elastic_energy(Moment);
 
   // From the init() of a fix: its particles are a boundary, not fluid.  It stays one until it is
   // removed, when the fix is deleted; the pair style may be another one then, see find().

@@ -57,7 +57,7 @@ void SPHDissipation::check_styles(LAMMPS *lmp, const std::string &style)
   Error *error = lmp->error;
   if (!lmp->atom->style_match(style.c_str()))
     error->all(FLERR, Error::NOLASTLINE, "Pair style {} requires atom style {}", style, style);
-  if (lmp->modify->get_fix_by_style("^" + style + "$").empty())
+  if (lmp->modify->get_fix_by_style("^" + style).empty())
     error->all(FLERR, Error::NOLASTLINE, "Pair style {} requires fix {}", style, style);
   if (force->mvv2e != 1.0)
     error->all(FLERR, Error::NOLASTLINE,
@@ -66,10 +66,10 @@ void SPHDissipation::check_styles(LAMMPS *lmp, const std::string &style)
 
   // the number density, forces, and walls of one fluid know nothing of another one
 
-  Pair *const first = force->pair_match(style, 1, 1),
-              *const second = force->pair_match(style, 1, 2);
+  Pair *const first = force->pair_match("^" + style, 0, 1),
+              *const second = force->pair_match("^" + style, 0, 2);
   if ((second && second != first) ||
-      (force->pair_match("sph/bulk", 1, 1) && force->pair_match("sph/micropolar", 1, 1)))
+      (force->pair_match("^sph/bulk", 0, 1) && force->pair_match("^sph/micropolar", 0, 1)))
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} cannot be combined with another sph/bulk or sph/micropolar: "
                "use one with all types",
@@ -199,8 +199,7 @@ void SPHDissipation::check_masses(LAMMPS *lmp, const std::string &style, const F
   Atom *atom = lmp->atom;
   Error *error = lmp->error;
   int integrated = 0;
-  for (const auto &ifix : lmp->modify->get_fix_by_style("^" + style + "$"))
-    integrated |= ifix->groupbit;
+  for (const auto &ifix : lmp->modify->get_fix_by_style("^" + style)) integrated |= ifix->groupbit;
 
   const auto weightless = first_particle(lmp, [&](int i) {
     const bool matters = !model.coeffs[atom->type[i]].other || (atom->mask[i] & integrated);

@@ -31,6 +31,8 @@
 // P3 = Souto-Iglesias, Bonet Avalos, Antuono, Colagrossi, SPHERIC 2022; Phys. Rev. E 104, 015315
 //      (2021)
 
+#include "sph_dissipation_function.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -101,7 +103,7 @@ namespace SPHDissipation {
   // with F r instead of F for mg/fr
 
   struct PairCoeff {
-    PairCoeff() : along_r(0.0), along_u(0.0), xi1(0.0), xi2(0.0) {}
+    SPH_FUNCTION PairCoeff() : along_r(0.0), along_u(0.0), xi1(0.0), xi2(0.0) {}
 
     double along_r, along_u, xi1, xi2;
   };
@@ -132,7 +134,7 @@ namespace SPHDissipation {
   // what the shear term puts before (u.e)^2 in the dissipation of a pair at distance r, in units of
   // F V_i V_j
 
-  inline double central_weight(Shear shear, const PairCoeff &coeff, double r)
+  SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
   {
     return (shear == Shear::MG_FR) ? coeff.along_r * r : coeff.along_r + coeff.along_u;
   }
@@ -141,12 +143,12 @@ namespace SPHDissipation {
   // for, bound = sum_j (c_j/c_i)^2 V_j F r^2 / a_ij with their central weights a_ij; and the one at the
   // edge
 
-  inline bool beyond_bound(double zeta, double bound)
+  SPH_FUNCTION bool beyond_bound(double zeta, double bound)
   {
     return zeta * bound < -0.5;
   }
 
-  inline double zeta_at_bound(double bound)
+  SPH_FUNCTION double zeta_at_bound(double bound)
   {
     return -0.5 / bound;
   }

@@ -31,15 +31,6 @@
 #define SPH_DISSIPATION_DISPATCH
 #endif
 
-// The loops are long, and there are many of them in one file: compilers then stop to inline what the
-// loops call for every pair.
-
-#if defined(__GNUC__)
-#define SPH_INLINE inline __attribute__((always_inline))
-#else
-#define SPH_INLINE inline
-#endif
-
 namespace LAMMPS_NS {
 class NeighList;
 

@@ -23,6 +23,8 @@
 // elastic_energy() is the energy per mass from which the pressure follows, p = rho^2 de/drho,
 // zero at rho0.  The ideal gas has none: its energy is the internal energy that is integrated.
 
+#include "sph_dissipation_function.h"
+
 #include <cmath>
 
 namespace LAMMPS_NS {
@@ -43,7 +45,7 @@ namespace SPHDissipation {
   // the defaults are those of a type without coefficients: no pressure, no energy
 
   struct EosParams {
-    EosParams() : rho0(1.0), c0(0.0), pb(0.0), gamma(7.0) {}
+    SPH_FUNCTION EosParams() : rho0(1.0), c0(0.0), pb(0.0), gamma(7.0) {}
 
     double rho0;     // reference density, mass/length^n
     double c0;       // sound speed at rho0
@@ -53,7 +55,7 @@ namespace SPHDissipation {
 
   // x^gamma, without pow() for the usual exponent of water
 
-  inline double tait_power(double x, double gamma)
+  SPH_FUNCTION double tait_power(double x, double gamma)
   {
     if (gamma == 7.0) {
       const double x3 = x * x * x;
@@ -64,7 +66,7 @@ namespace SPHDissipation {
 
   // pressure at density rho; e = internal energy per mass, used by the ideal gas only
 
-  inline double pressure(Eos eos, const EosParams &par, double rho, double e)
+  SPH_FUNCTION double pressure(Eos eos, const EosParams &par, double rho, double e)
   {
     switch (eos) {
       case Eos::TAIT:
@@ -80,7 +82,7 @@ namespace SPHDissipation {
 
   // elastic energy per mass at density rho
 
-  inline double elastic_energy(Eos eos, const EosParams &par, double rho)
+  SPH_FUNCTION double elastic_energy(Eos eos, const EosParams &par, double rho)
   {
     if (eos == Eos::IDEAL) return 0.0;
     const double background = par.pb * (1.0 / par.rho0 - 1.0 / rho);

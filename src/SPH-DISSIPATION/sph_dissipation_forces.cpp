@@ -17,6 +17,7 @@
 #include "force.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_particle_terms.h"
 
 #include <algorithm>
 
@@ -66,16 +67,14 @@ void ForceStage::collect()
 }
 
 /* ----------------------------------------------------------------------
-   heat of the bulk term: zeta V (cdot/c)^2 of the particle (density);
-   zeta V cdot/c D with D summed by pairs, also on ghost atoms (volume)
+   of the particle itself (density); summed by pairs, also on ghost atoms (volume)
 ------------------------------------------------------------------------- */
 
 double ForceStage::bulk_heat(int i) const
 {
-  const double amplitude = engine.zeta_term[i] * engine.particle[i].vol;
-  if (engine.bulk_form() == Bulk::VOLUME) return amplitude * engine.divergence[i];
-  if (i >= atom->nlocal) return 0.0;
-  return amplitude * engine.density[i].cdot * engine.particle[i].vol / engine.weight(i);
+  if (engine.bulk_form() != Bulk::VOLUME && i >= atom->nlocal) return 0.0;
+  return SPHDissipation::bulk_heat(engine.bulk_form(), engine.zeta_term[i], engine.particle[i].vol,
+                                   engine.weight(i), engine.density[i].cdot, engine.divergence[i]);
 }
 
 /* ---------------------------------------------------------------------- */

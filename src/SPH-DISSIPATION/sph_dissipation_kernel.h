@@ -29,6 +29,8 @@
 // 2 and 3 dimensions for every n.  Lucy: Astron. J. 82, 1013 (1977).  Splines: J. J. Monaghan,
 // Rep. Prog. Phys. 68, 1703 (2005).
 
+#include "sph_dissipation_function.h"
+
 #include <cmath>
 
 namespace LAMMPS_NS {

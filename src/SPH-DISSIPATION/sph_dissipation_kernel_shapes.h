@@ -22,12 +22,12 @@ struct WendlandC2 {
   {
     return (n == 1) ? 1.5 : (n == 2) ? 7.0 / KERNEL_PI : 10.5 / KERNEL_PI;
   }
-  template <class Real> static inline Real shape(Real q)
+  template <class Real> static SPH_FUNCTION Real shape(Real q)
   {
     const Real a = (1.0 - q) * (1.0 - q);
     return a * a * (1.0 + 4.0 * q);
   }
-  template <class Real> static inline Real slope(Real q)
+  template <class Real> static SPH_FUNCTION Real slope(Real q)
   {
     const Real a = 1.0 - q;
     return 20.0 * a * a * a;
@@ -40,12 +40,12 @@ struct WendlandC4 {
   {
     return (n == 1) ? 27.0 / 16.0 : (n == 2) ? 9.0 / KERNEL_PI : 495.0 / (32.0 * KERNEL_PI);
   }
-  template <class Real> static inline Real shape(Real q)
+  template <class Real> static SPH_FUNCTION Real shape(Real q)
   {
     const Real a = (1.0 - q) * (1.0 - q);
     return a * a * a * (1.0 + q * (6.0 + q * (35.0 / 3.0)));
   }
-  template <class Real> static inline Real slope(Real q)
+  template <class Real> static SPH_FUNCTION Real slope(Real q)
   {
     const Real a = (1.0 - q) * (1.0 - q);
     return (56.0 / 3.0) * a * a * (1.0 - q) * (1.0 + 5.0 * q);
@@ -58,12 +58,12 @@ struct WendlandC6 {
   {
     return (n == 1) ? 1.875 : (n == 2) ? 78.0 / (7.0 * KERNEL_PI) : 1365.0 / (64.0 * KERNEL_PI);
   }
-  template <class Real> static inline Real shape(Real q)
+  template <class Real> static SPH_FUNCTION Real shape(Real q)
   {
     const Real a = (1.0 - q) * (1.0 - q);
     return a * a * a * a * (1.0 + q * (8.0 + q * (25.0 + q * 32.0)));
   }
-  template <class Real> static inline Real slope(Real q)
+  template <class Real> static SPH_FUNCTION Real slope(Real q)
   {
     const Real a = (1.0 - q) * (1.0 - q);
     return 22.0 * a * a * a * (1.0 - q) * (1.0 + q * (7.0 + q * 16.0));
@@ -76,12 +76,15 @@ struct Lucy {
   {
     return (n == 1) ? 1.25 : (n == 2) ? 5.0 / KERNEL_PI : 105.0 / (16.0 * KERNEL_PI);
   }
-  template <class Real> static inline Real shape(Real q)
+  template <class Real> static SPH_FUNCTION Real shape(Real q)
   {
     const Real a = 1.0 - q;
     return a * a * a * (1.0 + 3.0 * q);
   }
-  template <class Real> static inline Real slope(Real q) { return 12.0 * (1.0 - q) * (1.0 - q); }
+  template <class Real> static SPH_FUNCTION Real slope(Real q)
+  {
+    return 12.0 * (1.0 - q) * (1.0 - q);
+  }
 };
 
 struct CubicSpline {
@@ -90,7 +93,7 @@ struct CubicSpline {
   {
     return (n == 1) ? 4.0 / 3.0 : (n == 2) ? 40.0 / (7.0 * KERNEL_PI) : 8.0 / KERNEL_PI;
   }
-  template <class Real> static inline Real shape(Real q)
+  template <class Real> static SPH_FUNCTION Real shape(Real q)
   {
     const Real s = 2.0 * q;
     const Real b = 2.0 - s;
@@ -98,7 +101,7 @@ struct CubicSpline {
     const Real outer = 0.25 * b * b * b;
     return (s < 1.0) ? inner : outer;
   }
-  template <class Real> static inline Real slope(Real q)
+  template <class Real> static SPH_FUNCTION Real slope(Real q)
   {
     const Real s = 2.0 * q;
     const Real b = 2.0 - s;
@@ -116,7 +119,7 @@ struct QuinticSpline {
         : (n == 2)  ? 63.0 / (478.0 * KERNEL_PI)
                     : 27.0 / (120.0 * KERNEL_PI);
   }
-  template <class Real> static inline Real shape(Real q)
+  template <class Real> static SPH_FUNCTION Real shape(Real q)
   {
     const Real s = 3.0 * q;
     const Real a = 3.0 - s;
@@ -125,7 +128,7 @@ struct QuinticSpline {
     const Real a2 = a * a, b2 = b * b, c2 = c * c;
     return a2 * a2 * a - 6.0 * (b2 * b2 * b) + 15.0 * (c2 * c2 * c);
   }
-  template <class Real> static inline Real slope(Real q)
+  template <class Real> static SPH_FUNCTION Real slope(Real q)
   {
     const Real s = 3.0 * q;
     const Real a = 3.0 - s;

@@ -16,6 +16,7 @@
 #include "atom.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_particle_terms.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -56,7 +57,6 @@ bigint PressureStage::run(const double *bound, int not_fluid)
   const int nall = nlocal + atom->nghost;
   const TypeCoeff *const coeffs = model.coeffs;
   const Eos eos = model.choice.eos;
-  const bool by_density = (model.choice.bulk == Bulk::DENSITY);
   bigint nbeyond = 0;
 
   for (int i = 0; i < nall; i++) {
@@ -66,15 +66,14 @@ bigint PressureStage::run(const double *bound, int not_fluid)
       engine.zeta_term[i] = particle.g = 0.0;
       continue;
     }
-    const double c_inv = particle.vol / engine.weight(i);
-    const double rate = engine.density[i].cdot * c_inv;
-
     if (i < nlocal && is_beyond(i, bound)) nbeyond++;
 
-    const double p = pressure(eos, coeff.eos, rho[i], esph[i] / rmass[i]);
-    engine.zeta_term[i] = bulk_coefficient(i, bound) * rate;
-    particle.g = (by_density ? p + engine.zeta_term[i] : p) * c_inv * c_inv;
-    if (i < nlocal) desph[i] += p * particle.vol * rate;
+    const ParticleTerms terms = particle_terms(
+        eos, coeff.eos, model.choice.bulk, bulk_coefficient(i, bound), particle.vol,
+        engine.weight(i), engine.density[i].cdot, rho[i], esph[i] / rmass[i]);
+    engine.zeta_term[i] = terms.zeta_term;
+    particle.g = terms.g;
+    if (i < nlocal) desph[i] += terms.work;
   }
   return nbeyond;
 }

@@ -1,0 +1,58 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_PARTICLE_TERMS_H
+#define LMP_SPH_DISSIPATION_PARTICLE_TERMS_H
+
+// Between the passes: what follows for one particle from its density.  No LAMMPS include.
+
+#include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_eos.h"
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  struct ParticleTerms {
+    double zeta_term;    // zeta cdot/c
+    double g;            // (p + zeta cdot/c) / c^2 (bulk density), p/c^2 (otherwise)
+    double work;         // of the pressure, energy per time
+  };
+
+  // volume V = w/c with the reference volume w, density c and its rate cdot, mass density rho, internal
+  // energy per mass e; P1 (12), (18)
+
+  SPH_FUNCTION ParticleTerms particle_terms(Eos eos, const EosParams &par, Bulk bulk, double zeta,
+                                            double vol, double weight, double cdot, double rho,
+                                            double e)
+  {
+    const double c_inv = vol / weight;
+    const double rate = cdot * c_inv;
+    const double p = pressure(eos, par, rho, e);
+    const double zeta_term = zeta * rate;
+    const double total = (bulk == Bulk::DENSITY) ? p + zeta_term : p;
+    return {zeta_term, total * c_inv * c_inv, p * vol * rate};
+  }
+
+  // heat of the bulk term: zeta V (cdot/c)^2 (density), zeta V cdot/c D with the divergence D summed by
+  // pairs (volume)
+
+  SPH_FUNCTION double bulk_heat(Bulk bulk, double zeta_term, double vol, double weight, double cdot,
+                                double divergence)
+  {
+    return zeta_term * vol * ((bulk == Bulk::VOLUME) ? divergence : cdot * vol / weight);
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
