@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 using namespace LAMMPS_NS;
 
@@ -39,8 +40,12 @@ static std::string exact(double value)
 
 LammpsDriver::LammpsDriver() : natoms(0)
 {
-  const char *args[] = {"test", "-log", "none", "-screen", "none", "-nocite"};
-  lmp = std::make_unique<LAMMPS>(6, const_cast<char **>(args), MPI_COMM_WORLD);
+  std::vector<std::string> words = {"test", "-log", "none", "-screen", "none", "-nocite"};
+  if (const char *switches = getenv("SPHD_SWITCHES"))    // of an accelerator package
+    for (const auto &word : utils::split_words(switches)) words.push_back(word);
+  std::vector<char *> args;
+  for (auto &word : words) args.push_back(&word[0]);
+  lmp = std::make_unique<LAMMPS>(static_cast<int>(args.size()), args.data(), MPI_COMM_WORLD);
 }
 
 LammpsDriver::~LammpsDriver() = default;

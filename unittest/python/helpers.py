@@ -15,6 +15,7 @@ import numpy as np
 
 LMP = os.environ.get("SPHD_LMP") or shutil.which("lmp") or "lmp"
 MPIEXEC = os.environ.get("SPHD_MPIEXEC") or shutil.which("mpiexec") or "mpiexec"
+SWITCHES = os.environ.get("SPHD_SWITCHES", "").split()  # of an accelerator package
 
 # Containers run as root and have fewer cores than ranks; Open MPI has to be told that this is meant.
 # The other settings save time in hundreds of short runs: no wait for ranks that an error has ended, no search
@@ -89,11 +90,11 @@ class Lammps:
     def path(self, name):
         return self.folder / name
 
-    def __call__(self, text, ranks=1, timeout=120, check=True):
+    def __call__(self, text, ranks=1, timeout=120, check=True, switches=SWITCHES):
         name = f"in.{len(self.results)}"
         log = self.path(f"log.{len(self.results)}")
         self.path(name).write_text(text)
-        command = [LMP, "-in", name, "-log", log.name, "-nocite"]
+        command = [LMP, "-in", name, "-log", log.name, "-nocite", *switches]
         environment = {**os.environ, **MPI_ENVIRONMENT}
         if ranks > 1:
             command = [MPIEXEC, "-n", str(ranks), *command]

@@ -1,0 +1,85 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef ATOM_CLASS
+// clang-format off
+AtomStyle(sph/bulk/kk,AtomVecSPHBulkKokkos);
+AtomStyle(sph/bulk/kk/device,AtomVecSPHBulkKokkos);
+AtomStyle(sph/bulk/kk/host,AtomVecSPHBulkKokkos);
+// clang-format on
+#else
+
+#ifndef LMP_ATOM_VEC_SPH_BULK_KOKKOS_H
+#define LMP_ATOM_VEC_SPH_BULK_KOKKOS_H
+
+#include "atom_vec_kokkos.h"
+#include "atom_vec_sph_bulk.h"
+#include "sph_dissipation_columns_kokkos.h"
+
+namespace LAMMPS_NS {
+
+// The fields that class AtomKokkos has no views for are views of this class.  They travel with the
+// particles by the functions that LAMMPS has for "bonus" data, and have bits of their own in the masks
+// of sync() and modified().  The pair style sums desph of ghost atoms itself.
+
+class AtomVecSPHBulkKokkos : public AtomVecKokkos, public AtomVecSPHBulk {
+ public:
+  AtomVecSPHBulkKokkos(class LAMMPS *);
+  ~AtomVecSPHBulkKokkos() override;
+
+  void init() override;
+  void grow(int) override;
+  void grow_pointers() override;
+  void set_size_exchange() override;
+  void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &) override;
+  void sync(ExecutionSpace, uint64_t) override;
+  void modified(ExecutionSpace, uint64_t) override;
+  void sync_pinned(ExecutionSpace, uint64_t, int async_flag = 0) override;
+
+  void pack_comm_bonus_kokkos(const int &, const DAT::tdual_int_1d &,
+                              const DAT::tdual_double_2d_lr &, int vel_flag = 0) override;
+  void unpack_comm_bonus_kokkos(const int &, const int &, const DAT::tdual_double_2d_lr &,
+                                int vel_flag = 0) override;
+  void pack_comm_self_bonus_kokkos(const int &, const DAT::tdual_int_1d &, const int) override;
+  void pack_comm_self_fused_bonus_kokkos(const int &, const DAT::tdual_int_2d_lr &,
+                                         const DAT::tdual_int_1d &, const DAT::tdual_int_1d &,
+                                         const DAT::tdual_int_1d &) override;
+  void pack_border_bonus_kokkos(int, DAT::tdual_int_1d, DAT::tdual_double_2d_lr &, ExecutionSpace,
+                                int vel_flag = 0) override;
+  void unpack_border_bonus_kokkos(const int &, const int &, const DAT::tdual_double_2d_lr &,
+                                  ExecutionSpace, int vel_flag = 0) override;
+  void pack_exchange_bonus_kokkos(const int &, DAT::tdual_double_2d_lr &, DAT::tdual_int_1d,
+                                  DAT::tdual_int_1d, DAT::tdual_int_1d, ExecutionSpace) override;
+  void unpack_exchange_bonus_kokkos(DAT::tdual_double_2d_lr &, int, ExecutionSpace,
+                                    DAT::tdual_int_1d &) override;
+
+  typedef Kokkos::DualView<double *, Kokkos::LayoutRight, LMPDeviceType> tdual_field;
+  typedef Kokkos::DualView<double *[3], Kokkos::LayoutRight, LMPDeviceType> tdual_field_3;
+
+  tdual_field k_rho, k_drho, k_vfrac, k_esph, k_desph, k_desph_before;
+  tdual_field_3 k_vest;
+
+ private:
+  enum Occasion { COMM, BORDER, EXCHANGE };
+  template <class DeviceType> SPHDissipation::ColumnsKokkos columns(Occasion) const;
+  template <class DeviceType>
+  SPHDissipation::RowsKokkos rows(Occasion, const DAT::tdual_double_2d_lr &, int vel_flag) const;
+
+  template <class Function> void with_fields(uint64_t, Function &&);
+  template <class Function> void with_atom_fields(uint64_t, Function &&);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

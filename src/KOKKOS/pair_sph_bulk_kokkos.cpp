@@ -1,0 +1,526 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "pair_sph_bulk_kokkos.h"
+
+#include "atom_kokkos.h"
+#include "atom_vec_sph_bulk_kokkos.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_sph_bulk.h"
+#include "force.h"
+#include "kokkos.h"
+#include "modify.h"
+#include "neigh_list_kokkos.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+#include "sph_dissipation_boundary.h"
+#include "sph_dissipation_checks.h"
+#include "sph_dissipation_density.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
+#include "sph_dissipation_forces.h"
+#include "sph_dissipation_loops_kokkos.h"
+#include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_open_stage.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+static constexpr uint64_t READ =
+    X_MASK | F_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK | VEST_MASK;
+static constexpr uint64_t DERIVED = SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK;
+static constexpr uint64_t MODIFIED = F_MASK | DESPH_MASK | DERIVED;
+
+static constexpr int HOST_LIST = 1;    // its ID
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp) :
+    PairSPHBulk(lmp), on_device(true), host_list(nullptr), nlocal_device(-1), nghost_device(-1),
+    data(new LoopDataKokkos<DeviceType>), types(new Kokkos::View<TypeKokkos *, DeviceType>)
+{
+  kokkosable = 1;
+  atomKK = (AtomKokkos *) atom;
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  centroidstressflag = CENTROID_NOTAVAIL;
+  no_virial_fdotr_compute = 1;    // a full list leaves no forces on ghosts
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> PairSPHBulkKokkos<DeviceType>::~PairSPHBulkKokkos()
+{
+  delete data;
+  delete types;
+}
+
+/* ----------------------------------------------------------------------
+   what the device cannot do, or empty
+------------------------------------------------------------------------- */
+
+template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_because() const
+{
+  if (has_noise()) return "keyword temp";
+  if (model->choice.limit != Limit::NO) return "keyword limit";
+  if (update->whichflag == 2) return "a minimization";
+  for (const auto &ifix : modify->get_fix_list()) {
+    if (dynamic_cast<Boundary *>(ifix) || dynamic_cast<OpenZone *>(ifix))
+      return fmt::format("fix {}", ifix->style);
+    auto *integrator = dynamic_cast<FixSPHBulk *>(ifix);
+    if (integrator && integrator->shifts_particles())
+      return fmt::format("fix {} shift", ifix->style);
+  }
+  return "";
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
+{
+  if (force->pair != this)
+    error->all(FLERR, Error::NOLASTLINE, "Pair style {}/kk cannot be used in pair_style hybrid",
+               fluid_style);
+  PairSPHBulk::init_style();
+
+  const std::string reason = on_host_because();
+  on_device = reason.empty();
+  if (!on_device) {
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Pair style {}/kk computes on the host, as the style without suffix does, "
+                     "because of {}",
+                     fluid_style, reason);
+    execution_space = Host;
+    datamask_read = ALL_MASK;
+    datamask_modify = MODIFIED | RMASS_MASK;
+    no_virial_fdotr_compute = 0;
+    return;
+  }
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  datamask_read = READ;
+  datamask_modify = MODIFIED;
+  no_virial_fdotr_compute = 1;
+
+  auto *request = neighbor->find_request(this);
+  request->set_kokkos_host(std::is_same_v<DeviceType, LMPHostType> &&
+                           !std::is_same_v<DeviceType, LMPDeviceType>);
+  request->set_kokkos_device(std::is_same_v<DeviceType, LMPDeviceType>);
+  request->enable_full();
+  neighbor->add_request(this, NeighConst::REQ_OCCASIONAL)->set_id(HOST_LIST);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_list(int id, NeighList *ptr)
+{
+  if (id == HOST_LIST)
+    host_list = ptr;
+  else
+    PairSPHBulk::init_list(id, ptr);
+}
+
+/* ----------------------------------------------------------------------
+   a function of the CPU style while the forces are computed on the device: with the particles, a
+   neighbor list and communication on the host
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class Function>
+void PairSPHBulkKokkos<DeviceType>::on_host(Function &&function)
+{
+  atomKK->sync(Host, ALL_MASK);
+  if (!on_device) {
+    function();
+    return atomKK->modified(Host, DERIVED | RMASS_MASK);
+  }
+  neighbor->build_one(host_list);
+  NeighList *const device_list = list;
+  list = host_list;
+  execution_space = Host;
+  function();
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  list = device_list;
+  atomKK->modified(Host, DERIVED | RMASS_MASK);
+}
+
+/* ----------------------------------------------------------------------
+   the reports need the pairs that pass 1 leaves
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::announce()
+{
+  if (!compute_flag) return;
+  on_host([&]() {
+    if (on_device) density->run(list, atom->vest, nullptr);
+    PairSPHBulk::announce();
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_mean_density(int groupbit)
+{
+  on_host([&]() {
+    PairSPHBulk::set_mean_density(groupbit);
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> double PairSPHBulkKokkos<DeviceType>::elastic_energy(Moment moment)
+{
+  double energy = 0.0;
+  if (moment == NOW)
+    on_host([&]() {
+      energy = PairSPHBulk::elastic_energy(moment);
+    });
+  else {
+    atomKK->sync(Host, SPH_RHO_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
+    energy = PairSPHBulk::elastic_energy(moment);
+  }
+  return energy;
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::has_forces() const
+{
+  if (!on_device) return PairSPHBulk::has_forces();
+  return nlocal_device == atom->nlocal && nghost_device == atom->nghost;
+}
+
+/* ----------------------------------------------------------------------
+   with a full list, no heat is left with ghost atoms
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+void PairSPHBulkKokkos<DeviceType>::heating(double *heat, double *power) const
+{
+  if (!on_device) return PairSPHBulk::heating(heat, power);
+  std::fill(power, power + NCHANNEL, 0.0);
+  if (heat) std::fill(heat, heat + atom->nlocal + atom->nghost, 0.0);
+  for (int k : {SHEAR, BULK}) {
+    const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
+    for (int i = 0; i < atom->nlocal; i++) {
+      power[k] += from(i);
+      if (heat) heat[i] += from(i);
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::compute(int eflag, int vflag)
+{
+  if (!on_device) {
+    std::fill_n(atom->desph, atom->nlocal + atom->nghost, 0.0);
+    PairSPHBulk::compute(eflag, vflag);
+    exchange->reverse({{atom->desph, 1, 1}});    // the atom style does not
+    return;
+  }
+
+  ev_init(eflag, vflag);
+  if (stale) derive_coeffs();
+  if (neighbor->ago == 0) {
+    atomKK->sync(Host, RMASS_MASK | TAG_MASK | TYPE_MASK);
+    check_masses(lmp, fluid_style, *model);
+  }
+  copy_coeffs();
+  grow();
+
+  atomKK->sync(execution_space, READ);
+  set_particles();
+  run_density();
+  send_density();
+  set_state();
+  run_forces(vflag_either);
+  atomKK->modified(execution_space, MODIFIED);
+
+  pvector[0] = 0.0;
+  if (eflag_either) {
+    atomKK->sync(Host, SPH_RHO_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
+    tally_energy();
+  }
+  nlocal_device = atom->nlocal;
+  nghost_device = atom->nghost;
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::grow()
+{
+  if ((int) data->particle.extent(0) >= atom->nmax) return;
+  const int n = atom->nmax;
+  auto anew = [=](auto &view, const char *name) {
+    view = std::decay_t<decltype(view)>();    // frees the old one first
+    view = std::decay_t<decltype(view)>(Kokkos::NoInit(name), n);
+  };
+  anew(data->particle, "sph:particle");
+  anew(data->density, "sph:density");
+  anew(data->zeta_term, "sph:zeta_term");
+  for (auto &heat : data->heat) anew(heat, "sph:heat");
+  data->each = (model->choice.volume == Volume::MASS) ? 1 : 0;
+  if (data->each)
+    anew(data->weight, "sph:weight");
+  else {
+    data->weight = decltype(data->weight)("sph:weight", 1);
+    Kokkos::deep_copy(data->weight, 1.0);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   coefficients of types and type pairs, and what the loops need of the model
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::copy_coeffs()
+{
+  const LoopData &engine_data = engine->pairs();
+  const int n = engine_data.ntypes_1;
+  if (!types->extent(0)) {
+    *types = Kokkos::View<TypeKokkos *, DeviceType>("sph:types", n);
+    data->coeff = Kokkos::View<PairCoeff *, DeviceType>("sph:coeff", n * n);
+  }
+  auto h_types = Kokkos::create_mirror_view(*types);
+  auto h_coeff = Kokkos::create_mirror_view(data->coeff);
+  for (int i = 1; i < n; i++) h_types(i) = {model->coeffs[i].eos, model->coeffs[i].zeta};
+  for (int k = 0; k < n * n; k++) h_coeff(k) = engine_data.coeff[k];
+  Kokkos::deep_copy(*types, h_types);
+  Kokkos::deep_copy(data->coeff, h_coeff);
+
+  data->ntypes_1 = n;
+  data->typed = engine_data.uniform ? 0 : 1;
+  data->bulk = model->choice.bulk;
+  data->support = engine_data.support;
+  data->weight_norm = engine_data.weight_norm;
+  data->slope_norm = engine_data.slope_norm;
+  data->self_weight = kernel_weight(model->choice.kernel, dim, 0.0, support);
+}
+
+/* ----------------------------------------------------------------------
+   what pass 1 reads of owned and ghost atoms
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_particles()
+{
+  auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
+  auto x = atomKK->k_x.template view<DeviceType>();
+  auto vest = avec->k_vest.template view<DeviceType>();
+  auto type = atomKK->k_type.template view<DeviceType>();
+  auto rmass = atomKK->k_rmass.template view<DeviceType>();
+  auto particle = data->particle;
+  auto weight = data->weight;
+  auto coeffs = *types;
+  const bool weighted = data->each;
+
+  Kokkos::parallel_for(
+      "sph:particles", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+      KOKKOS_LAMBDA(int i) {
+        for (int d = 0; d < 3; d++) {
+          particle(i).x[d] = x(i, d);
+          particle(i).u[d] = vest(i, d);
+        }
+        if (weighted) weight(i) = rmass(i) / coeffs(type(i)).eos.rho0;
+      });
+
+  auto *k_list = static_cast<NeighListKokkos<DeviceType> *>(list);
+  data->ilist = k_list->d_ilist;
+  data->numneigh = k_list->d_numneigh;
+  data->neighbors = k_list->d_neighbors;
+  data->type = type;
+  data->f = atomKK->k_f.template view<DeviceType>();
+  data->desph = avec->k_desph.template view<DeviceType>();
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::run_density()
+{
+  with_kernel(model->choice.kernel, [&](auto kernel) {
+    typedef decltype(kernel) K;
+    Kokkos::parallel_for("sph:density", Kokkos::RangePolicy<DeviceType>(0, list->inum),
+                         DensityLoopKokkos<DeviceType, K>{*data});
+  });
+}
+
+/* ----------------------------------------------------------------------
+   to the ghosts; LAMMPS has some kinds of communication on the host, whatever the pair style is
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::send_density()
+{
+  const bool ideal = (model->choice.eos == Eos::IDEAL);    // which needs the energy of ghost atoms
+
+  if (execution_space == Device && !lmp->kokkos->forward_pair_comm_legacy &&
+      comm->style != Comm::TILED) {
+    auto *const rows = reinterpret_cast<double *>(data->density.data());
+    sent = ColumnsKokkos();
+    for (int k : {0, 1}) sent.add(rows + k, 2);
+    if (ideal) {
+      auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
+      sent.add(avec->k_esph.template view<DeviceType>());
+    }
+    comm->forward_comm(this, sent.n);
+    return;
+  }
+
+  auto copy = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->density);
+  const Field sums = field(copy.data(), &copy.data()->c, 2);
+  if (ideal) {
+    atomKK->sync(Host, ESPH_MASK);
+    exchange->forward({sums, {atom->esph, 1, 1}});
+    atomKK->modified(Host, ESPH_MASK);
+    atomKK->sync(execution_space, ESPH_MASK);
+  } else
+    exchange->forward({sums});
+  Kokkos::deep_copy(data->density, copy);
+}
+
+/* ----------------------------------------------------------------------
+   volume, density, pressure and bulk term of owned and ghost atoms
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_state()
+{
+  auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
+  auto rmass = atomKK->k_rmass.template view<DeviceType>();
+  auto rho = avec->k_rho.template view<DeviceType>();
+  auto drho = avec->k_drho.template view<DeviceType>();
+  auto vfrac = avec->k_vfrac.template view<DeviceType>();
+  auto esph = avec->k_esph.template view<DeviceType>();
+  auto desph = data->desph;
+  auto type = data->type;
+  auto particle = data->particle;
+  auto density_of = data->density;
+  auto weight_of = data->weight;
+  auto zeta_term = data->zeta_term;
+  auto coeffs = *types;
+  const int each = data->each;
+  const Eos eos = model->choice.eos;
+  const Bulk bulk = model->choice.bulk;
+
+  Kokkos::parallel_for(
+      "sph:state", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+      KOKKOS_LAMBDA(int i) {
+        const double weight = weight_of(i * each);
+        const double mass = rmass(i) / weight;
+        const double vol = weight / density_of(i).c;
+        rho(i) = mass * density_of(i).c;
+        drho(i) = mass * density_of(i).cdot;
+        vfrac(i) = vol;
+        const TypeKokkos &coeff = coeffs(type(i));
+        const ParticleTerms terms = particle_terms(eos, coeff.eos, bulk, coeff.zeta, vol, weight,
+                                                   density_of(i).cdot, rho(i), esph(i) / rmass(i));
+        particle(i).vol = vol;
+        particle(i).g = terms.g;
+        zeta_term(i) = terms.zeta_term;
+        desph(i) = terms.work;
+      });
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::run_forces(bool virial)
+{
+  data->vatom = {};
+  if (vflag_atom) data->vatom = decltype(data->vatom)("sph:vatom", atom->nlocal);
+
+  with_kernel(model->choice.kernel, [&](auto kernel) {
+    typedef decltype(kernel) K;
+    switch (model->choice.shear) {
+      case Shear::MG:
+        return run_force_loop<K, Shear::MG>(virial);
+      case Shear::MG_FR:
+        return run_force_loop<K, Shear::MG_FR>(virial);
+      case Shear::MORRIS:
+        return run_force_loop<K, Shear::MORRIS>(virial);
+      case Shear::ESPANOL:
+        return run_force_loop<K, Shear::ESPANOL>(virial);
+      default:
+        return run_force_loop<K, Shear::NONE>(virial);
+    }
+  });
+
+  if (!vflag_atom) return;
+  const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->vatom);
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 6; k++) vatom[i][k] += from(i, k);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class K, Shear SHEAR>
+void PairSPHBulkKokkos<DeviceType>::run_force_loop(bool virial)
+{
+  if (model->choice.bulk == Bulk::VOLUME)
+    run_loop(ForceLoopKokkos<DeviceType, K, SHEAR, true>{*data}, virial);
+  else
+    run_loop(ForceLoopKokkos<DeviceType, K, SHEAR, false>{*data}, virial);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class Loop>
+void PairSPHBulkKokkos<DeviceType>::run_loop(const Loop &loop, bool tally)
+{
+  const auto range = Kokkos::RangePolicy<DeviceType>(0, list->inum);
+  if (!tally) return Kokkos::parallel_for("sph:forces", range, loop);
+  EV_FLOAT ev;
+  Kokkos::parallel_reduce("sph:forces", range, loop, ev);
+  if (vflag_global)
+    for (int k = 0; k < 6; k++) virial[k] += ev.v[k];
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+int PairSPHBulkKokkos<DeviceType>::pack_forward_comm_kokkos(int n, DAT::tdual_int_1d to,
+                                                            DAT::tdual_double_1d &buf, int, int *)
+{
+  pack_columns<DeviceType>(sent, {buf.template view<DeviceType>().data(), sent.n}, n,
+                           to.template view<DeviceType>());
+  return n * sent.n;
+}
+
+template <class DeviceType>
+void PairSPHBulkKokkos<DeviceType>::unpack_forward_comm_kokkos(int n, int nfirst,
+                                                               DAT::tdual_double_1d &buf)
+{
+  unpack_columns<DeviceType>(sent, {buf.template view<DeviceType>().data(), sent.n}, n, nfirst);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> double PairSPHBulkKokkos<DeviceType>::memory_usage()
+{
+  double bytes = PairSPHBulk::memory_usage();
+  bytes += (double) data->particle.extent(0) *
+      (sizeof(ParticleKokkos) + sizeof(DensityKokkos) + 3 * sizeof(double));
+  return bytes + (double) data->weight.extent(0) * sizeof(double);
+}
+
+/* ---------------------------------------------------------------------- */
+
+namespace LAMMPS_NS {
+template class PairSPHBulkKokkos<LMPDeviceType>;
+#ifdef LMP_KOKKOS_GPU
+template class PairSPHBulkKokkos<LMPHostType>;
+#endif
+}    // namespace LAMMPS_NS

@@ -1,0 +1,147 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_COLUMNS_KOKKOS_H
+#define LMP_SPH_DISSIPATION_COLUMNS_KOKKOS_H
+
+// Numbers of particles that go to other particles or processors, in and out of the buffers of LAMMPS:
+// the package's own fields, which the pack and unpack functions of AtomVecKokkos do not know.
+
+#include "kokkos_type.h"
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // number c of particle i is at base[c][i * stride[c]]
+
+  struct ColumnsKokkos {
+    static constexpr int MOST = 16;
+    int n = 0;
+    double *base[MOST];
+    int stride[MOST];
+
+    void add(double *first, int step)
+    {
+      base[n] = first;
+      stride[n++] = step;
+    }
+    template <class View> void add(const View &view)
+    {
+      if constexpr (View::rank == 1)
+        add(view.data(), 1);
+      else
+        for (int d = 0; d < (int) view.extent(1); d++)
+          add(view.data() + d * view.stride(1), view.stride(0));
+    }
+    KOKKOS_INLINE_FUNCTION double &at(int c, int i) const
+    {
+      return base[c][(bigint) i * stride[c]];
+    }
+    KOKKOS_INLINE_FUNCTION void copy(int from, int to) const
+    {
+      for (int c = 0; c < n; c++) at(c, to) = at(c, from);
+    }
+    KOKKOS_INLINE_FUNCTION void pack(int i, double *to) const
+    {
+      for (int c = 0; c < n; c++) to[c] = at(c, i);
+    }
+    KOKKOS_INLINE_FUNCTION void unpack(int i, const double *from) const
+    {
+      for (int c = 0; c < n; c++) at(c, i) = from[c];
+    }
+  };
+
+  // the columns in rows of a buffer
+
+  struct RowsKokkos {
+    double *first;    // where the columns begin in the first row
+    int width;        // of a row
+    KOKKOS_INLINE_FUNCTION double *row(int k) const { return first + (bigint) k * width; }
+  };
+
+  // the functions below run on DeviceType, on which all pointers must be
+
+  template <class DeviceType, class List>
+  void pack_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n, const List &list)
+  {
+    Kokkos::parallel_for(
+        "sph:pack", Kokkos::RangePolicy<DeviceType>(0, n),
+        KOKKOS_LAMBDA(int k) { columns.pack(list(k), buf.row(k)); });
+  }
+
+  template <class DeviceType>
+  void unpack_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n, int nfirst)
+  {
+    Kokkos::parallel_for(
+        "sph:unpack", Kokkos::RangePolicy<DeviceType>(0, n),
+        KOKKOS_LAMBDA(int k) { columns.unpack(nfirst + k, buf.row(k)); });
+  }
+
+  // from the particles of a list to those from nfirst on
+
+  template <class DeviceType, class List>
+  void copy_columns(const ColumnsKokkos &columns, int n, const List &list, int nfirst)
+  {
+    Kokkos::parallel_for(
+        "sph:copy", Kokkos::RangePolicy<DeviceType>(0, n),
+        KOKKOS_LAMBDA(int k) { columns.copy(list(k), nfirst + k); });
+  }
+
+  // the same for all swaps of a single processor at once, see CommKokkos::forward_comm()
+
+  template <class DeviceType, class Lists, class Ints>
+  void copy_columns_of_swaps(const ColumnsKokkos &columns, int n, const Lists &lists,
+                             const Ints &sendnum_scan, const Ints &firstrecv,
+                             const Ints &owner_of_ghost)
+  {
+    Kokkos::parallel_for(
+        "sph:copy", Kokkos::RangePolicy<DeviceType>(0, n), KOKKOS_LAMBDA(int k) {
+          int swap = 0;
+          while (k >= sendnum_scan(swap)) swap++;
+          const int i = (swap > 0) ? k - sendnum_scan(swap - 1) : k;
+          const int nlocal = firstrecv(0);
+          int j = lists(swap, i);
+          if (j >= nlocal) j = owner_of_ghost(j - nlocal);
+          columns.copy(j, firstrecv(swap) + i);
+        });
+  }
+
+  // particles that leave; then others fill their places
+
+  template <class DeviceType, class List>
+  void pack_leaving_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n,
+                            const List &list, const List &replacement)
+  {
+    Kokkos::parallel_for(
+        "sph:leave", Kokkos::RangePolicy<DeviceType>(0, n), KOKKOS_LAMBDA(int k) {
+          columns.pack(list(k), buf.row(k));
+          if (replacement(k) >= 0) columns.copy(replacement(k), list(k));
+        });
+  }
+
+  // particles that arrive: as number place(k), unless that is negative
+
+  template <class DeviceType, class List>
+  void unpack_arriving_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n,
+                               const List &place)
+  {
+    Kokkos::parallel_for(
+        "sph:arrive", Kokkos::RangePolicy<DeviceType>(0, n), KOKKOS_LAMBDA(int k) {
+          if (place(k) >= 0) columns.unpack(place(k), buf.row(k));
+        });
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

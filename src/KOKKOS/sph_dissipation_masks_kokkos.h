@@ -1,0 +1,36 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_MASKS_KOKKOS_H
+#define LMP_SPH_DISSIPATION_MASKS_KOKKOS_H
+
+#include "atom_masks.h"
+
+// Bits of the package's own fields for sync() and modified() of class AtomKokkos, which hands them on
+// to the atom style: from the other end than those of LAMMPS's atom_masks.h.
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  constexpr uint64_t SPH_RHO_MASK = uint64_t(1) << 63;
+  constexpr uint64_t DRHO_MASK = uint64_t(1) << 62;
+  constexpr uint64_t VFRAC_MASK = uint64_t(1) << 61;
+  constexpr uint64_t ESPH_MASK = uint64_t(1) << 60;
+  constexpr uint64_t DESPH_MASK = uint64_t(1) << 59;
+  constexpr uint64_t DESPH_BEFORE_MASK = uint64_t(1) << 58;
+  constexpr uint64_t VEST_MASK = uint64_t(1) << 57;
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
