@@ -7,7 +7,7 @@
 LAMMPS is an unmodified tree of 4 Jul 2026, which is only read; PATCH is written, to be applied with `git apply` in it. With --tree DIR the changed and added files are left in DIR, too, in their places. The pages say that the
 styles are new in version TBD, which LAMMPS's maintainers replace at a release; --version names another one.
 
-What goes where: sources to src, styles into every table and list of the manual and of both ways to build, pages to doc/src,
+What goes where: sources to src, those with suffix kk to src/KOKKOS, styles into every table and list of the manual and of both ways to build, pages to doc/src,
 examples without pictures and with their dumps commented out to examples/PACKAGES, reference data of LAMMPS's style testers
 to unittest, fluids to potentials. A style or a page that this script has no line for is an error.
 """
@@ -22,6 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "SPH-DISSIPATION"
 SOURCES = ROOT / "src" / PACKAGE
+KOKKOS = ROOT / "src" / "KOKKOS"
 PAGES = ROOT / "doc" / "src"
 EXAMPLES = Path("examples/PACKAGES/sph-dissipation")
 
@@ -189,7 +190,7 @@ def styles():
 
 def letters(kind, name):
     """how the tables of commands mark accelerated variants: k = KOKKOS"""
-    has_kokkos = (SOURCES / f"{kind}_{name.replace('/', '_')}_kokkos.h").exists()
+    has_kokkos = (KOKKOS / f"{'atom_vec' if kind == 'atom' else kind}_{name.replace('/', '_')}_kokkos.h").exists()
     return " (k)" if has_kokkos else ""
 
 
@@ -197,6 +198,14 @@ def add_sources(tree):
     for file in SOURCES.iterdir():
         if file.suffix in (".cpp", ".h") or file.name in ("README", "Install.sh"):
             tree.add(f"src/{PACKAGE}/{file.name}", file)
+    for file in sorted(KOKKOS.iterdir()):
+        if file.suffix not in (".cpp", ".h"):
+            continue
+        tree.add(f"src/KOKKOS/{file.name}", file)
+        without = SOURCES / file.name.replace("_kokkos", "")
+        needs = without.name if without.exists() else "pair_sph_bulk.h"
+        tree.insert("src/KOKKOS/Install.sh", r"action (\S+\.(?:cpp|h))(?: \S+)?$", file.name,
+                    f"action {file.name} {needs}\n")
     package = PACKAGE.lower()
     text = tree.read("src/Makefile")
     tree.write("src/Makefile", re.sub(r"^\tsph \\\n", rf"\tsph \\\n\t{package} \\\n", text, flags=re.MULTILINE))

@@ -20,7 +20,6 @@
 
 // the header is written for vectors of any width; here, of one number
 
-#define SPH_INLINE inline
 #define LOOPS one_number
 #define NEIGHMASK 0x1FFFFFFF
 typedef std::int64_t bigint;
