@@ -76,12 +76,12 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::initial_integrate
   constexpr uint64_t READ = X_MASK | V_MASK | F_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK |
       DESPH_MASK | DESPH_BEFORE_MASK | VEST_MASK;
   constexpr uint64_t MODIFIED = X_MASK | V_MASK | ESPH_MASK | DESPH_BEFORE_MASK | VEST_MASK;
-  const ExecutionSpace space = on_host() ? Host : execution_space;
-  atomKK->sync(space, READ);
   if (on_host()) {
+    atomKK->sync(Host, ALL_MASK);
     FixSPHBulk::initial_integrate(vflag);
-    return atomKK->modified(Host, MODIFIED);
+    return atomKK->modified(Host, MODIFIED | DESPH_MASK);
   }
+  atomKK->sync(execution_space, READ);
 
   auto *avecKK = avec_kokkos();
   auto x = atomKK->k_x.template view<DeviceType>();
@@ -143,6 +143,11 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::pre_force(int vfl
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::final_integrate()
 {
+  if (on_host()) {
+    atomKK->sync(Host, ALL_MASK);
+    FixSPHBulk::final_integrate();
+    return atomKK->modified(Host, V_MASK | ESPH_MASK | DESPH_MASK);
+  }
   atomKK->sync(execution_space,
                V_MASK | F_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK | DESPH_MASK |
                    DESPH_BEFORE_MASK);

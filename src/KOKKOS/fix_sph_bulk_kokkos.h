@@ -27,8 +27,9 @@ FixStyle(sph/bulk/kk/host,FixSPHBulkKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-// What is done in every step is done on the device, but for particle shifting and the velocities that
-// fix deform remaps: those, and the start of a run, by the CPU style on the host.
+// What is done in every step is done on the device, but for particle shifting, the exchange of energy
+// of thermal noise, and the velocities that fix deform remaps: those, and the start of a run, by the
+// CPU style on the host.
 
 template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
  public:
@@ -42,7 +43,7 @@ template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
   void final_integrate() override;
 
  private:
-  bool on_host() const { return remap_v_flag || shift_speed > 0.0; }
+  bool on_host() const { return remap_v_flag || shift_speed > 0.0 || balanced; }
   class AtomVecSPHBulkKokkos *avec_kokkos() const;
 };
 

@@ -25,16 +25,35 @@
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-  namespace KOKKOS_LOOPS {
+  // force on i and half of the heat of the shear term, as in force_loop() of the CPU styles, which has
+  // vectors of pairs, and noise and spins in the midst of them.  r = r_i - r_j, u = u_i - u_j,
+  // vv_slope = F V_i V_j, 0 if r = 0; central = what pressure and bulk term put before r
 
-    KOKKOS_FORCEINLINE_FUNCTION double square_root(double a)
-    {
-      return Kokkos::sqrt(a);
+  template <Shear SHEAR>
+  KOKKOS_FORCEINLINE_FUNCTION double pair_terms(const double *r, const double *u, double rsq,
+                                                double approach, double vv_slope, double central,
+                                                const PairCoeff &coeff, double *force)
+  {
+    constexpr bool ALONG_R =
+        (SHEAR == Shear::MG || SHEAR == Shear::MG_FR || SHEAR == Shear::ESPANOL);
+    constexpr bool ALONG_U = (SHEAR == Shear::MORRIS || SHEAR == Shear::ESPANOL);
+    constexpr double TINY = 1.0e-300;    // two particles at the same point exert no force
+
+    double heat = 0.0;
+    if constexpr (ALONG_R) {
+      const double metric = (SHEAR == Shear::MG_FR) ? Kokkos::sqrt(rsq) : rsq;
+      const double drag = coeff.along_r * vv_slope / (metric + TINY) * approach;
+      central -= drag;
+      heat = 0.5 * drag * approach;
     }
-
-#include "sph_dissipation_pair_terms.h"
-
-  }    // namespace KOKKOS_LOOPS
+    for (int d = 0; d < 3; d++) force[d] = central * r[d];
+    if constexpr (ALONG_U) {
+      const double drag = coeff.along_u * vv_slope;
+      for (int d = 0; d < 3; d++) force[d] -= drag * u[d];
+      heat += 0.5 * drag * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    }
+    return heat;
+  }
 
   // what the loops read of a particle, owned or ghost
 
@@ -163,20 +182,20 @@ namespace SPHDissipation {
           central += (zeta_term_i + data.zeta_term(j)) * vv_slope;
           divergence -= slope * approach * pj.vol;
         }
-        const auto pair = KOKKOS_LOOPS::pair_terms<SHEAR>(r, u, rsq, approach, vv_slope, central,
-                                                          coeff[data.type(j * data.typed)], r, r);
-        fx += pair.f[0];
-        fy += pair.f[1];
-        fz += pair.f[2];
-        heat += pair.heat;
+        double force[3];
+        heat += pair_terms<SHEAR>(r, u, rsq, approach, vv_slope, central,
+                                  coeff[data.type(j * data.typed)], force);
+        fx += force[0];
+        fy += force[1];
+        fz += force[2];
 
         if constexpr (VIRIAL) {    // half for each partner
-          virial[0] += 0.5 * r[0] * pair.f[0];
-          virial[1] += 0.5 * r[1] * pair.f[1];
-          virial[2] += 0.5 * r[2] * pair.f[2];
-          virial[3] += 0.5 * r[0] * pair.f[1];
-          virial[4] += 0.5 * r[0] * pair.f[2];
-          virial[5] += 0.5 * r[1] * pair.f[2];
+          virial[0] += 0.5 * r[0] * force[0];
+          virial[1] += 0.5 * r[1] * force[1];
+          virial[2] += 0.5 * r[2] * force[2];
+          virial[3] += 0.5 * r[0] * force[1];
+          virial[4] += 0.5 * r[0] * force[2];
+          virial[5] += 0.5 * r[1] * force[2];
         }
       }
 

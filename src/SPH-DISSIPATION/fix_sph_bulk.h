@@ -61,11 +61,11 @@ class FixSPHBulk : public Fix {
  protected:
   const std::string fluid_style;    // also of the atom style and the pair style, without suffix
   double dtv, dtf;
-  double extrapolation;     // of velocities over half a step: 1, with thermal noise 0
-  bool balanced;            // motion and heat exchange energy exactly, temp energy of the pair style
-  int density_done;         // the masses were set, in this run or before a restart
-  double shift_speed;       // scale and twice the limit of the velocity of particle shifting
-  int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
+  double extrapolation;    // of velocities over half a step: 1, with thermal noise 0
+  bool balanced;           // motion and heat exchange energy exactly, temp energy of the pair style
+  int density_done;        // the masses were set, in this run or before a restart
+  double shift_speed;      // scale and twice the limit of the velocity of particle shifting
+  int remap_v_flag;        // fix deform remaps velocities at periodic boundaries
   int integrated_groups;    // bits of all groups with an integrator of this kind
   bool first_instance;      // acts for the particles outside all these groups
   int nlocal_group() const;
