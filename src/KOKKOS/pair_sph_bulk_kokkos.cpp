@@ -46,14 +46,13 @@ static constexpr uint64_t READ =
 static constexpr uint64_t DERIVED = SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK;
 static constexpr uint64_t MODIFIED = F_MASK | DESPH_MASK | DERIVED;
 
-static constexpr int HOST_LIST = 1;    // its ID
-
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
 PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp) :
-    PairSPHBulk(lmp), on_device(true), host_list(nullptr), nlocal_device(-1), nghost_device(-1),
-    data(new LoopDataKokkos<DeviceType>), types(new Kokkos::View<TypeKokkos *, DeviceType>)
+    PairSPHBulk(lmp), on_device(true), host_list(new NeighList(lmp)), nlocal_device(-1),
+    nghost_device(-1), data(new LoopDataKokkos<DeviceType>),
+    types(new Kokkos::View<TypeKokkos *, DeviceType>)
 {
   kokkosable = 1;
   atomKK = (AtomKokkos *) atom;
@@ -68,6 +67,9 @@ template <class DeviceType> PairSPHBulkKokkos<DeviceType>::~PairSPHBulkKokkos()
 {
   delete data;
   delete types;
+  host_list->ilist = host_list->numneigh = nullptr;    // ours
+  host_list->firstneigh = nullptr;
+  delete host_list;
 }
 
 /* ----------------------------------------------------------------------
@@ -122,17 +124,6 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
                            !std::is_same_v<DeviceType, LMPDeviceType>);
   request->set_kokkos_device(std::is_same_v<DeviceType, LMPDeviceType>);
   request->enable_full();
-  neighbor->add_request(this, NeighConst::REQ_OCCASIONAL)->set_id(HOST_LIST);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_list(int id, NeighList *ptr)
-{
-  if (id == HOST_LIST)
-    host_list = ptr;
-  else
-    PairSPHBulk::init_list(id, ptr);
 }
 
 /* ----------------------------------------------------------------------
@@ -149,7 +140,7 @@ void PairSPHBulkKokkos<DeviceType>::on_host(Function &&function)
     function();
     return atomKK->modified(Host, DERIVED | RMASS_MASK);
   }
-  neighbor->build_one(host_list);
+  build_host_list();
   NeighList *const device_list = list;
   list = host_list;
   execution_space = Host;
@@ -157,6 +148,59 @@ void PairSPHBulkKokkos<DeviceType>::on_host(Function &&function)
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
   list = device_list;
   atomKK->modified(Host, DERIVED | RMASS_MASK);
+}
+
+/* ----------------------------------------------------------------------
+   the half list of the CPU style from the full one of the device; with newton on, IDs tell which of the
+   two owners has a pair of an owned particle and a ghost
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::build_host_list()
+{
+  auto *k_list = static_cast<NeighListKokkos<DeviceType> *>(list);
+  const auto ilist = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), k_list->d_ilist);
+  const auto numneigh =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), k_list->d_numneigh);
+  const auto neighbors =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), k_list->d_neighbors);
+  const int nlocal = atom->nlocal;
+  double **x = atom->x;
+  const tagint *const tag = atom->tag;
+
+  auto above = [=](int i, int j) {
+    for (int d : {2, 1, 0})
+      if (x[i][d] != x[j][d]) return x[i][d] > x[j][d];
+    return false;
+  };
+  auto mine = [=, this](int i, int j) {
+    if (j < nlocal) return i < j;
+    if (!force->newton_pair) return true;
+    if (!atom->tag_enable || tag[i] == tag[j]) return above(j, i);
+    return (tag[i] > tag[j]) == ((tag[i] + tag[j]) % 2 == 1);
+  };
+
+  const int inum = list->inum;
+  host_ilist.resize(inum);
+  host_numneigh.assign(nlocal, 0);
+  host_firstneigh.assign(nlocal, nullptr);
+  host_neighbors.clear();
+  std::vector<std::size_t> first(inum);
+  for (int ii = 0; ii < inum; ii++) {
+    const int i = host_ilist[ii] = ilist(ii);
+    first[ii] = host_neighbors.size();
+    for (int jj = 0; jj < numneigh(i); jj++) {
+      const int j = neighbors(i, jj) & NEIGHMASK;
+      if (mine(i, j)) host_neighbors.push_back(j);
+    }
+    host_numneigh[i] = static_cast<int>(host_neighbors.size() - first[ii]);
+  }
+  for (int ii = 0; ii < inum; ii++)
+    host_firstneigh[host_ilist[ii]] = host_neighbors.data() + first[ii];
+
+  host_list->inum = inum;
+  host_list->ilist = host_ilist.data();
+  host_list->numneigh = host_numneigh.data();
+  host_list->firstneigh = host_firstneigh.data();
 }
 
 /* ----------------------------------------------------------------------

@@ -27,6 +27,8 @@ PairStyle(sph/bulk/kk/host,PairSPHBulkKokkos<LMPHostType>);
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_columns_kokkos.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   template <class DeviceType> struct LoopDataKokkos;
@@ -43,7 +45,6 @@ template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public
 
   void compute(int, int) override;
   void init_style() override;
-  void init_list(int, class NeighList *) override;
   double memory_usage() override;
 
   void announce() override;
@@ -65,6 +66,8 @@ template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public
  private:
   bool on_device;
   class NeighList *host_list;    // half; for what runs on the host meanwhile
+  std::vector<int> host_ilist, host_numneigh, host_neighbors;
+  std::vector<int *> host_firstneigh;
   SPHDissipation::ColumnsKokkos sent;
   int nlocal_device, nghost_device;    // # of atoms of the last computation on the device
 
@@ -73,6 +76,7 @@ template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public
 
   std::string on_host_because() const;
   template <class Function> void on_host(Function &&);
+  void build_host_list();
   void grow();
   void copy_coeffs();
   void send_density();
