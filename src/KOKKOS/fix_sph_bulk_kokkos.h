@@ -28,7 +28,7 @@ FixStyle(sph/bulk/kk/host,FixSPHBulkKokkos<LMPHostType>);
 namespace LAMMPS_NS {
 
 // What is done in every step is done on the device, but for particle shifting, the exchange of energy
-// of thermal noise, and the velocities that fix deform remaps: those, and the start of a run, by the
+// of thermal noise, large viscosities, and the velocities that fix deform remaps: those, and the start of a run, by the
 // CPU style on the host.
 
 template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
@@ -43,7 +43,10 @@ template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
   void final_integrate() override;
 
  private:
-  bool on_host() const { return remap_v_flag || shift_speed > 0.0 || balanced; }
+  bool on_host() const
+  {
+    return remap_v_flag || shift_speed > 0.0 || balanced || has_viscous_stage();
+  }
   class AtomVecSPHBulkKokkos *avec_kokkos() const;
 };
 

@@ -38,8 +38,8 @@ using namespace SPHDissipation;
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), fluid_style(without_suffix(style)), dtv(0.0), dtf(0.0), extrapolation(1.0),
-    balanced(false), density_done(0), viscous(new ViscousKeywords(lmp, style)), pair(nullptr),
-    shift_speed(0.0), remap_v_flag(0), integrated_groups(0), first_instance(false), density_flag(0),
+    balanced(false), density_done(0), shift_speed(0.0), remap_v_flag(0), integrated_groups(0),
+    first_instance(false), viscous(new ViscousKeywords(lmp, style)), pair(nullptr), density_flag(0),
     last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);

@@ -57,6 +57,7 @@ class FixSPHBulk : public Fix {
   virtual void arrive(int i);
 
   bool shifts_particles() const { return shift_speed > 0.0; }
+  bool has_viscous_stage() const;
 
  protected:
   const std::string fluid_style;    // also of the atom style and the pair style, without suffix
@@ -75,7 +76,6 @@ class FixSPHBulk : public Fix {
   // # of words of the keyword at arg[iarg] that all integrators of this kind have
   int keyword_argument(int iarg, int narg, char **arg);
   void finish_keywords();
-  bool has_viscous_stage() const;
   double rest_of_heat(const double *v, const double *acting, const double *f, const double *own,
                       double mass_inv) const;
   SPHDissipation::ViscousKeywords *viscous;
