@@ -66,7 +66,7 @@ def test_only_the_tests_install_what_only_tests_need(machine, args, tests):
     (["build", "release"], {}, "build takes no arguments"),
     (["doc", "--pdf"], {}, "doc takes no arguments"),
     (["--help", "run"], {}, "--help takes no arguments"),
-    (["run"], {}, "There are: cavity"),
+    (["run"], {}, "There are: brownian cavity"),
     (["run", "nowhere"], {}, 'no example "nowhere"'),
     (["test", "--sanitize", "--valgrind"], {}, "leave one of them out"),
     (["build"], {"LAMMPS_SOURCE_DIR": "/tmp", "SPHD_LAMMPS": "25"}, "both set"),
