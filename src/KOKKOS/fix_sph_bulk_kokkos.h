@@ -43,10 +43,7 @@ template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
   void final_integrate() override;
 
  private:
-  bool on_host() const
-  {
-    return remap_v_flag || shift_speed > 0.0 || balanced || has_viscous_stage();
-  }
+  bool on_host() const { return remap_v_flag || shift_speed > 0.0 || exact; }
   class AtomVecSPHBulkKokkos *avec_kokkos() const;
 };
 

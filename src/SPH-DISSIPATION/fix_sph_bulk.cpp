@@ -38,9 +38,9 @@ using namespace SPHDissipation;
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), fluid_style(without_suffix(style)), dtv(0.0), dtf(0.0), extrapolation(1.0),
-    balanced(false), density_done(0), shift_speed(0.0), remap_v_flag(0), integrated_groups(0),
-    first_instance(false), viscous(new ViscousKeywords(lmp, style)), pair(nullptr), density_flag(0),
-    last_instance(false), not_integrated(0)
+    balanced(false), exact(false), density_done(0), shift_speed(0.0), remap_v_flag(0),
+    integrated_groups(0), first_instance(false), viscous(new ViscousKeywords(lmp, style)),
+    pair(nullptr), density_flag(0), last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -119,7 +119,8 @@ void FixSPHBulk::init()
   pair = dynamic_cast<PairSPHBulk *>(force->pair_match("^" + fluid_style, 0));
   const bool noise = pair && pair->has_noise();
   extrapolation = viscous->settings().extrapolation(noise);
-  balanced = pair && pair->has_own_temperatures();
+  balanced = pair && pair->has_own_temperatures() && pair->compute_flag;
+  exact = balanced || has_viscous_stage();
   if (noise && shift_speed > 0.0)
     error->all(FLERR,
                "Fix {} shift cannot be used with temp of pair style {}: a shifted fluid has no "
@@ -333,8 +334,6 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
   int *mask = atom->mask;
   const int nlocal = nlocal_group();
   const TimeStep step = time_step();
-  if (balanced) balance_heat();
-  const bool exact = has_viscous_stage();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
@@ -428,8 +427,6 @@ void FixSPHBulk::final_integrate()
   double **vest = atom->vest;
   const int nlocal = nlocal_group();
   const TimeStep step = time_step();
-  if (balanced) balance_heat();
-  const bool exact = has_viscous_stage();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
@@ -437,26 +434,6 @@ void FixSPHBulk::final_integrate()
     step.end_energy(desph[i], desph_before[i], esph[i]);
     if (exact) esph[i] += rest_of_heat(v[i], vest[i], f[i], pair->own_force(i), 1.0 / rmass[i]);
     for (int d = 0; d < 3; d++) step.end(dtfm, f[i][d], v[i][d]);
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixSPHBulk::balance_heat()
-{
-  double **v = atom->v;
-  double **f = atom->f;
-  double **vest = atom->vest;
-  const double *const rmass = atom->rmass;
-  double *const esph = atom->esph;
-  const int *const mask = atom->mask;
-  const int nlocal = nlocal_group();
-  for (int i = 0; i < nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    const double half_kick = 0.5 * dtf / rmass[i];
-    double power = 0.0;
-    for (int d = 0; d < 3; d++) power += f[i][d] * (v[i][d] + half_kick * f[i][d] - vest[i][d]);
-    esph[i] -= 0.5 * dtv * power;
   }
 }
 

@@ -62,11 +62,12 @@ class FixSPHBulk : public Fix {
  protected:
   const std::string fluid_style;    // also of the atom style and the pair style, without suffix
   double dtv, dtf;
-  double extrapolation;    // of velocities over half a step: 1, with thermal noise 0
-  bool balanced;           // motion and heat exchange energy exactly, temp energy of the pair style
-  int density_done;        // the masses were set, in this run or before a restart
-  double shift_speed;      // scale and twice the limit of the velocity of particle shifting
-  int remap_v_flag;        // fix deform remaps velocities at periodic boundaries
+  double extrapolation;     // of velocities over half a step: 1, with thermal noise 0
+  bool balanced;            // heat gets half of its rate at each end of a step, temp energy
+  bool exact;               // motion and heat exchange energy exactly, see rest_of_heat()
+  int density_done;         // the masses were set, in this run or before a restart
+  double shift_speed;       // scale and twice the limit of the velocity of particle shifting
+  int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
   int integrated_groups;    // bits of all groups with an integrator of this kind
   bool first_instance;      // acts for the particles outside all these groups
   int nlocal_group() const;
@@ -85,10 +86,6 @@ class FixSPHBulk : public Fix {
   // a bit of the third in their mask: at the start of a run, when they arrive, or if no such fix
   // integrates them
   virtual void reset_extrapolation(int, int, int);
-
-  // before each half of the kick: the forces work at its mean velocity, not at the one that they have seen, and the
-  // difference comes out of the heat of the particle
-  virtual void balance_heat();
 
  private:
   void check_integrated_once();

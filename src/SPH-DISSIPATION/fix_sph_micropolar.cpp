@@ -187,26 +187,6 @@ void FixSPHMicropolar::final_integrate()
   integrate_spin(false);
 }
 
-/* ---------------------------------------------------------------------- */
-
-void FixSPHMicropolar::balance_heat()
-{
-  FixSPHBulk::balance_heat();
-  double **omega = atom->omega;
-  double **torque = atom->torque;
-  double **omegaest = spinning()->omegaest;
-  const double *const inertia = spinning()->inertia;
-  const int nlocal = nlocal_group();
-  for (int i = 0; i < nlocal; i++) {
-    if (!(atom->mask[i] & groupbit) || !(inertia[i] > 0.0)) continue;
-    const double half_kick = 0.5 * dtf / (atom->rmass[i] * inertia[i]);
-    double power = 0.0;
-    for (int d = 0; d < 3; d++)
-      power += torque[i][d] * (omega[i][d] + half_kick * torque[i][d] - omegaest[i][d]);
-    atom->esph[i] -= 0.5 * dtv * power;
-  }
-}
-
 /* ----------------------------------------------------------------------
    half a step; particles without inertia keep their spin; check_inertia() has seen to
    it that they have no torque
@@ -221,7 +201,6 @@ void FixSPHMicropolar::integrate_spin(bool extrapolate)
   const double *const rmass = atom->rmass;
   const int *const mask = atom->mask;
   const int nlocal = nlocal_group();
-  const bool exact = has_viscous_stage();
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double inverse = (inertia[i] > 0.0) ? 1.0 / (rmass[i] * inertia[i]) : 0.0;

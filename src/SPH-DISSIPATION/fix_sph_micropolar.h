@@ -45,7 +45,6 @@ class FixSPHMicropolar : public FixSPHBulk {
 
  protected:
   void reset_extrapolation(int, int, int) override;
-  void balance_heat() override;
 
  private:
   int inertia_flag;    // 1: the keyword is there, I = factor V^(2/n) + offset

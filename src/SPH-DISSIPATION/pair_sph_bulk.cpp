@@ -158,7 +158,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
   if (crowding_requested) crowd->run(list);
   forces->run(list, tally);
   if (!open->empty()) open->sum_impacts(list);
-  if (viscous->active()) forces->collect();
+  if (viscous->active() || has_own_temperatures()) forces->collect();
 
   pvector[0] = static_cast<double>(nbeyond);
   if (eflag_either) tally_energy();

@@ -63,7 +63,7 @@ void NoiseStage::run(const double *bound, int not_fluid)
   set_tags();
   if (energy) set_temperatures();
   add_pressure(factor, not_fluid);
-  if (!set_coeffs(factor)) return;
+  if (!set_coeffs(factor) && !energy) return;    // who pays for a random pressure is known by pairs
   if (form.kind == NoiseKind::DIRECTED) set_shares(bound, not_fluid);
   const LoopData &pairs = engine.pairs();
   const int most = pairs.inum ? *std::max_element(pairs.count, pairs.count + pairs.inum) : 0;

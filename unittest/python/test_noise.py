@@ -425,6 +425,30 @@ def test_energy_of_two_particles(lammps, mass):
     assert abs(share.mean() - exact) < 4 * error + 0.01 * exact  # and one percent of the time step
 
 
+def test_heat_of_each_mass_without_shear_viscosity(lammps):
+    """A fluid that only has bulk viscosity is the limit of one with a little shear viscosity, particle by particle."""
+    heats = []
+    for mu in (0.0, 1e-30):
+        text = heated(mass=4.0).replace(" 6.0 0.3 ", f" 6.0 {mu} ")
+        lammps(text + "compute e all property/atom esph\ndump E all custom 50 e.dump id c_e\n"
+               "dump_modify E sort id format float %.17g\nrun 50\n")
+        rows = lammps.path("e.dump").read_text().split("ITEM: ATOMS")[-1].splitlines()[1:]
+        heats.append(np.array([float(row.split()[1]) for row in rows]))
+    assert relative(heats[1] - heats[0], heats[0]) < 1e-12
+
+
+@pytest.mark.parametrize("style", ["sph/bulk", "sph/micropolar"])
+@pytest.mark.parametrize("ranks, newton", [(1, "on"), (1, "off"), (2, "on")])
+def test_work_of_another_force_is_not_paid_by_the_heat(lammps, style, ranks, newton):
+    """Each particle on a spring: energy of motion, heat, and springs, which first-order terms of the step would drain."""
+    text = f"newton {newton}\n" + heated(style, extra=(
+        "fix SPRING all spring/self 5.0\nvariable E equal c_E+f_SPRING\n"
+        "thermo_style custom step c_E c_E[1] f_SPRING v_E\nthermo 250\nthermo_modify norm no format float %.17g\n"))
+    thermo = lammps(text + "run 2000\n", ranks=ranks, timeout=300).thermo()[-1]
+    drift = np.polyfit(thermo["Step"] * 0.004, thermo["v_E"], 1)[0]
+    assert abs(drift) < 0.002 * thermo["c_E[1]"].mean()  # per time unit
+
+
 def test_motion_spin_and_heat_have_one_temperature(lammps):
     """Kinetic temperature, that of the spins, and that of the heat of the particles agree, and those of both masses."""
     text = heated("sph/micropolar", mass=3.0, extra=(
