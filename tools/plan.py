@@ -83,8 +83,10 @@ class Plan:
         self.lattice = f"{name} {1 / self.dx**self.dim:.8g}" if self.units == "lj" else f"{name} {constant * self.dx:.8g}"
         self.cells = [max(round(args.particles / (constant * edge)), 1) for edge in edges]
         self.number = per_cell * math.prod(self.cells)
-        if min(n * e for n, e in zip(self.cells, edges)) * constant < 2 * args.support:
-            raise SystemExit(f"plan: {args.particles} particles across are less than two support radii, {2 * args.support:g}")
+        width = constant * min(n * e for n, e in zip(self.cells, edges))
+        if width < 2 * args.support:
+            raise SystemExit(f"plan: a lattice of {args.particles} particles across is {width:.3g} distances wide, less than two support "
+                             f"radii, {2 * args.support:g}")
         self.set_time_step()
         self.steps = math.ceil((args.time or 10 * args.length / args.velocity) / self.dt)
 
