@@ -305,11 +305,17 @@ void FixSPHBulk::arrive(int i)
 
 void FixSPHBulk::setup_pre_force(int /*vflag*/)
 {
-  if (density_flag && !density_done) {
-    pair->set_mean_density(groupbit);
-    density_done = 1;
-  }
+  set_masses();
   if (update->whichflag == 1) add_remapped_velocity();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::set_masses()
+{
+  if (!density_flag || density_done) return;
+  pair->set_mean_density(groupbit);
+  density_done = 1;
 }
 
 /* ---------------------------------------------------------------------- */

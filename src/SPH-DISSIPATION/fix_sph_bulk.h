@@ -53,6 +53,11 @@ class FixSPHBulk : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
+  // before the first forces; masses first, of all integrators, then with the volumes the inertia: also of a
+  // fix that needs them before the integrator is set up.  Each is set once
+  void set_masses();
+  virtual void set_inertia() {}
+
   // a particle joins the group within a step, after the first half of the kick
   virtual void arrive(int i);
 

@@ -14,6 +14,7 @@
 #include "fix_sph_dt.h"
 
 #include "error.h"
+#include "fix_sph_bulk.h"
 #include "force.h"
 #include "integrate.h"
 #include "modify.h"
@@ -25,7 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -34,6 +35,13 @@ using SPHDissipation::UNLIMITED_STEP;
 // largest factor between a time step and the next one: forces are those of the time step before
 
 static constexpr double GROWTH = 1.25;
+
+// of a time that may be without end
+
+static double part_of(double part, double time)
+{
+  return (time < UNLIMITED_STEP) ? part * time : UNLIMITED_STEP;
+}
 
 /* ---------------------------------------------------------------------- */
 
@@ -96,37 +104,57 @@ void FixSPHDt::init()
 }
 
 /* ----------------------------------------------------------------------
-   before the first forces, which may be those of half a step; they are not known yet
+   before the first forces, which may be those of half a step; they are not known yet.  Integrators that are
+   set up later are to have set masses and inertia
 ------------------------------------------------------------------------- */
 
 void FixSPHDt::setup_pre_force(int /*vflag*/)
 {
+  std::vector<FixSPHBulk *> integrators;
+  for (const auto &ifix : modify->get_fix_list())
+    if (auto *integrator = dynamic_cast<FixSPHBulk *>(ifix)) integrators.push_back(integrator);
+  for (const auto &integrator : integrators) integrator->set_masses();
   pair->find_volumes();
+  for (const auto &integrator : integrators) integrator->set_inertia();
+
   limits[FORCE] = UNLIMITED_STEP;
   reset_step(allowed_step());
+}
+
+/* ----------------------------------------------------------------------
+   with a stage of their own for the viscous terms, the forces are the mean of half a step as it was
+   then, which must not act in a longer one
+------------------------------------------------------------------------- */
+
+void FixSPHDt::setup(int /*vflag*/)
+{
+  limits[FORCE] = part_of(part[FORCE], pair->fall_time());
+  const double step = allowed_step();
+  reset_step(pair->has_viscous_stage() ? std::min(step, update->dt) : step);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixSPHDt::end_of_step()
 {
-  limits[FORCE] = part[FORCE] * pair->fall_time();
+  limits[FORCE] = part_of(part[FORCE], pair->fall_time());
   reset_step(std::min(allowed_step(), GROWTH * update->dt));
 }
 
 /* ----------------------------------------------------------------------
    a stage of its own for the viscous terms allows any time step; the limit is then one of accuracy, if
-   it is asked for
+   it is asked for.  Without any limit the time step stays
 ------------------------------------------------------------------------- */
 
 double FixSPHDt::allowed_step()
 {
   double rate;
   pair->fastest(limits[ACOUSTIC], rate);
-  limits[ACOUSTIC] *= part[ACOUSTIC];
+  limits[ACOUSTIC] = part_of(part[ACOUSTIC], limits[ACOUSTIC]);
   const bool limited = given[VISCOUS] || !pair->has_viscous_stage();
   limits[VISCOUS] = (limited && rate > 0.0) ? part[VISCOUS] / rate : UNLIMITED_STEP;
-  const double step = *std::min_element(limits, limits + NLIMIT);
+  double step = *std::min_element(limits, limits + NLIMIT);
+  if (step >= UNLIMITED_STEP && largest >= UNLIMITED_STEP) step = update->dt;
   return std::max(smallest, std::min(step, largest));
 }
 

@@ -32,6 +32,7 @@ class FixSPHDt : public Fix {
   int setmask() override;
   void init() override;
   void setup_pre_force(int) override;
+  void setup(int) override;
   void end_of_step() override;
   double compute_scalar() override;
   double compute_vector(int) override;

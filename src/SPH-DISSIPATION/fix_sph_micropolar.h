@@ -39,9 +39,7 @@ class FixSPHMicropolar : public FixSPHBulk {
   void write_restart(FILE *) override;
   void restart(char *) override;
   void arrive(int) override;
-
-  // in setup(), once the volumes are known, of this fix or of one that needs the inertia
-  void set_inertia();
+  void set_inertia() override;
 
  protected:
   void reset_extrapolation(int, int, int) override;

@@ -270,8 +270,9 @@ namespace SPHDissipation {
   inline double combined_step(double acoustic, const std::vector<double> &viscous)
   {
     double rate = 0.0;
-    for (const double step : viscous) rate += 1.0 / step;
-    return std::min(acoustic, 1.0 / rate);
+    for (const double step : viscous)
+      if (step < UNLIMITED_STEP) rate += 1.0 / step;
+    return (rate > 0.0) ? std::min(acoustic, 1.0 / rate) : acoustic;
   }
 
 }    // namespace SPHDissipation

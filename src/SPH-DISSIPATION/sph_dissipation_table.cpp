@@ -58,7 +58,8 @@ void CoeffTable::add_row(int i, int j, const Columns &values, double acoustic_of
   steps.emplace_back("all", combined_step(acoustic_of_pair, viscous_steps));
   smallest = std::min(smallest, steps.back().second);
   acoustic = std::min(acoustic, acoustic_of_pair);
-  fastest = std::max(fastest, 1.0 / combined_step(UNLIMITED_STEP, viscous_steps));
+  const double viscous_step = combined_step(UNLIMITED_STEP, viscous_steps);
+  if (viscous_step < UNLIMITED_STEP) fastest = std::max(fastest, 1.0 / viscous_step);
 
   if (lines.empty()) {
     lines = "  types   ";

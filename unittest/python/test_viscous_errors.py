@@ -208,3 +208,38 @@ def test_dt_force_and_time(lammps):
     assert np.all(table["f_DT[3]"][5:] < table["f_DT[1]"][5:]) and dt[-1] < 0.5 * dt[0]
     assert np.all(dt[5:9] == dt[5]) and dt[0] == dt[4] != dt[5]
     np.testing.assert_allclose(np.diff(table["Time"]), dt[:-1], rtol=1e-12)
+
+
+def test_dt_knows_the_inertia_of_the_first_step(lammps):
+    """Keyword inertia of the integrator sets it later than the first time step: the order of the fixes does not matter."""
+    write(disordered(2, 10), lammps.path("box.data"), inertia=0.0)
+    integrate, dt = f"fix 1 all {MICRO} inertia 1e-3 0.0\n", f"{DT} 1\n"
+    tables = []
+    for fixes in (integrate + dt, dt + integrate):
+        result = lammps(header(2, style=MICRO) + "read_data box.data\n" + micropolar(2) + fixes
+                        + "thermo 1\nthermo_style custom step dt f_DT[2]\nthermo_modify format float %.15g\nrun 3\n")
+        tables.append(result.thermo()[0])
+        assert not any("exceeds" in line for line in result.warnings)
+    assert np.array_equal(tables[0]["Dt"], tables[1]["Dt"])
+    assert tables[0]["f_DT[2]"][0] == pytest.approx(tables[0]["f_DT[2]"][1], rel=0.01) and tables[0]["Dt"][0] < 1e-3
+
+
+def test_dt_knows_the_first_forces(lammps):
+    """Of a fix before it, at once, however large N is; with a stage of its own for the viscous terms, too."""
+    gravity = "fix G all gravity 1e4 vector 1 0 0\n"
+    for mode in ("", " viscous implicit"):
+        table, _ = steps(lammps, f"{gravity}fix 1 all sph/bulk{mode}", "20 force 0.02", kappa=1.0, run=2)
+        assert table["Dt"][0] == table["f_DT[3]"][0] < 0.5 * table["f_DT[1]"][0]
+
+
+def test_dt_without_a_limit(lammps):
+    """A gas without energy, viscosity and force has none: the time step stays, or is the largest one."""
+    particles = disordered(2, 10, speed=0.0, tilt=(0.0, 0.0, 0.0))
+    particles.esph[:] = 0.0
+    particles.write(lammps.path("cold.data"))
+    for words, expected in (("1", 0.001), ("1 max 0.5", 0.5), ("1 min 0.01", 0.01)):
+        result = lammps(header(2) + "read_data cold.data\npair_style sph/bulk dim 2 eos ideal\npair_coeff * * 1.0 1.4 0.0 0.0 3.0\n"
+                        + f"fix 1 all sph/bulk\ntimestep 0.001\n{DT} {words}\nthermo_style custom step dt f_DT[*]\nrun 2\n")
+        table = result.thermo()[0]
+        assert np.all(table["Dt"] == expected), words
+        assert all(np.all(table[f"f_DT[{k}]"] == 1e300) for k in (1, 2, 3))
