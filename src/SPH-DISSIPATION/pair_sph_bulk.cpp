@@ -197,7 +197,7 @@ bigint PairSPHBulk::sum_before_forces()
 
 void PairSPHBulk::find_viscous_velocity()
 {
-  if (neighbor->ago == 0) {
+  if (neighbor->ago == 0 || viscous->has_old_rates()) {
     find_smallest_inertia();
     viscous->set_rate(coeff_table(0.0).fastest_rate());
   }
@@ -460,6 +460,7 @@ void PairSPHBulk::find_own_types()
 void PairSPHBulk::derive_coeffs()
 {
   stale = false;
+  viscous->forget_rates();
   const int n = atom->ntypes;
   std::vector<PairCoeff> pair_coeffs((n + 1) * (n + 1));
   std::vector<double> rho0(n + 1);

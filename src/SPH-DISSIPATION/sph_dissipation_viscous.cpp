@@ -38,8 +38,8 @@ ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, cons
                            const PressureStage &pressure, BoundaryStage &boundary) :
     Stage(lmp, engine, exchange),
     statistics(), model(model), pressure(pressure), boundary(boundary), groups(0), known_rate(0.0),
-    rate(0.0), warned(false), list(nullptr), bound(nullptr), omegaest(nullptr), symmetric(true),
-    width(3), h(0.0), mean()
+    rate(0.0), outdated(true), warned(false), list(nullptr), bound(nullptr), omegaest(nullptr),
+    symmetric(true), width(3), h(0.0), mean()
 {
 }
 
@@ -381,8 +381,9 @@ void ViscousStage::rkl2_step(double interval)
 {
   constexpr int OFTEN = 20;          // steps between estimates
   constexpr double SAFETY = 1.15;    // for they are too low
-  if (update->setupflag || update->ntimestep % OFTEN == 0)
+  if (outdated || update->setupflag || update->ntimestep % OFTEN == 0)
     rate = std::max(known_rate, SAFETY * estimated_rate());
+  outdated = false;
   const double modes = rate * interval;
   const int s = settings.stages ? settings.stages : RKL2::stages_for(modes);
   if (modes > RKL2::rate_limit(s))

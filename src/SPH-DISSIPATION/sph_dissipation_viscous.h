@@ -50,7 +50,12 @@ namespace SPHDissipation {
     void configure(const ViscousSettings &, int groups, const std::string &style);
     bool active() const { return settings.mode != Viscous::EXPLICIT; }
     const ViscousSettings &choice() const { return settings; }
-    void set_rate(double rate_in) { known_rate = rate_in; }    // of the fastest mode, on lattices
+
+    // of the fastest mode, on lattices; other coefficients have others
+
+    void set_rate(double rate_in) { known_rate = rate_in; }
+    void forget_rates() { outdated = true; }
+    bool has_old_rates() const { return outdated; }
 
     // One step: begin() sets the forces aside; then the passes, with the guess of v_b that vest is; then
     // run(), after which the forces are those of begin() again, and the passes follow with v_b.
@@ -84,6 +89,7 @@ namespace SPHDissipation {
     std::string style;
     int groups;
     double known_rate, rate;    // of the fastest mode: on lattices; of these particles, at least
+    bool outdated;              // are the two
     bool warned;                // of iterations that were not enough, in this run
 
     // of this step

@@ -134,6 +134,18 @@ def test_restart_is_a_second_run(lammps, mode):
     np.testing.assert_allclose(lammps.frame("again.dump")["v"], lammps.frame("two.dump")["v"], rtol=0, atol=1e-12)
 
 
+def test_stages_follow_the_coefficients(lammps):
+    """fix adapt makes the bulk viscosity ten thousand times as large between two estimates of the rate."""
+    box(lammps)
+    adapt = "variable k equal 10.0+(step>4)*90000\nfix A all adapt 1 pair sph/bulk kappa * * v_k\n"
+    energy = "compute E all sph/energy\nthermo 1\nthermo_style custom step ke c_E f_1[1]\nthermo_modify norm no\n"
+    result = lammps(deck(f"{FIX} rkl2", kappa=10.0, before="velocity all scale 1e-4\nneighbor 1.0 bin\n", after=adapt + energy, run="run 12"))
+    table = result.thermo()[0]
+    assert table["f_1[1]"][4] <= 5 and np.all(table["f_1[1]"][5:] > 50)
+    assert np.ptp(table["c_E"]) < 1e-6 * table["c_E"][0] and np.all(np.diff(table["KinEng"][4:]) < 0.0)
+    refused(lammps, deck(f"{FIX} rkl2 stages 5", kappa=10.0, after=adapt, run="run 12"), "at step 5, which needs")
+
+
 def test_shear_flow_with_remapped_velocities(lammps):
     """fix deform remap v: neighbors across the boundary have another velocity; a Couette flow stays as it is."""
     particles = disordered(2, 12, jitter=0.0, speed=0.0, spread=0.0, tilt=(0.0, 0.0, 0.0))
