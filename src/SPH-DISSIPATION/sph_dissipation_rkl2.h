@@ -28,13 +28,13 @@ namespace SPHDissipation {
 
   class RKL2 {
    public:
-    static constexpr int FEWEST = 3;
+    static constexpr int FEWEST = 3, MOST = 1001;
 
     struct Stage {
       double mu, nu, mu_rate, gamma_rate;    // with the tilde
     };
 
-    explicit RKL2(int nstages) : w1(4.0 / (nstages * nstages + nstages - 2.0)) {}
+    explicit RKL2(int nstages) : w1(2.0 / rate_limit(nstages)) {}
 
     Stage first() const { return {0.0, 0.0, w1 / 3.0, 0.0}; }
 
@@ -45,21 +45,21 @@ namespace SPHDissipation {
       return {mu, nu, w1 * mu, -(1.0 - b(j - 1)) * w1 * mu};
     }
 
-    static double rate_limit(int nstages) { return 0.5 * (nstages * nstages + nstages - 2.0); }
+    static double rate_limit(double nstages) { return 0.5 * (nstages * nstages + nstages - 2.0); }
 
-    // the fewest stages, an odd number, for rate times time step
+    // the fewest stages, an odd number, for rate times time step; may be more than MOST
 
-    static int stages_for(double rate)
+    static double stages_for(double rate)
     {
-      const int s = static_cast<int>(std::ceil(0.5 * (std::sqrt(9.0 + 8.0 * rate) - 1.0)));
-      return std::max(FEWEST, s + (s % 2 == 0));
+      const double s = std::ceil(0.5 * (std::sqrt(9.0 + 8.0 * rate) - 1.0));
+      return std::max<double>(FEWEST, (std::fmod(s, 2.0) == 0.0) ? s + 1.0 : s);
     }
 
    private:
     double w1;
-    static double b(int j)
+    static double b(double j)
     {
-      return (j < 3) ? 1.0 / 3.0 : (j * j + j - 2.0) / (2.0 * j * (j + 1.0));
+      return (j < 2.5) ? 1.0 / 3.0 : (j * j + j - 2.0) / (2.0 * j * (j + 1.0));
     }
   };
 

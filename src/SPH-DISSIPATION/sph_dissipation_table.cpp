@@ -37,11 +37,15 @@ std::string CoeffTable::text(double dt) const
           "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
           "of the largest stable time step\n",
           ONE_PERCENT_STEP, TENTH_PERCENT_STEP);
-  if (fastest > 0.0)
+  if (fastest > 0.0) {
+    const double stages = RKL2::stages_for(fastest * dt);
     result += fmt::format("  largest stable time step with viscous explicit {:.4g}, with rkl2 or "
                           "implicit {:.4g}; the time step {:g} times the largest viscous rate is "
-                          "{:.3g}: rkl2 takes {} stages\n",
-                          smallest, acoustic, dt, fastest * dt, RKL2::stages_for(fastest * dt));
+                          "{:.3g}: rkl2 {}\n",
+                          smallest, acoustic, dt, fastest * dt,
+                          (stages <= RKL2::MOST) ? fmt::format("takes {:.0f} stages", stages)
+                                                 : "cannot be used");
+  }
   return result;
 }
 

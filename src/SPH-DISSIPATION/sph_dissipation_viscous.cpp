@@ -385,13 +385,21 @@ void ViscousStage::rkl2_step(double interval)
     rate = std::max(known_rate, SAFETY * estimated_rate());
   outdated = false;
   const double modes = rate * interval;
-  const int s = settings.stages ? settings.stages : RKL2::stages_for(modes);
+  const double needed = RKL2::stages_for(modes);
+  if (!(needed <= RKL2::MOST))
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Fix {} viscous rkl2: the largest viscous rate times the time step is {:.4g} at step "
+        "{}, which needs {:.4g} stages, more than the {} that there may be; use viscous "
+        "implicit or a smaller time step",
+        style, modes, update->ntimestep, needed, static_cast<int>(RKL2::MOST));
+  const int s = settings.stages ? settings.stages : static_cast<int>(needed);
   if (modes > RKL2::rate_limit(s))
     error->all(
         FLERR, Error::NOLASTLINE,
         "Fix {} viscous rkl2: the largest viscous rate times the time step is {:.4g} at step {}, "
         "which needs {} stages, not {}",
-        style, modes, update->ntimestep, RKL2::stages_for(modes), s);
+        style, modes, update->ntimestep, static_cast<int>(needed), s);
   statistics[ITERATIONS] = s;
 
   const RKL2 rkl2(s);

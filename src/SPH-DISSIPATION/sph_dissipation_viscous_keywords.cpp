@@ -48,9 +48,10 @@ int ViscousKeywords::argument(int iarg, int narg, char **arg)
   if (keyword == "stages") {
     rkl2_only = keyword;
     chosen.stages = (word == "auto") ? 0 : utils::inumeric(FLERR, word, false, lmp);
-    if (word != "auto" && (chosen.stages < RKL2::FEWEST || chosen.stages % 2 == 0))
-      error->all(FLERR, "Fix {} stages must be auto or an odd number >= {}, not {}", style,
-                 static_cast<int>(RKL2::FEWEST), word);
+    if (word != "auto" &&
+        (chosen.stages < RKL2::FEWEST || chosen.stages > RKL2::MOST || chosen.stages % 2 == 0))
+      error->all(FLERR, "Fix {} stages must be auto or an odd number from {} to {}, not {}", style,
+                 static_cast<int>(RKL2::FEWEST), static_cast<int>(RKL2::MOST), word);
     return nwords;
   }
 

@@ -36,8 +36,9 @@ FIX = "fix 1 all sph/bulk viscous"
     ("", "missing argument"),
     ("sometimes", "viscous must be explicit, rkl2, or implicit, not sometimes"),
     ("rkl2 stages", "missing argument"),
-    ("rkl2 stages 4", "stages must be auto or an odd number >= 3, not 4"),
-    ("rkl2 stages 1", "odd number >= 3, not 1"),
+    ("rkl2 stages 4", "stages must be auto or an odd number from 3 to 1001, not 4"),
+    ("rkl2 stages 1", "odd number from 3 to 1001, not 1"),
+    ("rkl2 stages 65537", "odd number from 3 to 1001, not 65537"),
     ("rkl2 stages x", "x"),
     ("rkl2 tolerance 1e-6", "tolerance is for viscous implicit only"),
     ("explicit stages 5", "stages is for viscous rkl2 only"),
@@ -64,6 +65,18 @@ def test_micropolar_has_the_same_words(lammps):
 
 def test_too_few_stages(lammps):
     refused(lammps, deck(f"{FIX} rkl2 stages 3", kappa=400.0), "largest viscous rate times the time step is", "needs 5 stages, not 3", ranks=2)
+
+
+def test_too_many_stages(lammps):
+    """1001 stages are possible, more are refused."""
+    box(lammps)
+    result = lammps(deck(f"{FIX} rkl2 stages 1001", kappa=1e6, after="velocity all scale 1e-3\nthermo_style custom step ke f_1[1]\n"))
+    table = result.thermo()[0]
+    assert np.all(table["f_1[1]"] == 1001) and np.all(np.isfinite(table["KinEng"])) and table["KinEng"][-1] < 1.0
+    for kappa in (1e9, 1e12, 1e30):
+        for stages in ("auto", "1001"):
+            refused(lammps, deck(f"{FIX} rkl2 stages {stages}", kappa=kappa), "stages, more than the 1001 that there may be")
+    assert "rkl2 cannot be used" in lammps(deck(f"{FIX} implicit", kappa=1e9, run="run 0")).log
 
 
 def test_iterations_exhausted(lammps):
