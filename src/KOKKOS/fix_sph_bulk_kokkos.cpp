@@ -73,6 +73,7 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup(int vflag)
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::initial_integrate(int vflag)
 {
+  check_set_up();
   constexpr uint64_t READ = X_MASK | V_MASK | F_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK |
       DESPH_MASK | DESPH_BEFORE_MASK | VEST_MASK;
   constexpr uint64_t MODIFIED = X_MASK | V_MASK | ESPH_MASK | DESPH_BEFORE_MASK | VEST_MASK;

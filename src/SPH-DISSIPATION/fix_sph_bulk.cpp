@@ -40,7 +40,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), fluid_style(without_suffix(style)), dtv(0.0), dtf(0.0), extrapolation(1.0),
     balanced(false), exact(false), density_done(0), shift_speed(0.0), remap_v_flag(0),
     integrated_groups(0), first_instance(false), viscous(new ViscousKeywords(lmp, style)),
-    pair(nullptr), density_flag(0), last_instance(false), not_integrated(0)
+    pair(nullptr), density_flag(0), set_up(false), last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -226,6 +226,7 @@ void FixSPHBulk::check_integrated_once()
 
 void FixSPHBulk::setup(int /*vflag*/)
 {
+  set_up = true;
   if (!pair || !last_instance) return;
   pair->announce();
   warn_not_integrated();
@@ -329,6 +330,7 @@ TimeStep FixSPHBulk::time_step() const
 
 void FixSPHBulk::initial_integrate(int /*vflag*/)
 {
+  check_set_up();
   double **x = atom->x;
   double **v = atom->v;
   double **f = atom->f;
@@ -349,6 +351,19 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
     for (int d = 0; d < 3; d++) step.begin(dtfm, f[i][d], x[i][d], v[i][d], vest[i][d]);
   }
   if (shift_speed > 0.0) shift_particles();
+}
+
+/* ----------------------------------------------------------------------
+   the time step, the pair style, and its forces are those of another fix then, or none
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::check_set_up() const
+{
+  if (!set_up)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix {} {} was defined after the last run was set up: the next one cannot be a run "
+               "with pre no",
+               id, style);
 }
 
 /* ----------------------------------------------------------------------

@@ -75,6 +75,7 @@ class FixSPHBulk : public Fix {
   int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
   int integrated_groups;    // bits of all groups with an integrator of this kind
   bool first_instance;      // acts for the particles outside all these groups
+  void check_set_up() const;
   int nlocal_group() const;
   SPHDissipation::TimeStep time_step() const;
   class AtomVecSPHBulk *avec() const;
@@ -100,6 +101,7 @@ class FixSPHBulk : public Fix {
   void shift_particles();
 
   int density_flag;         // set the masses so that the mean density is rho0
+  bool set_up;              // since it was defined
   bool last_instance;       // acts when all are set up
   bigint not_integrated;    // # of fluid particles that the last warning was about
 };

@@ -35,6 +35,7 @@ namespace SPHDissipation {
     double residual;     // relative to the scale
     bool converged;
     bool indefinite;    // the operator is not positive: no solution by conjugate gradients
+    bool finite;        // all values are numbers
   };
 
   // System has
@@ -65,6 +66,7 @@ namespace SPHDissipation {
         double curvature = 0.0;
         for (std::size_t k = 0; k < n; k++) curvature += p[k] * ap[k];
         system.sum(&curvature, 1);
+        result.finite = std::isfinite(curvature);
         if (!(curvature > 0.0)) {
           result.indefinite = true;
           break;
@@ -110,6 +112,7 @@ namespace SPHDissipation {
         apply(q, aq);
         double sums[2] = {product(aq, r), product(aq, aq)};
         system.sum(sums, 2);
+        result.finite = std::isfinite(sums[0]) && std::isfinite(sums[1]);
         if (!(sums[1] > 0.0) || sums[0] == 0.0) break;
         omega = sums[0] / sums[1];
         for (std::size_t k = 0; k < n; k++) {
@@ -124,7 +127,7 @@ namespace SPHDissipation {
     System &system;
     const double tolerance;
     const int most;
-    Solution result = {0, 0.0, false, false};
+    Solution result = {0, 0.0, false, false, true};
     double rr = 0.0;    // square of the residual
 
     double product(const Unknowns &a, const Unknowns &b) const
@@ -145,9 +148,10 @@ namespace SPHDissipation {
       double sums[2] = {product(system.residual, system.residual), system.scale_sq()};
       system.sum(sums, 2);
       rr = sums[0];
+      result.finite = std::isfinite(sums[0]) && std::isfinite(sums[1]);
       result.residual = (sums[1] > 0.0) ? std::sqrt(rr / sums[1]) : (rr > 0.0) ? 1.0 : 0.0;
       result.converged = (rr <= tolerance * tolerance * sums[1]);
-      return result.converged || result.applications >= most;
+      return result.converged || !result.finite || result.applications >= most;
     }
   };
 

@@ -292,6 +292,7 @@ void ViscousStage::solve()
   const Solution found = symmetric ? krylov.conjugate_gradients() : krylov.bi_conjugate_gradients();
   statistics[ITERATIONS] += found.applications;
   statistics[RESIDUAL] = std::max(statistics[RESIDUAL], found.residual);
+  check_finite(found.finite);
   if (found.converged) return;
 
   if (found.indefinite)
@@ -305,8 +306,27 @@ void ViscousStage::solve()
                   "iterations at step {}",
                   style, found.residual, settings.tolerance, found.applications, update->ntimestep);
   if (settings.must_converge) error->all(FLERR, Error::NOLASTLINE, message);
+  if (found.residual >= 1.0)
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Fix {} viscous implicit: residual {:.3g}, which is no solution, after {} iterations "
+        "at step {}; use a smaller time step or more iterations",
+        style, found.residual, found.applications, update->ntimestep);
   if (!warned && comm->me == 0) error->warning(FLERR, message);
   warned = true;
+}
+
+/* ----------------------------------------------------------------------
+   the same on all processors
+------------------------------------------------------------------------- */
+
+void ViscousStage::check_finite(bool finite) const
+{
+  if (!finite)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix {} viscous rkl2 or implicit: positions, velocities, or forces are not finite "
+               "numbers at step {}",
+               style, update->ntimestep);
 }
 
 /* ----------------------------------------------------------------------
@@ -381,8 +401,11 @@ void ViscousStage::rkl2_step(double interval)
 {
   constexpr int OFTEN = 20;          // steps between estimates
   constexpr double SAFETY = 1.15;    // for they are too low
-  if (outdated || update->setupflag || update->ntimestep % OFTEN == 0)
-    rate = std::max(known_rate, SAFETY * estimated_rate());
+  if (outdated || update->setupflag || update->ntimestep % OFTEN == 0) {
+    const double estimate = estimated_rate();
+    check_finite(std::isfinite(estimate));
+    rate = std::max(known_rate, SAFETY * estimate);
+  }
   outdated = false;
   const double modes = rate * interval;
   const double needed = RKL2::stages_for(modes);

@@ -125,6 +125,7 @@ namespace SPHDissipation {
     void find_rest();
     void friction(const Unknowns &in, Unknowns &out);
     void solve();
+    void check_finite(bool finite) const;
     void implicit_step(double interval);
     void sdirk2_step(double interval);
     void rkl2_step(double interval);

@@ -86,6 +86,27 @@ def test_iterations_exhausted(lammps):
     assert len(found) == 1 and "above the tolerance 1e-09" in found[0]
 
 
+@pytest.mark.parametrize("options", ["", "bulk volume"])
+def test_no_solution(lammps, options):
+    """A residual larger than the velocities is none, with iterations ... warn, too; by both solvers."""
+    refused(lammps, deck(f"{FIX} implicit", options, kappa=1e30), "which is no solution, after", "at step 0; use a smaller time step or more iterations", ranks=2)
+
+
+def test_not_finite(lammps):
+    """What is not a number is not taken for negative friction, or for a rate."""
+    infinite = "variable b atom 1e308*10*(id==3)\nset atom 3 vx v_b\n"
+    for options in ("", "bulk volume"):
+        for scheme in ("trapezoidal", "sdirk2"):
+            refused(lammps, deck(f"{FIX} implicit scheme {scheme}", options, after=infinite), "are not finite numbers at step 0", ranks=2)
+
+
+@pytest.mark.parametrize("keywords", ["", " viscous rkl2", " viscous implicit"])
+def test_new_fix_and_no_setup(lammps, keywords):
+    fix = f"fix 1 all sph/bulk{keywords}"
+    refused(lammps, deck(fix, run=f"run 3\nunfix 1\n{fix}\nrun 3 pre no"),
+            "Fix 1 sph/bulk was defined after the last run was set up: the next one cannot be a run with pre no")
+
+
 def test_other_ways_to_run(lammps):
     refused(lammps, deck(f"{FIX} rkl2", run="minimize 1e-4 1e-4 5 5"), "cannot be used in a minimization")
     refused(lammps, deck(f"{FIX} implicit", before="run_style respa 2 2\n"), "respa")
