@@ -37,10 +37,11 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), fluid_style(without_suffix(style)), dtv(0.0), dtf(0.0), extrapolation(1.0),
-    balanced(false), exact(false), density_done(0), shift_speed(0.0), remap_v_flag(0),
-    integrated_groups(0), first_instance(false), viscous(new ViscousKeywords(lmp, style)),
-    pair(nullptr), density_flag(0), set_up(false), last_instance(false), not_integrated(0)
+    Fix(lmp, narg, arg), fluid_style(without_suffix(style)), dtv(0.0), dtf(0.0), dt_of_forces(0.0),
+    extrapolation(1.0), balanced(false), exact(false), density_done(0), shift_speed(0.0),
+    remap_v_flag(0), integrated_groups(0), first_instance(false),
+    viscous(new ViscousKeywords(lmp, style)), pair(nullptr), density_flag(0), set_up(false),
+    last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -169,8 +170,13 @@ void FixSPHBulk::init_viscous()
   if (!pair || !pair->compute_flag)
     error->all(FLERR, "Fix {} viscous rkl2 or implicit requires the forces of pair style {}", style,
                style);
-  if (pair->has_noise() &&
-      !(settings.mode == Viscous::IMPLICIT && settings.scheme == Scheme::TRAPEZOIDAL))
+  if (settings.force_is_a_mean() && !modify->get_fix_by_style("^dt/reset").empty())
+    error->all(
+        FLERR,
+        "Fix {} viscous rkl2, or implicit with scheme sdirk2 or euler, cannot be used with fix "
+        "dt/reset, whose time step may jump, which creates kinetic energy; use fix sph/dt",
+        style);
+  if (pair->has_noise() && !settings.trapezoidal())
     error->all(FLERR,
                "Pair style {} with temp needs fix {} viscous explicit or implicit with scheme "
                "trapezoidal: others damp the fast motions more than the noise excites them",
@@ -227,6 +233,7 @@ void FixSPHBulk::check_integrated_once()
 void FixSPHBulk::setup(int /*vflag*/)
 {
   set_up = true;
+  dt_of_forces = dtv;
   if (!pair || !last_instance) return;
   pair->announce();
   warn_not_integrated();
@@ -331,6 +338,7 @@ TimeStep FixSPHBulk::time_step() const
 void FixSPHBulk::initial_integrate(int /*vflag*/)
 {
   check_set_up();
+  warn_of_jump();
   double **x = atom->x;
   double **v = atom->v;
   double **f = atom->f;
@@ -364,6 +372,23 @@ void FixSPHBulk::check_set_up() const
                "Fix {} {} was defined after the last run was set up: the next one cannot be a run "
                "with pre no",
                id, style);
+}
+
+/* ----------------------------------------------------------------------
+   of the time step, by commands between runs of which the second one has no setup
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::warn_of_jump() const
+{
+  constexpr double MOST = 2.0;
+  if (!(dtv > MOST * dt_of_forces) || !first_instance || !viscous->settings().force_is_a_mean())
+    return;
+  if (comm->me == 0)
+    error->warning(
+        FLERR,
+        "Fix {} viscous: the time step {:g} is more than twice that of the forces, {:g}, "
+        "which may create kinetic energy; use run without pre no, or fix sph/dt",
+        style, dtv, dt_of_forces);
 }
 
 /* ----------------------------------------------------------------------
@@ -438,6 +463,7 @@ void FixSPHBulk::add_remapped_velocity()
 
 void FixSPHBulk::final_integrate()
 {
+  dt_of_forces = dtv;
   double **v = atom->v;
   double **f = atom->f;
   double *rmass = atom->rmass;

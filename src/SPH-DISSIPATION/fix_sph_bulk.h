@@ -67,6 +67,7 @@ class FixSPHBulk : public Fix {
  protected:
   const std::string fluid_style;    // also of the atom style and the pair style, without suffix
   double dtv, dtf;
+  double dt_of_forces;      // time step that the forces are of
   double extrapolation;     // of velocities over half a step: 1, with thermal noise 0
   bool balanced;            // heat gets half of its rate at each end of a step, temp energy
   bool exact;               // motion and heat exchange energy exactly, see rest_of_heat()
@@ -95,6 +96,7 @@ class FixSPHBulk : public Fix {
 
  private:
   void check_integrated_once();
+  void warn_of_jump() const;
   void init_viscous();
   void warn_not_integrated();
   void add_remapped_velocity();

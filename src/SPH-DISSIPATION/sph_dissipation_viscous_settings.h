@@ -35,6 +35,14 @@ namespace SPHDissipation {
     int iterations = 1000;    // at most
     bool must_converge = false;
 
+    bool trapezoidal() const { return mode == Viscous::IMPLICIT && scheme == Scheme::TRAPEZOIDAL; }
+
+    // The force is the mean one of a decay over the whole time step.  In a longer one it overshoots,
+    // with more kinetic energy above twice the step; that of the trapezoidal step is the force of
+    // one moment, and what overshoots the next step takes back.
+
+    bool force_is_a_mean() const { return mode != Viscous::EXPLICIT && !trapezoidal(); }
+
     bool operator==(const ViscousSettings &b) const
     {
       return mode == b.mode && scheme == b.scheme && stages == b.stages &&

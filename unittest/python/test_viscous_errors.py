@@ -107,6 +107,27 @@ def test_new_fix_and_no_setup(lammps, keywords):
             "Fix 1 sph/bulk was defined after the last run was set up: the next one cannot be a run with pre no")
 
 
+JUMP = "run 3\ntimestep 0.2\nrun 3 {}"
+
+
+@pytest.mark.parametrize("mode", ["rkl2", "implicit scheme sdirk2", "implicit scheme euler", "implicit"])
+def test_jump_of_the_time_step(lammps, mode):
+    """The force of a short step is too large for a long one, but not the one of the trapezoidal step."""
+    box(lammps)
+    warned = "is more than twice that of the forces, 0.02, which may create kinetic energy"
+
+    def jump(pre):
+        return lammps(deck(f"{FIX} {mode}", run=JUMP.format(pre)))
+
+    assert any(warned in line for line in jump("pre no").warnings) == (mode != "implicit")
+    assert not any(warned in line for line in jump("").warnings)
+    reset = deck(f"{FIX} {mode}", after="fix R all dt/reset 1 NULL 0.1 0.1\n")
+    if mode == "implicit":
+        lammps(reset)
+    else:
+        refused(lammps, reset, "cannot be used with fix dt/reset", "use fix sph/dt")
+
+
 def test_other_ways_to_run(lammps):
     refused(lammps, deck(f"{FIX} rkl2", run="minimize 1e-4 1e-4 5 5"), "cannot be used in a minimization")
     refused(lammps, deck(f"{FIX} implicit", before="run_style respa 2 2\n"), "respa")
