@@ -26,6 +26,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <utility>
 
@@ -267,16 +268,21 @@ void ViscousStage::sum(double *values, int n) const
   MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, world);
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   a residual by which particles move less in a step than their positions are rounded needs no iteration
+------------------------------------------------------------------------- */
 
 double ViscousStage::scale_sq() const
 {
+  const double distance = DBL_EPSILON * engine.pairs().support;
+  const double rest = (update->dt > 0.0) ? distance / (update->dt * settings.tolerance) : 0.0;
   double total = 0.0;
   for (std::size_t k = 0; k < x.size(); k++) {
     const std::size_t d = k % width;
     const double frame = (d < 3) ? mean[d] : 0.0;
     const double v0 = before[k] - frame, v = guess[k] + x[k] - frame;
     total += 0.5 * mass[k] * (v0 * v0 + v * v);
+    if (d == 0) total += mass[k] * rest * rest;
   }
   return total;
 }

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from helpers import disordered, dump, fluid, header
+from helpers import disordered, dump, fluid, header, lattice
 from test_micropolar import STYLE as MICRO
 from test_micropolar import fluid as micropolar
 from test_micropolar import write
@@ -126,6 +126,14 @@ def test_jump_of_the_time_step(lammps, mode):
         lammps(reset)
     else:
         refused(lammps, reset, "cannot be used with fix dt/reset", "use fix sph/dt")
+
+
+def test_rest_is_not_solved_for(lammps):
+    """Velocities of rounding errors, of a lattice at rest under pressure."""
+    lattice(2, 10, spacing=0.97).write(lammps.path("box.data"))
+    result = lammps(deck(f"{FIX} implicit", after="thermo_style custom step ke f_1[*]\nthermo 1\n", run="run 20"))
+    table = result.thermo()[0]
+    assert np.all(table["f_1[1]"] <= 1) and np.all(table["f_1[2]"] <= 1e-6) and np.all(table["KinEng"] < 1e-20)
 
 
 def test_other_ways_to_run(lammps):
