@@ -117,6 +117,7 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, int prescribe
     sdirk2_step(interval);
   else
     implicit_step((settings.scheme == Scheme::EULER) ? interval : 0.5 * interval);
+  outdated = false;
   statistics[SECONDS] = platform::walltime() - begin;
 }
 
@@ -412,7 +413,6 @@ void ViscousStage::rkl2_step(double interval)
     check_finite(std::isfinite(estimate));
     rate = std::max(known_rate, SAFETY * estimate);
   }
-  outdated = false;
   const double modes = rate * interval;
   const double needed = RKL2::stages_for(modes);
   if (!(needed <= RKL2::MOST))

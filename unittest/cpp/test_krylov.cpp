@@ -168,4 +168,6 @@ TEST(RKL2, number_of_stages)
     if (s > 3) EXPECT_GT(rate, RKL2::rate_limit(s - 2));
   }
   EXPECT_EQ(RKL2::stages_for(100.0), 15);    // as in the literature
+  EXPECT_EQ(RKL2::stages_for(RKL2::rate_limit(RKL2::MOST)), RKL2::MOST);
+  EXPECT_GT(RKL2::stages_for(1.0e30), 1.0e15);    // no overflow
 }
