@@ -249,6 +249,9 @@ def add_pages(tree):
             continue
         text = page.read_text(encoding="utf-8")
         text = re.sub(r"^(\.\. version\w+::) TBD$", rf"\1 {tree.version}", text, flags=re.MULTILINE)
+        if "Accelerator Variants:" in text:    # LAMMPS's text about them stands before the restrictions
+            text = text.replace("Restrictions\n\"\"\"", "----------\n\n.. include:: accel_styles.rst\n\n----------\n\n"
+                                "Restrictions\n\"\"\"", 1)
         for old, new in RENAMED.items():
             text = re.sub(rf"<{old}>`", f"<{new or LINKS[old]}>`", text)
             text = re.sub(rf":doc:`{old}`", f":doc:`{new or LINKS[old]}`", text)

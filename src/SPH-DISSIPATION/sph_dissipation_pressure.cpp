@@ -68,9 +68,9 @@ bigint PressureStage::run(const double *bound, int not_fluid)
     }
     if (i < nlocal && is_beyond(i, bound)) nbeyond++;
 
-    const ParticleTerms terms = particle_terms(
-        eos, coeff.eos, model.choice.bulk, bulk_coefficient(i, bound), particle.vol,
-        engine.weight(i), engine.density[i].cdot, rho[i], esph[i] / rmass[i]);
+    const ParticleTerms terms =
+        particle_terms(eos, coeff.eos, model.choice.bulk, bulk_coefficient(i, bound), particle.vol,
+                       engine.weight(i), engine.density[i].cdot, rho[i], esph[i] / rmass[i]);
     engine.zeta_term[i] = terms.zeta_term;
     particle.g = terms.g;
     if (i < nlocal) desph[i] += terms.work;
