@@ -206,6 +206,8 @@ def add_sources(tree):
         needs = without.name if without.exists() else "pair_sph_bulk.h"
         tree.insert("src/KOKKOS/Install.sh", r"action (\S+\.(?:cpp|h))(?: \S+)?$", file.name,
                     f"action {file.name} {needs}\n")
+    # compute sph/spectrum has the FFTs of KSPACE if that is installed: compiled anew when it comes or goes
+    tree.replace("src/Depend.sh", 'if (test $1 = "KSPACE") then\n', f'if (test $1 = "KSPACE") then\n  depend {PACKAGE}\n')
     package = PACKAGE.lower()
     text = tree.read("src/Makefile")
     tree.write("src/Makefile", re.sub(r"^\tsph \\\n", rf"\tsph \\\n\t{package} \\\n", text, flags=re.MULTILINE))
@@ -234,6 +236,10 @@ def add_styles(tree):
             tree.insert(f"doc/src/{listed}", r"\* :doc:`([\w/]+) <", name, f"* :doc:`{name} <{page}>` - {about}\n")
             tree.insert(f"doc/src/Commands_{kind}.rst", r"   \* :doc:`([\w/]+)(?: \(\w+\))? <", name,
                         f"   * :doc:`{name}{letters(kind, name)} <{page}>`\n")
+    accelerated = [name for name in sorted(STYLES["atom"]) if letters("atom", name)]
+    text = tree.read("doc/src/atom_style.rst")
+    tree.write("doc/src/atom_style.rst", re.sub(r"^(\* accelerated styles .*)$", r"\1" + "".join(f" or *{name}/kk*" for name in accelerated),
+                                                text, count=1, flags=re.MULTILINE))
     old = re.search(r"or \*sph\* or", tree.read("doc/src/atom_style.rst"))[0]
     tree.replace("doc/src/atom_style.rst", old, "or *sph* or *sph/bulk* or *sph/micropolar* or")
 
@@ -249,9 +255,11 @@ def add_pages(tree):
             continue
         text = page.read_text(encoding="utf-8")
         text = re.sub(r"^(\.\. version\w+::) TBD$", rf"\1 {tree.version}", text, flags=re.MULTILINE)
-        if "Accelerator Variants:" in text:    # LAMMPS's text about them stands before the restrictions
-            text = text.replace("Restrictions\n\"\"\"", "----------\n\n.. include:: accel_styles.rst\n\n----------\n\n"
-                                "Restrictions\n\"\"\"", 1)
+        if "Accelerator Variants:" in text:    # LAMMPS's text about them stands where a page becomes general
+            text, count = re.subn(r"^(?:-{5,}\n\n)?((?:Mixing|Restart), .*\n\"{5,}\n)",
+                                  r"----------\n\n.. include:: accel_styles.rst\n\n----------\n\n\1", text, count=1, flags=re.MULTILINE)
+            if count != 1:
+                raise SystemExit(f"upstream: no place for the text about accelerated styles in {page.name}")
         for old, new in RENAMED.items():
             text = re.sub(rf"<{old}>`", f"<{new or LINKS[old]}>`", text)
             text = re.sub(rf":doc:`{old}`", f":doc:`{new or LINKS[old]}`", text)

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # ways.sh WAY LAMMPS TREE: builds LAMMPS with the package by one of the ways that README.md describes, in the folder
 # TREE, and runs the smoke input. WAY is hook, make or plugin, or upstream: the patch that makes the package a part of
-# LAMMPS, without the hook; LAMMPS is a version to obtain, 26 or 25, or the folder of a source tree. WAY mismatch compiles a plugin for another version than that of the LAMMPS which WAY plugin left in TREE.
+# LAMMPS, without the hook; LAMMPS is a version to obtain, 26 or 25, or the folder of a source tree. WAY mismatch compiles
+# a plugin for another version than that of the LAMMPS which WAY plugin left in TREE; WAY testers runs LAMMPS's own testers
+# of styles on the package's reference data in what WAY upstream left there.
 # Environment: ROOT (the package's repository), PYTHON, REFERENCE (result of the smoke input to compare with), LAUNCHER
-# (ccache, or empty), SPHD_JOBS, SPHD_CACHE.
+# (ccache, or empty), SPHD_JOBS, SPHD_CACHE, GOOGLETEST (folder of its sources, for testers).
 set -euo pipefail
 export CCACHE_DIR=$SPHD_CACHE/ccache
 
@@ -97,16 +99,34 @@ case $way in
     "$PYTHON" "$ROOT/tools/upstream.py" "$lammps" sph-dissipation.patch --tree changed
     mkdir patched
     ln -s "$lammps"/* patched
-    for folder in src cmake; do
+    for folder in src cmake unittest; do
       rm "patched/$folder"
       cp -r "$lammps/$folder" patched
     done
-    cp -r changed/src changed/cmake patched
+    cp -r changed/src changed/cmake changed/unittest patched
     lammps=$tree/patched
     lammps_by_cmake build -D PKG_SPH-DISSIPATION=on
     smoke build/lmp smoke
     expect_error "$no_spectrum" build/lmp -in spectrum.in -var result none
-    build/lmp -h | grep -q SPH-DISSIPATION || { echo "lmp -h does not name the package"; exit 1; }
+    build/lmp -h | grep SPH-DISSIPATION >/dev/null || { echo "lmp -h does not name the package"; exit 1; }
+    ;;
+
+  testers)
+    lammps=$tree/patched
+    # LAMMPS compiles a GoogleTest of its own: here that of the distribution
+    tar -czf googletest.tar.gz -C "$GOOGLETEST/.." "$(basename "$GOOGLETEST")"
+    configure_lammps build -D PKG_SPH-DISSIPATION=on -D ENABLE_TESTING=on -D GTEST_URL="file://$tree/googletest.tar.gz" \
+      -D GTEST_SHA256="$(sha256sum <googletest.tar.gz | cut -d ' ' -f 1)"
+    ninja -C build -j "$jobs" test_pair_style test_fix_timestep >>build.log 2>&1 || { tail -n 30 build.log; exit 1; }
+    regex='^(AtomicPairStyle|FixTimestep):sph_(bulk|micropolar|torque|wall)'
+    ctest --test-dir build/unittest/force-styles -R "$regex" --verbose --no-tests=error >testers.log ||
+      { tail -n 60 testers.log; exit 1; }
+    # a tester whose style is missing passes, and skips all
+    ! grep "SKIPPED .*[.]plain" testers.log || { echo "skipped in the testers of LAMMPS"; exit 1; }
+    count=$(grep -c "^ *[0-9]*/[0-9]* Test .* Passed " testers.log)
+    files=$(cd "$ROOT/unittest/force-styles/tests" && printf '%s\n' *.yaml | wc -l)
+    [[ $count -eq $files ]] || { echo "LAMMPS's testers ran $count of $files files"; exit 1; }
+    echo "$count files of reference data in LAMMPS's testers"
     ;;
 
   make)
@@ -162,7 +182,7 @@ case $way in
     # replicate would need the atom style in a new Atom object; for other atom styles it works as ever
     printf '%s\n' "plugin load $plugin" "region box block 0 1 0 1 0 1" "create_box 1 box" "create_atoms 1 single 0 0 0" \
       "replicate 2 2 2" >replicate.in
-    build/lmp -in replicate.in -log none | grep -q " 8 atoms" || { echo "replicate is broken for other atom styles"; exit 1; }
+    build/lmp -in replicate.in -log none | grep " 8 atoms" >/dev/null || { echo "replicate is broken for other atom styles"; exit 1; }
     printf '%s\n' "plugin load $plugin" "include $here/in.smoke" "replicate 2 2 2" >replicate.in
     expect_error "Cannot replicate atom style sph/bulk loaded from a plugin" build/lmp -in replicate.in -var result none
 
