@@ -17,6 +17,7 @@
 #include "pointers.h"
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_kernel.h"
+#include "sph_dissipation_rows.h"
 
 #include <string>
 #include <vector>
@@ -35,44 +36,6 @@ namespace LAMMPS_NS {
 class NeighList;
 
 namespace SPHDissipation {
-
-  // The loops read and write these structures as rows of doubles.
-
-  // what the pair loops read of a particle: one cache line
-
-  struct Particle {
-    double x[3];    // position
-    double u[3];    // velocity extrapolated to the end of the step
-    double vol;     // V = w/c
-    double g;       // (p + zeta cdot/c) / c^2 (bulk density), p/c^2 (otherwise)
-  };
-
-  // number density and its rate: what pass 1 accumulates
-
-  struct DensitySum {
-    double c, cdot;
-  };
-
-  // force and heat of the shear term: what pass 2 accumulates
-
-  struct ForceSum {
-    double f[3];
-    double heat;
-  };
-
-  // spin, extrapolated to the end of the step
-
-  struct Spin {
-    double w[3];
-    double unused;    // rows are read by fours
-  };
-
-  // torque and heat of the vortex and of the spin diffusion term: what pass 2 accumulates
-
-  struct TorqueSum {
-    double t[3];
-    double heat_vortex, heat_spin;
-  };
 
   // receives the force on i from j of each pair, for virials that are summed by pair
 

@@ -24,11 +24,7 @@ namespace SPHDissipation {
   namespace LOOPS {
 
 #include "sph_dissipation_kernel_shapes.h"
-
-    // added to r and r^2 before dividing: two particles at the same point, r_ij = 0, exert no force
-    // on each other
-
-    constexpr double TINY = 1.0e-300;
+#include "sph_dissipation_pair_terms.h"
 
     // pass 2 has the processor fetch the rows of the neighbors that come two blocks later
 
@@ -231,8 +227,8 @@ namespace SPHDissipation {
           Vec pj[8];
           load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
           load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
-          const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
-          Vec ux = pi.u[0] - pj[3], uy = pi.u[1] - pj[4], uz = pi.u[2] - pj[5];
+          const Vec r[3] = {pi.x[0] - pj[0], pi.x[1] - pj[1], pi.x[2] - pj[2]};
+          Vec u[3] = {pi.u[0] - pj[3], pi.u[1] - pj[4], pi.u[2] - pj[5]};
           const Vec vol = pj[6], g = pj[7];
           for (int l = 0; l < LANES; l++) {
             prefetch(particle + j[l + AHEAD]);
@@ -243,11 +239,11 @@ namespace SPHDissipation {
             }
           }
           const Vec slope = load(slope_of + k);
-          const Vec rsq = dx * dx + dy * dy + dz * dz;
-          const Vec vv_slope = if_positive(rsq, pi.vol * vol * slope);
-          const Vec approach = dx * ux + dy * uy + dz * uz;
+          const Vec rsq = dot(r, r);
+          const Vec vv_slope = volumes_slope(rsq, pi.vol, vol, slope);
+          const Vec approach = dot(r, u);
           Vec heat = all(0.0);
-          Vec central = (pi.g + g) * slope, pressing = slope;
+          Vec central = pressing_term(pi.g, g, slope), pressing = slope;
           if constexpr (WEIGHTED) {
             const Vec weights = data.weight[i] * gather(data.weight, j);
             central *= weights;
@@ -259,7 +255,7 @@ namespace SPHDissipation {
 
           if ((ALONG_R || ALONG_U) && !data.uniform) coeff.load(data, i, j, n - k);
 
-          const Vec metric = (SHEAR == Shear::MG_FR) ? square_root(rsq) : rsq;
+          const Vec metric = metric_of<SHEAR == Shear::MG_FR>(rsq);
           Vec by_metric = all(0.0), inverse = all(0.0);
           if constexpr (Noise::VECTOR) {
             inverse = 1.0 / (rsq + TINY);
@@ -268,7 +264,7 @@ namespace SPHDissipation {
             by_metric = vv_slope / (metric + TINY);
 
           if constexpr (Noise::ON) {
-            noise.draw(j, n - k, dx, dy, dz, slope, vv_slope, metric, by_metric, inverse);
+            noise.draw(j, n - k, r[0], r[1], r[2], slope, vv_slope, metric, by_metric, inverse);
             central += noise.central;
           }
           Vec vv_drag = vv_slope, by_drag = by_metric;
@@ -278,48 +274,38 @@ namespace SPHDissipation {
           }
 
           if constexpr (ALONG_R) {
-            const Vec drag = coeff.along_r * by_drag * approach;
+            const Vec drag = drag_along_r(coeff.along_r, by_drag, approach);
             central -= drag;
-            heat = 0.5 * drag * approach;
+            heat = half_heat_along_r(drag, approach);
           }
           if constexpr (VOLUME) {
-            central += (zeta_term_i + gather(data.zeta_term, j)) * vv_slope;
-            const Vec flux = slope * approach;
+            central += volume_term(zeta_term_i, gather(data.zeta_term, j), vv_slope);
+            const Vec flux = divergence_term(slope, approach);
             total_flux += flux * vol;
             add_column<1>(data.divergence, j, -pi.vol * flux);
           }
-          Vec fx = central * dx, fy = central * dy, fz = central * dz;
-          if constexpr (Noise::ON) noise.add_force(fx, fy, fz);
-          Vec wx, wy, wz;
+          Vec f[3] = {central * r[0], central * r[1], central * r[2]};
+          if constexpr (Noise::ON) noise.add_force(f[0], f[1], f[2]);
+          Vec w[4];
           if constexpr (SPIN) {
-            Vec wj[4];
-            load_4_columns<WIDTH<Spin>>(numbers(data.spin), j, wj);
-            wx = wj[0], wy = wj[1], wz = wj[2];
-            const Vec mx = 0.5 * spin_i.w[0] + 0.5 * wx;
-            const Vec my = 0.5 * spin_i.w[1] + 0.5 * wy;
-            const Vec mz = 0.5 * spin_i.w[2] + 0.5 * wz;
-            ux = ux - my * dz + mz * dy;
-            uy = uy - mz * dx + mx * dz;
-            uz = uz - mx * dy + my * dx;
+            load_4_columns<WIDTH<Spin>>(numbers(data.spin), j, w);
+            slip_velocity(spin_i.w, w, r, u);
           }
           if constexpr (ALONG_U) {
             const Vec drag = coeff.along_u * vv_drag;
             const Vec half_drag = 0.5 * drag;
-            fx -= drag * ux;
-            fy -= drag * uy;
-            fz -= drag * uz;
-            const Vec heat_u = half_drag * (ux * ux + uy * uy + uz * uz);
+            add_drag_along_u(drag, u, f);
+            const Vec heat_u = half_heat_along_u(half_drag, u);
             if constexpr (SPIN) {
-              Vec t[3] = {half_drag * (dy * uz - dz * uy), half_drag * (dz * ux - dx * uz),
-                          half_drag * (dx * uy - dy * ux)};
-              const Vec sx = spin_i.w[0] - wx, sy = spin_i.w[1] - wy, sz = spin_i.w[2] - wz;
-              const Vec along = dx * sx + dy * sy + dz * sz;
-              const Vec drag1 = coeff.xi1 * by_drag * along;
+              Vec t[3], spin[3];
+              half_torque(half_drag, r, u, t);
+              const Vec s[3] = {spin_i.w[0] - w[0], spin_i.w[1] - w[1], spin_i.w[2] - w[2]};
+              const Vec along = dot(r, s);
+              const Vec drag1 = drag_along_r(coeff.xi1, by_drag, along);
               const Vec drag2 = coeff.xi2 * vv_drag;
-              Vec spin[3] = {drag1 * dx + drag2 * sx, drag1 * dy + drag2 * sy,
-                             drag1 * dz + drag2 * sz};
-              Vec heat_spin = 0.5 * (drag1 * along + drag2 * (sx * sx + sy * sy + sz * sz));
-              if constexpr (Noise::ENERGY) heat_spin -= 0.5 * noise.spin_power(sx, sy, sz);
+              spin_torque(drag1, drag2, r, s, spin);
+              Vec heat_spin = half_heat_of_spins(drag1, drag2, along, s);
+              if constexpr (Noise::ENERGY) heat_spin -= 0.5 * noise.spin_power(s[0], s[1], s[2]);
               if constexpr (Noise::ON) noise.add_torque(t, spin);
               if constexpr (Noise::ENERGY) given = noise.given_by_torque(t, spin);
               const Vec on_j[4] = {t[0] + spin[0], t[1] + spin[1], t[2] + spin[2], heat_u};
@@ -332,26 +318,21 @@ namespace SPHDissipation {
               heat += heat_u;
           }
 
-          total_f[0] += fx;
-          total_f[1] += fy;
-          total_f[2] += fz;
+          for (int d = 0; d < 3; d++) total_f[d] += f[d];
           Vec heat_j = heat;
           if constexpr (Noise::ENERGY) {
-            const Vec work = 0.5 * noise.power(approach, ux, uy, uz);
-            const Vec viscous[3] = {fx - by_pressure * dx, fy - by_pressure * dy,
-                                    fz - by_pressure * dz};
+            const Vec work = 0.5 * noise.power(approach, u[0], u[1], u[2]);
+            const Vec viscous[3] = {f[0] - by_pressure * r[0], f[1] - by_pressure * r[1],
+                                    f[2] - by_pressure * r[2]};
             given += noise.given(viscous, rsq, pressing);
             heat -= work - given;
             heat_j -= work + given;
           }
           total_f[3] += heat;
-          const Vec on_j[4] = {-fx, -fy, -fz, heat_j};
+          const Vec on_j[4] = {-f[0], -f[1], -f[2], heat_j};
           add_4_columns<WIDTH<ForceSum>>(numbers(data.force), j, on_j);
 
-          if (data.tally) {
-            const Vec f[3] = {fx, fy, fz}, r[3] = {dx, dy, dz};
-            tally_block(data.tally, i, j, n - k, f, r);
-          }
+          if (data.tally) tally_block(data.tally, i, j, n - k, f, r);
         }
 
         ForceSum &fi = data.force[i];

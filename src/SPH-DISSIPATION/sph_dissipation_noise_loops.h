@@ -149,7 +149,7 @@ template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseD
       load_4_columns<WIDTH<Particle>>(numbers(pairs.particle), j, pj);
       const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
       const Vec rsq = dx * dx + dy * dy + dz * dz;
-      const Vec metric = FR ? square_root(rsq) : rsq;
+      const Vec metric = metric_of<FR>(rsq);
       if (!pairs.uniform) coeff.load(pairs, data, i, j, n - k);
       const PairCounter counter(step, data.tag[i], gather(data.tag, j));
       using Numbers = PairNumbers<ACROSS, false, true>;

@@ -1,0 +1,64 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_ROWS_H
+#define LMP_SPH_DISSIPATION_ROWS_H
+
+// What the pair loops read of each particle, and what they sum up for it.  No LAMMPS include.
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // The loops read and write these structures as rows of doubles; 16 bytes are what a GPU loads at
+  // once.
+
+  // what the pair loops read of a particle: one cache line
+
+  struct alignas(16) Particle {
+    double x[3];    // position
+    double u[3];    // velocity extrapolated to the end of the step
+    double vol;     // V = w/c
+    double g;       // (p + zeta cdot/c) / c^2 (bulk density), p/c^2 (otherwise)
+  };
+
+  // number density and its rate: what pass 1 accumulates
+
+  struct alignas(16) DensitySum {
+    double c, cdot;
+  };
+
+  // force and heat of the shear term: what pass 2 accumulates
+
+  struct alignas(16) ForceSum {
+    double f[3];
+    double heat;
+  };
+
+  // spin, extrapolated to the end of the step
+
+  struct alignas(16) Spin {
+    double w[3];
+    double unused;    // rows are read by fours
+  };
+
+  // torque and heat of the vortex and of the spin diffusion term: what pass 2 accumulates
+
+  struct TorqueSum {
+    double t[3];
+    double heat_vortex, heat_spin;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
