@@ -261,7 +261,8 @@ void PairSPHBulkKokkos<DeviceType>::heating(double *heat, double *power) const
   if (!on_device) return PairSPHBulk::heating(heat, power);
   std::fill(power, power + NCHANNEL, 0.0);
   if (heat) std::fill(heat, heat + atom->nlocal + atom->nghost, 0.0);
-  for (int k : {SHEAR, BULK}) {
+  const int nchannel = engine->has_spin() ? NCHANNEL : VORTEX;    // its own come last
+  for (int k = 0; k < nchannel; k++) {
     const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
     for (int i = 0; i < atom->nlocal; i++) {
       power[k] += from(i);
@@ -320,7 +321,9 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::grow()
   anew(data->particle, "sph:particle");
   anew(data->density, "sph:density");
   anew(data->zeta_term, "sph:zeta_term");
-  for (auto &heat : data->heat) anew(heat, "sph:heat");
+  const bool spins = engine->has_spin();
+  if (spins) anew(data->spin, "sph:spin");
+  for (int k = 0; k < (spins ? NCHANNEL : VORTEX); k++) anew(data->heat[k], "sph:heat");
   data->each = (model->choice.volume == Volume::MASS) ? 1 : 0;
   if (data->each)
     anew(data->weight, "sph:weight");
@@ -497,6 +500,8 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::run_forces(bool 
         return run_force_loop<K, Shear::MORRIS>(virial);
       case Shear::ESPANOL:
         return run_force_loop<K, Shear::ESPANOL>(virial);
+      case Shear::MICROPOLAR:
+        return run_force_loop<K, Shear::MICROPOLAR>(virial);
       default:
         return run_force_loop<K, Shear::NONE>(virial);
     }
@@ -558,7 +563,7 @@ template <class DeviceType> double PairSPHBulkKokkos<DeviceType>::memory_usage()
 {
   double bytes = PairSPHBulk::memory_usage();
   bytes += (double) data->particle.extent(0) *
-      (sizeof(ParticleKokkos) + sizeof(DensityKokkos) + 3 * sizeof(double));
+      (sizeof(Particle) + sizeof(DensitySum) + 3 * sizeof(double));
   return bytes + (double) data->weight.extent(0) * sizeof(double);
 }
 

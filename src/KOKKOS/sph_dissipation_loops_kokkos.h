@@ -22,49 +22,22 @@
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_kernel.h"
 #include "sph_dissipation_particle_terms.h"
+#include "sph_dissipation_rows.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-  // force on i and half of the heat of the shear term, as in force_loop() of the CPU styles, which has
-  // vectors of pairs, and noise and spins in the midst of them.  r = r_i - r_j, u = u_i - u_j,
-  // vv_slope = F V_i V_j, 0 if r = 0; central = what pressure and bulk term put before r
+  // what the formulas of a pair need of numbers, see sph_dissipation_simd.h
 
-  template <Shear SHEAR>
-  KOKKOS_FORCEINLINE_FUNCTION double pair_terms(const double *r, const double *u, double rsq,
-                                                double approach, double vv_slope, double central,
-                                                const PairCoeff &coeff, double *force)
+  SPH_INLINE double square_root(double a)
   {
-    constexpr bool ALONG_R =
-        (SHEAR == Shear::MG || SHEAR == Shear::MG_FR || SHEAR == Shear::ESPANOL);
-    constexpr bool ALONG_U = (SHEAR == Shear::MORRIS || SHEAR == Shear::ESPANOL);
-    constexpr double TINY = 1.0e-300;    // two particles at the same point exert no force
-
-    double heat = 0.0;
-    if constexpr (ALONG_R) {
-      const double metric = (SHEAR == Shear::MG_FR) ? Kokkos::sqrt(rsq) : rsq;
-      const double drag = coeff.along_r * vv_slope / (metric + TINY) * approach;
-      central -= drag;
-      heat = 0.5 * drag * approach;
-    }
-    for (int d = 0; d < 3; d++) force[d] = central * r[d];
-    if constexpr (ALONG_U) {
-      const double drag = coeff.along_u * vv_slope;
-      for (int d = 0; d < 3; d++) force[d] -= drag * u[d];
-      heat += 0.5 * drag * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-    }
-    return heat;
+    return Kokkos::sqrt(a);
+  }
+  SPH_INLINE double if_positive(double a, double value)
+  {
+    return (a > 0.0) ? value : 0.0;
   }
 
-  // what the loops read of a particle, owned or ghost
-
-  struct alignas(64) ParticleKokkos {
-    double x[3], u[3];
-    double vol, g;
-  };
-
-  struct DensityKokkos {
-    double c, cdot;
-  };
+#include "sph_dissipation_pair_terms.h"
 
   // coefficients of a type
 
@@ -81,19 +54,20 @@ namespace SPHDissipation {
     typename AT::t_int_1d ilist, numneigh;
     typename AT::t_neighbors_2d neighbors;
 
-    Kokkos::View<ParticleKokkos *, DeviceType> particle;
-    Kokkos::View<DensityKokkos *, DeviceType> density;
+    Kokkos::View<Particle *, DeviceType> particle;
+    Kokkos::View<Spin *, DeviceType> spin;    // micropolar
+    Kokkos::View<DensitySum *, DeviceType> density;
     Kokkos::View<double *, DeviceType>
         weight;    // reference volume w of particle i: weight(i * each)
     int each;      // 0: it is the same for all, 1
-    Kokkos::View<double *, DeviceType> zeta_term;    // zeta cdot/c
-    Kokkos::View<double *, DeviceType> heat[2];      // of owned particles: shear, bulk
-    Kokkos::View<PairCoeff *, DeviceType> coeff;     // coeff(type[i] * ntypes_1 + type[j * typed])
+    Kokkos::View<double *, DeviceType> zeta_term;         // zeta cdot/c
+    Kokkos::View<double *, DeviceType> heat[NCHANNEL];    // of owned particles
+    Kokkos::View<PairCoeff *, DeviceType> coeff;    // coeff(type[i] * ntypes_1 + type[j * typed])
     int ntypes_1;
     int typed;    // 0: the coefficients of all pairs are the same
 
     typename AT::t_int_1d type;
-    typename AT::t_kkacc_1d_3 f;
+    typename AT::t_kkacc_1d_3 f, torque;    // torque: micropolar
     Kokkos::View<double *, Kokkos::LayoutRight, DeviceType> desph;
     Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> vatom;    // if it is asked for
 
@@ -109,7 +83,7 @@ namespace SPHDissipation {
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
     {
       const int i = data.ilist(ii);
-      const ParticleKokkos pi = data.particle(i);
+      const Particle pi = data.particle(i);
       const double support_sq = data.support * data.support;
       const double support_inv = 1.0 / data.support;
       double c = data.self_weight * data.weight(i * data.each), cdot = 0.0;
@@ -117,7 +91,7 @@ namespace SPHDissipation {
       const int jnum = data.numneigh(i);
       for (int jj = 0; jj < jnum; jj++) {
         const int j = data.neighbors(i, jj) & NEIGHMASK;
-        const ParticleKokkos &pj = data.particle(j);
+        const Particle &pj = data.particle(j);
         const double dx = pi.x[0] - pj.x[0], dy = pi.x[1] - pj.x[1], dz = pi.x[2] - pj.x[2];
         const double rsq = dx * dx + dy * dy + dz * dz;
         if (rsq >= support_sq) continue;
@@ -156,57 +130,93 @@ namespace SPHDissipation {
 
     template <bool VIRIAL> KOKKOS_INLINE_FUNCTION void row(int ii, double *virial) const
     {
+      constexpr bool SPIN = (SHEAR == Shear::MICROPOLAR);
+      constexpr bool ALONG_R =
+          (SHEAR == Shear::MG || SHEAR == Shear::MG_FR || SHEAR == Shear::ESPANOL || SPIN);
+      constexpr bool ALONG_U = (SHEAR == Shear::MORRIS || SHEAR == Shear::ESPANOL || SPIN);
+
       const int i = data.ilist(ii);
-      const ParticleKokkos pi = data.particle(i);
+      const Particle pi = data.particle(i);
+      const Spin spin_i = SPIN ? data.spin(i) : Spin();
       const double support_sq = data.support * data.support;
       const double support_inv = 1.0 / data.support;
       const double zeta_term_i = data.zeta_term(i);
       const double weight_i = data.weight(i * data.each);
-      const PairCoeff *const coeff = &data.coeff(data.type(i) * data.ntypes_1);
-      double fx = 0.0, fy = 0.0, fz = 0.0, heat = 0.0, divergence = 0.0;
+      const PairCoeff *const coeff_i = &data.coeff(data.type(i) * data.ntypes_1);
+      double total_f[3] = {0.0, 0.0, 0.0}, total_t[3] = {0.0, 0.0, 0.0};
+      double heat = 0.0, vortex_heat = 0.0, spin_heat = 0.0, divergence = 0.0;
 
       const int jnum = data.numneigh(i);
       for (int jj = 0; jj < jnum; jj++) {
         const int j = data.neighbors(i, jj) & NEIGHMASK;
-        const ParticleKokkos &pj = data.particle(j);
+        const Particle &pj = data.particle(j);
         const double r[3] = {pi.x[0] - pj.x[0], pi.x[1] - pj.x[1], pi.x[2] - pj.x[2]};
-        const double rsq = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+        const double rsq = dot(r, r);
         if (rsq >= support_sq) continue;
-        const double u[3] = {pi.u[0] - pj.u[0], pi.u[1] - pj.u[1], pi.u[2] - pj.u[2]};
-        const double approach = r[0] * u[0] + r[1] * u[1] + r[2] * u[2];
-        const double slope = data.slope_norm * K::slope(Kokkos::sqrt(rsq) * support_inv);
-        const double vv_slope = (rsq > 0.0) ? pi.vol * pj.vol * slope : 0.0;
+        double u[3] = {pi.u[0] - pj.u[0], pi.u[1] - pj.u[1], pi.u[2] - pj.u[2]};
+        const double approach = dot(r, u);
+        const double slope = data.slope_norm * K::slope(square_root(rsq) * support_inv);
+        const double vv_slope = volumes_slope(rsq, pi.vol, pj.vol, slope);
+        const PairCoeff &coeff = coeff_i[data.type(j * data.typed)];
 
-        double central = (pi.g + pj.g) * slope * weight_i * data.weight(j * data.each);
-        if constexpr (VOLUME) {
-          central += (zeta_term_i + data.zeta_term(j)) * vv_slope;
-          divergence -= slope * approach * pj.vol;
+        double central = pressing_term(pi.g, pj.g, slope) * weight_i * data.weight(j * data.each);
+        double by_metric = 0.0;
+        if constexpr (ALONG_R) {
+          by_metric = vv_slope / (metric_of<SHEAR == Shear::MG_FR>(rsq) + TINY);
+          const double drag = drag_along_r(coeff.along_r, by_metric, approach);
+          central -= drag;
+          heat += half_heat_along_r(drag, approach);
         }
-        double force[3];
-        heat += pair_terms<SHEAR>(r, u, rsq, approach, vv_slope, central,
-                                  coeff[data.type(j * data.typed)], force);
-        fx += force[0];
-        fy += force[1];
-        fz += force[2];
+        if constexpr (VOLUME) {
+          central += volume_term(zeta_term_i, data.zeta_term(j), vv_slope);
+          divergence -= divergence_term(slope, approach) * pj.vol;
+        }
+        double f[3] = {central * r[0], central * r[1], central * r[2]};
+        if constexpr (SPIN) slip_velocity(spin_i.w, data.spin(j).w, r, u);
+        if constexpr (ALONG_U) {
+          const double drag = coeff.along_u * vv_slope;
+          add_drag_along_u(drag, u, f);
+          const double heat_u = half_heat_along_u(0.5 * drag, u);
+          if constexpr (SPIN) {
+            const Spin &spin_j = data.spin(j);
+            double t[3], on_j[3];
+            half_torque(0.5 * drag, r, u, t);
+            const double s[3] = {spin_i.w[0] - spin_j.w[0], spin_i.w[1] - spin_j.w[1],
+                                 spin_i.w[2] - spin_j.w[2]};
+            const double along = dot(r, s);
+            const double drag1 = drag_along_r(coeff.xi1, by_metric, along);
+            const double drag2 = coeff.xi2 * vv_slope;
+            spin_torque(drag1, drag2, r, s, on_j);
+            for (int d = 0; d < 3; d++) total_t[d] += t[d] - on_j[d];
+            vortex_heat += heat_u;
+            spin_heat += half_heat_of_spins(drag1, drag2, along, s);
+          } else
+            heat += heat_u;
+        }
+        for (int d = 0; d < 3; d++) total_f[d] += f[d];
 
         if constexpr (VIRIAL) {    // half for each partner
-          virial[0] += 0.5 * r[0] * force[0];
-          virial[1] += 0.5 * r[1] * force[1];
-          virial[2] += 0.5 * r[2] * force[2];
-          virial[3] += 0.5 * r[0] * force[1];
-          virial[4] += 0.5 * r[0] * force[2];
-          virial[5] += 0.5 * r[1] * force[2];
+          virial[0] += 0.5 * r[0] * f[0];
+          virial[1] += 0.5 * r[1] * f[1];
+          virial[2] += 0.5 * r[2] * f[2];
+          virial[3] += 0.5 * r[0] * f[1];
+          virial[4] += 0.5 * r[0] * f[2];
+          virial[5] += 0.5 * r[1] * f[2];
         }
       }
 
       const double bulk =
           bulk_heat(data.bulk, zeta_term_i, pi.vol, weight_i, data.density(i).cdot, divergence);
-      data.f(i, 0) += fx;
-      data.f(i, 1) += fy;
-      data.f(i, 2) += fz;
-      data.heat[0](i) = heat;
-      data.heat[1](i) = bulk;
+      for (int d = 0; d < 3; d++) data.f(i, d) += total_f[d];
+      data.heat[Channel::SHEAR](i) = heat;
+      data.heat[Channel::BULK](i) = bulk;
       data.desph(i) += heat + bulk;
+      if constexpr (SPIN) {
+        for (int d = 0; d < 3; d++) data.torque(i, d) += total_t[d];
+        data.heat[Channel::VORTEX](i) = vortex_heat;
+        data.heat[Channel::SPIN](i) = spin_heat;
+        data.desph(i) += vortex_heat + spin_heat;
+      }
     }
   };
 

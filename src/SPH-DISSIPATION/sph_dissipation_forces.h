@@ -14,16 +14,13 @@
 #ifndef LMP_SPH_DISSIPATION_FORCES_H
 #define LMP_SPH_DISSIPATION_FORCES_H
 
+#include "sph_dissipation_rows.h"
 #include "sph_dissipation_stage.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   class PairTally;
-
-  // where the fluid turns motion into heat
-
-  enum Channel { SHEAR, BULK, VORTEX, SPIN, NCHANNEL };
 
   // Pass 2: forces, torques and heating of owned atoms and the contributions to ghost atoms, onto
   // the arrays of LAMMPS, which sums up those of the ghosts itself

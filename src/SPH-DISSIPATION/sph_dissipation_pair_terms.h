@@ -31,8 +31,7 @@ template <class Real> SPH_INLINE Real dot(const Real *a, const Real *b)
 
 // F V_i V_j
 
-template <class Real>
-SPH_INLINE Real volumes_slope(Real rsq, double vol_i, Real vol_j, Real slope)
+template <class Real> SPH_INLINE Real volumes_slope(Real rsq, double vol_i, Real vol_j, Real slope)
 {
   return if_positive(rsq, vol_i * vol_j * slope);
 }

@@ -58,6 +58,10 @@ namespace SPHDissipation {
     double heat_vortex, heat_spin;
   };
 
+  // where the fluid turns motion into heat
+
+  enum Channel { SHEAR, BULK, VORTEX, SPIN, NCHANNEL };
+
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS
 
