@@ -20,6 +20,7 @@
 #include "fix_sph_bulk.h"
 #include "force.h"
 #include "group.h"
+#include "input.h"
 #include "math_extra.h"
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
@@ -36,6 +37,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -45,10 +47,13 @@ using namespace SPHDissipation;
 static constexpr double NODES = 3.0;          // of the plane, per radius of what is measured there
 static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
-// in restart files: size, ledger, rows, clock, point and normal of the plane; then the waves
+// in restart files: -format, size, ledger, rows, clock, point and normal of the plane; then the waves;
+// files without a format begin with the size
 
+static constexpr int FORMAT = 1003;
 enum {
-  LEDGER = 1,
+  SIZE = 1,
+  LEDGER,
   ROWS = LEDGER + OpenLedger::NVALUE,
   CLOCK = ROWS + OpenRows::NSTATE,
   PLANE,
@@ -162,6 +167,11 @@ void FixSPHOpen::init()
     error->all(FLERR, "Fix {} does not support run_style respa", style);
   if (update->whichflag == 2)
     error->all(FLERR, "Fix {} cannot be used in a minimization: its particles have a velocity",
+               style);
+  if (input->command && strcmp(input->command, "rerun") == 0)
+    error->all(FLERR,
+               "Fix {} cannot be used with rerun: snapshots have neither the groups of the "
+               "particles nor the waves in the zone",
                style);
   if (pair->has_noise())
     error->all(FLERR,
@@ -404,7 +414,7 @@ void FixSPHOpen::sample(Engine &engine)
   values->evaluate(igroup);
   for (const int i : near) atom->mask[i] &= ~groupbit;
 
-  samples->begin();
+  samples->begin(condition->clock);
   for (const int i : near) {
     const Particle &particle = engine.particle[i];
     samples->add(particle.x, plane->height(particle.x), particle.vol,
@@ -471,7 +481,8 @@ void FixSPHOpen::write_restart(FILE *fp)
   if (comm->me != 0) return;
   const std::vector<double> waves = samples->pack();
   state.insert(state.end(), waves.begin(), waves.end());
-  state[0] = static_cast<double>(state.size());
+  state[0] = -FORMAT;
+  state[SIZE] = static_cast<double>(state.size());
   if (state.size() * sizeof(double) > MAXSMALLINT)
     error->one(FLERR, "Fix {} {}: the waves in the zone are too many for a restart file", style,
                id);
@@ -485,11 +496,14 @@ void FixSPHOpen::write_restart(FILE *fp)
 void FixSPHOpen::restart(char *buf)
 {
   const auto *const state = reinterpret_cast<double *>(buf);
+  if (state[0] != -FORMAT)
+    error->all(FLERR, "Fix {} {}: the restart file was written by {} version of this fix", style,
+               id, (state[0] < -FORMAT) ? "a newer" : "an older");
   ledger->restart(state + LEDGER);
   condition->clock = state[CLOCK];
   if (plane->is_at(state + PLANE)) {
     rows->unpack(state + ROWS);
-    waves_before.assign(state + NHEAD, state + static_cast<int>(state[0]));
+    waves_before.assign(state + NHEAD, state + static_cast<int>(state[SIZE]));
   } else
     warn_of_other_plane();
 }

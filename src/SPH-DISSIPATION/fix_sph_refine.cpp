@@ -46,6 +46,12 @@ static constexpr double NEVER = -1.0e300;            // step of the last event
 
 enum { STEP, FAMILY, NPAST };
 
+// in restart files: -format, ledger, highest ID that was ever given; files without a format begin with
+// the number of splits; this number also stands for what is written of each particle
+
+static constexpr int FORMAT = 1003;
+enum { LEDGER = 1, HIGHEST = LEDGER + RefineLedger::NVALUE, NSTATE };
+
 /* ---------------------------------------------------------------------- */
 
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
@@ -437,15 +443,14 @@ int FixSPHRefine::maxsize_restart()
   return 1 + NPAST;
 }
 
-/* ----------------------------------------------------------------------
-   the ledger, and the highest ID that was ever given
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void FixSPHRefine::write_restart(FILE *fp)
 {
-  double state[RefineLedger::NVALUE + 1];
-  ledger->total(state);
-  state[RefineLedger::NVALUE] = static_cast<double>(event->highest);
+  double state[NSTATE];
+  state[0] = -FORMAT;
+  ledger->total(state + LEDGER);
+  state[HIGHEST] = static_cast<double>(event->highest);
   if (comm->me != 0) return;
   const int size = sizeof(state);
   fwrite(&size, sizeof(int), 1, fp);
@@ -455,8 +460,11 @@ void FixSPHRefine::write_restart(FILE *fp)
 void FixSPHRefine::restart(char *buf)
 {
   const auto *state = reinterpret_cast<double *>(buf);
-  ledger->restart(state);
-  event->highest = static_cast<tagint>(state[RefineLedger::NVALUE]);
+  if (state[0] != -FORMAT)
+    error->all(FLERR, "Fix {} {}: the restart file was written by {} version of this fix", style,
+               id, (state[0] < -FORMAT) ? "a newer" : "an older");
+  ledger->restart(state + LEDGER);
+  event->highest = static_cast<tagint>(state[HIGHEST]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -35,17 +35,30 @@ void OpenSamples::init(double averaging_time_in, double memory_in)
   const std::size_t n = plane.nnodes();
   if (nodes.size() != n) {
     nodes.assign(n, Node());
+    before = nodes;
     history.clear();
   }
   sums.assign(n, Sums());
   my_sums.assign(n, Sums());
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Forces are computed again at the start of a run, and twice in a step with a viscous stage: what the
+   first time found is taken back.
+------------------------------------------------------------------------- */
 
-void OpenSamples::begin()
+void OpenSamples::begin(double time)
 {
   std::fill(my_sums.begin(), my_sums.end(), Sums());
+  bool repeated = false;
+  while (!history.empty() && history.back().time >= time) {
+    history.pop_back();
+    repeated = true;
+  }
+  if (repeated)
+    nodes = before;
+  else
+    before = nodes;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -79,10 +92,7 @@ void OpenSamples::add(const double *x, double height, double volume, const OpenS
   });
 }
 
-/* ----------------------------------------------------------------------
-   a force computation that is repeated, at the start of a run, replaces what it found before; the
-   averages have that time already
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void OpenSamples::finish(double time)
 {
@@ -90,15 +100,8 @@ void OpenSamples::finish(double time)
                 static_cast<int>(sizeof(Sums) / sizeof(double)) * plane.nnodes(), MPI_DOUBLE,
                 MPI_SUM, world);
 
-  bool repeated = false;
-  while (!history.empty() && history.back().time >= time) {
-    history.pop_back();
-    repeated = true;
-  }
-  double part = 1.0;
-  if (!history.empty())
-    part = repeated ? 0.0 : 1.0 - exp((history.back().time - time) / averaging_time);
-
+  const double part = history.empty() ? 1.0
+                                      : 1.0 - exp((history.back().time - time) / averaging_time);
   history.push_back({time, std::vector<double>(nodes.size(), 0.0)});
   for (std::size_t n = 0; n < nodes.size(); n++) {
     Node &node = nodes[n];
@@ -244,8 +247,8 @@ void OpenSamples::mean_at_plane(double *p, double *u) const
 
 double OpenSamples::memory_usage() const
 {
-  return static_cast<double>(nodes.size() *
-                             (2 * sizeof(Sums) + sizeof(Node) + history.size() * sizeof(double)));
+  return static_cast<double>(
+      nodes.size() * (2 * sizeof(Sums) + 2 * sizeof(Node) + history.size() * sizeof(double)));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -254,10 +257,11 @@ std::vector<double> OpenSamples::pack() const
 {
   std::vector<double> buf = {static_cast<double>(nodes.size()),
                              static_cast<double>(history.size())};
-  for (const auto &node : nodes) {
-    const auto *const from = reinterpret_cast<const double *>(&node);
-    buf.insert(buf.end(), from, from + sizeof(Node) / sizeof(double));
-  }
+  for (const auto *const all : {&nodes, &before})
+    for (const Node &node : *all) {
+      const auto *const from = reinterpret_cast<const double *>(&node);
+      buf.insert(buf.end(), from, from + sizeof(Node) / sizeof(double));
+    }
   for (const auto &past : history) {
     buf.push_back(past.time);
     buf.insert(buf.end(), past.wave.begin(), past.wave.end());
@@ -273,12 +277,13 @@ bool OpenSamples::unpack(const std::vector<double> &state)
   const std::size_t n = nodes.size();
   if (state.size() < 2 || static_cast<std::size_t>(state[0]) != n) return false;
   const auto npast = static_cast<std::size_t>(state[1]);
-  if (state.size() != 2 + n * WIDTH + npast * (1 + n)) return false;
+  if (state.size() != 2 + 2 * n * WIDTH + npast * (1 + n)) return false;
   const double *buf = state.data() + 2;
-  for (auto &node : nodes) {
-    std::copy_n(buf, WIDTH, reinterpret_cast<double *>(&node));
-    buf += WIDTH;
-  }
+  for (auto *const all : {&nodes, &before})
+    for (Node &node : *all) {
+      std::copy_n(buf, WIDTH, reinterpret_cast<double *>(&node));
+      buf += WIDTH;
+    }
   history.clear();
   for (std::size_t k = 0; k < npast; k++, buf += n + 1)
     history.push_back({buf[0], std::vector<double>(buf + 1, buf + 1 + n)});

@@ -44,9 +44,9 @@ namespace SPHDissipation {
 
     void init(double averaging_time, double memory);    // memory: longest lag, time units
 
-    // this step: begin(); add() for each owned particle of the fluid; finish(), until which
+    // this time: begin(); add() for each owned particle of the fluid; finish(), until which
     // what is asked for below is that of the step before
-    void begin();
+    void begin(double time);
     void add(const double *x, double height, double volume, const OpenSample &, Kernel,
              double radius);
     void finish(double time);
@@ -93,8 +93,8 @@ namespace SPHDissipation {
     const OpenPlane &plane;
     double averaging_time, memory;
     std::vector<Sums> my_sums, sums;
-    std::vector<Node> nodes;
-    std::deque<Past> history;    // the oldest first
+    std::vector<Node> nodes, before;    // before: without the last time
+    std::deque<Past> history;           // the oldest first
 
     void fit(const Sums &, Node &) const;
     template <class Function> double interpolate(const Spot &, Function &&function) const;

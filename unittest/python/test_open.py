@@ -1,10 +1,12 @@
 """fix sph/open: a stream that passes undisturbed, on any number of ranks; restarts; flow that reverses."""
 
+import struct
+
 import numpy as np
 import pytest
 
 from helpers import relative
-from open_boundaries import SKIN, Channel, account, columns, dump
+from open_boundaries import SKIN, Channel, account, columns, dump, errors
 
 U = 0.1
 
@@ -150,6 +152,18 @@ def test_restart(lammps, before, after, steps):
     assert whole["f_in[1]"][-1] > whole["f_in[1]"][0] > 0
 
 
+@pytest.mark.parametrize("form, word", [(96.0, "an older"), (-1002.0, "an older"), (-1004.0, "a newer")])
+def test_restart_file_of_another_version(lammps, form, word):
+    channel = Channel(kind="hex", length=20)
+    lammps(unsteady(lammps, channel) + "write_restart state.restart\n")
+    data = lammps.path("state.restart").read_bytes()
+    head = struct.pack("<d", -1003.0)
+    assert data.count(head) == 2
+    lammps.path("state.restart").write_bytes(data.replace(head, struct.pack("<d", form)))
+    result = lammps("read_restart state.restart\n" + after_read(channel), ranks=2, check=False)
+    assert result.code != 0 and f"Fix sph/open in: the restart file was written by {word} version of this fix" in errors(result)
+
+
 def test_restart_is_close_to_the_run_without_it(lammps):
     """Lists are built at the same steps, for what enters stands behind the last one of its row as that is then.  What
     differs is the start of any run: its first forces have the velocities, not the extrapolated ones."""
@@ -191,6 +205,48 @@ def test_pause(lammps, pause):
     for key in table:
         if key != "Step":
             assert np.abs(table[key][-1] - other[key][-1]) < 1e-11 * max(np.abs(table[key][-1]), 1.0), key
+
+
+def hesitating(place):
+    """A stream that is slower at the first plane than ahead of it."""
+    return stream(place) * (1 - 0.5 * np.exp(-(place[:, :1] / 3)**2))
+
+
+TAKEN_FROM_INSIDE = [("density 1.01", f"velocity {U} 0 0"), (f"velocity {U} 0 0", "density 1.0"),
+                     ("pressure 0.01 condition characteristic", f"velocity {U} 0 0 condition characteristic")]
+
+
+@pytest.mark.parametrize("inlet, outlet", TAKEN_FROM_INSIDE)
+@pytest.mark.parametrize("pause", ["run 0\n", "run 0\nrun 0\nwrite_restart x.restart\nrun 0\n"])
+def test_pause_before_the_first_step(lammps, inlet, outlet, pause):
+    """Forces that are computed again take the place of those before them: also the first sample, of which there was no average."""
+    channel = Channel(kind="hex", length=20)
+    frames = []
+    for commands in ("", pause):
+        lammps(channel.text(lammps, inlet, outlet, velocity=hesitating) + commands + dump("out.dump", 40) + "run 40\n")
+        frames.append(lammps.frame("out.dump"))
+    assert np.ptp(frames[0]["vx"][:50]) > 1e-3
+    for name in ("x", "v", "c_RHO"):
+        assert np.abs(frames[1][name] - frames[0][name]).max() < 1e-13, name
+
+
+@pytest.mark.parametrize("inlet, outlet, order", [(*ends, order) for ends, order in zip(TAKEN_FROM_INSIDE, (1, 2, 1))])
+@pytest.mark.parametrize("stage", ["rkl2", "implicit"])
+def test_forces_twice_a_step(lammps, inlet, outlet, order, stage):
+    """With a viscous stage, which does nothing to a fluid without friction: what is left is the error of the time step."""
+    channel = Channel(kind="hex", length=20)
+    difference = []
+    for timestep in (0.05, 0.025):
+        frames = []
+        for viscous in ("", f" viscous {stage}"):
+            steps = round(4.0 / timestep)
+            lammps(channel.text(lammps, inlet, outlet, velocity=hesitating, coeff="1.0 1.0 0.0 0.0 {R}", timestep=timestep,
+                                integrate="density rho0" + viscous) + dump("out.dump", steps) + f"run {steps}\n")
+            frames.append(lammps.frame("out.dump"))
+        difference.append([np.abs(frames[1][name] - frames[0][name]).max() for name in ("x", "v", "c_RHO")])
+    ratio = np.divide(*difference)
+    print(ratio)
+    assert (ratio > 0.97 * 2**order).all()
 
 
 # ---------------------------------------------------------------------------------------------

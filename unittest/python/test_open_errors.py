@@ -88,6 +88,7 @@ def test_variable_that_becomes_nan_in_the_run(lammps):
     (("atom_style sph/bulk", "atom_style sph/bulk\natom_modify map yes first fluid"), "atom_modify first"),
     (("run 100", "run_style respa 2 2\nrun 100"), "respa"),
     (("run 100", "minimize 0 1e-6 10 10"), "cannot be used in a minimization"),
+    (("run 100", "dump D all custom 1 rerun.dump id x y vx vy\nrun 1\nrerun rerun.dump dump x y vx vy"), "cannot be used with rerun: "),
     (("fix in in", "delete_atoms group in\nfix in in"), "group in is empty"),
     (("group in id", "group fluid id 1:10\ngroup in id"), "are in both groups in and fluid"),
     (("pair_style sph/bulk", "pair_style zero 3.0\npair_coeff * *\n#"), "requires pair style|pair_coeff|Incorrect"),

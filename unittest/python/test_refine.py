@@ -1,5 +1,7 @@
 """Particles that split and merge (fix sph/refine): what is conserved, the ledger, numbers of ranks, files, errors."""
 
+import struct
+
 import numpy as np
 import pytest
 
@@ -331,6 +333,18 @@ def test_restart(lammps, dim, spin):
         assert relative(one[name] - other[name], one[name]) < 1e-9, name
     for k in range(1, 17):
         assert abs(ledger(whole, k) - ledger(again, k)) < 1e-9 * (1.0 + abs(ledger(whole, k))), k
+
+
+@pytest.mark.parametrize("form, word", [(0.0, "an older"), (-1002.0, "an older"), (-1004.0, "a newer")])
+def test_restart_file_of_another_version(lammps, form, word):
+    fix = "fix R all sph/refine 5 volume 1.0\n"
+    lammps(fluid_box(lammps, lattice(2, 8), False) + fix + "write_restart whole\n")
+    data = lammps.path("whole").read_bytes()
+    head = struct.pack("<d", -1003.0)
+    assert data.count(head) == 1
+    lammps.path("whole").write_bytes(data.replace(head, struct.pack("<d", form)))
+    result = lammps("read_restart whole\n" + fix, ranks=2, check=False)
+    assert result.code != 0 and f"Fix sph/refine R: the restart file was written by {word} version of this fix" in result.error
 
 
 def test_life(lammps):
