@@ -28,7 +28,6 @@ ComputeSPHGrid::ComputeSPHGrid(LAMMPS *lmp, int narg, char **arg) :
     GridCompute(lmp, narg, arg), vector2d(nullptr), vector3d(nullptr), array2d(nullptr),
     array3d(nullptr)
 {
-  pergrid_flag = 1;
   int iarg = 6;
   while (iarg < narg && add_value(arg[iarg])) iarg++;
   while (iarg < narg)

@@ -17,6 +17,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "group.h"
 #include "memory.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_fft.h"
@@ -56,7 +57,7 @@ enum { U = 0, RHO = 3, ROOT = 4, OMEGA = 7, NFIELD = 10 };
 
 ComputeSPHSpectrum::ComputeSPHSpectrum(LAMMPS *lmp, int narg, char **arg) :
     GridCompute(lmp, narg, arg), deconvolve(false), nshell(0),
-    micropolar(atom->style_match("sph/micropolar") != nullptr), checked(false), raised_box()
+    micropolar(atom->style_match("sph/micropolar") != nullptr), checked(false)
 {
   if (!FourierGrid::available())
     error->all(FLERR,
@@ -121,12 +122,13 @@ void ComputeSPHSpectrum::init()
                most);
 
   const double points = static_cast<double>(count[0]) * count[1] * count[2];
-  if (points > static_cast<double>(atom->natoms) && !checked && comm->me == 0)
+  const bigint particles = group->count(igroup);
+  if (points > static_cast<double>(particles) && !checked && comm->me == 0)
     error->warning(
         FLERR,
         "Compute {}: the grid has {:.0f} points for {} particles: its shortest waves are "
         "interpolated, not simulated",
-        style, points, atom->natoms);
+        style, points, particles);
   checked = true;
 }
 
@@ -187,7 +189,7 @@ void ComputeSPHSpectrum::calculate()
   if (empty)
     error->all(FLERR, "Compute {}: {} points of the grid have no particle in reach", style, empty);
   transform_fields();
-  set_raise(find_pair()->support_radius());
+  if (deconvolve) set_raise();
   sum_modes();
   set_dissipation();
 }
@@ -217,14 +219,17 @@ void ComputeSPHSpectrum::transform_fields()
 
 /* ---------------------------------------------------------------------- */
 
-void ComputeSPHSpectrum::set_raise(double support)
+void ComputeSPHSpectrum::set_raise()
 {
   const double *const prd = domain->prd;
-  if (!deconvolve || (!raise.empty() && std::equal(prd, prd + 3, raised_box))) return;
-  std::copy(prd, prd + 3, raised_box);
+  const double support = find_pair()->support_radius();
+  const Kernel kernel = find_pair()->fluid().choice.kernel;
+  const std::vector<double> made_for = {prd[0], prd[1], prd[2], support,
+                                        static_cast<double>(kernel)};
+  if (!raise.empty() && made_for == raised_for) return;
+  raised_for = made_for;
   raise.clear();
   raise.reserve(grid->npoint());
-  const Kernel kernel = find_pair()->fluid().choice.kernel;
   for (int iz = grid->lo[2]; iz <= grid->hi[2]; iz++)
     for (int iy = grid->lo[1]; iy <= grid->hi[1]; iy++)
       for (int ix = grid->lo[0]; ix <= grid->hi[0]; ix++) {

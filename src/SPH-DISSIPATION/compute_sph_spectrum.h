@@ -50,13 +50,13 @@ class ComputeSPHSpectrum : public SPHDissipation::GridCompute {
   std::unique_ptr<SPHDissipation::FourierGrid> fourier;
   std::vector<std::vector<std::complex<double>>> modes;    // of each field, see calculate()
   std::vector<double> raise;                               // factor of each mode
-  double raised_box[3];                                    // for which raise is
+  std::vector<double> raised_for;                          // box, support radius, kernel
 
   double shell_width() const;
   int last_shell() const;
   void calculate();
   void transform_fields();
-  void set_raise(double);
+  void set_raise();
   void sum_modes();
   void set_dissipation();
 };

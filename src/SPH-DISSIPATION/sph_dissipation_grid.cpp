@@ -53,6 +53,14 @@ ParticleGrid::~ParticleGrid()
 
 /* ---------------------------------------------------------------------- */
 
+bool ParticleGrid::fits() const
+{
+  const ParticleGrid now(lmp, count);
+  return std::equal(lo, lo + 3, now.lo) && std::equal(hi, hi + 3, now.hi);
+}
+
+/* ---------------------------------------------------------------------- */
+
 bigint ParticleGrid::map(const Smoothing &smoothing, double **values, int nfield)
 {
   for (int d = 0; d < 3; d++) {
@@ -215,6 +223,7 @@ void ParticleGrid::sum_moments(const Smoothing &smoothing, double **values)
 bigint ParticleGrid::solve(bool linear)
 {
   constexpr double FLAT = 1.0e-6;    // particles on a line or plane, or a single one: only the mean
+  constexpr double FAR = 4.0;        // outside of them, by two standard deviations: only the mean
   bigint empty = 0;
   for (bigint point = 0; point < points; point++) {
     const double sum = moments[0][point];
@@ -244,16 +253,15 @@ bigint ParticleGrid::solve(bool linear)
       }
     const double det =
         c[0][0] * cofactor[0][0] + c[0][1] * cofactor[0][1] + c[0][2] * cofactor[0][2];
-    const bool regular = trace > FLAT && det > FLAT * std::pow(trace / dim, dim);
-    double bcb = 0.0;
-    for (int d = 0; d < dim; d++) {
-      double a = 0.0;
-      for (int e = 0; e < dim; e++) a -= cofactor[d][e] * b[e];
-      a = regular ? a / det : 0.0;
-      bcb -= a * b[d];
-      moments[1 + d][point] = a / sum;
-    }
-    moments[0][point] += bcb / sum;
+    double a[3] = {}, bcb = 0.0;
+    if (trace > FLAT && det > FLAT * std::pow(trace / dim, dim))
+      for (int d = 0; d < dim; d++) {
+        for (int e = 0; e < dim; e++) a[d] -= cofactor[d][e] * b[e] / det;
+        bcb -= a[d] * b[d];
+      }
+    const double share = (bcb < FAR) ? 1.0 : 0.0;
+    for (int d = 0; d < dim; d++) moments[1 + d][point] = share * a[d] / sum;
+    moments[0][point] += share * bcb / sum;
   }
   return empty;
 }

@@ -50,6 +50,8 @@ namespace SPHDissipation {
     bigint map(const Smoothing &, double **values, int nfield);
     const double *field(int k) const;    // at the owned points, the first index fastest
 
+    bool fits() const;    // on this processor, the sub-domain is still that of the points
+
     bigint npoint() const { return points; }    // owned
     Grid2d *lammps_grid2d() const { return grid2d; }
     Grid3d *lammps_grid3d() const { return grid3d; }

@@ -33,6 +33,8 @@ using namespace SPHDissipation;
 GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) :
     Compute(lmp, narg, arg), count(), linear(true), grid(nullptr), nmax(0), values(nullptr)
 {
+  if (!domain->box_exist)
+    error->all(FLERR, "Compute {} requires a simulation box, which comes later", style);
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("compute {}", style), error);
   for (int d = 0; d < 3; d++) {
     count[d] = utils::inumeric(FLERR, arg[3 + d], false, lmp);
@@ -44,6 +46,7 @@ GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) :
   if (!atom->style_match("sph/bulk") && !atom->style_match("sph/micropolar"))
     error->all(FLERR, "Compute {} requires atom style sph/bulk or sph/micropolar", style);
 
+  pergrid_flag = 1;    // asks for reset_grid() when sub-domains change in a run
   comm_forward = 1;
   grid = new ParticleGrid(lmp, count);
 }
@@ -56,10 +59,17 @@ GridCompute::~GridCompute()
   memory->destroy(values);
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   commands such as replicate change the sub-domains without a word
+------------------------------------------------------------------------- */
 
 void GridCompute::init()
 {
+  const int moved = grid->fits() ? 0 : 1;
+  int any_moved;
+  MPI_Allreduce(&moved, &any_moved, 1, MPI_INT, MPI_MAX, world);
+  if (any_moved) reset_grid();
+
   if (domain->triclinic)
     error->all(FLERR, "Compute {} needs an orthogonal box, not a triclinic one", style);
   if (find_pair()->dimension() != domain->dimension)
@@ -179,6 +189,10 @@ bigint GridCompute::map()
     values[i][0] = is_mapped(pair, i) ? atom->vfrac[i] : 0.0;
     for (int k = 0; k < nvalue(); k++) values[i][1 + k] = (this->*getters[k])(i);
   }
+
+  // a fix may have changed the box at the end of the step, and with it the places of owned particles
+
+  if (domain->box_change) comm->forward_comm();
   comm->forward_comm(this);
 
   return grid->map({pair->fluid().choice.kernel, pair->support_radius(), linear}, values, nvalue());

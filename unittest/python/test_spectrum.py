@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import j0
 
-from helpers import INTEGRATE, disordered, fluid, header, relative
+from helpers import INTEGRATE, disordered, drop, fluid, free, header, relative
 from spectrum_reference import COLUMNS, TOTALS, read_array, read_grid, spectra, wave_vectors
 
 EXACT = 1e-12
@@ -272,8 +272,74 @@ def test_rebalancing_in_a_run(lammps):
         assert found.thermo()[-1][name] == pytest.approx(values, rel=1e-11, abs=1e-300), name
 
 
+ALONE = "compute S all sph/spectrum 16 6 6 deconvolve yes\nthermo_style custom step c_S[*]\n" + FULL
+
+
+@pytest.mark.parametrize("ranks, before, between", [(2, "processors 2 1 1\n", "balance 1.0 x 0.2\n"), (4, "", "replicate 1 1 4\n"),
+                                                    (4, "processors 4 1 1\n", "balance 1.0 x 0.7 0.8 0.9\n"),
+                                                    (3, "", "comm_style tiled\nbalance 1.0 rcb\n")])
+def test_other_subdomains_after_the_command(lammps, ranks, before, between):
+    """The points move to the processors that have the particles around them."""
+    random_box(3, (16, 6, 6)).write(lammps.path("box.data"))
+    text = (header(3).replace("atom_style", "{}atom_style") + "read_data box.data\n" + fluid(3) + INTEGRATE + ALONE + "{}run 2\n")
+    one = totals_of(lammps(text.format("", between if "replicate" in between else "")))
+    found = totals_of(lammps(text.format(before, between), ranks=ranks))
+    for key, value in one.items():
+        assert found[key] == pytest.approx(value, rel=EXACT, abs=1e-300), key
+
+
+def test_rebalancing_far_in_a_run(lammps):
+    """A border that moves by more than ghost particles reach; without another compute that asks for new grids."""
+    particles = disordered(3, (16, 6, 6), spread=0.0)
+    particles = particles.where((np.random.default_rng(1).uniform(size=len(particles)) > 0.5) | (particles.x[:, 0] < 4.0))
+    particles.write(lammps.path("box.data"))
+    text = (header(3).replace("atom_style", "{}atom_style") + "read_data box.data\n" + fluid(3) + INTEGRATE + "{}" + ALONE
+            + "thermo 3\nrun 6\n")
+    one = lammps(text.format("", "")).thermo()[-1]
+    found = lammps(text.format("processors 2 1 1\n", "balance 1.1 x 0.8\nfix B all balance 3 1.0 shift x 10 1.0\n"), ranks=2).thermo()[-1]
+    for name, values in one.items():
+        assert found[name] == pytest.approx(values, rel=1e-11, abs=1e-300), name
+
+
+@pytest.mark.parametrize("ranks, processors", [(2, ""), (4, "processors 1 4 1\n"), (3, "")])
+def test_box_that_changes(lammps, ranks, processors):
+    """fix deform moves the particles after the forces; those of other processors and the images have to follow."""
+    random_box(3, (16, 6, 6)).write(lammps.path("box.data"))
+    text = (header(3).replace("atom_style", "{}atom_style") + "read_data box.data\n" + fluid(3) + INTEGRATE + ALONE
+            + "fix D all deform 1 x erate 2.0 y scale 0.8 z volume remap x\nthermo 5\nrun 10\n")
+    one, found = lammps(text.format("")).thermo()[-1], lammps(text.format(processors), ranks=ranks).thermo()[-1]
+    for name, values in one.items():
+        assert found[name] == pytest.approx(values, rel=1e-11, abs=1e-300), name
+
+
+@pytest.mark.parametrize("options, support", [("", 2.8), ("kernel wendland/c6", 2.5)])
+def test_kernel_that_changes_between_runs(lammps, options, support):
+    """What deconvolve undoes is the kernel of the run."""
+    random_box(3, (16, 6, 6)).write(lammps.path("box.data"))
+    start = header(3) + "read_data box.data\n{}" + INTEGRATE + ALONE + "run 0\n"
+    new = fluid(3, options, support=support)
+    expected = totals_of(lammps(start.format(new)))
+    found = totals_of(lammps(start.format(fluid(3, support=2.2)) + new + "run 0\n"))
+    for key, value in expected.items():
+        assert found[key] == pytest.approx(value, rel=EXACT, abs=1e-300), key
+
+
 # ---------------------------------------------------------------------------------------------
 # grid output
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_free_surface(lammps, dim):
+    """Outside of a drop, order 1 does not extrapolate to any size."""
+    drop(dim, 4).write(lammps.path("box.data"))
+    lammps(header(dim, boundary=free(dim)) + "read_data box.data\n" + fluid(dim) + INTEGRATE
+           + f"compute G all sph/grid 40 40 {40 if dim == 3 else 1} vx rho\ndump G all grid 1 out.grid c_G:grid:data[*]\n"
+           "dump_modify G format float %.17g\n" + "dump D all custom 1 out.dump vx\nrun 0\n")
+    field = np.array([line.split() for line in lammps.path("out.grid").read_text().split("GRID CELLS")[1].splitlines()[1:]], dtype=float)
+    most = abs(lammps.frame("out.dump")["vx"]).max()
+    print(f"{dim}d: {abs(field[:, 0]).max():.2f} of {most:.2f}, density up to {field[:, 1].max():.2f}")
+    assert 0.5 * most < abs(field[:, 0]).max() < 2.0 * most
+    assert field[:, 1].max() < 2.0
 
 
 def test_fix_ave_grid(lammps):
@@ -457,6 +523,8 @@ def test_errors_of_the_setup(lammps):
     assert "needs a kernel of the dimension of the simulation, not dim 1" in " ".join(result.error.split())
     result = lammps("region b block 0 1 0 1 0 1\ncreate_box 1 b\ncompute S all sph/grid 8 8 8 vx\n", check=False)
     assert "requires atom style sph/bulk or sph/micropolar" in result.error
+    result = lammps("atom_style sph/bulk\ncompute S all sph/spectrum 8 8 8\n", check=False)
+    assert "requires a simulation box" in result.error
     particles = disordered(3, 8, ntypes=2)
     particles.write(lammps.path("box.data"))
     two = fluid(3, coeff="pair_coeff 1 1 1.0 10.0 0.5 2.0 2.5\npair_coeff 2 2 1.0 10.0 0.7 2.0 2.5\n")
