@@ -24,7 +24,8 @@
 #include "neigh_list_kokkos.h"
 #include "neigh_request.h"
 #include "neighbor.h"
-#include "sph_dissipation_boundary.h"
+#include "sph_dissipation_boundary_kokkos.h"
+#include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_density.h"
 #include "sph_dissipation_engine.h"
@@ -52,7 +53,8 @@ template <class DeviceType>
 PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp) :
     PairSPHBulk(lmp), on_device(true), host_list(new NeighList(lmp)), nlocal_device(-1),
     nghost_device(-1), data(new LoopDataKokkos<DeviceType>),
-    types(new Kokkos::View<TypeKokkos *, DeviceType>)
+    types(new Kokkos::View<TypeKokkos *, DeviceType>),
+    boundary_device(new BoundaryStageKokkos<DeviceType>(lmp, this, *boundary))
 {
   kokkosable = 1;
   atomKK = (AtomKokkos *) atom;
@@ -67,6 +69,7 @@ template <class DeviceType> PairSPHBulkKokkos<DeviceType>::~PairSPHBulkKokkos()
 {
   delete data;
   delete types;
+  delete boundary_device;
   host_list->ilist = host_list->numneigh = nullptr;    // ours
   host_list->firstneigh = nullptr;
   delete host_list;
@@ -82,7 +85,9 @@ template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_b
   if (model->choice.limit != Limit::NO) return "keyword limit";
   if (update->whichflag == 2) return "a minimization";
   for (const auto &ifix : modify->get_fix_list()) {
-    if (dynamic_cast<Boundary *>(ifix) || dynamic_cast<OpenZone *>(ifix))
+    auto *one = dynamic_cast<Boundary *>(ifix);
+    if ((one && !dynamic_cast<BoundaryKokkos<DeviceType> *>(ifix)) ||
+        dynamic_cast<OpenZone *>(ifix))
       return fmt::format("fix {}", ifix->style);
     auto *integrator = dynamic_cast<FixSPHBulk *>(ifix);
     if (integrator && integrator->shifts_particles())
@@ -206,14 +211,23 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::build_host_list(
 }
 
 /* ----------------------------------------------------------------------
-   the reports need the pairs that pass 1 leaves
+   the reports need the pairs that pass 1 leaves; the densities stay as they are, those of walls are no
+   sums over their neighbors
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::announce()
 {
   if (!compute_flag) return;
   on_host([&]() {
-    if (on_device) density->run(list, atom->vest, nullptr);
+    if (on_device) {
+      const int n = atom->nlocal + atom->nghost;
+      const std::vector<double> rho(atom->rho, atom->rho + n), drho(atom->drho, atom->drho + n),
+          vfrac(atom->vfrac, atom->vfrac + n);
+      density->run(list, atom->vest, nullptr);
+      std::copy(rho.begin(), rho.end(), atom->rho);
+      std::copy(drho.begin(), drho.end(), atom->drho);
+      std::copy(vfrac.begin(), vfrac.end(), atom->vfrac);
+    }
     PairSPHBulk::announce();
   });
 }
@@ -265,6 +279,7 @@ void PairSPHBulkKokkos<DeviceType>::heating(double *heat, double *power) const
   for (int k = 0; k < nchannel; k++) {
     const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
     for (int i = 0; i < atom->nlocal; i++) {
+      if (atom->mask[i] & not_fluid()) continue;
       power[k] += from(i);
       if (heat) heat[i] += from(i);
     }
@@ -296,6 +311,10 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::compute(int efla
   run_density();
   send_density();
   set_state();
+  if (!boundary->empty()) {
+    boundary_device->run(*data, model->choice.kernel, dim, list->inum);
+    send_boundary();
+  }
   run_forces(vflag_either);
   atomKK->modified(execution_space, MODIFIED);
 
@@ -411,12 +430,19 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::run_density()
    to the ghosts; LAMMPS has some kinds of communication on the host, whatever the pair style is
 ------------------------------------------------------------------------- */
 
+template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::communicates_on_device() const
+{
+  return execution_space == Device && !lmp->kokkos->forward_pair_comm_legacy &&
+      comm->style != Comm::TILED;
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::send_density()
 {
   const bool ideal = (model->choice.eos == Eos::IDEAL);    // which needs the energy of ghost atoms
 
-  if (execution_space == Device && !lmp->kokkos->forward_pair_comm_legacy &&
-      comm->style != Comm::TILED) {
+  if (communicates_on_device()) {
     auto *const rows = reinterpret_cast<double *>(data->density.data());
     sent = ColumnsKokkos();
     for (int k : {0, 1}) sent.add(rows + k, 2);
@@ -441,7 +467,44 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::send_density()
 }
 
 /* ----------------------------------------------------------------------
-   volume, density, pressure and bulk term of owned and ghost atoms
+   what the boundary has set of owned particles; ghosts of the fluid get what they have already
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::send_boundary()
+{
+  static constexpr int FIRST = 3, WIDTH = 5;    // u, vol and g of Particle
+  static constexpr int ROW = sizeof(Particle) / sizeof(double);
+
+  if (communicates_on_device()) {
+    auto *const rows = reinterpret_cast<double *>(data->particle.data());
+    sent = ColumnsKokkos();
+    for (int k = FIRST; k < FIRST + WIDTH; k++) sent.add(rows + k, ROW);
+    sent.add(data->zeta_term);
+    if (engine->has_spin()) {
+      auto *const spins = reinterpret_cast<double *>(data->spin.data());
+      for (int k : {0, 1, 2}) sent.add(spins + k, sizeof(Spin) / sizeof(double));
+    }
+    comm->forward_comm(this, sent.n);
+    return;
+  }
+
+  auto particle = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->particle);
+  auto zeta_term = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->zeta_term);
+  const Field state = field(particle.data(), particle.data()->u, WIDTH);
+  const Field bulk_term = {zeta_term.data(), 1, 1};
+  if (engine->has_spin()) {
+    auto spin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->spin);
+    exchange->forward({state, bulk_term, field(spin.data(), spin.data()->w, 3)});
+    Kokkos::deep_copy(data->spin, spin);
+  } else
+    exchange->forward({state, bulk_term});
+  Kokkos::deep_copy(data->particle, particle);
+  Kokkos::deep_copy(data->zeta_term, zeta_term);
+}
+
+/* ----------------------------------------------------------------------
+   volume, density, pressure and bulk term of owned and ghost atoms; boundary particles, most of whose
+   neighbors are not there, have the reference density of their type
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_state()
@@ -462,10 +525,18 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_state()
   const int each = data->each;
   const Eos eos = model->choice.eos;
   const Bulk bulk = model->choice.bulk;
+  auto mask = atomKK->k_mask.template view<DeviceType>();
+  const int boundary_bits = boundary->bits();
 
   Kokkos::parallel_for(
       "sph:state", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
       KOKKOS_LAMBDA(int i) {
+        if (mask(i) & boundary_bits) {
+          rho(i) = coeffs(type(i)).eos.rho0;
+          vfrac(i) = particle(i).vol = rmass(i) / rho(i);
+          drho(i) = particle(i).g = zeta_term(i) = desph(i) = 0.0;
+          return;
+        }
         const double weight = weight_of(i * each);
         const double mass = rmass(i) / weight;
         const double vol = weight / density_of(i).c;
@@ -564,7 +635,7 @@ template <class DeviceType> double PairSPHBulkKokkos<DeviceType>::memory_usage()
   double bytes = PairSPHBulk::memory_usage();
   bytes += (double) data->particle.extent(0) *
       (sizeof(Particle) + sizeof(DensitySum) + 3 * sizeof(double));
-  return bytes + (double) data->weight.extent(0) * sizeof(double);
+  return bytes + (double) data->weight.extent(0) * sizeof(double) + boundary_device->memory_usage();
 }
 
 /* ---------------------------------------------------------------------- */

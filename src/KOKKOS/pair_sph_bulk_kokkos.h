@@ -31,6 +31,7 @@ PairStyle(sph/bulk/kk/host,PairSPHBulkKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  template <class DeviceType> class BoundaryStageKokkos;
   template <class DeviceType> struct LoopDataKokkos;
   struct TypeKokkos;
 }    // namespace SPHDissipation
@@ -73,13 +74,16 @@ template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public
 
   SPHDissipation::LoopDataKokkos<DeviceType> *data;
   Kokkos::View<SPHDissipation::TypeKokkos *, DeviceType> *types;
+  SPHDissipation::BoundaryStageKokkos<DeviceType> *boundary_device;
 
   std::string on_host_because() const;
   template <class Function> void on_host(Function &&);
   void build_host_list();
   void grow();
   void copy_coeffs();
+  bool communicates_on_device() const;
   void send_density();
+  void send_boundary();
   template <class Loop> void run_loop(const Loop &, bool virial);
   template <class K, SPHDissipation::Shear SHEAR> void run_force_loop(bool virial);
 };

@@ -19,15 +19,14 @@
 #include "error.h"
 #include "force.h"
 #include "group.h"
-#include "math_extra.h"
 #include "memory.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exclusions.h"
-#include "sph_dissipation_extension.h"
 #include "sph_dissipation_wall_checks.h"
 #include "sph_dissipation_wall_motion.h"
+#include "sph_dissipation_wall_terms.h"
 #include "update.h"
 
 #include <algorithm>
@@ -42,9 +41,11 @@ using namespace SPHDissipation;
 
 FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), motion(new WallMotion(lmp, fmt::format("Fix {}", style))),
-    exclusions(new Exclusions(lmp)), gravity{0.0, 0.0, 0.0}, move(true), slip(false), spin(ZERO),
-    rate(0.0), noise(false), checked(false), total(), total_all(), total_summed(false)
+    exclusions(new Exclusions(lmp)),
+    condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}), move(true),
+    noise(false), checked(false), total(), total_all(), total_summed(false)
 {
+  double *const gravity = condition->gravity;
   for (int iarg = 3; iarg < narg;) {
     const std::string keyword = arg[iarg];
     auto needs = [&](int n) {
@@ -70,22 +71,22 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     } else if (keyword == "slip") {
       needs(1);
       if (strcmp(arg[iarg + 1], "no") == 0)
-        slip = false;
+        condition->slip = false;
       else if (strcmp(arg[iarg + 1], "free") == 0)
-        slip = true;
+        condition->slip = true;
       else
         unknown(arg[iarg + 1]);
       iarg += 2;
     } else if (keyword == "spin") {
       needs(1);
       if (strcmp(arg[iarg + 1], "zero") == 0) {
-        spin = ZERO;
+        condition->spin = WallSpin::ZERO;
       } else if (strcmp(arg[iarg + 1], "free") == 0) {
-        spin = FREE;
+        condition->spin = WallSpin::FREE;
       } else if (strcmp(arg[iarg + 1], "rate") == 0) {
         needs(2);
-        spin = RATE;
-        rate = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+        condition->spin = WallSpin::RATE;
+        condition->alpha = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
         iarg++;
       } else
         unknown(arg[iarg + 1]);
@@ -125,6 +126,7 @@ FixSPHWall::~FixSPHWall()
   atom->delete_callback(id, Atom::GROW);
   memory->destroy(array_atom);
   delete exclusions;
+  delete condition;
   delete motion;
 }
 
@@ -145,7 +147,7 @@ void FixSPHWall::init()
     error->all(FLERR, "Fix {} cannot be used when fix deform remaps velocities", style);
 
   noise = pair->has_noise();
-  if (noise && (slip || spin != ZERO))
+  if (noise && (condition->slip || condition->spin != WallSpin::ZERO))
     error->all(FLERR,
                "Fix {}: only slip no and spin zero can be used with temp of the pair style: what "
                "other walls do to the fluid is no friction that a noise can be in balance with",
@@ -157,7 +159,7 @@ void FixSPHWall::init()
   // no pairs of wall particles in the neighbor lists
 
   std::vector<Exclusions::Groups> walls;
-  for (const auto &ifix : modify->get_fix_by_style("^sph/wall$"))
+  for (const auto &ifix : modify->get_fix_by_style("^sph/wall"))
     walls.push_back({igroup, ifix->igroup});
   exclusions->set(walls);
 
@@ -205,15 +207,13 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
   motion->advance();
 
   if (move) {
-    double rotation[3][3], shift[3];
-    motion->last_step(rotation, shift);
-    double **x = atom->x;
+    const WallVelocity now = motion->velocity();
+    const WallStep step = motion->last_step();
+    double r[3];
     for (int i = 0; i < atom->nlocal; i++) {
       if (!(atom->mask[i] & groupbit)) continue;
-      double r[3], rotated[3];
-      from_point(i, r);
-      MathExtra::matvec(rotation, r, rotated);
-      for (int d = 0; d < 3; d++) x[i][d] += shift[d] + (rotated[d] - r[d]);
+      from_point(i, now, r);
+      step.move(r, atom->x[i]);
     }
     motion->move_point();
   }
@@ -224,36 +224,40 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
 
 void FixSPHWall::set_velocity()
 {
-  double w[3], r[3];
-  motion->angular_velocity(w);
-  double **v = atom->v;
-  double **vest = atom->vest;
-  double **omega = atom->omega;
+  const WallVelocity now = motion->velocity();
+  double r[3];
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    from_point(i, r);
-    motion->velocity_at(r, v[i]);
-    for (int d = 0; d < 3; d++) {
-      vest[i][d] = v[i][d];
-      if (omega) omega[i][d] = w[d];
-    }
+    from_point(i, now, r);
+    now.at(r, atom->v[i]);
+    std::copy_n(atom->v[i], 3, atom->vest[i]);
+    if (atom->omega) now.angular(atom->omega[i]);
   }
+}
+
+/* ----------------------------------------------------------------------
+   by the motion of the last step
+------------------------------------------------------------------------- */
+
+bool FixSPHWall::turns_surface(bool before) const
+{
+  return before && motion->rotates() && move && update->whichflag == 1;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixSPHWall::move_surface(Surface *surface, bool before)
 {
-  double w[3], rotation[3][3], shift[3], turned[3];
-  motion->angular_velocity(w);
-  const bool turns = before && motion->rotates() && move && update->whichflag == 1;
-  if (turns) motion->last_step(rotation, shift);
+  const WallVelocity now = motion->velocity();
+  const bool turns = turns_surface(before);
+  const WallStep step = motion->last_step();
+  double turned[3];
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    std::copy(w, w + 3, surface[i].omega);
+    now.angular(surface[i].omega);
     if (!turns) continue;
-    MathExtra::matvec(rotation, surface[i].normal, turned);
-    std::copy(turned, turned + 3, surface[i].normal);
+    step.turn(surface[i].normal, turned);
+    std::copy_n(turned, 3, surface[i].normal);
   }
 }
 
@@ -266,80 +270,34 @@ void FixSPHWall::set_boundary(Engine &engine, const Surface *surfaces, const Bou
 {
   if (update->whichflag == 2) return;
 
-  double w[3];
-  motion->angular_velocity(w);
+  const WallVelocity now = motion->velocity();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const BoundarySum &sum = sums[i];
     Particle &particle = engine.particle[i];
-    if (engine.spin) std::copy(w, w + 3, engine.spin[i].w);
+    double *const spin = engine.spin ? engine.spin[i].w : nullptr;
+    if (spin) now.angular(spin);
     if (!(sum.weight > 0.0)) continue;
     const double norm = 1.0 / sum.weight;
 
     double r[3], acceleration[3];
-    from_point(i, r);
-    motion->acceleration_at(r, acceleration);
+    from_point(i, now, r);
+    now.acceleration_at(r, acceleration);
 
     // with thermal noise: motion, volume, and friction of the wall itself, for which the friction
     // matrix is symmetric, and the pressure without that of the friction
 
-    double pressure = sum.pressure * norm;
+    double pressure = wall_pressure(sum, condition->gravity, acceleration);
     if (noise)
       pressure -= sum.zeta_term * norm;
     else {
       atom->rho[i] = sum.rho * norm;
       atom->vfrac[i] = particle.vol = atom->rmass[i] / atom->rho[i];
     }
-    for (int d = 0; d < 3; d++)
-      pressure += sum.rho * norm * (gravity[d] - acceleration[d]) * sum.r[d] * norm;
     const double c_inv = particle.vol / engine.weight(i);
     particle.g = pressure * c_inv * c_inv;
     engine.zeta_term[i] = noise ? 0.0 : sum.zeta_term * norm;
-    if (!noise) extend_motion(surfaces[i], sum, particle, engine.spin ? engine.spin + i : nullptr);
-  }
-}
-
-/* ----------------------------------------------------------------------
-   velocity and spin of the fluid go on behind the surface as its condition says
-------------------------------------------------------------------------- */
-
-void FixSPHWall::extend_motion(const Surface &surface, const BoundarySum &sum, Particle &particle,
-                               SPHDissipation::Spin *omega) const
-{
-  const double norm = 1.0 / sum.weight;
-  const double stretch = std::max(CLOSEST_MEAN * surface.spacing / (norm * sum.d), 1.0);
-  const double norm_d = norm * stretch;
-  const DistanceMeans distance = {norm_d * sum.d, norm_d * stretch * sum.d2,
-                                  norm_d * stretch * stretch * sum.d3};
-  const double *const normal = surface.normal;
-  const double depth = surface.depth;
-
-  // across the surface the velocity is zero, with a slope that is zero where the fluid sticks: the
-  // image of the mean is enough, and does not ask for a smaller time step
-
-  const double mirrored = std::min(depth / distance.d, 1.0);
-  const double across = MathExtra::dot3(sum.u, normal) * norm;
-  const double across_d = MathExtra::dot3(sum.ud, normal) * norm_d;
-  double slope[3];
-  for (int d = 0; d < 3; d++) {
-    const double u = sum.u[d] * norm - across * normal[d];
-    const double ud = sum.ud[d] * norm_d - across_d * normal[d];
-    const Extension along = slip ? distance.free(u, ud) : distance.stuck(u, ud);
-    slope[d] = slip ? distance.straight_slope(u, ud) : along.slope;
-    particle.u[d] += along.behind(depth) - mirrored * across * normal[d];
-  }
-  if (!omega) return;
-
-  // the vorticity relative to the wall is normal x slope
-
-  double surface_spin[3] = {0.0, 0.0, 0.0};
-  if (spin == RATE) MathExtra::cross3(normal, slope, surface_spin);
-  for (int d = 0; d < 3; d++) {
-    const double at_surface = 0.5 * rate * surface_spin[d];
-    const double s = sum.w[d] * norm - at_surface;
-    const double sd = sum.wd[d] * norm_d - at_surface * distance.d;
-    const Extension beyond = (spin == FREE) ? distance.free(s, sd) : distance.stuck(s, sd);
-    omega->w[d] += at_surface + beyond.behind(depth);
+    if (!noise) extend_motion(*condition, surfaces[i], sum, particle.u, spin);
   }
 }
 
@@ -351,13 +309,14 @@ void FixSPHWall::post_force(int /*vflag*/)
   double **torque = atom->torque;
   std::fill(total, total + 6, 0.0);
   total_summed = false;
+  const WallVelocity now = motion->velocity();
   for (int i = 0; i < atom->nlocal; i++) {
     double *const one = array_atom[i];
     std::fill(one, one + 6, 0.0);
     if (!(atom->mask[i] & groupbit)) continue;
     double r[3], moment[3];
-    from_point(i, r);
-    MathExtra::cross3(r, f[i], moment);
+    from_point(i, now, r);
+    cross_product(r, f[i], moment);
     for (int d = 0; d < 3; d++) {
       one[d] = f[i][d];
       if (torque) one[3 + d] = torque[i][d];
@@ -393,10 +352,10 @@ double FixSPHWall::compute_vector(int n)
    vector from the point on the axis to a particle
 ------------------------------------------------------------------------- */
 
-void FixSPHWall::from_point(int i, double *r) const
+void FixSPHWall::from_point(int i, const WallVelocity &now, double *r) const
 {
   domain->unmap(atom->x[i], atom->image[i], r);
-  MathExtra::sub3(r, motion->axis_point(), r);
+  for (int d = 0; d < 3; d++) r[d] -= now.point[d];
 }
 
 /* ----------------------------------------------------------------------

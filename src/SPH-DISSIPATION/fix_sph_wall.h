@@ -28,6 +28,8 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Exclusions;
   class WallMotion;
+  struct WallCondition;
+  struct WallVelocity;
 }    // namespace SPHDissipation
 
 // Solid wall of particles for the fluids sph/bulk and sph/micropolar: moves them, extrapolates
@@ -61,25 +63,22 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void set_boundary(SPHDissipation::Engine &, const SPHDissipation::Surface *,
                     const SPHDissipation::BoundarySum *) override;
 
- private:
-  enum SpinCondition { ZERO, RATE, FREE };
-
+ protected:
   SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
   SPHDissipation::Exclusions *exclusions;
-  double gravity[3];
-  bool move, slip;
-  SpinCondition spin;
-  double rate;     // alpha of spin rate
+  SPHDissipation::WallCondition *condition;
+  bool move;
   bool noise;      // of the fluid
   bool checked;    // the thickness, in the first run
 
   double total[6], total_all[6];    // force and torque, of this rank and of all
   bool total_summed;
 
-  void from_point(int, double *) const;
+  bool turns_surface(bool before) const;
+
+ private:
+  void from_point(int, const SPHDissipation::WallVelocity &, double *) const;
   void set_velocity();
-  void extend_motion(const SPHDissipation::Surface &, const SPHDissipation::BoundarySum &,
-                     SPHDissipation::Particle &, SPHDissipation::Spin *) const;
 };
 
 }    // namespace LAMMPS_NS

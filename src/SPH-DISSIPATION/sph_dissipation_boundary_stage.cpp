@@ -15,14 +15,12 @@
 
 #include "atom.h"
 #include "error.h"
-#include "math_extra.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "sph_dissipation_boundary.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
-#include "sph_dissipation_extension.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_surface.h"
 #include "update.h"
@@ -146,24 +144,15 @@ void BoundaryStage::find_rows(NeighList *list)
   }
 }
 
-/* ----------------------------------------------------------------------
-   a kernel that sees the nearest particles only, however large the support radius of the
-   fluid: with as many particle spacings as a fluid has at least
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void BoundaryStage::set_near()
 {
-  constexpr double SPACINGS[] = {0.0, 4.0, 3.0, 2.5};    // by dimension
   const LoopData &all = engine.pairs();
-  const int dim = engine.dimension();
   near.resize(atom->nlocal + atom->nghost);
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
-    if (!(atom->mask[i] & group_bits)) continue;
-    const double vol = engine.particle[i].vol;
-    const double radius = std::min(all.support, SPACINGS[dim] * pow(vol, 1.0 / dim));
-    near[i].norm = vol * all.weight_norm * pow(all.support / radius, dim);
-    near[i].scale = 1.0 / radius;
-  }
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    if (atom->mask[i] & group_bits)
+      near[i] = near_kernel(engine.dimension(), all.support, all.weight_norm, atom->vfrac[i]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -200,40 +189,16 @@ void BoundaryStage::accumulate()
       const Particle &f = engine.particle[pair.fluid];
       const Particle &w = engine.particle[pair.wall];
       const Surface &s = surface->surface[pair.wall];
-      double r[3], turn[3], rsq = 0.0, normal_r = 0.0;
-      for (int d = 0; d < 3; d++) {
-        r[d] = w.x[d] - f.x[d];
-        rsq += r[d] * r[d];
-        normal_r += s.normal[d] * r[d];
-      }
-      const double distance = sqrt(rsq);
+      double r[3];
+      for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
+      const double distance = sqrt(inner_product(r, r));
       const double kernel_weight = all.weight_norm * k.shape(distance / all.support);
-      const double weight = f.vol * kernel_weight;
-      const double height = std::max(-s.depth - normal_r, CLOSEST * s.spacing);
-      const double weight_d = weight * height;
-      MathExtra::cross3(s.omega, r, turn);
-
       BoundarySum &total = sum[pair.wall];
-      total.weight += weight;
-      total.d += weight_d;
-      total.d2 += weight_d * height;
-      total.d3 += weight_d * height * height;
-      for (int d = 0; d < 3; d++) {
-        const double relative = f.u[d] - w.u[d] + turn[d];
-        total.r[d] += weight * r[d];
-        total.u[d] += weight * relative;
-        total.ud[d] += weight_d * relative;
-      }
+      const double height =
+          add_fluid(f, w, r, kernel_weight, s, rho[pair.fluid], engine.weight(pair.fluid),
+                    engine.zeta_term[pair.fluid], total);
       if (has_spin)
-        for (int d = 0; d < 3; d++) {
-          const double relative = engine.spin[pair.fluid].w[d] - s.omega[d];
-          total.w[d] += weight * relative;
-          total.wd[d] += weight_d * relative;
-        }
-      total.rho += weight * rho[pair.fluid];
-      const double w_f = engine.weight(pair.fluid);
-      total.pressure += kernel_weight * w_f * w_f * f.g / f.vol;
-      total.zeta_term += weight * engine.zeta_term[pair.fluid];
+        add_fluid_spin(engine.spin[pair.fluid].w, f.vol * kernel_weight, height, s, total);
       const NearKernel &wall = near[pair.wall];
       const double q = distance * wall.scale;
       if (q < 1.0) sum[pair.fluid].filled += wall.norm * k.shape(q);
@@ -242,19 +207,28 @@ void BoundaryStage::accumulate()
   });
 }
 
-/* ----------------------------------------------------------------------
-   the near support of a fluid particle at a plane surface is half full of boundary particles,
-   that of one in the corner of a box 7/8; more only inside.  A larger one would be as full
-   in a pore as wide as the particle itself.
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void BoundaryStage::check() const
 {
-  constexpr double INSIDE = 0.9;
   for (int i = 0; i < atom->nlocal; i++)
-    if (sum[i].filled > INSIDE && !(atom->mask[i] & group_bits))
-      error->one(FLERR, "Particle {} of the fluid of pair style {} is inside a wall", atom->tag[i],
-                 style);
+    if (sum[i].filled > INSIDE_WALL && !(atom->mask[i] & group_bits)) stop_for(i);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::stop_for(int i) const
+{
+  error->one(FLERR, "Particle {} of the fluid of pair style {} is inside a wall", atom->tag[i],
+             style);
+}
+
+/* ---------------------------------------------------------------------- */
+
+const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
+{
+  surface->run(group_bits, sides);
+  return surface->surface;
 }
 
 /* ---------------------------------------------------------------------- */

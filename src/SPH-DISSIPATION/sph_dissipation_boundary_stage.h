@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_BOUNDARY_STAGE_H
 
 #include "sph_dissipation_stage.h"
+#include "sph_dissipation_wall_terms.h"
 
 #include <string>
 #include <vector>
@@ -25,7 +26,6 @@ namespace SPHDissipation {
   class Boundary;
   class FluidModel;
   class SurfaceStage;
-  struct BoundarySum;
 
   // a pair of a fluid and a boundary particle inside the support
 
@@ -58,6 +58,14 @@ namespace SPHDissipation {
     // the same once more in the step, for other velocities and pressures of the fluid
     void extend();
 
+    // what run() consists of, for another one that does the sums elsewhere: the surfaces of the
+    // owned and ghost atoms, when the neighbor list is new, from the vectors toward the fluid of the
+    // owned ones, in order; and the end of a run with a particle inside a wall
+
+    const std::vector<Boundary *> &all() const { return boundaries; }
+    const Surface *find_surface(const std::vector<double> &sides);
+    [[noreturn]] void stop_for(int i) const;
+
     double memory_usage() const override;
 
    private:
@@ -76,9 +84,6 @@ namespace SPHDissipation {
 
     // for BoundarySum::filled, of boundary atoms until the list is built anew
 
-    struct NearKernel {
-      double norm, scale;    // V W = norm * shape(scale * r)
-    };
     std::vector<NearKernel> near;
 
     int nmax;

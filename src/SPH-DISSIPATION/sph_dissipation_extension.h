@@ -19,6 +19,8 @@
 #ifndef LMP_SPH_DISSIPATION_EXTENSION_H
 #define LMP_SPH_DISSIPATION_EXTENSION_H
 
+#include "sph_dissipation_function.h"
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
@@ -29,7 +31,10 @@ namespace SPHDissipation {
 
   struct Extension {
     double level, slope, bend;
-    double behind(double depth) const { return level + depth * (bend * depth - slope); }
+    SPH_FUNCTION double behind(double depth) const
+    {
+      return level + depth * (bend * depth - slope);
+    }
   };
 
   // means of the powers of the distance
@@ -45,7 +50,7 @@ namespace SPHDissipation {
 
     // q is zero at the surface
 
-    Extension stuck(double f, double fd) const
+    SPH_FUNCTION Extension stuck(double f, double fd) const
     {
       const double third = (1.0 + DAMPING) * d3;
       const double norm = 1.0 / (d * third - d2 * d2);
@@ -54,7 +59,7 @@ namespace SPHDissipation {
 
     // its derivative is zero there
 
-    Extension free(double f, double fd) const
+    SPH_FUNCTION Extension free(double f, double fd) const
     {
       const double bend = (fd - d * f) / ((1.0 + DAMPING) * d3 - d * d2);
       return {f - bend * d2, 0.0, bend};
@@ -62,7 +67,7 @@ namespace SPHDissipation {
 
     // derivative of the straight line through q
 
-    double straight_slope(double f, double fd) const
+    SPH_FUNCTION double straight_slope(double f, double fd) const
     {
       return (fd - d * f) / ((1.0 + DAMPING) * d2 - d * d);
     }

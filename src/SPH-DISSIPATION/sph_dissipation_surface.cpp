@@ -74,22 +74,47 @@ SurfaceStage::~SurfaceStage()
 
 void SurfaceStage::run(int bits, const std::vector<BoundaryPair> &pairs)
 {
+  begin();
+  find_sides(pairs);
+  find(bits);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SurfaceStage::run(int bits, const std::vector<double> &sides)
+{
+  begin();
+  const double *side = sides.data();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & bits)) continue;
+    std::copy_n(side, 3, surface[i].normal);
+    side += 3;
+  }
+  find(bits);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SurfaceStage::begin()
+{
   if (nmax < atom->nmax) {
     nmax = atom->nmax;
     memory->sfree(surface);
     surface = (Surface *) memory->smalloc(nmax * sizeof(Surface), "sph:surface");
   }
+  memset(surface, 0, (atom->nlocal + atom->nghost) * sizeof(Surface));
+}
 
-  const int nall = atom->nlocal + atom->nghost;
-  memset(surface, 0, nall * sizeof(Surface));
-  find_sides(pairs);
+/* ---------------------------------------------------------------------- */
 
+void SurfaceStage::find(int bits)
+{
   const int dim = engine.dimension();
   std::vector<int> owned, all, outer;
   double spacing = 0.0;
-  for (int i = 0; i < nall; i++) {
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     if (!(atom->mask[i] & bits)) continue;
-    const double own = pow(engine.particle[i].vol, 1.0 / dim);
+    const double own = pow(atom->vfrac[i], 1.0 / dim);
     surface[i].spacing = own;
     spacing = std::max(spacing, own);
     all.push_back(i);
@@ -142,7 +167,7 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
     double filled = 0.0, inward[3] = {0.0, 0.0, 0.0};
     cells.near(atom->x[i], radius, [&](int j, const double *r, double rsq) {
       const double part =
-          engine.particle[j].vol * norm * exp(-0.5 * rsq / (width * width)) * edge(rsq, radius);
+          atom->vfrac[j] * norm * exp(-0.5 * rsq / (width * width)) * edge(rsq, radius);
       filled += part;
       for (int d = 0; d < 3; d++) inward[d] += part * r[d];
     });

@@ -35,8 +35,11 @@ namespace SPHDissipation {
     static constexpr int FORWARD = 4, REVERSE = 3;    // values per atom
 
     // when the neighbor list is new: normal, depth and spacing of the owned and ghost atoms with one
-    // of these bits, from the volumes of Engine::particle; omega is for the boundary to set
+    // of these bits, from their volumes; omega is for the boundary to set
     void run(int bits, const std::vector<BoundaryPair> &);
+
+    // the same with vectors toward the fluid that are known, of the owned ones in their order
+    void run(int bits, const std::vector<double> &sides);
 
     double memory_usage() const override;
 
@@ -45,6 +48,8 @@ namespace SPHDissipation {
    private:
     int nmax;
 
+    void begin();
+    void find(int bits);
     void find_sides(const std::vector<BoundaryPair> &);
     void find_outer_layer(const Cells &, const std::vector<int> &);
     void find_depth(const Cells &, const std::vector<int> &);

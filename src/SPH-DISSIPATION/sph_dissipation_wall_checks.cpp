@@ -130,7 +130,7 @@ void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Pai
                                           bool warn)
 {
   int walls = 0;
-  for (const auto &wall : lmp->modify->get_fix_by_style("^sph/wall$")) walls |= wall->groupbit;
+  for (const auto &wall : lmp->modify->get_fix_by_style("^sph/wall")) walls |= wall->groupbit;
 
   std::vector<Kind> solid, fluid;
   for (const Kind &kind : all_kinds(lmp)) {

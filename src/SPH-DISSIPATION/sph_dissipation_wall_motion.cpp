@@ -193,12 +193,14 @@ void WallMotion::advance()
 
 /* ---------------------------------------------------------------------- */
 
-void WallMotion::last_step(double rotation[3][3], double *shift) const
+WallStep WallMotion::last_step() const
 {
+  WallStep step;
   double quaternion[4];
   MathExtra::axisangle_to_quat(axis, values[OMEGA].mean * update->dt, quaternion);
-  MathExtra::quat_to_mat(quaternion, rotation);
-  for (int d = 0; d < 3; d++) shift[d] = values[d].mean * update->dt;
+  MathExtra::quat_to_mat(quaternion, step.rotation);
+  for (int d = 0; d < 3; d++) step.shift[d] = values[d].mean * update->dt;
+  return step;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -211,31 +213,18 @@ void WallMotion::move_point()
 
 /* ---------------------------------------------------------------------- */
 
-void WallMotion::angular_velocity(double *w) const
+WallVelocity WallMotion::velocity() const
 {
-  for (int d = 0; d < 3; d++) w[d] = values[OMEGA].now * axis[d];
-}
-
-/* ---------------------------------------------------------------------- */
-
-void WallMotion::velocity_at(const double *r, double *v) const
-{
-  double w[3];
-  angular_velocity(w);
-  MathExtra::cross3(w, r, v);
-  for (int d = 0; d < 3; d++) v[d] += values[d].now;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void WallMotion::acceleration_at(const double *r, double *a) const
-{
-  double w[3], turn[3], centripetal[3];
-  angular_velocity(w);
-  MathExtra::cross3(w, r, turn);
-  MathExtra::cross3(w, turn, centripetal);
-  MathExtra::cross3(axis, r, a);
-  for (int d = 0; d < 3; d++) a[d] = values[d].rate + values[OMEGA].rate * a[d] + centripetal[d];
+  WallVelocity now;
+  for (int d = 0; d < 3; d++) {
+    now.point[d] = point[d];
+    now.axis[d] = axis[d];
+    now.u[d] = values[d].now;
+    now.rate[d] = values[d].rate;
+  }
+  now.omega = values[OMEGA].now;
+  now.turning = values[OMEGA].rate;
+  return now;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_WALL_MOTION_H
 
 #include "pointers.h"
+#include "sph_dissipation_wall_terms.h"
 
 #include <string>
 
@@ -39,17 +40,10 @@ namespace SPHDissipation {
     void rest();       // until the next start: the wall stands still
     void advance();    // to the end of a step
 
-    // of the last step: r -> rotation r + shift for r from the point on the axis
-
-    void last_step(double rotation[3][3], double *shift) const;
-    void move_point();    // with the wall
-
-    // at the place r from the point on the axis
-
-    void velocity_at(const double *r, double *v) const;
-    void acceleration_at(const double *r, double *a) const;
-    void angular_velocity(double *w) const;
-    const double *axis_point() const { return point; }
+    WallVelocity velocity() const;    // at the end of the last step
+    WallStep last_step() const;       // for r from the point on the axis
+    void move_point();                // with the wall
+    bool has_variables() const { return any_variable; }
 
     // the point on the axis in restart files: it belongs to the rotation that the input gives, and
     // is not for another one

@@ -152,6 +152,113 @@ def test_density_keyword(lammps):
 
 
 # ---------------------------------------------------------------------------------------------
+# walls
+
+CHANNEL = ("region LOW block INF INF INF 3.2 INF INF\nregion HIGH block INF INF 16.8 INF INF INF\n"
+           "group FLOOR region LOW\ngroup LID region HIGH\ngroup REST subtract all FLOOR LID\n")
+CAVITY = ("region IN block 3.2 16.8 3.2 16.8 INF INF\nregion HIGH block 3.2 16.8 16.8 INF INF INF\n"
+          "group REST region IN\ngroup LID region HIGH\ngroup FLOOR subtract all REST LID\n")
+WHEEL = CHANNEL.replace("group REST subtract all FLOOR LID", "region HUB cylinder z 10 10 2.6 INF INF\ngroup HUB region HUB\n"
+                        "group REST subtract all FLOOR LID HUB")
+BODY = "fix G REST addforce 0.3 -0.2 0\n"
+VESSELS = {
+    "channel": (CHANNEL + BODY, "gravity 0.3 -0.2 0", "gravity 0.3 -0.2 0"),
+    "slip": (CHANNEL + BODY, "slip free gravity 0.3 -0.2 0", "velocity 0.5 0 0 move no slip free"),
+    "cavity": (CAVITY, "", "velocity 0.5 0 0 move no"),
+    "wheel": (WHEEL + "fix HUB HUB sph/wall rotate 10 10 0 0 0 1 0.5 velocity 0.2 0 0\n", "velocity -0.3 0 0", "slip free"),
+    "variable": (CHANNEL + "variable U equal 0.4*sin(20*step*dt)\nvariable Y equal -0.1-0.2*vcm(REST,y)\n",
+                 "velocity v_U 0 0", "velocity 0.2 v_Y 0"),
+}
+
+
+def with_walls(particles, name, model, steps, newton="on", every=None, step=0.005):
+    groups, floor, lid = VESSELS[name]
+    integrate = (groups + "fix FLUID REST sph/bulk\n" + f"fix FLOOR FLOOR sph/wall {floor}\nfix LID LID sph/wall {lid}\ntimestep {step}\n")
+    text = script(particles, model, steps, newton, integrate=integrate, every=every)
+    columns = " ".join(f"f_{wall}[{k}]" for wall in ("FLOOR", "LID") for k in (1, 2, 6))
+    return text.replace(" c_E\n", f" c_E {columns}\n").replace("c_F[*] ", "c_F[*] f_FLOOR[*] f_LID[*] ")
+
+
+def compare_walls(lammps, particles, text, ranks=1, bound=1e-9):
+    cpu, kokkos = (result[0] for result in both(lammps, particles, text, ranks))
+    scale = np.abs(cpu["f"]).max()
+    for name in cpu.columns:
+        if name.startswith("f_"):
+            assert np.abs(cpu[name] - kokkos[name]).max() < bound * scale, name
+    assert np.abs(cpu["f_LID[1]"]).max() > 1e-3 * scale
+    result = compare(lammps, particles, text, ranks, bound)
+    assert not any("on the host" in line or "legacy" in line for line in result.warnings), result.warnings
+    return result
+
+
+@pytest.mark.parametrize("name", VESSELS)
+@pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off"), (4, "on")])
+def test_walls(lammps, name, ranks, newton):
+    """Walls at rest, moving, turning; forces on them; particles that change processors, the wall's own among them."""
+    particles = disordered(2, 20, seed=16, jitter=0.1, speed=0.2, spread=0.0)
+    compare_walls(lammps, particles, with_walls(particles, name, fluids(2), 200, newton), ranks)
+
+
+@pytest.mark.parametrize("options", ["eos tait shear morris bulk volume", "eos ideal", "volume mass shear espanol",
+                                     "kernel quintic bulk none"])
+def test_walls_of_several_types(lammps, options):
+    particles = disordered(2, 20, seed=17, jitter=0.1, ntypes=2, speed=0.2, spread=0.0)
+    compare_walls(lammps, particles, with_walls(particles, "channel", fluids(2, 2, options=options, kappa=2.0), 40), 2)
+
+
+def test_walls_in_three_dimensions(lammps):
+    particles = disordered(3, (6, 20, 6), seed=18, jitter=0.1, speed=0.2, spread=0.0)
+    compare_walls(lammps, particles, with_walls(particles, "slip", fluids(3), 40), 2)
+
+
+def test_walls_in_an_oblique_box_and_sorting(lammps):
+    particles = disordered(2, 20, seed=19, jitter=0.1, speed=0.2, tilt=(3.0, 0.0, 0.0), spread=0.0)
+    text = with_walls(particles, "channel", fluids(2), 60).replace("read_data", "atom_modify sort 10 2.0\nread_data")
+    compare_walls(lammps, particles, text, 2)
+
+
+def test_output_of_walls_on_the_way(lammps):
+    particles = disordered(2, 20, seed=20, jitter=0.1, speed=0.2, spread=0.0)
+    text = with_walls(particles, "wheel", fluids(2), 20, every=4)
+    (_, thermo, _), (_, thermo_kokkos, _) = both(lammps, particles, text)
+    frames = lammps.frames("dump.txt")
+    lammps(text, switches=[])
+    for cpu, kokkos in zip(lammps.frames("dump.txt"), frames):
+        for name in ("x", "v", *FIELDS, *(name for name in cpu.columns if name.startswith("f_"))):
+            assert relative(cpu[name] - kokkos[name], np.append(cpu["f"], 1.0)) < 1e-11, (cpu.step, name)
+    assert len(frames) == 6
+    for name, column in thermo.items():
+        assert relative(column - thermo_kokkos[name], np.append(column, 1e-3)) < 1e-10, name
+
+
+@pytest.mark.parametrize("writer", ["cpu", "kk"])
+def test_restart_with_walls(lammps, writer):
+    """The point that the wheel turns about goes on, whichever family has written the file."""
+    particles = disordered(2, 20, seed=21, jitter=0.1, speed=0.2, spread=0.0)
+    particles.write(lammps.path("data.txt"))
+    frames = []
+    for first, second in (([], []), ([], SWITCHES) if writer == "cpu" else (SWITCHES, [])):
+        text = with_walls(particles, "wheel", fluids(2), 40)
+        lammps(text + "write_restart file.restart\n", switches=first, ranks=2)
+        again = "read_restart file.restart\n" + "".join(line + "\n" for line in text.splitlines()
+                                                       if line.startswith(("fix ", "timestep", "neigh")))
+        lammps(again + dump("again.txt", 40) + "run 40\n", switches=second, ranks=2)
+        frames.append(lammps.frame("again.txt"))
+    for name in ("x", "v", "esph", "rho", "f"):
+        assert relative(frames[0][name] - frames[1][name], frames[0][name]) < 1e-9, name
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_particle_in_a_wall(lammps, ranks):
+    particles = disordered(2, 20, seed=22, jitter=0.05, speed=0.0, spread=0.0)
+    shot = np.flatnonzero((np.abs(particles.x[:, 1] - 4.5) < 0.3) & (np.abs(particles.x[:, 0] - 8.5) < 0.4))[0]
+    particles.v[shot] = [0.0, -300.0, 0.0]
+    particles.write(lammps.path("data.txt"))
+    result = lammps(with_walls(particles, "channel", fluids(2), 100, step=0.002), ranks=ranks, check=False)
+    assert result.code != 0 and f"Particle {shot + 1} of the fluid of pair style sph/bulk is inside a wall" in result.error
+
+
+# ---------------------------------------------------------------------------------------------
 # what the CPU style does, on the host
 
 
@@ -160,7 +267,7 @@ def test_density_keyword(lammps):
     ("keyword temp", "temp 0.01 1234", INTEGRATE),
     ("shift", "", "fix FLUID all sph/bulk shift 0.1\ntimestep 0.005\n"),
     ("fix sph/wall", "", "region LOW block INF INF 0 3.2 INF INF\ngroup WALL region LOW\ngroup REST subtract all WALL\n"
-     "fix FLUID REST sph/bulk\nfix WALL WALL sph/wall\ntimestep 0.005\n"),
+     "fix FLUID REST sph/bulk\nsuffix off\nfix WALL WALL sph/wall\ntimestep 0.005\n"),
 ])
 def test_on_the_host(lammps, reason, options, integrate):
     particles = disordered(2, 20, seed=13, jitter=0.1, speed=0.1, spread=0.0)

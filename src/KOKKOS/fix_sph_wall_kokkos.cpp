@@ -1,0 +1,448 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "fix_sph_wall_kokkos.h"
+
+#include "atom_kokkos.h"
+#include "atom_vec_sph_bulk_kokkos.h"
+#include "domain_kokkos.h"
+#include "memory_kokkos.h"
+#include "neighbor.h"
+#include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_wall_motion.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+static constexpr int NVALUES = 6;    // force and torque
+
+// vector from the point on the axis of a wall to its particles, as FixSPHWall::from_point()
+
+namespace {
+template <class DeviceType> struct FromPoint {
+  typename ArrayTypes<DeviceType>::t_kkfloat_1d_3_lr x;
+  typename ArrayTypes<DeviceType>::t_imageint_1d image;
+  Few<double, 3> prd;
+  Few<double, 6> h;
+  int triclinic;
+
+  FromPoint(AtomKokkos *atom, Domain *domain) :
+      x(atom->k_x.template view<DeviceType>()), image(atom->k_image.template view<DeviceType>()),
+      prd(domain->prd), h(domain->h), triclinic(domain->triclinic)
+  {
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(int i, const double *point, double *r) const
+  {
+    Few<double, 3> folded;
+    for (int d = 0; d < 3; d++) folded[d] = x(i, d);
+    const auto place = DomainKokkos::unmap(prd, h, triclinic, folded, image(i));
+    for (int d = 0; d < 3; d++) r[d] = place[d] - point[d];
+  }
+};
+
+struct Sums {
+  double value[NVALUES];
+  KOKKOS_INLINE_FUNCTION Sums()
+  {
+    for (double &one : value) one = 0.0;
+  }
+  KOKKOS_INLINE_FUNCTION Sums &operator+=(const Sums &other)
+  {
+    for (int k = 0; k < NVALUES; k++) value[k] += other.value[k];
+    return *this;
+  }
+};
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+FixSPHWallKokkos<DeviceType>::FixSPHWallKokkos(LAMMPS *lmp, int narg, char **arg) :
+    FixSPHWall(lmp, narg, arg), nparticles(0)
+{
+  kokkosable = 1;
+  exchange_comm_device = sort_device = 1;
+  atomKK = (AtomKokkos *) atom;
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  datamask_read = EMPTY_MASK;    // each function says itself what it reads and modifies
+  datamask_modify = EMPTY_MASK;
+
+  memory->destroy(array_atom);
+  FixSPHWallKokkos::grow_arrays(atom->nmax);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> FixSPHWallKokkos<DeviceType>::~FixSPHWallKokkos()
+{
+  memoryKK->destroy_kokkos(k_array, array_atom);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::setup_pre_exchange()
+{
+  atomKK->sync(Host, ALL_MASK);
+  FixSPHWall::setup_pre_exchange();
+  atomKK->modified(Host, V_MASK | VEST_MASK | spin_mask());
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::setup(int vflag)
+{
+  atomKK->sync(Host, X_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK);
+  FixSPHWall::setup(vflag);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> uint64_t FixSPHWallKokkos<DeviceType>::spin_mask() const
+{
+  return atom->omega_flag ? OMEGA_MASK : EMPTY_MASK;
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate(int /*vflag*/)
+{
+  if (motion->has_variables()) atomKK->sync(Host, ALL_MASK);    // which may be of any particles
+  const WallVelocity old = motion->velocity();
+  motion->advance();
+  if (move) motion->move_point();
+  const WallVelocity now = motion->velocity();
+  const WallStep step = motion->last_step();
+
+  const uint64_t modified = V_MASK | VEST_MASK | spin_mask();
+  atomKK->sync(execution_space, modified | X_MASK | IMAGE_MASK | MASK_MASK);
+  auto x = atomKK->k_x.template view<DeviceType>();
+  auto v = atomKK->k_v.template view<DeviceType>();
+  auto mask = atomKK->k_mask.template view<DeviceType>();
+  auto vest = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec)->k_vest.template view<DeviceType>();
+  const FromPoint<DeviceType> from_point(atomKK, domain);
+  const bool moves = move;
+  const int bit = groupbit;
+  Kokkos::parallel_for(
+      "sph:wall_move", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+        if (!(mask(i) & bit)) return;
+        double r[3], u[3];
+        if (moves) {
+          from_point(i, old.point, r);
+          step.move(r, &x(i, 0));
+        }
+        from_point(i, now.point, r);
+        now.at(r, u);
+        for (int d = 0; d < 3; d++) vest(i, d) = v(i, d) = u[d];
+      });
+
+  if (atom->omega_flag) {
+    auto omega = atomKK->k_omega.template view<DeviceType>();
+    Kokkos::parallel_for(
+        "sph:wall_spin", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+          if (!(mask(i) & bit)) return;
+          double w[3];
+          now.angular(w);
+          for (int d = 0; d < 3; d++) omega(i, d) = w[d];
+        });
+  }
+  atomKK->modified(execution_space, modified | (move ? X_MASK : EMPTY_MASK));
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+void FixSPHWallKokkos<DeviceType>::move_surface_kokkos(
+    const BoundaryDataKokkos<DeviceType> &boundary, bool before)
+{
+  const WallVelocity now = motion->velocity();
+  const bool turns = turns_surface(before);
+  const WallStep step = motion->last_step();
+  auto mask = atomKK->k_mask.template view<DeviceType>();
+  auto all = boundary.particles;
+  auto surface = boundary.surface;
+  const int bit = groupbit;
+  Kokkos::parallel_for(
+      "sph:wall_surface", Kokkos::RangePolicy<DeviceType>(0, boundary.nall), KOKKOS_LAMBDA(int k) {
+        if (!(mask(all(k)) & bit)) return;
+        Surface &s = surface(k);
+        now.angular(s.omega);
+        if (!turns) return;
+        double turned[3];
+        step.turn(s.normal, turned);
+        for (int d = 0; d < 3; d++) s.normal[d] = turned[d];
+      });
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
+    const BoundaryDataKokkos<DeviceType> &boundary, const LoopDataKokkos<DeviceType> &data)
+{
+  const WallVelocity now = motion->velocity();
+  const WallCondition wall = *condition;
+  const FromPoint<DeviceType> from_point(atomKK, domain);
+  auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
+  auto rho = avec->k_rho.template view<DeviceType>();
+  auto vfrac = avec->k_vfrac.template view<DeviceType>();
+  auto mask = atomKK->k_mask.template view<DeviceType>();
+  auto rmass = atomKK->k_rmass.template view<DeviceType>();
+  auto all = boundary.particles;
+  auto surface = boundary.surface;
+  auto sums = boundary.sum;
+  auto particle = data.particle;
+  auto zeta_term = data.zeta_term;
+  auto weight = data.weight;
+  auto spin = data.spin;
+  const bool has_spin = data.spin.extent(0);
+  const int each = data.each;
+  const int bit = groupbit;
+
+  atomKK->sync(execution_space, IMAGE_MASK);
+  Kokkos::parallel_for(
+      "sph:wall_set", Kokkos::RangePolicy<DeviceType>(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
+        const int i = all(k);
+        const BoundarySum &sum = sums(k);
+        if (!(mask(i) & bit)) return;
+        if (has_spin) now.angular(spin(i).w);
+        if (!(sum.weight > 0.0)) return;
+        double r[3], acceleration[3];
+        from_point(i, now.point, r);
+        now.acceleration_at(r, acceleration);
+
+        Particle &p = particle(i);
+        rho(i) = sum.rho / sum.weight;
+        vfrac(i) = p.vol = rmass(i) / rho(i);
+        const double c_inv = p.vol / weight(i * each);
+        p.g = wall_pressure(sum, wall.gravity, acceleration) * c_inv * c_inv;
+        zeta_term(i) = sum.zeta_term / sum.weight;
+        extend_motion(wall, surface(k), sum, p.u, has_spin ? spin(i).w : nullptr);
+      });
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
+{
+  auto mask = atomKK->k_mask.template view<DeviceType>();
+  const int bit = groupbit;
+  if ((int) particles.extent(0) < atom->nmax) {
+    particles = {};
+    particles = decltype(particles)(Kokkos::NoInit("sph/wall:particles"), atom->nmax);
+  }
+  auto list = particles;
+  Kokkos::parallel_scan(
+      "sph:wall_find", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
+      KOKKOS_LAMBDA(int i, int &k, bool last) {
+        if (!(mask(i) & bit)) return;
+        if (last) list(k) = i;
+        k++;
+      },
+      nparticles);
+}
+
+/* ----------------------------------------------------------------------
+   Nothing tells when somebody reads array_atom: the host has it in every step.  On a GPU only the values
+   of the wall are copied.
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*vflag*/)
+{
+  constexpr bool ON_HOST = std::is_same_v<typename DeviceType::memory_space, Kokkos::HostSpace>;
+  const bool has_torque = atom->torque_flag;
+  atomKK->sync(execution_space,
+               X_MASK | F_MASK | IMAGE_MASK | MASK_MASK | (has_torque ? TORQUE_MASK : EMPTY_MASK));
+  auto array = k_array.template view<DeviceType>();
+  if (neighbor->ago == 0) {
+    find_particles();
+    k_array.clear_sync_state();
+    Kokkos::deep_copy(k_array.view_device(), 0.0);
+    Kokkos::deep_copy(k_array.view_host(), 0.0);
+  }
+  k_array.template sync<DeviceType>();
+
+  const WallVelocity now = motion->velocity();
+  const FromPoint<DeviceType> from_point(atomKK, domain);
+  auto f = atomKK->k_f.template view<DeviceType>();
+  auto torque = atomKK->k_torque.template view<DeviceType>();
+  auto list = particles;
+  Sums sums;
+  Kokkos::parallel_reduce(
+      "sph:wall_force", Kokkos::RangePolicy<DeviceType>(0, nparticles),
+      KOKKOS_LAMBDA(int k, Sums &all) {
+        const int i = list(k);
+        double r[3], force[3], moment[3];
+        from_point(i, now.point, r);
+        for (int d = 0; d < 3; d++) force[d] = f(i, d);
+        cross_product(r, force, moment);
+        for (int d = 0; d < 3; d++) {
+          const double couple = has_torque ? torque(i, d) : 0.0;
+          array(i, d) = force[d];
+          array(i, 3 + d) = couple;
+          all.value[d] += force[d];
+          all.value[3 + d] += moment[d] + couple;
+        }
+      },
+      sums);
+  std::copy_n(sums.value, NVALUES, total);
+  total_summed = false;
+  if constexpr (ON_HOST) return k_array.template modify<DeviceType>();
+
+  Kokkos::View<double *[NVALUES], Kokkos::LayoutRight, DeviceType> packed(
+      Kokkos::NoInit("sph/wall:packed"), nparticles);
+  Kokkos::parallel_for(
+      "sph:wall_pack", Kokkos::RangePolicy<DeviceType>(0, nparticles), KOKKOS_LAMBDA(int k) {
+        for (int c = 0; c < NVALUES; c++) packed(k, c) = array(list(k), c);
+      });
+  const auto values = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), packed);
+  const auto numbers = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles);
+  for (int k = 0; k < nparticles; k++) std::copy_n(&values(k, 0), NVALUES, array_atom[numbers(k)]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::min_post_force(int vflag)
+{
+  atomKK->sync(Host, F_MASK | MASK_MASK);
+  FixSPHWall::min_post_force(vflag);
+  atomKK->modified(Host, F_MASK);
+}
+
+/* ----------------------------------------------------------------------
+   array_atom, on the host and the device
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::grow_arrays(int nmax)
+{
+  k_array.sync_device();
+  memoryKK->grow_kokkos(k_array, array_atom, nmax, "sph/wall:array_atom");
+  k_array.modify_device();
+  k_array.sync_host();
+}
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::set_arrays(int i)
+{
+  k_array.sync_host();
+  FixSPHWall::set_arrays(i);
+  k_array.modify_host();
+}
+
+template <class DeviceType>
+void FixSPHWallKokkos<DeviceType>::copy_arrays(int i, int j, int delflag)
+{
+  k_array.sync_host();
+  FixSPHWall::copy_arrays(i, j, delflag);
+  k_array.modify_host();
+}
+
+template <class DeviceType> int FixSPHWallKokkos<DeviceType>::pack_exchange(int i, double *buf)
+{
+  k_array.sync_host();
+  return FixSPHWall::pack_exchange(i, buf);
+}
+
+template <class DeviceType> int FixSPHWallKokkos<DeviceType>::unpack_exchange(int i, double *buf)
+{
+  k_array.sync_host();
+  const int n = FixSPHWall::unpack_exchange(i, buf);
+  k_array.modify_host();
+  return n;
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+void FixSPHWallKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)
+{
+  k_array.sync_device();
+  sorter.sort(LMPDeviceType(), k_array.view_device());
+  k_array.modify_device();
+  k_array.sync_host();
+}
+
+/* ----------------------------------------------------------------------
+   particles that leave, those that take their places, and particles that arrive; in the space that
+   LAMMPS communicates on
+------------------------------------------------------------------------- */
+
+template <class Space, class Array> static ColumnsKokkos columns_of(Array &array)
+{
+  ColumnsKokkos columns;
+  array.template sync<Space>();
+  columns.add(array.template view<Space>());
+  return columns;
+}
+
+template <class DeviceType>
+int FixSPHWallKokkos<DeviceType>::pack_exchange_kokkos(const int &nsend,
+                                                       DAT::tdual_double_2d_lr &buf,
+                                                       DAT::tdual_int_1d list,
+                                                       DAT::tdual_int_1d replacement,
+                                                       ExecutionSpace space)
+{
+  auto pack = [&](auto where) {
+    typedef decltype(where) Space;
+    buf.template sync<Space>();
+    list.template sync<Space>();
+    replacement.template sync<Space>();
+    pack_leaving_columns<Space>(columns_of<Space>(k_array),
+                                {buf.template view<Space>().data(), NVALUES}, nsend,
+                                list.template view<Space>(), replacement.template view<Space>());
+    buf.template modify<Space>();
+    k_array.template modify<Space>();
+  };
+  if (space == HostKK)
+    pack(LMPHostType());
+  else
+    pack(LMPDeviceType());
+  k_array.sync_host();
+  return nsend * NVALUES;
+}
+
+template <class DeviceType>
+void FixSPHWallKokkos<DeviceType>::unpack_exchange_kokkos(DAT::tdual_double_2d_lr &buf,
+                                                          DAT::tdual_int_1d &place, int nrecv,
+                                                          int /*nrecv1*/, int /*nextrarecv1*/,
+                                                          ExecutionSpace space)
+{
+  auto unpack = [&](auto where) {
+    typedef decltype(where) Space;
+    unpack_arriving_columns<Space>(columns_of<Space>(k_array),
+                                   {buf.template view<Space>().data(), NVALUES}, nrecv,
+                                   place.template view<Space>());
+    k_array.template modify<Space>();
+  };
+  if (space == HostKK)
+    unpack(LMPHostType());
+  else
+    unpack(LMPDeviceType());
+  k_array.sync_host();
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> double FixSPHWallKokkos<DeviceType>::memory_usage()
+{
+  return FixSPHWall::memory_usage() + (double) particles.extent(0) * sizeof(int);
+}
+
+/* ---------------------------------------------------------------------- */
+
+namespace LAMMPS_NS {
+template class FixSPHWallKokkos<LMPDeviceType>;
+#ifdef LMP_KOKKOS_GPU
+template class FixSPHWallKokkos<LMPHostType>;
+#endif
+}    // namespace LAMMPS_NS

@@ -1,0 +1,77 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(sph/wall/kk,FixSPHWallKokkos<LMPDeviceType>);
+FixStyle(sph/wall/kk/device,FixSPHWallKokkos<LMPDeviceType>);
+FixStyle(sph/wall/kk/host,FixSPHWallKokkos<LMPHostType>);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_SPH_WALL_KOKKOS_H
+#define LMP_FIX_SPH_WALL_KOKKOS_H
+
+#include "fix_sph_wall.h"
+#include "kokkos_base.h"
+#include "sph_dissipation_boundary_kokkos.h"
+
+namespace LAMMPS_NS {
+
+// What is done in every step is done on the device; the start of a run, and minimizations, by the CPU
+// style on the host
+
+template <class DeviceType>
+class FixSPHWallKokkos :
+    public FixSPHWall,
+    public KokkosBase,
+    public SPHDissipation::BoundaryKokkos<DeviceType> {
+ public:
+  FixSPHWallKokkos(class LAMMPS *, int, char **);
+  ~FixSPHWallKokkos() override;
+  void setup_pre_exchange() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void post_force(int) override;
+  void min_post_force(int) override;
+
+  void grow_arrays(int) override;
+  void set_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &) override;
+  int pack_exchange_kokkos(const int &, DAT::tdual_double_2d_lr &, DAT::tdual_int_1d,
+                           DAT::tdual_int_1d, ExecutionSpace) override;
+  void unpack_exchange_kokkos(DAT::tdual_double_2d_lr &, DAT::tdual_int_1d &, int, int, int,
+                              ExecutionSpace) override;
+  double memory_usage() override;
+
+  void move_surface_kokkos(const SPHDissipation::BoundaryDataKokkos<DeviceType> &, bool) override;
+  void set_boundary_kokkos(const SPHDissipation::BoundaryDataKokkos<DeviceType> &,
+                           const SPHDissipation::LoopDataKokkos<DeviceType> &) override;
+
+  void find_particles();    // public because CUDA asks for it of functions with lambdas
+
+ private:
+  Kokkos::DualView<double *[6], Kokkos::LayoutRight, LMPDeviceType> k_array;    // array_atom
+  Kokkos::View<int *, DeviceType> particles;    // owned ones of the wall, of the neighbor list
+  int nparticles;
+
+  uint64_t spin_mask() const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,290 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_boundary_kokkos.h"
+
+#include "atom_kokkos.h"
+#include "atom_vec_sph_bulk_kokkos.h"
+#include "neighbor.h"
+#include "pair.h"
+#include "sph_dissipation_boundary_stage.h"
+#include "sph_dissipation_masks_kokkos.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+BoundaryStageKokkos<DeviceType>::BoundaryStageKokkos(LAMMPS *lmp, Pair *pair,
+                                                     BoundaryStage &stage) :
+    Pointers(lmp),
+    pair(pair), stage(stage), boundary(), bits(0), surface_step(-1), nrows(0)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+void BoundaryStageKokkos<DeviceType>::run(LoopDataKokkos<DeviceType> &data, Kernel form, int dim,
+                                          int inum)
+{
+  const bool found = (neighbor->ago == 0 || bits != stage.bits());
+  with_kernel(form, [&](auto kernel) {
+    typedef decltype(kernel) K;
+    if (found) {
+      find_particles(data, dim);
+      find_rows(data, inum);
+      find_surface<K>(data);
+      boundaries.clear();
+      for (Boundary *one : stage.all())
+        boundaries.push_back(dynamic_cast<BoundaryKokkos<DeviceType> *>(one));
+    }
+
+    const bool before = (!found && surface_step != update->ntimestep);
+    surface_step = update->ntimestep;
+    for (auto *one : boundaries) one->move_surface_kokkos(boundary, before);
+    sum_fluid<K>(data);
+    check<K>(data);
+  });
+  for (auto *one : boundaries) one->set_boundary_kokkos(boundary, data);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<DeviceType> &data,
+                                                     int dim)
+{
+  bits = stage.bits();
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  const int some = bits;
+  auto mask = ((AtomKokkos *) atom)->k_mask.template view<DeviceType>();
+  auto all_of = [&](int n) {
+    int found = 0;
+    Kokkos::parallel_reduce(
+        "sph:boundary", Range(0, n),
+        KOKKOS_LAMBDA(int i, int &total) { total += (mask(i) & some) ? 1 : 0; }, found);
+    return found;
+  };
+  boundary.nowned = all_of(nlocal);
+  boundary.nall = all_of(nall);
+
+  boundary.number = {};
+  boundary.number = decltype(boundary.number)(Kokkos::NoInit("sph:boundary_number"), nall);
+  auto number = boundary.number;
+  boundary.particles = decltype(boundary.particles)(Kokkos::NoInit("sph:boundary"), boundary.nall);
+  boundary.surface =
+      decltype(boundary.surface)(Kokkos::NoInit("sph:boundary_surface"), boundary.nall);
+  boundary.sum = decltype(boundary.sum)(Kokkos::NoInit("sph:boundary_sum"), boundary.nowned);
+  boundary.near = decltype(boundary.near)(Kokkos::NoInit("sph:boundary_near"), boundary.nall);
+
+  auto particles = boundary.particles;
+  auto near = boundary.near;
+  auto particle = data.particle;
+  const double support = data.support, weight_norm = data.weight_norm;
+  Kokkos::parallel_scan(
+      "sph:boundary", Range(0, nall), KOKKOS_LAMBDA(int i, int &k, bool last) {
+        const bool is_boundary = mask(i) & some;
+        if (last) {
+          number(i) = is_boundary ? k : -1;
+          if (is_boundary) {
+            particles(k) = i;
+            near(k) = near_kernel(dim, support, weight_norm, particle(i).vol);
+          }
+        }
+        if (is_boundary) k++;
+      });
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+void BoundaryStageKokkos<DeviceType>::find_rows(const LoopDataKokkos<DeviceType> &data, int inum)
+{
+  auto ilist = data.ilist;
+  auto numneigh = data.numneigh;
+  auto neighbors = data.neighbors;
+  auto number = boundary.number;
+  if ((int) rows.extent(0) < inum) {
+    rows = {};
+    rows = decltype(rows)(Kokkos::NoInit("sph:boundary_rows"), atom->nmax);
+  }
+  auto found = rows;
+  Kokkos::parallel_scan(
+      "sph:boundary_rows", Range(0, inum),
+      KOKKOS_LAMBDA(int ii, int &k, bool last) {
+        const int i = ilist(ii);
+        if (number(i) >= 0) return;
+        const int jnum = numneigh(i);
+        for (int jj = 0; jj < jnum; jj++)
+          if (number(neighbors(i, jj) & NEIGHMASK) >= 0) {
+            if (last) found(k) = i;
+            k++;
+            return;
+          }
+      },
+      nrows);
+}
+
+/* ----------------------------------------------------------------------
+   Vectors toward the fluid on the device, as SurfaceStage::find_sides(); the rest on the host: it needs
+   pairs of boundary particles, which the neighbor list does not have, only when this is built, and for
+   boundary particles alone
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class K>
+void BoundaryStageKokkos<DeviceType>::find_surface(const LoopDataKokkos<DeviceType> &data)
+{
+  Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> side("sph:boundary_side",
+                                                                  boundary.nowned);
+  auto particles = boundary.particles;
+  auto number = boundary.number;
+  auto particle = data.particle;
+  auto numneigh = data.numneigh;
+  auto neighbors = data.neighbors;
+  const double support = data.support, slope_norm = data.slope_norm;
+  Kokkos::parallel_for(
+      "sph:boundary_side", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
+        const int i = particles(k);
+        const double *const x = particle(i).x;
+        const int jnum = numneigh(i);
+        for (int jj = 0; jj < jnum; jj++) {
+          const int j = neighbors(i, jj) & NEIGHMASK;
+          if (number(j) >= 0) continue;
+          double r[3];
+          for (int d = 0; d < 3; d++) r[d] = particle(j).x[d] - x[d];
+          const double rsq = inner_product(r, r);
+          if (rsq >= support * support) continue;
+          const double slope = slope_norm * K::slope(Kokkos::sqrt(rsq) / support);
+          for (int d = 0; d < 3; d++) side(k, d) += slope * r[d];
+        }
+      });
+  const auto h_side = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), side);
+
+  auto *const atomKK = (AtomKokkos *) atom;
+  atomKK->modified(pair->execution_space, VFRAC_MASK);
+  atomKK->sync(Host, X_MASK | MASK_MASK | VFRAC_MASK);
+  const ExecutionSpace space = pair->execution_space;
+  pair->execution_space = Host;    // where it communicates
+  const Surface *const surface =
+      stage.find_surface(std::vector<double>(h_side.data(), h_side.data() + h_side.size()));
+  pair->execution_space = space;
+
+  auto h_surface = Kokkos::create_mirror_view(boundary.surface);
+  const auto h_particles =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), boundary.particles);
+  for (int k = 0; k < boundary.nall; k++) h_surface(k) = surface[h_particles(k)];
+  Kokkos::deep_copy(boundary.surface, h_surface);
+}
+
+/* ----------------------------------------------------------------------
+   each boundary particle sums up its own fluid
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class K>
+void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType> &data)
+{
+  auto particles = boundary.particles;
+  auto number = boundary.number;
+  auto surface = boundary.surface;
+  auto sum = boundary.sum;
+  auto loop = data;
+  const bool has_spin = data.spin.extent(0);
+  auto rho = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec)->k_rho.template view<DeviceType>();
+  Kokkos::parallel_for(
+      "sph:boundary_sum", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
+        const int i = particles(k);
+        const Particle w = loop.particle(i);
+        const Surface s = surface(k);
+        BoundarySum total = {};
+        const int jnum = loop.numneigh(i);
+        for (int jj = 0; jj < jnum; jj++) {
+          const int j = loop.neighbors(i, jj) & NEIGHMASK;
+          if (number(j) >= 0) continue;
+          const Particle &f = loop.particle(j);
+          double r[3];
+          for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
+          const double rsq = inner_product(r, r);
+          if (rsq >= loop.support * loop.support) continue;
+          const double kernel_weight =
+              loop.weight_norm * K::shape(Kokkos::sqrt(rsq) / loop.support);
+          const double height = add_fluid(f, w, r, kernel_weight, s, rho(j),
+                                          loop.weight(j * loop.each), loop.zeta_term(j), total);
+          if (has_spin) add_fluid_spin(loop.spin(j).w, f.vol * kernel_weight, height, s, total);
+        }
+        sum(k) = total;
+      });
+}
+
+/* ----------------------------------------------------------------------
+   the first particle of the fluid that is inside a wall stops the run
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class K>
+void BoundaryStageKokkos<DeviceType>::check(const LoopDataKokkos<DeviceType> &data)
+{
+  auto list = rows;
+  auto number = boundary.number;
+  auto near = boundary.near;
+  auto particle = data.particle;
+  auto numneigh = data.numneigh;
+  auto neighbors = data.neighbors;
+  int first;
+  Kokkos::parallel_reduce(
+      "sph:boundary_check", Range(0, nrows),
+      KOKKOS_LAMBDA(int k, int &smallest) {
+        const int i = list(k);
+        const double *const x = particle(i).x;
+        double filled = 0.0;
+        const int jnum = numneigh(i);
+        for (int jj = 0; jj < jnum; jj++) {
+          const int j = neighbors(i, jj) & NEIGHMASK;
+          if (number(j) < 0) continue;
+          const NearKernel wall = near(number(j));
+          double r[3];
+          for (int d = 0; d < 3; d++) r[d] = particle(j).x[d] - x[d];
+          const double q = Kokkos::sqrt(inner_product(r, r)) * wall.scale;
+          if (q < 1.0) filled += wall.norm * K::shape(q);
+        }
+        if (filled > INSIDE_WALL && i < smallest) smallest = i;
+      },
+      Kokkos::Min<int>(first));
+  if (first >= atom->nlocal) return;
+  ((AtomKokkos *) atom)->sync(Host, TAG_MASK);
+  stage.stop_for(first);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> double BoundaryStageKokkos<DeviceType>::memory_usage() const
+{
+  return (double) (boundary.number.extent(0) + rows.extent(0)) * sizeof(int) +
+      (double) boundary.nall * (sizeof(int) + sizeof(Surface) + sizeof(NearKernel)) +
+      (double) boundary.nowned * sizeof(BoundarySum);
+}
+
+/* ---------------------------------------------------------------------- */
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+  template class BoundaryStageKokkos<LMPDeviceType>;
+#ifdef LMP_KOKKOS_GPU
+  template class BoundaryStageKokkos<LMPHostType>;
+#endif
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS

@@ -1,0 +1,228 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_WALL_TERMS_H
+#define LMP_SPH_DISSIPATION_WALL_TERMS_H
+
+// Motion of a rigid wall, what the fluid around its particles adds up to, and what follows from it for
+// one of them: S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012), and the extension of
+// velocity and spin behind the surface.  No LAMMPS include.
+
+#include "sph_dissipation_boundary.h"
+#include "sph_dissipation_extension.h"
+#include "sph_dissipation_function.h"
+
+#include <cmath>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  SPH_FUNCTION double inner_product(const double *a, const double *b)
+  {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+
+  SPH_FUNCTION void cross_product(const double *a, const double *b, double *c)
+  {
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+  }
+
+  // Velocity of a wall: of a point on the axis, and a rotation about it.  r = vector from that point
+
+  struct WallVelocity {
+    double point[3], axis[3];
+    double u[3], omega;         // velocity of the point, angular velocity
+    double rate[3], turning;    // of their change
+
+    SPH_FUNCTION void angular(double *w) const
+    {
+      for (int d = 0; d < 3; d++) w[d] = omega * axis[d];
+    }
+
+    SPH_FUNCTION void at(const double *r, double *v) const
+    {
+      double w[3];
+      angular(w);
+      cross_product(w, r, v);
+      for (int d = 0; d < 3; d++) v[d] += u[d];
+    }
+
+    SPH_FUNCTION void acceleration_at(const double *r, double *a) const
+    {
+      double w[3], turn[3], centripetal[3];
+      angular(w);
+      cross_product(w, r, turn);
+      cross_product(w, turn, centripetal);
+      cross_product(axis, r, a);
+      for (int d = 0; d < 3; d++) a[d] = rate[d] + turning * a[d] + centripetal[d];
+    }
+  };
+
+  // Displacement of a wall in a step: r -> rotation r + shift
+
+  struct WallStep {
+    double rotation[3][3], shift[3];
+
+    SPH_FUNCTION void turn(const double *r, double *turned) const
+    {
+      for (int d = 0; d < 3; d++) turned[d] = inner_product(rotation[d], r);
+    }
+
+    SPH_FUNCTION void move(const double *r, double *x) const
+    {
+      double turned[3];
+      turn(r, turned);
+      for (int d = 0; d < 3; d++) x[d] += shift[d] + (turned[d] - r[d]);
+    }
+  };
+
+  // What a wall does to the fluid
+
+  enum class WallSpin { ZERO, RATE, FREE };
+
+  struct WallCondition {
+    bool slip;
+    WallSpin spin;
+    double alpha;    // of spin rate
+    double gravity[3];
+  };
+
+  // Particles of the fluid that boundary particles press on all sides are inside a wall.  A kernel that
+  // sees the nearest particles only, however large the support radius of the fluid, tells: with as
+  // many particle spacings as a fluid has at least.  The near support of a fluid particle at a plane
+  // surface is half full of boundary particles, that of one in the corner of a box 7/8; more only
+  // inside.  A larger one would be as full in a pore as wide as the particle itself.
+
+  constexpr double INSIDE_WALL = 0.9;
+
+  struct NearKernel {
+    double norm, scale;    // V W = norm * shape(scale * r)
+  };
+
+  // of a boundary particle with the volume vol, for a fluid whose kernel has W = weight_norm * shape
+
+  SPH_FUNCTION NearKernel near_kernel(int dim, double support, double weight_norm, double vol)
+  {
+    const double spacings = (dim == 1) ? 4.0 : (dim == 2) ? 3.0 : 2.5;
+    const double wanted = spacings * pow(vol, 1.0 / dim);
+    const double radius = (support < wanted) ? support : wanted;
+    return {vol * weight_norm * pow(support / radius, dim), 1.0 / radius};
+  }
+
+  // Contribution of the particle f of the fluid to the sums of the boundary particle w, r = x_w - x_f,
+  // kernel_weight = W(r), w_f = reference volume of f.  Returns the distance of f from the surface.
+
+  template <class P>
+  SPH_FUNCTION double add_fluid(const P &f, const P &w, const double *r, double kernel_weight,
+                                const Surface &s, double rho, double w_f, double zeta_term,
+                                BoundarySum &total)
+  {
+    const double weight = f.vol * kernel_weight;
+    const double inside = -s.depth - inner_product(s.normal, r);
+    const double height = (inside > CLOSEST * s.spacing) ? inside : CLOSEST * s.spacing;
+    const double weight_d = weight * height;
+    double turn[3];
+    cross_product(s.omega, r, turn);
+
+    total.weight += weight;
+    total.d += weight_d;
+    total.d2 += weight_d * height;
+    total.d3 += weight_d * height * height;
+    for (int d = 0; d < 3; d++) {
+      const double relative = f.u[d] - w.u[d] + turn[d];
+      total.r[d] += weight * r[d];
+      total.u[d] += weight * relative;
+      total.ud[d] += weight_d * relative;
+    }
+    total.rho += weight * rho;
+    total.pressure += kernel_weight * w_f * w_f * f.g / f.vol;
+    total.zeta_term += weight * zeta_term;
+    return height;
+  }
+
+  // the same for its spin
+
+  SPH_FUNCTION void add_fluid_spin(const double *spin, double weight, double height,
+                                   const Surface &s, BoundarySum &total)
+  {
+    for (int d = 0; d < 3; d++) {
+      const double relative = spin[d] - s.omega[d];
+      total.w[d] += weight * relative;
+      total.wd[d] += weight * height * relative;
+    }
+  }
+
+  // pressure at a wall particle of this acceleration, sum.weight > 0
+
+  SPH_FUNCTION double wall_pressure(const BoundarySum &sum, const double *gravity,
+                                    const double *acceleration)
+  {
+    const double norm = 1.0 / sum.weight;
+    double pressure = sum.pressure * norm;
+    for (int d = 0; d < 3; d++)
+      pressure += sum.rho * norm * (gravity[d] - acceleration[d]) * sum.r[d] * norm;
+    return pressure;
+  }
+
+  // Velocity and spin of the fluid go on behind the surface as its condition says: added to those of
+  // the wall, u and spin (nullptr: there is none) of one of its particles, sum.weight > 0
+
+  SPH_FUNCTION void extend_motion(const WallCondition &condition, const Surface &surface,
+                                  const BoundarySum &sum, double *u, double *spin)
+  {
+    const double norm = 1.0 / sum.weight;
+    const double needed = CLOSEST_MEAN * surface.spacing / (norm * sum.d);
+    const double stretch = (needed > 1.0) ? needed : 1.0;
+    const double norm_d = norm * stretch;
+    const DistanceMeans distance = {norm_d * sum.d, norm_d * stretch * sum.d2,
+                                    norm_d * stretch * stretch * sum.d3};
+    const double *const normal = surface.normal;
+    const double depth = surface.depth;
+
+    // across the surface the velocity is zero, with a slope that is zero where the fluid sticks: the
+    // image of the mean is enough, and does not ask for a smaller time step
+
+    const double mirrored = (depth < distance.d) ? depth / distance.d : 1.0;
+    const double across = inner_product(sum.u, normal) * norm;
+    const double across_d = inner_product(sum.ud, normal) * norm_d;
+    double slope[3];
+    for (int d = 0; d < 3; d++) {
+      const double along_f = sum.u[d] * norm - across * normal[d];
+      const double along_fd = sum.ud[d] * norm_d - across_d * normal[d];
+      const Extension along = condition.slip ? distance.free(along_f, along_fd)
+                                             : distance.stuck(along_f, along_fd);
+      slope[d] = condition.slip ? distance.straight_slope(along_f, along_fd) : along.slope;
+      u[d] += along.behind(depth) - mirrored * across * normal[d];
+    }
+    if (!spin) return;
+
+    // the vorticity relative to the wall is normal x slope
+
+    double surface_spin[3] = {0.0, 0.0, 0.0};
+    if (condition.spin == WallSpin::RATE) cross_product(normal, slope, surface_spin);
+    for (int d = 0; d < 3; d++) {
+      const double at_surface = 0.5 * condition.alpha * surface_spin[d];
+      const double s = sum.w[d] * norm - at_surface;
+      const double sd = sum.wd[d] * norm_d - at_surface * distance.d;
+      const Extension beyond = (condition.spin == WallSpin::FREE) ? distance.free(s, sd)
+                                                                  : distance.stuck(s, sd);
+      spin[d] += at_surface + beyond.behind(depth);
+    }
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
