@@ -15,8 +15,10 @@
 
 #include "atom_kokkos.h"
 #include "atom_vec_sph_bulk_kokkos.h"
+#include "pair_sph_bulk_kokkos.h"
 #include "sph_dissipation_integrate.h"
 #include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_shift_terms.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -104,7 +106,33 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::initial_integrate
         step.begin_energy(desph(i), esph(i), desph_before(i));
         for (int d = 0; d < 3; d++) step.begin(dtfm, f(i, d), x(i, d), v(i, d), vest(i, d));
       });
+  if (shift_speed > 0.0) shift_on_device();
   atomKK->modified(execution_space, MODIFIED);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
+{
+  if (remap_v_flag || exact) return true;
+  if (shift_speed == 0.0) return false;
+  auto *const pairKK = dynamic_cast<PairSPHBulkKokkos<DeviceType> *>(pair);
+  return !pairKK || !pairKK->computes_on_device();
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::shift_on_device()
+{
+  auto crowding = dynamic_cast<PairSPHBulkKokkos<DeviceType> *>(pair)->crowding_on_device();
+  auto x = atomKK->k_x.template view<DeviceType>();
+  auto mask = atomKK->k_mask.template view<DeviceType>();
+  const double speed = shift_speed, support = pair->support_radius(), dt = dtv;
+  const int bit = groupbit;
+  Kokkos::parallel_for(
+      "sph:shift", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
+        if (mask(i) & bit) shift_particle(speed, support, dt, &crowding(i, 0), &x(i, 0));
+      });
 }
 
 /* ----------------------------------------------------------------------

@@ -27,8 +27,8 @@ FixStyle(sph/bulk/kk/host,FixSPHBulkKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-// What is done in every step is done on the device, but for particle shifting, the exchange of energy
-// of thermal noise, large viscosities, and the velocities that fix deform remaps: those, and the start of a run, by the
+// What is done in every step is done on the device, but for the exchange of energy of thermal noise,
+// large viscosities, and the velocities that fix deform remaps: those, and the start of a run, by the
 // CPU style on the host.
 
 template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
@@ -41,9 +41,10 @@ template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
   void post_integrate() override;
   void pre_force(int) override;
   void final_integrate() override;
+  void shift_on_device();    // public because CUDA asks for it of functions with lambdas
 
  private:
-  bool on_host() const { return remap_v_flag || shift_speed > 0.0 || exact; }
+  bool on_host() const;
   class AtomVecSPHBulkKokkos *avec_kokkos() const;
 };
 

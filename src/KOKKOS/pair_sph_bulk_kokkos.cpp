@@ -35,6 +35,7 @@
 #include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_stage.h"
+#include "sph_dissipation_sums_kokkos.h"
 #include "update.h"
 
 #include <algorithm>
@@ -82,7 +83,6 @@ template <class DeviceType> PairSPHBulkKokkos<DeviceType>::~PairSPHBulkKokkos()
 template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_because() const
 {
   if (has_noise()) return "keyword temp";
-  if (model->choice.limit != Limit::NO) return "keyword limit";
   if (update->whichflag == 2) return "a minimization";
   for (const auto &ifix : modify->get_fix_list()) {
     auto *one = dynamic_cast<Boundary *>(ifix);
@@ -90,8 +90,6 @@ template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_b
         dynamic_cast<OpenZone *>(ifix))
       return fmt::format("fix {}", ifix->style);
     auto *integrator = dynamic_cast<FixSPHBulk *>(ifix);
-    if (integrator && integrator->shifts_particles())
-      return fmt::format("fix {} shift", ifix->style);
     if (integrator && integrator->has_viscous_stage())
       return fmt::format("fix {} viscous", ifix->style);
   }
@@ -310,15 +308,18 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::compute(int efla
   set_particles();
   run_density();
   send_density();
+  const bool limited = (model->choice.limit != Limit::NO);
+  if (limited) find_bound();
   set_state();
   if (!boundary->empty()) {
     boundary_device->run(*data, model->choice.kernel, dim, list->inum);
     send_boundary();
   }
+  if (crowding_requested) find_crowding();
   run_forces(vflag_either);
   atomKK->modified(execution_space, MODIFIED);
 
-  pvector[0] = 0.0;
+  pvector[0] = limited ? beyond_bound_of_limit() : 0.0;
   if (eflag_either) {
     atomKK->sync(Host, SPH_RHO_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
     tally_energy();
@@ -467,6 +468,76 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::send_density()
 }
 
 /* ----------------------------------------------------------------------
+   of the limit, from the volumes of the densities, for owned and ghost atoms
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::find_bound()
+{
+  auto particle = data->particle;
+  auto density_of = data->density;
+  auto weight = data->weight;
+  const int each = data->each;
+  Kokkos::parallel_for(
+      "sph:volume", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+      KOKKOS_LAMBDA(int i) { particle(i).vol = weight(i * each) / density_of(i).c; });
+
+  if ((int) bound.extent(0) < atom->nmax) {
+    bound = {};
+    bound = decltype(bound)(Kokkos::NoInit("sph:bound"), atom->nmax);
+  }
+  with_kernel(model->choice.kernel, [&](auto kernel) {
+    Kokkos::parallel_for(
+        "sph:bound", Kokkos::RangePolicy<DeviceType>(0, list->inum),
+        BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, model->choice.shear, bound});
+  });
+
+  if (communicates_on_device()) {
+    sent = ColumnsKokkos();
+    sent.add(bound);
+    comm->forward_comm(this, sent.n);
+    return;
+  }
+  auto copy = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), bound);
+  exchange->forward({{copy.data(), 1, 1}});
+  Kokkos::deep_copy(bound, copy);
+}
+
+/* ----------------------------------------------------------------------
+   # of particles of the fluid that are beyond it
+------------------------------------------------------------------------- */
+
+template <class DeviceType> int PairSPHBulkKokkos<DeviceType>::beyond_bound_of_limit() const
+{
+  auto bounds = bound;
+  auto coeffs = *types;
+  auto type = data->type;
+  auto mask = atomKK->k_mask.template view<DeviceType>();
+  const int except = not_fluid();
+  int count = 0;
+  Kokkos::parallel_reduce(
+      "sph:beyond", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
+      KOKKOS_LAMBDA(int i, int &sum) {
+        if (!(mask(i) & except) && beyond_bound(coeffs(type(i)).zeta, bounds(i))) sum++;
+      },
+      count);
+  return count;
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::find_crowding()
+{
+  if ((int) crowding_of.extent(0) < atom->nmax) {
+    crowding_of = {};
+    crowding_of = decltype(crowding_of)(Kokkos::NoInit("sph:crowding"), atom->nmax);
+  }
+  with_kernel(model->choice.kernel, [&](auto kernel) {
+    Kokkos::parallel_for("sph:crowding", Kokkos::RangePolicy<DeviceType>(0, list->inum),
+                         CrowdingLoopKokkos<DeviceType, decltype(kernel)>{*data, dim, crowding_of});
+  });
+}
+
+/* ----------------------------------------------------------------------
    what the boundary has set of owned particles; ghosts of the fluid get what they have already
 ------------------------------------------------------------------------- */
 
@@ -527,6 +598,8 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_state()
   const Bulk bulk = model->choice.bulk;
   auto mask = atomKK->k_mask.template view<DeviceType>();
   const int boundary_bits = boundary->bits();
+  const bool limited = (model->choice.limit == Limit::YES);
+  auto bounds = bound;
 
   Kokkos::parallel_for(
       "sph:state", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
@@ -544,7 +617,10 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_state()
         drho(i) = mass * density_of(i).cdot;
         vfrac(i) = vol;
         const TypeKokkos &coeff = coeffs(type(i));
-        const ParticleTerms terms = particle_terms(eos, coeff.eos, bulk, coeff.zeta, vol, weight,
+        const double zeta = (limited && beyond_bound(coeff.zeta, bounds(i)))
+            ? zeta_at_bound(bounds(i))
+            : coeff.zeta;
+        const ParticleTerms terms = particle_terms(eos, coeff.eos, bulk, zeta, vol, weight,
                                                    density_of(i).cdot, rho(i), esph(i) / rmass(i));
         particle(i).vol = vol;
         particle(i).g = terms.g;
@@ -635,7 +711,9 @@ template <class DeviceType> double PairSPHBulkKokkos<DeviceType>::memory_usage()
   double bytes = PairSPHBulk::memory_usage();
   bytes += (double) data->particle.extent(0) *
       (sizeof(Particle) + sizeof(DensitySum) + 3 * sizeof(double));
-  return bytes + (double) data->weight.extent(0) * sizeof(double) + boundary_device->memory_usage();
+  return bytes + (double) data->weight.extent(0) * sizeof(double) +
+      boundary_device->memory_usage() +
+      (double) (bound.size() + crowding_of.size()) * sizeof(double);
 }
 
 /* ---------------------------------------------------------------------- */

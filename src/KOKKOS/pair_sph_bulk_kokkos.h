@@ -57,10 +57,17 @@ template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public
   int pack_forward_comm_kokkos(int, DAT::tdual_int_1d, DAT::tdual_double_1d &, int, int *) override;
   void unpack_forward_comm_kokkos(int, int, DAT::tdual_double_1d &) override;
 
+  bool computes_on_device() const { return on_device; }
+  typedef Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> Crowding;
+  Crowding crowding_on_device() const { return crowding_of; }    // of owned particles
+
   // of compute(); public because CUDA asks for it of functions with lambdas
 
   void set_particles();
   void set_state();
+  void find_bound();
+  int beyond_bound_of_limit() const;
+  void find_crowding();
   void run_density();
   void run_forces(bool virial);
 
@@ -74,6 +81,8 @@ template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public
 
   SPHDissipation::LoopDataKokkos<DeviceType> *data;
   Kokkos::View<SPHDissipation::TypeKokkos *, DeviceType> *types;
+  Kokkos::View<double *, DeviceType> bound;    // of the limit, see LimitStage
+  Crowding crowding_of;
   SPHDissipation::BoundaryStageKokkos<DeviceType> *boundary_device;
 
   std::string on_host_because() const;

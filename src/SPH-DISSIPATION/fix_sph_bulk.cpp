@@ -19,10 +19,10 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
-#include "math_extra.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_integrate.h"
+#include "sph_dissipation_shift_terms.h"
 #include "sph_dissipation_suffix.h"
 #include "sph_dissipation_viscous.h"
 #include "sph_dissipation_viscous_keywords.h"
@@ -405,24 +405,14 @@ double FixSPHBulk::rest_of_heat(const double *v, const double *acting, const dou
   return 0.5 * dtv * power;
 }
 
-/* ----------------------------------------------------------------------
-   Fickian particle shifting: velocity U R crowding, at most U/2, on top of the own one,
-   S. J. Lind et al., J. Comput. Phys. 231, 1499 (2012); P. N. Sun et al. (2017), see CrowdingStage
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void FixSPHBulk::shift_particles()
 {
-  double **x = atom->x;
-  int *mask = atom->mask;
+  const double support = pair->support_radius();
   const int nlocal = nlocal_group();
-  const double scale = shift_speed * pair->support_radius();
-  for (int i = 0; i < nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    const double *const crowding = pair->crowding(i);
-    const double speed = scale * MathExtra::len3(crowding);
-    const double limit = (speed > 0.5 * shift_speed) ? 0.5 * shift_speed / speed : 1.0;
-    for (int d = 0; d < 3; d++) x[i][d] += dtv * limit * scale * crowding[d];
-  }
+  for (int i = 0; i < nlocal; i++)
+    if (atom->mask[i] & groupbit) shift_particle(shift_speed, support, dtv, pair->crowding(i), atom->x[i]);
 }
 
 /* ----------------------------------------------------------------------

@@ -34,6 +34,7 @@
 #include "sph_dissipation_function.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -137,6 +138,14 @@ namespace SPHDissipation {
   SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
   {
     return (shear == Shear::MG_FR) ? coeff.along_r * r : coeff.along_r + coeff.along_u;
+  }
+
+  // What a pair of slope F and square distance rsq > 0 adds to the bound of the limit of particle i, times
+  // (c_j/c_i)^2 V_j: F r^2 / a_ij
+
+  SPH_FUNCTION double bound_of_pair(Shear shear, const PairCoeff &coeff, double slope, double rsq)
+  {
+    return slope * rsq / central_weight(shear, coeff, sqrt(rsq));
   }
 
   // A negative coefficient of the bulk term beyond what the shear terms of the particle's pairs make up

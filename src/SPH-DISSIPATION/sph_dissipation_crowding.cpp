@@ -18,6 +18,7 @@
 #include "neigh_list.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_shift_terms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,6 @@ CrowdingStage::~CrowdingStage()
 
 void CrowdingStage::run(NeighList *list)
 {
-  constexpr double PAIRING = 0.2;
   const int nall = atom->nlocal + atom->nghost;
   if (nmax < atom->nmax) {
     nmax = atom->nmax;
@@ -56,11 +56,8 @@ void CrowdingStage::run(NeighList *list)
   const LoopData &pairs = engine.pairs();
   const int dim = engine.dimension();
   with_kernel(engine.kernel_form(), [&](auto k) {
-    for (int i = 0; i < nall; i++) {
-      const double vol = engine.particle[i].vol;
-      const double spacing = (dim == 1) ? vol : (dim == 2) ? sqrt(vol) : cbrt(vol);
-      contact[i] = 1.0 / k.shape(std::min(spacing / pairs.support, 0.9));
-    }
+    for (int i = 0; i < nall; i++)
+      contact[i] = contact_inverse<decltype(k)>(dim, pairs.support, engine.particle[i].vol);
 
     for (int ii = 0; ii < list->inum; ii++) {
       const int i = list->ilist[ii];
@@ -74,11 +71,8 @@ void CrowdingStage::run(NeighList *list)
           rsq += r[d] * r[d];
         }
         const double shape = k.shape(sqrt(rsq) / pairs.support);
-        auto push = [&](int n) {
-          const double close = shape * contact[n] * shape * contact[n];
-          return pairs.slope[entry] * (1.0 + PAIRING * close * close);
-        };
-        const double push_i = b.vol * push(i), push_j = a.vol * push(j);
+        const double push_i = b.vol * crowding_push(pairs.slope[entry], shape, contact[i]);
+        const double push_j = a.vol * crowding_push(pairs.slope[entry], shape, contact[j]);
         for (int d = 0; d < 3; d++) {
           crowding[i][d] += push_i * r[d];
           crowding[j][d] -= push_j * r[d];

@@ -66,7 +66,7 @@ void LimitStage::run(NeighList *list)
       }
       if (rsq == 0.0) continue;
       const PairCoeff &c = pairs.coeff[type[i] * pairs.ntypes_1 + type[j]];
-      const double pair = pairs.slope[entry] * rsq / central_weight(shear, c, sqrt(rsq));
+      const double pair = bound_of_pair(shear, c, pairs.slope[entry], rsq);
       const double ratio =
           particle[i].vol * engine.weight(j) / (particle[j].vol * engine.weight(i));
       bound[i] += ratio * ratio * particle[j].vol * pair;

@@ -152,6 +152,43 @@ def test_density_keyword(lammps):
 
 
 # ---------------------------------------------------------------------------------------------
+# limit and shift: further sums
+
+
+@pytest.mark.parametrize("options", ["limit yes", "limit count", "limit yes volume mass shear mg/fr"])
+@pytest.mark.parametrize("ntypes", [1, 2])
+def test_limit(lammps, options, ntypes):
+    """A coefficient of the bulk term that is below the bound of some of the particles, and their number."""
+    rc = SUPPORT[2]
+    coeff = f"pair_coeff 1 1 1.0 10.0 0.5 0.0 {rc}\n"
+    if ntypes == 2:
+        coeff += f"pair_coeff 2 2 1.2 9.0 0.3 0.0 {rc}\n"
+    particles = disordered(2, 14, seed=23, jitter=0.1, ntypes=ntypes, speed=0.3, spread=0.0)
+    text = script(particles, fluid(2, options, coeff=coeff), 20, extra="compute B all pair sph/bulk\n", every=20)
+    text = text.replace(" c_E\n", " c_E c_B[1]\n")
+    result = compare(lammps, particles, text, ranks=2)
+    beyond = result.thermo()[-1]["c_B[1]"]
+    assert 0 < beyond[-1] < len(particles), beyond
+    assert not any("on the host" in line for line in result.warnings)
+
+
+SHIFT = "fix FLUID all sph/bulk shift 0.5\ntimestep 0.005\n"
+
+
+@pytest.mark.parametrize("dim, options, ranks, newton", [(2, "", 1, "on"), (2, "kernel cubic", 4, "off"), (3, "volume mass", 2, "on")])
+def test_shift(lammps, dim, options, ranks, newton):
+    particles = disordered(dim, {2: 16, 3: 7}[dim], seed=24, jitter=0.2, speed=0.2, spread=0.0)
+    result = compare(lammps, particles, script(particles, fluids(dim, options=options), 100, newton, integrate=SHIFT), ranks)
+    assert not any("on the host" in line for line in result.warnings)
+
+
+def test_shift_at_walls(lammps):
+    particles = disordered(2, 20, seed=25, jitter=0.1, speed=0.2, spread=0.0)
+    text = with_walls(particles, "cavity", fluids(2), 100).replace("fix FLUID REST sph/bulk\n", "fix FLUID REST sph/bulk shift 0.5\n")
+    compare_walls(lammps, particles, text, 2)
+
+
+# ---------------------------------------------------------------------------------------------
 # walls
 
 CHANNEL = ("region LOW block INF INF INF 3.2 INF INF\nregion HIGH block INF INF 16.8 INF INF INF\n"
@@ -263,9 +300,7 @@ def test_particle_in_a_wall(lammps, ranks):
 
 
 @pytest.mark.parametrize("reason, options, integrate", [
-    ("keyword limit", "limit yes", INTEGRATE),
     ("keyword temp", "temp 0.01 1234", INTEGRATE),
-    ("shift", "", "fix FLUID all sph/bulk shift 0.1\ntimestep 0.005\n"),
     ("fix sph/wall", "", "region LOW block INF INF 0 3.2 INF INF\ngroup WALL region LOW\ngroup REST subtract all WALL\n"
      "fix FLUID REST sph/bulk\nsuffix off\nfix WALL WALL sph/wall\ntimestep 0.005\n"),
 ])
