@@ -1,14 +1,35 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""What the run.py of an example needs to run LAMMPS: several inputs at a time on the cores there are."""
+"""What the run.py of an example needs to run LAMMPS: several inputs at a time on the cores there are. What it prints is kept in
+results.txt; a copy beside the README is what the numbers of the README are compared with."""
 
 import argparse
 import os
 import shlex
 import shutil
 import subprocess
+import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+
+
+class Kept:
+    """Standard output that goes to a file as well."""
+
+    def __init__(self, path):
+        self.file = open(path, "w", encoding="utf-8", buffering=1)
+
+    def write(self, text):
+        sys.__stdout__.write(text)
+        self.file.write(text)
+
+    def flush(self):
+        sys.__stdout__.flush()
+
+
+def tell(text):
+    """For the screen alone: paths and times of this machine."""
+    print(text, file=sys.__stdout__, flush=True)
 
 
 class Example:
@@ -31,6 +52,8 @@ class Example:
             self.parser.error("--np must be at least 1")
         self.out = self.args.out.resolve()
         self.out.mkdir(parents=True, exist_ok=True)
+        script = Path(sys.argv[0]).stem
+        sys.stdout = Kept(self.out / ("results.txt" if script == "run" else f"results_{script}.txt"))
         return self.args
 
     def run(self, jobs, inputs=None):
@@ -43,7 +66,7 @@ class Example:
             raise SystemExit(f"{self.name}: no LAMMPS executable {path}; set SPHD_LMP or run ./sphd run {self.name}")
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
         ranks = self.args.np
-        print(f"{len(jobs)} runs of {lmp} on {ranks} MPI rank(s) each", flush=True)
+        tell(f"{len(jobs)} runs of {lmp} on {ranks} MPI rank(s) each")
         with ThreadPoolExecutor(max(1, cores // ranks)) as pool:
             started = [pool.submit(self._run, os.path.abspath(lmp), name, variables, ranks, cores, (inputs or {}).get(name))
                        for name, variables in jobs.items()]
@@ -74,8 +97,8 @@ class Example:
 
     def finish(self, *paths):
         for path in paths:
-            print(f"wrote {path}")
-        print(f"{self.name}: {time.monotonic() - self.begin:.1f} s")
+            tell(f"wrote {path}")
+        tell(f"{self.name}: {time.monotonic() - self.begin:.1f} s")
         if self.missed:
             print("\n  ".join(["missed:", *self.missed]))
         elif self.args.check:

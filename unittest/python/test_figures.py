@@ -1,6 +1,9 @@
 """Numbers and pictures of the manual are those of the examples.
 
 A table of numbers that a README has stands behind a comment: .. numbers of examples/NAME/README.md
+In running text, a paragraph or an item of a list with a measured number names where it comes from, by any of SOURCES below; the
+number is there, with as many digits or more. What an example has measured last is in its results.txt and its .csv files:
+the tables of its README are compared with those.
 """
 
 import re
@@ -34,6 +37,120 @@ def test_numbers_are_those_of_the_source(source, rows):
     wanted = re.findall(NUMBER, re.sub(r"^ +(?:\* )?- ", "", rows, flags=re.MULTILINE))
     assert len(wanted) > 2
     assert not [number for number in wanted if number not in known]
+
+
+# -- Numbers in running text ---------------------------------------------------------------------------------------
+
+PAGES = [*sorted((ROOT / "doc" / "src").glob("*.rst")), ROOT / "README.md"]
+PERCENT = r"\s?(?:%|\*\*\s%|percent)"
+QUOTED = re.compile(rf"(?<![\w.=/^{{-])(\d+\.\d+(?:e[-+]?\d+)?|\d+e[-+]?\d+|\d+(?={PERCENT}))(?![\w.]*\d)")
+MEASURED = re.compile(r"\d\.\d+\s(?:percent|times\s(?:as|too|in|longer|faster))|(?<!than )\b\d\d+\spercent|\b\de-\d+\sof\b")
+SOURCES = {    # what a text names, and the files with the numbers
+    r"``examples/(\w+)``|``\./sphd run (\w+)``|\]\(examples/(\w+)\)": ("examples/{}/README.md", "examples/{}/results.txt"),
+    r"(bench)/README\.md|``(\./sphd bench)": ("bench/README.md",),
+    r"``unittest/(python/test_\w+|cpp/test_\w+)\.(?:py|cpp)``": ("unittest/{}.py", "unittest/{}.cpp"),
+    r":doc:`(?:[^`<]*<)?(\w+)>?`|\]\(doc/src/(\w+)\.rst\)": ("doc/src/{}.rst",),
+}
+OF_A_PAGE = {"Howto_sph_tutorial": ["examples/tutorial/README.md", "examples/tutorial/results.txt"]}    # of what is measured in it
+
+
+def paragraphs(text):
+    """of running text: without code blocks, tables, and formulas on lines of their own"""
+    text = re.sub(r"^( *)(?:.*::|\.\. (?:code-block|math|list-table|parsed-literal|table).*)\n(?:\s*\n|\1 +.*\n)+", "\n", text, flags=re.MULTILINE)
+    text = re.sub(r"^( *)(\* - |\* |- |\d\. )", r"\n\1\2", text, flags=re.MULTILINE)
+    text = re.sub(r"```.*?```|^\|.*\|$", "", text, flags=re.MULTILINE | re.DOTALL)
+    return [" ".join(paragraph.split()) for paragraph in re.split(r"\n\s*\n", text)]
+
+
+def sources(paragraph, page):
+    named = [pattern.format(next(filter(None, match.groups()))) for key, patterns in SOURCES.items()
+             for match in re.finditer(key, paragraph) for pattern in patterns]
+    if MEASURED.search(paragraph):
+        named += OF_A_PAGE.get(page.stem, [])
+    return sorted({ROOT / name for name in named if (ROOT / name).exists()} - {page})
+
+
+def values(paths):
+    texts = [(path.suffix, path.read_text(encoding="utf-8")) for path in paths]
+    text = "\n".join(text if suffix == ".csv" else re.sub(r"(?<=\d),(?=\d{3}\b)", "", text) for suffix, text in texts)
+    return np.array([abs(float(number)) for number in re.findall(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?", text)])
+
+
+def is_among(number, percent, known):
+    """as it stands there, or rounded from what stands there; percent: also of a ratio, or of its distance from 1"""
+    mantissa, _, power = number.lstrip("+-").partition("e")
+    last = 10.0 ** (int(power or 0) - len(mantissa.partition(".")[2]))
+    variants = [known, 100 * known, 100 * abs(known - 1)] if percent else [known]
+    return any((abs(variant - abs(float(number))) <= 0.501 * last).any() for variant in variants)
+
+
+def quotations():
+    for page in PAGES:
+        for number, paragraph in enumerate(paragraphs(page.read_text(encoding="utf-8"))):
+            paths = sources(paragraph, page)
+            if paths and QUOTED.search(paragraph):
+                yield pytest.param(paragraph, paths, id=f"{page.stem}-{number}")
+
+
+@pytest.mark.parametrize("paragraph, paths", quotations())
+def test_numbers_in_the_text_are_those_of_what_it_names(paragraph, paths):
+    known = values(paths)
+    text = re.sub(r":math:`.*?`|``[^`]*``", "", paragraph)
+    percent = re.search(PERCENT, text)
+    assert not [number for number in QUOTED.findall(text) if not is_among(number, percent, known)], paragraph
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_measured_numbers_name_their_source(page):
+    unnamed = [text for text in paragraphs(page.read_text(encoding="utf-8")) if MEASURED.search(text) and not sources(text, page)]
+    assert not unnamed
+
+
+# numbers in tables of READMEs that no file keeps: from other runs than that of run.py, or from one before results.txt was written
+
+UNKEPT = {}
+
+
+@pytest.mark.parametrize("folder", [path.parent for path in sorted((ROOT / "examples").glob("*/README.md"))], ids=lambda path: path.name)
+def test_tables_of_examples_are_those_of_the_last_run(folder):
+    """What is measured is in results.txt, which run.py writes, or in a .csv file; what is given in the input or in the script."""
+    known = values(path for pattern in ("results*.txt", "*.csv", "in.*", "*.py") for path in folder.glob(pattern))
+    rows = "\n".join(line for line in (folder / "README.md").read_text().splitlines() if line.startswith("|"))
+    numbers = re.findall(r"(?<![\w.])\d+\.\d+(?:e[-+]?\d+)?", re.sub(r"`[^`]*`", "", rows))
+    round_off = re.compile(r".*e-1\d")    # another one on any machine
+    unknown = [number for number in numbers if not round_off.match(number) and not is_among(number, "%" in rows, known)]
+    print(unknown)
+    assert len(unknown) <= UNKEPT.get(folder.name, 0), unknown
+
+
+# viscosity of rows of particles that slide past each other, over mu: {support over spacing: mg, morris}, wendland/c2 in 2d
+
+ROWS = {2.5: (0.85, 0.967), 3: (0.919, 0.997), 3.5: (0.954, 0.994), 4: (0.972, 0.999), 5: (0.988, 1.000), 6: (0.994, 1.000)}
+
+
+@pytest.mark.parametrize("support", ROWS)
+def test_viscosity_of_rows(support):
+    """Any position of one row beside another is as likely: a sum over rows of integrals along them, over the integral in the plane."""
+    x = np.linspace(-1.0, 1.0, 4001)
+
+    def friction(y, form):
+        r = np.hypot(x, y)
+        shape = np.maximum(1.0 - r, 0.0) ** 3 * y * y
+        return (shape * (x * x / np.maximum(r * r, 1e-30) if form == "mg" else 1.0)).sum()
+
+    for form, expected in zip(("mg", "morris"), ROWS[support]):
+        rows = sum(friction(row / support, form) for row in range(-6, 7)) / support
+        plane = sum(friction(y, form) for y in x) * (x[1] - x[0])
+        digits = 2 if expected == 0.85 else 3
+        assert round(rows / plane, digits) == expected
+
+
+def test_viscosities_of_rows_in_the_manual():
+    tables = {"Howto_sph_walls": [mg for mg, _ in ROWS.values()], "Howto_sph_numbers": [ROWS[support][0] for support in (3, 4, 6)]}
+    for page, wanted in tables.items():
+        row = re.search(r"^   \* - (?:viscosity of rows|rows that slide).*\n((?:     - .*\n)+)", (ROOT / "doc" / "src" / f"{page}.rst").read_text(),
+                        re.MULTILINE)
+        assert [float(number) for number in re.findall(r"     - (\S+)", row[1])] == wanted
 
 
 @pytest.mark.parametrize("name, source", pictures.SOURCES.items())

@@ -28,7 +28,7 @@ LATE = re.compile(r"^(units|dimension|boundary|atom_style|plugin)\b", re.MULTILI
 
 
 def blocks(page):
-    """(line number, heading, text) of the LAMMPS code blocks of a page"""
+    """(line number, heading, text, what follows up to the next block) of the LAMMPS code blocks of a page"""
     lines = page.read_text().splitlines()
     heading, number = "", 0
     while number < len(lines):
@@ -42,7 +42,8 @@ def blocks(page):
         indent = start[1] + "   "
         while number < len(lines) and (not lines[number].strip() or lines[number].startswith(indent)):
             number += 1
-        yield first, heading, "\n".join(line[len(indent):] for line in lines[first:number]).strip() + "\n"
+        rest = "\n".join(lines[number:]).split(".. code-block::")[0]
+        yield first, heading, "\n".join(line[len(indent):] for line in lines[first:number]).strip() + "\n", rest
 
 
 def is_input(text):
@@ -52,10 +53,11 @@ def is_input(text):
 def collect():
     whole, parts = [], []
     for page in PAGES:
-        for line, heading, text in blocks(page):
+        for line, heading, text, rest in blocks(page):
             name = f"{page.stem}:{line}"
             if is_input(text):
-                whole.append(pytest.param(text, id=name))
+                finds = re.search(r"The input finds ([^:;(]*?)(?:[:;(]|\.\s)", rest)
+                whole.append(pytest.param(text, re.findall(r"\d+\.\d+", finds[1]) if finds else [], id=name))
             elif heading != "Syntax" and not LATE.search(text) and not PLACEHOLDERS.search(text):
                 parts += [pytest.param(part, id=f"{name}-{number}") for number, part in enumerate(re.split(r"\n\n+", text))]
     return whole, parts
@@ -98,10 +100,14 @@ def potentials(monkeypatch):
     monkeypatch.setenv("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
 
 
-@pytest.mark.parametrize("text", INPUTS)
-def test_inputs_run(lammps, text):
+@pytest.mark.parametrize("text, finds", INPUTS)
+def test_inputs_run(lammps, text, finds):
+    """finds: the numbers after "The input finds", which are in the last line of output, rounded"""
     result = lammps(text, timeout=300)
     assert "Loop time" in result.log
+    last = [abs(float(column[-1])) for column in result.thermo()[-1].values()]
+    for number in finds:
+        assert any(round(value, len(number.partition(".")[2])) == float(number) for value in last), (number, last)
 
 
 @pytest.mark.parametrize("text", FRAGMENTS)

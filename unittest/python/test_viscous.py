@@ -45,14 +45,14 @@ def pulse(lammps, keywords, timestep, kappa, end=96 * SOUND_STEP):
 
 @pytest.mark.parametrize("kappa", [20.0, 200.0])
 def test_sound_pulse_at_the_acoustic_step(lammps, kappa):
-    """Against the explicit step a hundred times shorter: within 1e-3, and four times nearer at half the step."""
+    """Against the explicit step a hundred times shorter: within 3e-4, and four times nearer at half the step."""
     expected = pulse(lammps, "", SOUND_STEP / 100, kappa)
     for name in SECOND_ORDER:
         precise = "" if name == "rkl2" else " tolerance 1e-8"
         error = [np.linalg.norm(pulse(lammps, SCHEMES[name] + precise, step, kappa) - expected)
                  / np.linalg.norm(expected) for step in (SOUND_STEP, SOUND_STEP / 2, SOUND_STEP / 4)]
         print(f"{name}: {error}")
-        assert error[0] < 1e-3
+        assert error[0] < 3e-4
         assert error[1] / error[2] == pytest.approx(4.0, rel=0.1), name
     error = [np.linalg.norm(pulse(lammps, SCHEMES["euler"], step, kappa) - expected) for step in (SOUND_STEP / 2, SOUND_STEP / 4)]
     assert error[0] / error[1] == pytest.approx(2.0, rel=0.1)
