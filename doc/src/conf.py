@@ -30,6 +30,6 @@ else:
     html_theme = "alabaster"
     html_theme_options = {"page_width": "1250px", "body_max_width": "none", "sidebar_width": "250px"}
 html_static_path = ["_static"]
-html_css_files = ["tables.css"]
+html_css_files = ["pages.css"]
 html_title = "SPH-DISSIPATION"
 html_show_sourcelink = False
