@@ -65,23 +65,33 @@ bool RefinePairs::fits(int i, int j) const
       a.volume + b.volume <= std::min(a.most, b.most) && atom->tag[i] != atom->tag[j];
 }
 
+/* ----------------------------------------------------------------------
+   of equal distances the IDs decide, or, of two images of a particle in a narrow box, the places
+------------------------------------------------------------------------- */
+
+bool RefinePairs::nearer(int i, int j, int other) const
+{
+  const double rsq = distance_sq(i, j), other_sq = distance_sq(i, other);
+  if (rsq < (1.0 - EQUAL) * other_sq) return true;
+  if (rsq > (1.0 + EQUAL) * other_sq) return false;
+  const tagint *const tag = atom->tag;
+  if (tag[j] != tag[other]) return std::minmax(tag[i], tag[j]) < std::minmax(tag[i], tag[other]);
+  for (int d = 0; d < 3; d++) {
+    const double ahead = atom->x[j][d] - atom->x[other][d];
+    if (ahead * ahead > EQUAL * rsq) return ahead > 0.0;
+  }
+  return false;
+}
+
 /* ---------------------------------------------------------------------- */
 
 int RefinePairs::nearest(int i, const int *neighbors, int n, double farthest_sq) const
 {
   int best = -1;
-  double best_sq = farthest_sq;
-  auto tags = [&](int j) {
-    return std::minmax(atom->tag[i], atom->tag[j]);
-  };
   for (int k = 0; k < n; k++) {
     const int j = neighbors[k] & NEIGHMASK;
-    if (!fits(i, j)) continue;
-    const double rsq = distance_sq(i, j);
-    if (rsq > (1.0 + EQUAL) * best_sq) continue;
-    if (best >= 0 && rsq >= (1.0 - EQUAL) * best_sq && !(tags(j) < tags(best))) continue;
-    best = j;
-    best_sq = rsq;
+    if (!fits(i, j) || distance_sq(i, j) > (1.0 + EQUAL) * farthest_sq) continue;
+    if (best < 0 || nearer(i, j, best)) best = j;
   }
   return best;
 }
@@ -113,7 +123,7 @@ bool RefinePairs::is_first(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   of the first one, in the order of the IDs: those that may merge into one
+   of the first one, in the order of the IDs: those that may merge into one, each once, where it is nearest
 ------------------------------------------------------------------------- */
 
 std::vector<int> RefinePairs::family(int i, const int *neighbors, int n, double farthest_sq) const
@@ -124,6 +134,13 @@ std::vector<int> RefinePairs::family(int i, const int *neighbors, int n, double 
     const int j = neighbors[k] & NEIGHMASK;
     if (items[j].family != items[i].family || !fits(i, j)) continue;
     if (distance_sq(i, j) > farthest_sq) continue;
+    const auto image = std::find_if(found.begin(), found.end(), [&](int other) {
+      return atom->tag[other] == atom->tag[j];
+    });
+    if (image != found.end()) {
+      if (nearer(i, j, *image)) *image = j;
+      continue;
+    }
     found.push_back(j);
     volume += items[j].volume;
     most = std::min(most, items[j].most);

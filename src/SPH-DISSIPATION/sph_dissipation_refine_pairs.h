@@ -55,6 +55,7 @@ namespace SPHDissipation {
     bool is_first(int i) const;
     bool fits(int i, int j) const;
     double distance_sq(int i, int j) const;
+    bool nearer(int i, int j, int other) const;    // to i, j than the other one
     std::vector<int> family(int i, const int *neighbors, int n, double farthest_sq) const;
     int nearest(int i, const int *neighbors, int n, double farthest_sq) const;
   };

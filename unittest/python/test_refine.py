@@ -335,6 +335,38 @@ def test_restart(lammps, dim, spin):
         assert abs(ledger(whole, k) - ledger(again, k)) < 1e-9 * (1.0 + abs(ledger(whole, k))), k
 
 
+def test_family_in_a_narrow_box(lammps):
+    """Of two images of a daughter, the nearer one merges, and no other instead of one that is missing."""
+    particles = disordered(3, (8, 8, 1), jitter=0.0, speed=0.2, spread=0.0)
+    write_micropolar(particles, lammps.path("box.data"), omega=spins(particles, size=0.1))
+    text = (header(3, style="sph/micropolar") + "read_data box.data\npair_style sph/micropolar volume mass\n"
+            "pair_coeff * * 1.0 6.0 0.3 0.8 0.1 0.02 -0.02 2.0\nfix FLUID all sph/micropolar\ntimestep 0.004\n"
+            'neigh_modify one 20000 page 1000000\nvariable target equal "1.0-0.875*(step<8)"\n'
+            "fix R all sph/refine 4 volume v_target wait 0.0\n" + output(True, 4) + "run 8\n")
+    for ranks in (1, 2):
+        lammps(text, ranks=ranks)
+        first, fine, last = lammps.frames("refine.dump")
+        assert len(first["id"]) == 64 and len(fine["id"]) == 512 and len(last["id"]) < 300
+        (before, scale), (after, _) = sums(first, True), sums(last, True)
+        for name in ("mass", "momentum"):
+            assert abs(after[name] - before[name]).max() < 1e-13 * scale[name].max(), name
+
+
+def test_images_at_the_same_distance(tmp_path):
+    """On a lattice two cells wide, a partner is as far on both sides: the place of the merged particle is the same on any ranks."""
+    found = []
+    for ranks, newton in ((1, "on"), (2, "off"), (4, "on")):
+        (tmp_path / str(ranks)).mkdir()
+        lammps = Lammps(tmp_path / str(ranks))
+        text = fluid_box(lammps, lattice(3, (2, 6, 2)), False, newton=newton, support=4.0)
+        lammps(text + "fix R all sph/refine 1 volume 2.0 wait 0.0\n" + output(False, 1) + "run 1\n", ranks=ranks)
+        found.append(lammps.frame("refine.dump"))
+        assert len(found[-1]["id"]) == 12
+    for other in found[1:]:
+        assert np.array_equal(found[0]["id"], other["id"])
+        assert np.abs(found[0]["x"] - other["x"]).max() < 1e-12
+
+
 @pytest.mark.parametrize("form, word", [(0.0, "an older"), (-1002.0, "an older"), (-1004.0, "a newer")])
 def test_restart_file_of_another_version(lammps, form, word):
     fix = "fix R all sph/refine 5 volume 1.0\n"
