@@ -155,7 +155,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
 
   if (viscous->active()) find_viscous_velocity();
   const bigint nbeyond = sum_before_forces();
-  if (crowding_requested) crowd->run(list);
+  if (crowding_requested) crowd->run();
   forces->run(list, tally);
   if (!open->empty()) open->sum_impacts(list);
   if (viscous->active() || has_own_temperatures()) forces->collect();
@@ -181,7 +181,7 @@ bigint PairSPHBulk::sum_before_forces()
   const bool limited = (model->choice.limit != Limit::NO);
   const bool walls = !boundary->empty();
   if (walls && has_noise()) boundary->set_reference_volume();
-  if (limited) limit->run(list);
+  if (limited) limit->run();
   if (walls && !has_noise()) boundary->set_reference_volume();
   const double *const bound = limited ? limit->bound : nullptr;
   const bigint nbeyond = pressure->run(bound, boundary->bits());
@@ -558,13 +558,13 @@ void PairSPHBulk::announce()
     for (int i = 1; i <= atom->ntypes; i++) model->warn_of_ignored(i, intrinsic_kappa_of(i, i));
     warned_step = noise_step = 0.0;
     FluidState state(lmp, *engine, *exchange, *model);
-    state.run(list, 1, not_fluid());
+    state.run(1, not_fluid());
     if (comm->me == 0)
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", fluid_style,
                      model->summary(dim, support), engine->instruction_set(),
                      table.text(update->dt), state.table());
     check_sizes(lmp, fluid_style, *model, not_fluid());
-    state.warn(list, fluid_style, crowding_requested);
+    state.warn(fluid_style, crowding_requested);
   }
   announced = true;
   if (has_noise() && update->dt != noise_step) announce_noise(table.fastest_rate());
@@ -683,7 +683,7 @@ void PairSPHBulk::set_mean_density(int groupbit)
   std::vector<double> factor(atom->ntypes + 1, 1.0);
   for (int k = 0; k < MOST; k++) {
     density->run(list, nullptr, nullptr);
-    state.run(list, groupbit, not_fluid());
+    state.run(groupbit, not_fluid());
     if (state.scale_masses(factor, open->bits()) < CLOSE) break;
   }
   state.report_masses(factor, fluid_style);

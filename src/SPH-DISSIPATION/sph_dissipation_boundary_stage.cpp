@@ -92,7 +92,7 @@ void BoundaryStage::run(NeighList *list)
   }
   const bool found = (neighbor->ago == 0 || group_bits != rows_bits);
   if (found) find_rows(list);
-  find_pairs(list);
+  find_pairs();
   if (found) surface->run(group_bits, pairs);
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
@@ -157,20 +157,16 @@ void BoundaryStage::set_near()
 
 /* ---------------------------------------------------------------------- */
 
-void BoundaryStage::find_pairs(NeighList *list)
+void BoundaryStage::find_pairs()
 {
   const int *const mask = atom->mask;
   pairs.clear();
-  const LoopData &all = engine.pairs();
-  for (const int ii : rows) {
-    const int i = list->ilist[ii];
-    const bool wall = mask[i] & group_bits;
-    for (bigint entry = all.first[ii]; entry < all.first[ii] + all.count[ii]; entry++) {
-      const int j = all.neighbor[entry];
-      if (static_cast<bool>(mask[j] & group_bits) == wall) continue;
+  for (const int ii : rows)
+    engine.visit_pairs(ii, [&](int i, int j, bigint entry) {
+      const bool wall = mask[i] & group_bits;
+      if (static_cast<bool>(mask[j] & group_bits) == wall) return;
       pairs.push_back({wall ? j : i, wall ? i : j, entry});
-    }
-  }
+    });
 }
 
 /* ----------------------------------------------------------------------

@@ -92,7 +92,7 @@ namespace SPHDissipation {
 
     void set_near();
     void find_rows(NeighList *);
-    void find_pairs(NeighList *);
+    void find_pairs();
     void accumulate();
     void check() const;
   };

@@ -268,7 +268,6 @@ void SPHDissipation::check_neighbors(LAMMPS *lmp, const std::string &style, cons
                                      const Engine &engine, int boundary_bits, int dim,
                                      double support)
 {
-  const LoopData &pairs = engine.pairs();
   Atom *atom = lmp->atom;
   auto is_fluid = [&](int i) {
     return !model.coeffs[atom->type[i]].other && !(atom->mask[i] & boundary_bits);
@@ -279,12 +278,10 @@ void SPHDissipation::check_neighbors(LAMMPS *lmp, const std::string &style, cons
   bigint number[2] = {0, 0}, all[2];    // of fluid particles, of their neighbors
   for (int i = 0; i < atom->nlocal; i++) number[0] += is_fluid(i);
   const bool ghosts = lmp->force->newton_pair;
-  for (int ii = 0; ii < pairs.inum; ii++)
-    for (int k = 0; k < pairs.count[ii]; k++) {
-      const int j = pairs.neighbor[pairs.first[ii] + k];
-      number[1] += is_fluid(pairs.ilist[ii]);
-      if (ghosts || j < atom->nlocal) number[1] += is_fluid(j);
-    }
+  engine.visit_pairs([&](int i, int j, bigint) {
+    number[1] += is_fluid(i);
+    if (ghosts || j < atom->nlocal) number[1] += is_fluid(j);
+  });
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
 
   const int enough = 2 * dim;

@@ -15,7 +15,6 @@
 
 #include "atom.h"
 #include "memory.h"
-#include "neigh_list.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_shift_terms.h"
@@ -42,7 +41,7 @@ CrowdingStage::~CrowdingStage()
 
 /* ---------------------------------------------------------------------- */
 
-void CrowdingStage::run(NeighList *list)
+void CrowdingStage::run()
 {
   const int nall = atom->nlocal + atom->nghost;
   if (nmax < atom->nmax) {
@@ -59,26 +58,21 @@ void CrowdingStage::run(NeighList *list)
     for (int i = 0; i < nall; i++)
       contact[i] = contact_inverse<decltype(k)>(dim, pairs.support, engine.particle[i].vol);
 
-    for (int ii = 0; ii < list->inum; ii++) {
-      const int i = list->ilist[ii];
-      const Particle &a = engine.particle[i];
-      for (bigint entry = pairs.first[ii]; entry < pairs.first[ii] + pairs.count[ii]; entry++) {
-        const int j = pairs.neighbor[entry];
-        const Particle &b = engine.particle[j];
-        double r[3], rsq = 0.0;
-        for (int d = 0; d < 3; d++) {
-          r[d] = a.x[d] - b.x[d];
-          rsq += r[d] * r[d];
-        }
-        const double shape = k.shape(sqrt(rsq) / pairs.support);
-        const double push_i = b.vol * crowding_push(pairs.slope[entry], shape, contact[i]);
-        const double push_j = a.vol * crowding_push(pairs.slope[entry], shape, contact[j]);
-        for (int d = 0; d < 3; d++) {
-          crowding[i][d] += push_i * r[d];
-          crowding[j][d] -= push_j * r[d];
-        }
+    engine.visit_pairs([&](int i, int j, bigint entry) {
+      const Particle &a = engine.particle[i], &b = engine.particle[j];
+      double r[3], rsq = 0.0;
+      for (int d = 0; d < 3; d++) {
+        r[d] = a.x[d] - b.x[d];
+        rsq += r[d] * r[d];
       }
-    }
+      const double shape = k.shape(sqrt(rsq) / pairs.support);
+      const double push_i = b.vol * crowding_push(pairs.slope[entry], shape, contact[i]);
+      const double push_j = a.vol * crowding_push(pairs.slope[entry], shape, contact[j]);
+      for (int d = 0; d < 3; d++) {
+        crowding[i][d] += push_i * r[d];
+        crowding[j][d] -= push_j * r[d];
+      }
+    });
     return 0;
   });
 

@@ -32,7 +32,7 @@ namespace SPHDissipation {
     ~CrowdingStage() override;
     static constexpr int REVERSE = 3;    // values per atom
 
-    void run(NeighList *);    // with the volumes of particles set
+    void run();    // with the volumes of particles set
     double memory_usage() const override;
 
     double **crowding;    // of owned atoms

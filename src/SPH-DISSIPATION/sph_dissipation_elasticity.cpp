@@ -16,7 +16,6 @@
 #include "atom.h"
 #include "math_const.h"
 #include "math_extra.h"
-#include "neigh_list.h"
 #include "sph_dissipation_engine.h"
 
 #include <algorithm>
@@ -34,7 +33,7 @@ using MathConst::MY_PI;
    here the sums over the products of components of r, xx yy zz yz xz xy
 ------------------------------------------------------------------------- */
 
-void LatticeStrain::run(NeighList *list, const std::vector<double> &weight)
+void LatticeStrain::run(const std::vector<double> &weight)
 {
   constexpr double DQ = 1.0e-4;    // for F' by differences
   const LoopData &pairs = engine.pairs();
@@ -44,32 +43,28 @@ void LatticeStrain::run(NeighList *list, const std::vector<double> &weight)
   std::vector<Sum> my_sums(n, Sum());
 
   with_kernel(engine.kernel_form(), [&](auto k) {
-    for (int ii = 0; ii < list->inum; ii++) {
-      const int i = list->ilist[ii];
-      for (bigint entry = pairs.first[ii]; entry < pairs.first[ii] + pairs.count[ii]; entry++) {
-        const int j = pairs.neighbor[entry];
-        if (weight[i] + weight[j] == 0.0) continue;
-        double r[3];
-        for (int d = 0; d < 3; d++) r[d] = particle[i].x[d] - particle[j].x[d];
-        const double product[6] = {r[0] * r[0], r[1] * r[1], r[2] * r[2],
-                                   r[1] * r[2], r[0] * r[2], r[0] * r[1]};
-        const double dist = sqrt(product[0] + product[1] + product[2]);
-        if (dist == 0.0) continue;
-        const double q = dist / pairs.support;
-        const double from = std::max(q - DQ, 0.0), to = std::min(q + DQ, 1.0);
-        const double derivative =
-            pairs.slope_norm * (k.slope(to) - k.slope(from)) / (to - from) / (pairs.support * dist);
-        for (const int one : {i, j}) {
-          const double each = weight[one] * engine.weight(i + j - one) / engine.density[one].c;
-          Sum &sum = my_sums[type[one]];
-          for (int a = 0; a < 6; a++) {
-            sum.second[a] -= each * pairs.slope[entry] * product[a];
-            for (int b = 0; b < 6; b++)
-              sum.fourth[a][b] -= each * derivative * product[a] * product[b];
-          }
+    engine.visit_pairs([&](int i, int j, bigint entry) {
+      if (weight[i] + weight[j] == 0.0) return;
+      double r[3];
+      for (int d = 0; d < 3; d++) r[d] = particle[i].x[d] - particle[j].x[d];
+      const double product[6] = {r[0] * r[0], r[1] * r[1], r[2] * r[2],
+                                 r[1] * r[2], r[0] * r[2], r[0] * r[1]};
+      const double dist = sqrt(product[0] + product[1] + product[2]);
+      if (dist == 0.0) return;
+      const double q = dist / pairs.support;
+      const double from = std::max(q - DQ, 0.0), to = std::min(q + DQ, 1.0);
+      const double derivative =
+          pairs.slope_norm * (k.slope(to) - k.slope(from)) / (to - from) / (pairs.support * dist);
+      for (const int one : {i, j}) {
+        const double each = weight[one] * engine.weight(i + j - one) / engine.density[one].c;
+        Sum &sum = my_sums[type[one]];
+        for (int a = 0; a < 6; a++) {
+          sum.second[a] -= each * pairs.slope[entry] * product[a];
+          for (int b = 0; b < 6; b++)
+            sum.fourth[a][b] -= each * derivative * product[a] * product[b];
         }
       }
-    }
+    });
     return 0;
   });
 

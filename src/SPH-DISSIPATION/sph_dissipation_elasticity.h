@@ -30,7 +30,7 @@ namespace SPHDissipation {
 
     // sums over the pairs of pass 1; weight = of owned and ghost particles
 
-    void run(NeighList *, const std::vector<double> &weight);
+    void run(const std::vector<double> &weight);
 
     // sum of weight times d2c/dgamma2 over c, the largest in size of all directions of the shear
 

@@ -178,8 +178,20 @@ namespace SPHDissipation {
 
     bool has_forces() const;    // force[] is of the owned and ghost atoms that are there now
 
-    // the pairs inside the support that pass 1 has found, for the sums of other stages
+    // the pairs inside the support that pass 1 has found, for the sums of other stages: function(i, j, entry) for each of
+    // them, or for those in the row ii of the neighbor list; entry: of slope in pairs()
     const LoopData &pairs() const { return data; }
+    template <class Function> void visit_pairs(Function &&function) const
+    {
+      for (int ii = 0; ii < data.inum; ii++) visit_pairs(ii, function);
+    }
+    template <class Function> void visit_pairs(int ii, Function &&function) const
+    {
+      const int i = data.ilist[ii];
+      const bigint end = data.first[ii] + data.count[ii];
+      for (bigint entry = data.first[ii]; entry < end; entry++)
+        function(i, data.neighbor[entry], entry);
+    }
     const LoopSet &loop_set() const { return *loops; }
 
     int dimension() const { return dim; }    // of the kernel

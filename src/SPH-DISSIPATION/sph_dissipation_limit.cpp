@@ -15,7 +15,6 @@
 
 #include "atom.h"
 #include "memory.h"
-#include "neigh_list.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 
@@ -41,7 +40,7 @@ LimitStage::~LimitStage()
 
 /* ---------------------------------------------------------------------- */
 
-void LimitStage::run(NeighList *list)
+void LimitStage::run()
 {
   if (nmax < atom->nmax) {
     nmax = atom->nmax;
@@ -55,24 +54,19 @@ void LimitStage::run(NeighList *list)
   const int *const type = atom->type;
   const Shear shear = engine.shear_form();
 
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    for (bigint entry = pairs.first[ii]; entry < pairs.first[ii] + pairs.count[ii]; entry++) {
-      const int j = pairs.neighbor[entry];
-      double rsq = 0.0;
-      for (int d = 0; d < 3; d++) {
-        const double del = particle[i].x[d] - particle[j].x[d];
-        rsq += del * del;
-      }
-      if (rsq == 0.0) continue;
-      const PairCoeff &c = pairs.coeff[type[i] * pairs.ntypes_1 + type[j]];
-      const double pair = bound_of_pair(shear, c, pairs.slope[entry], rsq);
-      const double ratio =
-          particle[i].vol * engine.weight(j) / (particle[j].vol * engine.weight(i));
-      bound[i] += ratio * ratio * particle[j].vol * pair;
-      bound[j] += particle[i].vol * pair / (ratio * ratio);
+  engine.visit_pairs([&](int i, int j, bigint entry) {
+    double rsq = 0.0;
+    for (int d = 0; d < 3; d++) {
+      const double del = particle[i].x[d] - particle[j].x[d];
+      rsq += del * del;
     }
-  }
+    if (rsq == 0.0) return;
+    const PairCoeff &c = pairs.coeff[type[i] * pairs.ntypes_1 + type[j]];
+    const double pair = bound_of_pair(shear, c, pairs.slope[entry], rsq);
+    const double ratio = particle[i].vol * engine.weight(j) / (particle[j].vol * engine.weight(i));
+    bound[i] += ratio * ratio * particle[j].vol * pair;
+    bound[j] += particle[i].vol * pair / (ratio * ratio);
+  });
 
   exchange.reverse({{bound, 1, 1}});
   exchange.forward({{bound, 1, 1}});

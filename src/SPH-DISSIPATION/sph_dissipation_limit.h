@@ -30,7 +30,7 @@ namespace SPHDissipation {
     ~LimitStage() override;
     static constexpr int FORWARD = 1, REVERSE = 1;    // values per atom
 
-    void run(NeighList *);    // with the volumes of particles set
+    void run();    // with the volumes of particles set
     double memory_usage() const override;
 
     double *bound;    // B of owned and ghost atoms

@@ -156,21 +156,18 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   OpenImpact total = OpenImpact();
   pairs.begin();
   for (const int ii : rows[k]) {
-    const int i = list->ilist[ii];
-    pairs.add_row(i);
-    for (bigint entry = all.first[ii]; entry < all.first[ii] + all.count[ii]; entry++) {
-      const int j = all.neighbor[entry];
-      if (!(place[i] == zone && place[j] == 0.0) && !(place[j] == zone && place[i] == 0.0))
-        continue;
+    pairs.add_row(list->ilist[ii]);
+    engine.visit_pairs(ii, [&](int i, int j, bigint entry) {
+      if (!(place[i] == zone && place[j] == 0.0) && !(place[j] == zone && place[i] == 0.0)) return;
       pairs.add(j, all.slope[entry]);
       const int fluid = (place[i] == 0.0) ? i : j, other = (place[i] == 0.0) ? j : i;
-      if (fluid >= mine) continue;
+      if (fluid >= mine) return;
       const Particle &f = particle[fluid], &z = particle[other];
       double flux = 0.0;
       for (int d = 0; d < 3; d++) flux += all.slope[entry] * (f.x[d] - z.x[d]) * (f.u[d] - z.u[d]);
       total.power -= engine.weight(fluid) * engine.weight(other) * f.g * flux;
       if (by_volume) total.power -= engine.zeta_term[fluid] * f.vol * z.vol * flux;
-    }
+    });
     pairs.end_row(all.spare);
   }
 

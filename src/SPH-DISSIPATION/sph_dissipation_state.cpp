@@ -18,7 +18,6 @@
 #include "domain.h"
 #include "error.h"
 #include "math_const.h"
-#include "neigh_list.h"
 #include "sph_dissipation_elasticity.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
@@ -41,11 +40,11 @@ FluidState::FluidState(LAMMPS *lmp, Engine &engine, Exchange &exchange, const Fl
 
 /* ---------------------------------------------------------------------- */
 
-void FluidState::run(NeighList *list, int group_in, int not_fluid_in)
+void FluidState::run(int group_in, int not_fluid_in)
 {
   group = group_in;
   not_fluid = not_fluid_in;
-  find_full_support(list);
+  find_full_support();
   add_up();
 }
 
@@ -55,7 +54,7 @@ void FluidState::run(NeighList *list, int group_in, int not_fluid_in)
    particle of full support has such a one in reach.
 ------------------------------------------------------------------------- */
 
-void FluidState::find_full_support(NeighList *list)
+void FluidState::find_full_support()
 {
   constexpr double SURFACE = 1.2;
   const int nlocal = atom->nlocal;
@@ -63,16 +62,10 @@ void FluidState::find_full_support(NeighList *list)
   const LoopData &pairs = engine.pairs();
   const Particle *const particle = engine.particle;
 
-  auto each_pair = [&](auto visit) {
-    for (int ii = 0; ii < list->inum; ii++)
-      for (bigint entry = pairs.first[ii]; entry < pairs.first[ii] + pairs.count[ii]; entry++)
-        visit(list->ilist[ii], pairs.neighbor[entry], pairs.slope[entry]);
-  };
-
   std::vector<double> lopsided(3 * (std::size_t) nall, 0.0), surface(nall, 0.0), near(nall, 0.0);
-  each_pair([&](int i, int j, double slope) {
+  engine.visit_pairs([&](int i, int j, bigint entry) {
     for (int d = 0; d < 3; d++) {
-      const double pull = slope * (particle[i].x[d] - particle[j].x[d]);
+      const double pull = pairs.slope[entry] * (particle[i].x[d] - particle[j].x[d]);
       lopsided[3 * i + d] += engine.weight(j) * pull;
       lopsided[3 * j + d] -= engine.weight(i) * pull;
     }
@@ -87,7 +80,7 @@ void FluidState::find_full_support(NeighList *list)
   }
   exchange.forward({{surface.data(), 1, 1}});
 
-  each_pair([&](int i, int j, double) {
+  engine.visit_pairs([&](int i, int j, bigint) {
     near[i] += surface[j];
     near[j] += surface[i];
   });
@@ -245,7 +238,7 @@ double FluidState::longest_wave() const
    part G rho/(mu k)^2 of it; from 1/4 on the wave oscillates.  If G < 0, it grows in the end.
 ------------------------------------------------------------------------- */
 
-void FluidState::warn(NeighList *list, const std::string &fix_style, bool evened_out)
+void FluidState::warn(const std::string &fix_style, bool evened_out)
 {
   constexpr double FAR_OFF = 0.1;          // density over rho0
   constexpr double SPARSE = 0.01;          // the same, where no particle has a full support
@@ -256,7 +249,7 @@ void FluidState::warn(NeighList *list, const std::string &fix_style, bool evened
   LatticeStrain strain(lmp, engine, exchange);
   double length = 0.0;
   if (shears) {
-    strain.run(list, full);
+    strain.run(full);
     length = longest_wave();
   }
   if (comm->me != 0) return;

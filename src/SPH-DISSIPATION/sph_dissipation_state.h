@@ -35,7 +35,7 @@ namespace SPHDissipation {
 
     // with the densities of pass 1; of particles with the bit of group, without one of not_fluid
 
-    void run(NeighList *, int group, int not_fluid);
+    void run(int group, int not_fluid);
 
     bool has_type(int type) const { return count(type, ALL) > 0.0; }
     bool has_full_support(int type) const { return count(type, FULL) > 0.0; }
@@ -48,7 +48,7 @@ namespace SPHDissipation {
     // the arrangement; evened_out: shifting takes care that there is none.
     // fix_style = the integrator, whose keyword helps
 
-    void warn(NeighList *, const std::string &fix_style, bool evened_out);
+    void warn(const std::string &fix_style, bool evened_out);
 
     // masses of the owned and ghost particles of run(), and of those with a bit of also, times one
     // factor for each type, so that the mean density of the type is rho0 if the volumes do not depend
@@ -77,7 +77,7 @@ namespace SPHDissipation {
 
     double count(int type, Set set) const { return means[type * NSET + set].count; }
     int best(int type) const { return type * NSET + (has_full_support(type) ? FULL : ALL); }
-    void find_full_support(NeighList *);
+    void find_full_support();
     void add_up();
     double longest_wave() const;
   };
