@@ -194,6 +194,27 @@ def letters(kind, name):
     return " (k)" if has_kokkos else ""
 
 
+KOKKOS_SOURCES = """if(PKG_{package})
+  if(NOT (KOKKOS_PREC STREQUAL "DOUBLE"))
+    message(FATAL_ERROR "Must use KOKKOS_PREC=double with package {package}")
+  endif()
+{sources}endif()
+
+"""
+
+
+def add_kokkos_sources(tree):
+    """LAMMPS's CMake finds the files of styles, others are to be named."""
+    others = [file.name for file in sorted(KOKKOS.glob("*.cpp"))
+              if not re.search(r"^(Pair|Fix|Compute|Atom)Style\(", file.with_suffix(".h").read_text(), re.MULTILINE)]
+    sources = [f"${{KOKKOS_PKG_SOURCES_DIR}}/{name}" for name in others]
+    if sources:
+        sources = "  list(APPEND KOKKOS_PKG_SOURCES " + ("\n" + 33 * " ").join(sources) + ")\n"
+    block = KOKKOS_SOURCES.format(package=PACKAGE, sources=sources or "")
+    before = "if(PKG_ML-IAP)\n  if(NOT (KOKKOS_PREC"
+    tree.replace("cmake/Modules/Packages/KOKKOS.cmake", before, block + before)
+
+
 def add_sources(tree):
     for file in SOURCES.iterdir():
         if file.suffix in (".cpp", ".h") or file.name in ("README", "Install.sh"):
@@ -206,6 +227,7 @@ def add_sources(tree):
         needs = without.name if without.exists() else "pair_sph_bulk.h"
         tree.insert("src/KOKKOS/Install.sh", r"action (\S+\.(?:cpp|h))(?: \S+)?$", file.name,
                     f"action {file.name} {needs}\n")
+    add_kokkos_sources(tree)
     # compute sph/spectrum has the FFTs of KSPACE if that is installed: compiled anew when it comes or goes
     tree.replace("src/Depend.sh", 'if (test $1 = "KSPACE") then\n', f'if (test $1 = "KSPACE") then\n  depend {PACKAGE}\n')
     package = PACKAGE.lower()
