@@ -81,8 +81,8 @@ def main():
     for dt, (mean, error) in runs.items():
         print(f"dt = {dt}: largest viscous rate times dt {RATE * dt:.3f}, between the steps {mean[12]:.4f} +- {error[12]:.4f}")
         for column, name in NAMES.items():
+            print(f"  {name}: {mean[column - 1]:.4f} +- {error[column - 1]:.4f}")
             if RATE * dt > 0.1:
-                print(f"  {name}: {mean[column - 1]:.4f} +- {error[column - 1]:.4f}")
                 continue
             whole = column <= 4 and side[dt] == SIDE
             example.merit(f"  {name}: temperature minus 1", abs(mean[column - 1] - 1), 0,
