@@ -14,6 +14,7 @@
 #include "atom_vec_sph_bulk_kokkos.h"
 
 #include "atom_kokkos.h"
+#include "comm.h"
 #include "error.h"
 #include "fix.h"
 #include "kokkos.h"
@@ -26,13 +27,45 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp) :
-    AtomVec(lmp), AtomVecKokkos(lmp), AtomVecSPHBulk(lmp, IN_VIEWS)
+AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp) : AtomVecSPHBulkKokkos(lmp, COMPLETE) {}
+
+/* ----------------------------------------------------------------------
+   the views are those of the object that atomKK is now, also when replicate has made another one
+------------------------------------------------------------------------- */
+
+AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, Complete complete) :
+    AtomVec(lmp), AtomVecSPHBulk(lmp, IN_VIEWS), AtomVecKokkos(lmp)
+{
+  AtomKokkos &atoms = *atomKK;
+  if (atoms.k_dvector.extent(0))
+    error->all(FLERR, "This atom style must come before fixes property/atom with d_ names");
+
+  add_field(TAG_MASK, atoms.k_tag, atoms.tag);
+  add_field(TYPE_MASK, atoms.k_type, atoms.type);
+  add_field(MASK_MASK, atoms.k_mask, atoms.mask);
+  add_field(IMAGE_MASK, atoms.k_image, atoms.image);
+  add_field(X_MASK, atoms.k_x, atoms.x);
+  add_field(V_MASK, atoms.k_v, atoms.v);
+  add_field(F_MASK, atoms.k_f, atoms.f);
+  add_field(RMASS_MASK, atoms.k_rmass, atoms.rmass);
+  add_own_field(SPH_RHO_MASK, k_rho, atoms.rho, {});
+  add_own_field(DRHO_MASK, k_drho, atoms.drho, {});
+  add_own_field(VFRAC_MASK, k_vfrac, atoms.vfrac, {});
+  add_own_field(ESPH_MASK, k_esph, atoms.esph, {BORDER, EXCHANGE});
+  add_own_field(DESPH_MASK, k_desph, atoms.desph, {});
+  add_own_field(VEST_MASK, k_vest, atoms.vest, {COMM, BORDER, EXCHANGE});
+  add_own_field(DESPH_BEFORE_MASK, k_desph_before, desph_before, {EXCHANGE});
+  if (complete == COMPLETE) setup_views();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void AtomVecSPHBulkKokkos::setup_views()
 {
   bonus_flag = 1;        // for the functions of that name
   forceclearflag = 0;    // the pair style sets desph
   fields_reverse = {};
-  datamask_bonus = VEST_MASK | ESPH_MASK | DESPH_BEFORE_MASK;
+  for (const auto occasion : {COMM, BORDER, EXCHANGE}) datamask_bonus |= sent_mask(occasion);
   setup_fields();
 }
 
@@ -40,21 +73,28 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp) :
 
 AtomVecSPHBulkKokkos::~AtomVecSPHBulkKokkos()
 {
-  memoryKK->destroy_kokkos(k_rho, owner->rho);
-  memoryKK->destroy_kokkos(k_drho, owner->drho);
-  memoryKK->destroy_kokkos(k_vfrac, owner->vfrac);
-  memoryKK->destroy_kokkos(k_esph, owner->esph);
-  memoryKK->destroy_kokkos(k_desph, owner->desph);
-  memoryKK->destroy_kokkos(k_desph_before, desph_before);
-  memoryKK->destroy_kokkos(k_vest, owner->vest);
+  free_views();
 }
 
 /* ---------------------------------------------------------------------- */
+
+void AtomVecSPHBulkKokkos::free_views()
+{
+  for (const auto &field : fields)
+    if (field->own) field->destroy(memoryKK);
+  fields.clear();
+}
+
+/* ----------------------------------------------------------------------
+   CommTiledKokkos::forward_comm_device() of LAMMPS 4 Jul 2026 packs what a processor sends to itself, but
+   unpacks it only with velocities: without them the messages are packed on the host
+------------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::init()
 {
   AtomVecSPHBulk::init();
   set_atom_masks();
+  if (comm->style == Comm::TILED && !comm->ghost_velocity) lmp->kokkos->forward_comm_legacy = 1;
 }
 
 /* ----------------------------------------------------------------------
@@ -72,23 +112,7 @@ void AtomVecSPHBulkKokkos::grow(int n)
 
   atomKK->sync(Device, ALL_MASK);
   atomKK->modified(Device, ALL_MASK);
-
-  memoryKK->grow_kokkos(atomKK->k_tag, atomKK->tag, nmax, "atom:tag");
-  memoryKK->grow_kokkos(atomKK->k_type, atomKK->type, nmax, "atom:type");
-  memoryKK->grow_kokkos(atomKK->k_mask, atomKK->mask, nmax, "atom:mask");
-  memoryKK->grow_kokkos(atomKK->k_image, atomKK->image, nmax, "atom:image");
-  memoryKK->grow_kokkos(atomKK->k_x, atomKK->x, nmax, "atom:x");
-  memoryKK->grow_kokkos(atomKK->k_v, atomKK->v, nmax, "atom:v");
-  memoryKK->grow_kokkos(atomKK->k_f, atomKK->f, nmax, "atom:f");
-  memoryKK->grow_kokkos(atomKK->k_rmass, atomKK->rmass, nmax, "atom:rmass");
-  memoryKK->grow_kokkos(k_rho, atomKK->rho, nmax, "atom:rho");
-  memoryKK->grow_kokkos(k_drho, atomKK->drho, nmax, "atom:drho");
-  memoryKK->grow_kokkos(k_vfrac, atomKK->vfrac, nmax, "atom:vfrac");
-  memoryKK->grow_kokkos(k_esph, atomKK->esph, nmax, "atom:esph");
-  memoryKK->grow_kokkos(k_desph, atomKK->desph, nmax, "atom:desph");
-  memoryKK->grow_kokkos(k_desph_before, desph_before, nmax, "atom:desph_before");
-  memoryKK->grow_kokkos(k_vest, atomKK->vest, nmax, "atom:vest");
-
+  for (const auto &field : fields) field->grow(memoryKK, nmax);
   for (int k = 0; k < atom->nextra_grow; k++) modify->fix[atom->extra_grow[k]]->grow_arrays(nmax);
 
   grow_pointers();
@@ -111,51 +135,29 @@ void AtomVecSPHBulkKokkos::grow_pointers()
 }
 
 /* ----------------------------------------------------------------------
-   function of each view whose bit is set in a mask: the views that LAMMPS transforms
-   between the layouts of host and device, or the others
+   function of each field whose bit is set in a mask
 ------------------------------------------------------------------------- */
 
-template <class Function>
-void AtomVecSPHBulkKokkos::with_atom_fields(uint64_t mask, Function &&each)
+template <class Function> void AtomVecSPHBulkKokkos::with_fields(uint64_t mask, Function &&function)
 {
-  if (mask & X_MASK) each(atomKK->k_x);
-  if (mask & V_MASK) each(atomKK->k_v);
-  if (mask & F_MASK) each(atomKK->k_f);
-  if (mask & RMASS_MASK) each(atomKK->k_rmass);
+  for (const auto &field : fields)
+    if (mask & field->mask) function(*field);
 }
 
-template <class Function> void AtomVecSPHBulkKokkos::with_fields(uint64_t mask, Function &&each)
-{
-  if (mask & TAG_MASK) each(atomKK->k_tag);
-  if (mask & TYPE_MASK) each(atomKK->k_type);
-  if (mask & MASK_MASK) each(atomKK->k_mask);
-  if (mask & IMAGE_MASK) each(atomKK->k_image);
-  if (mask & SPH_RHO_MASK) each(k_rho);
-  if (mask & DRHO_MASK) each(k_drho);
-  if (mask & VFRAC_MASK) each(k_vfrac);
-  if (mask & ESPH_MASK) each(k_esph);
-  if (mask & DESPH_MASK) each(k_desph);
-  if (mask & DESPH_BEFORE_MASK) each(k_desph_before);
-  if (mask & VEST_MASK) each(k_vest);
-}
-
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   class AtomKokkos and fix property/atom call these two before and after they move the custom
+   properties, of which ours stay where they are
+------------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
 {
-  with_atom_fields(mask, [=](auto &view) {
-    if (space == Device)
-      view.sync_device();
-    else if (space == Host)
-      view.sync_host();
-    else
-      view.sync_hostkk();
-  });
-  with_fields(mask, [=](auto &view) {
-    if (space == Device)
-      view.sync_device();
-    else
-      view.sync_host();
+  if (mask & DVECTOR_MASK) {
+    show_custom_vectors();
+    mask |= DESPH_BEFORE_MASK | INERTIA_MASK;
+  }
+  if (mask & DARRAY_MASK) mask |= OMEGAEST_MASK;
+  with_fields(mask, [=](FieldKokkos &field) {
+    field.sync(space);
   });
 }
 
@@ -163,19 +165,9 @@ void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
 
 void AtomVecSPHBulkKokkos::modified(ExecutionSpace space, uint64_t mask)
 {
-  with_atom_fields(mask, [=](auto &view) {
-    if (space == Device)
-      view.modify_device();
-    else if (space == Host)
-      view.modify_host();
-    else
-      view.modify_hostkk();
-  });
-  with_fields(mask, [=](auto &view) {
-    if (space == Device)
-      view.modify_device();
-    else
-      view.modify_host();
+  if (mask & DVECTOR_MASK) show_custom_vectors();
+  with_fields(mask, [=](FieldKokkos &field) {
+    field.modified(space);
   });
 }
 
@@ -183,13 +175,8 @@ void AtomVecSPHBulkKokkos::modified(ExecutionSpace space, uint64_t mask)
 
 void AtomVecSPHBulkKokkos::sync_pinned(ExecutionSpace space, uint64_t mask, int async_flag)
 {
-  with_atom_fields(mask, [&](auto &view) {
-    if (space == Device ? view.need_sync_device() : view.need_sync_host())
-      perform_pinned_copy_transform(view, space, async_flag);
-  });
-  with_fields(mask, [&](auto &view) {
-    if (space == Device ? view.need_sync_device() : view.need_sync_host())
-      perform_pinned_copy(view, space, async_flag);
+  with_fields(mask, [=, this](FieldKokkos &field) {
+    field.sync_pinned(*this, space, async_flag);
   });
 }
 
@@ -199,41 +186,43 @@ void AtomVecSPHBulkKokkos::sync_pinned(ExecutionSpace space, uint64_t mask, int 
 
 void AtomVecSPHBulkKokkos::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)
 {
-  const uint64_t moved = ALL_MASK & ~F_MASK;
+  const uint64_t moved = ALL_MASK & ~(F_MASK | TORQUE_MASK);
   atomKK->sync(Device, moved);
-  auto sort = [&](auto &view) {
-    sorter.sort(LMPDeviceType(), view.view_device());
-  };
-  with_atom_fields(moved, sort);
-  with_fields(moved, sort);
+  with_fields(moved, [&](FieldKokkos &field) {
+    field.sort(sorter);
+  });
   atomKK->modified(Device, moved);
 }
 
-/* ----------------------------------------------------------------------
-   own fields of each kind of message, in the order of the strings of the constructor, so that a
-   message of the host has the same size
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-template <class DeviceType> ColumnsKokkos AtomVecSPHBulkKokkos::columns(Occasion occasion) const
+uint64_t AtomVecSPHBulkKokkos::sent_mask(Occasion occasion) const
+{
+  uint64_t mask = EMPTY_MASK;
+  for (const auto *field : sent[occasion]) mask |= field->mask;
+  return mask;
+}
+
+/* ---------------------------------------------------------------------- */
+
+ColumnsKokkos AtomVecSPHBulkKokkos::columns(Occasion occasion, ExecutionSpace space) const
 {
   ColumnsKokkos result;
-  if (occasion != COMM) result.add(k_esph.template view<DeviceType>());
-  result.add(k_vest.template view<DeviceType>());
-  if (occasion == EXCHANGE) result.add(k_desph_before.template view<DeviceType>());
+  for (const auto *field : sent[occasion]) field->add_to(result, space);
   return result;
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType>
-RowsKokkos AtomVecSPHBulkKokkos::rows(Occasion occasion, const DAT::tdual_double_2d_lr &buf,
-                                      int vel_flag) const
+RowsKokkos AtomVecSPHBulkKokkos::rows(Occasion occasion, ExecutionSpace space,
+                                      const DAT::tdual_double_2d_lr &buf, int vel_flag) const
 {
   int width = (occasion == COMM) ? size_forward
       : (occasion == BORDER)     ? size_border
                                  : size_exchange;
   if (vel_flag) width += size_velocity;
-  return {buf.template view<DeviceType>().data() + width - columns<DeviceType>(occasion).n, width};
+  double *const first = (space == Device) ? buf.view_device().data() : buf.view_host().data();
+  return {first + width - columns(occasion, space).n, width};
 }
 
 /* ---------------------------------------------------------------------- */
@@ -241,7 +230,7 @@ RowsKokkos AtomVecSPHBulkKokkos::rows(Occasion occasion, const DAT::tdual_double
 void AtomVecSPHBulkKokkos::set_size_exchange()
 {
   AtomVecKokkos::set_size_exchange();
-  size_exchange_bonus = columns<LMPDeviceType>(EXCHANGE).n;
+  size_exchange_bonus = columns(EXCHANGE, Device).n;
   size_exchange += size_exchange_bonus;
 }
 
@@ -263,10 +252,10 @@ void AtomVecSPHBulkKokkos::pack_comm_bonus_kokkos(const int &n, const DAT::tdual
                                                   const DAT::tdual_double_2d_lr &buf, int vel_flag)
 {
   const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, VEST_MASK);
+  atomKK->sync(space, sent_mask(COMM));
   on(space, [&](auto where) {
     typedef decltype(where) DeviceType;
-    pack_columns<DeviceType>(columns<DeviceType>(COMM), rows<DeviceType>(COMM, buf, vel_flag), n,
+    pack_columns<DeviceType>(columns(COMM, space), rows(COMM, space, buf, vel_flag), n,
                              list.template view<DeviceType>());
   });
 }
@@ -278,13 +267,12 @@ void AtomVecSPHBulkKokkos::unpack_comm_bonus_kokkos(const int &n, const int &fir
                                                     int vel_flag)
 {
   const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, VEST_MASK);
+  atomKK->sync(space, sent_mask(COMM));
   on(space, [&](auto where) {
-    typedef decltype(where) DeviceType;
-    unpack_columns<DeviceType>(columns<DeviceType>(COMM), rows<DeviceType>(COMM, buf, vel_flag), n,
-                               first);
+    unpack_columns<decltype(where)>(columns(COMM, space), rows(COMM, space, buf, vel_flag), n,
+                                    first);
   });
-  atomKK->modified(space, VEST_MASK);
+  atomKK->modified(space, sent_mask(COMM));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -293,12 +281,12 @@ void AtomVecSPHBulkKokkos::pack_comm_self_bonus_kokkos(const int &n, const DAT::
                                                        const int first)
 {
   const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, VEST_MASK);
+  atomKK->sync(space, sent_mask(COMM));
   on(space, [&](auto where) {
     typedef decltype(where) DeviceType;
-    copy_columns<DeviceType>(columns<DeviceType>(COMM), n, list.template view<DeviceType>(), first);
+    copy_columns<DeviceType>(columns(COMM, space), n, list.template view<DeviceType>(), first);
   });
-  atomKK->modified(space, VEST_MASK);
+  atomKK->modified(space, sent_mask(COMM));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -310,15 +298,15 @@ void AtomVecSPHBulkKokkos::pack_comm_self_fused_bonus_kokkos(const int &n,
                                                              const DAT::tdual_int_1d &g2l)
 {
   const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, VEST_MASK);
+  atomKK->sync(space, sent_mask(COMM));
   on(space, [&](auto where) {
     typedef decltype(where) DeviceType;
-    copy_columns_of_swaps<DeviceType>(
-        columns<DeviceType>(COMM), n, list.template view<DeviceType>(),
-        sendnum_scan.template view<DeviceType>(), firstrecv.template view<DeviceType>(),
-        g2l.template view<DeviceType>());
+    copy_columns_of_swaps<DeviceType>(columns(COMM, space), n, list.template view<DeviceType>(),
+                                      sendnum_scan.template view<DeviceType>(),
+                                      firstrecv.template view<DeviceType>(),
+                                      g2l.template view<DeviceType>());
   });
-  atomKK->modified(space, VEST_MASK);
+  atomKK->modified(space, sent_mask(COMM));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -327,11 +315,11 @@ void AtomVecSPHBulkKokkos::pack_border_bonus_kokkos(int n, DAT::tdual_int_1d lis
                                                     DAT::tdual_double_2d_lr &buf,
                                                     ExecutionSpace space, int vel_flag)
 {
-  atomKK->sync(space, ESPH_MASK | VEST_MASK);
+  atomKK->sync(space, sent_mask(BORDER));
   on(space, [&](auto where) {
     typedef decltype(where) DeviceType;
-    pack_columns<DeviceType>(columns<DeviceType>(BORDER), rows<DeviceType>(BORDER, buf, vel_flag),
-                             n, list.template view<DeviceType>());
+    pack_columns<DeviceType>(columns(BORDER, space), rows(BORDER, space, buf, vel_flag), n,
+                             list.template view<DeviceType>());
   });
 }
 
@@ -342,13 +330,12 @@ void AtomVecSPHBulkKokkos::unpack_border_bonus_kokkos(const int &n, const int &f
                                                       ExecutionSpace space, int vel_flag)
 {
   while (first + n >= nmax) grow(0);
-  atomKK->sync(space, ESPH_MASK | VEST_MASK);
+  atomKK->sync(space, sent_mask(BORDER));
   on(space, [&](auto where) {
-    typedef decltype(where) DeviceType;
-    unpack_columns<DeviceType>(columns<DeviceType>(BORDER), rows<DeviceType>(BORDER, buf, vel_flag),
-                               n, first);
+    unpack_columns<decltype(where)>(columns(BORDER, space), rows(BORDER, space, buf, vel_flag), n,
+                                    first);
   });
-  atomKK->modified(space, ESPH_MASK | VEST_MASK);
+  atomKK->modified(space, sent_mask(BORDER));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -358,14 +345,14 @@ void AtomVecSPHBulkKokkos::pack_exchange_bonus_kokkos(const int &n, DAT::tdual_d
                                                       DAT::tdual_int_1d replacement,
                                                       DAT::tdual_int_1d, ExecutionSpace space)
 {
-  atomKK->sync(space, datamask_bonus);
+  atomKK->sync(space, sent_mask(EXCHANGE));
   on(space, [&](auto where) {
     typedef decltype(where) DeviceType;
-    pack_leaving_columns<DeviceType>(
-        columns<DeviceType>(EXCHANGE), rows<DeviceType>(EXCHANGE, buf, 0), n,
-        list.template view<DeviceType>(), replacement.template view<DeviceType>());
+    pack_leaving_columns<DeviceType>(columns(EXCHANGE, space), rows(EXCHANGE, space, buf, 0), n,
+                                     list.template view<DeviceType>(),
+                                     replacement.template view<DeviceType>());
   });
-  atomKK->modified(space, datamask_bonus);
+  atomKK->modified(space, sent_mask(EXCHANGE));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -374,12 +361,11 @@ void AtomVecSPHBulkKokkos::unpack_exchange_bonus_kokkos(DAT::tdual_double_2d_lr 
                                                         ExecutionSpace space,
                                                         DAT::tdual_int_1d &place)
 {
-  atomKK->sync(space, datamask_bonus);
+  atomKK->sync(space, sent_mask(EXCHANGE));
   on(space, [&](auto where) {
     typedef decltype(where) DeviceType;
-    unpack_arriving_columns<DeviceType>(columns<DeviceType>(EXCHANGE),
-                                        rows<DeviceType>(EXCHANGE, buf, 0), nrecv / size_exchange,
-                                        place.template view<DeviceType>());
+    unpack_arriving_columns<DeviceType>(columns(EXCHANGE, space), rows(EXCHANGE, space, buf, 0),
+                                        nrecv / size_exchange, place.template view<DeviceType>());
   });
-  atomKK->modified(space, datamask_bonus);
+  atomKK->modified(space, sent_mask(EXCHANGE));
 }

@@ -22,17 +22,18 @@ AtomStyle(sph/bulk/kk/host,AtomVecSPHBulkKokkos);
 #ifndef LMP_ATOM_VEC_SPH_BULK_KOKKOS_H
 #define LMP_ATOM_VEC_SPH_BULK_KOKKOS_H
 
-#include "atom_vec_kokkos.h"
 #include "atom_vec_sph_bulk.h"
-#include "sph_dissipation_columns_kokkos.h"
+#include "sph_dissipation_fields_kokkos.h"
+
+#include <memory>
 
 namespace LAMMPS_NS {
 
 // The fields that class AtomKokkos has no views for are views of this class.  They travel with the
 // particles by the functions that LAMMPS has for "bonus" data, and have bits of their own in the masks
-// of sync() and modified().  The pair style sums desph of ghost atoms itself.
+// of sync() and modified().  The pair style sums what it leaves with ghost atoms itself.
 
-class AtomVecSPHBulkKokkos : public AtomVecKokkos, public AtomVecSPHBulk {
+class AtomVecSPHBulkKokkos : public AtomVecKokkos, virtual public AtomVecSPHBulk {
  public:
   AtomVecSPHBulkKokkos(class LAMMPS *);
   ~AtomVecSPHBulkKokkos() override;
@@ -69,15 +70,51 @@ class AtomVecSPHBulkKokkos : public AtomVecKokkos, public AtomVecSPHBulk {
   tdual_field k_rho, k_drho, k_vfrac, k_esph, k_desph, k_desph_before;
   tdual_field_3 k_vest;
 
+ protected:
+  AtomVecSPHBulkKokkos(class LAMMPS *, Complete);    // of AtomVecSPHBulk, by a derived class
+
+  enum Occasion { COMM, BORDER, EXCHANGE, NOCCASION };
+
+  // in the constructor: a field of class AtomKokkos, or one of ours with the messages that it is in
+
+  template <class View, class Pointer> void add_field(uint64_t, View &, Pointer &);
+  template <class View, class Pointer>
+  void add_own_field(uint64_t, View &, Pointer &, const std::vector<Occasion> &);
+  void setup_views();    // at the end of it
+  void free_views();     // in the destructor of the class that has them
+
  private:
-  enum Occasion { COMM, BORDER, EXCHANGE };
-  template <class DeviceType> SPHDissipation::ColumnsKokkos columns(Occasion) const;
-  template <class DeviceType>
-  SPHDissipation::RowsKokkos rows(Occasion, const DAT::tdual_double_2d_lr &, int vel_flag) const;
+  std::vector<std::unique_ptr<SPHDissipation::FieldKokkos>> fields;
+
+  // own fields of each kind of message, in the order of the strings of the CPU style, so that a
+  // message of the host has the same size
+
+  std::vector<SPHDissipation::FieldKokkos *> sent[NOCCASION];
+  uint64_t sent_mask(Occasion) const;
+  SPHDissipation::ColumnsKokkos columns(Occasion, ExecutionSpace) const;
+  SPHDissipation::RowsKokkos rows(Occasion, ExecutionSpace, const DAT::tdual_double_2d_lr &,
+                                  int vel_flag) const;
 
   template <class Function> void with_fields(uint64_t, Function &&);
-  template <class Function> void with_atom_fields(uint64_t, Function &&);
 };
+
+/* ---------------------------------------------------------------------- */
+
+template <class View, class Pointer>
+void AtomVecSPHBulkKokkos::add_field(uint64_t mask, View &view, Pointer &pointer)
+{
+  typedef SPHDissipation::FieldOfKokkos<View, Pointer> Field;
+  fields.push_back(std::make_unique<Field>(mask, false, view, pointer));
+}
+
+template <class View, class Pointer>
+void AtomVecSPHBulkKokkos::add_own_field(uint64_t mask, View &view, Pointer &pointer,
+                                         const std::vector<Occasion> &occasions)
+{
+  typedef SPHDissipation::FieldOfKokkos<View, Pointer> Field;
+  fields.push_back(std::make_unique<Field>(mask, true, view, pointer));
+  for (const auto &occasion : occasions) sent[occasion].push_back(fields.back().get());
+}
 
 }    // namespace LAMMPS_NS
 

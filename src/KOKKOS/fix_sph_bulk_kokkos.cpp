@@ -14,199 +14,202 @@
 #include "fix_sph_bulk_kokkos.h"
 
 #include "atom_kokkos.h"
-#include "atom_vec_sph_bulk_kokkos.h"
+#include "fix_sph_micropolar.h"
+#include "neighbor.h"
 #include "pair_sph_bulk_kokkos.h"
-#include "sph_dissipation_integrate.h"
 #include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_particles_kokkos.h"
 #include "sph_dissipation_shift_terms.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
+// The atom style leaves out the bits of fields that it does not have.
+
+static constexpr uint64_t SPINS = OMEGA_MASK | TORQUE_MASK | INERTIA_MASK | OMEGAEST_MASK;
+static constexpr uint64_t READ = X_MASK | V_MASK | F_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK |
+    DESPH_MASK | DESPH_BEFORE_MASK | VEST_MASK | SPINS;
+static constexpr uint64_t MODIFIED[] = {    // at the beginning and at the end of a step
+    X_MASK | V_MASK | ESPH_MASK | DESPH_BEFORE_MASK | VEST_MASK | OMEGA_MASK | OMEGAEST_MASK,
+    V_MASK | ESPH_MASK | OMEGA_MASK};
+static constexpr uint64_t MOTION = V_MASK | OMEGA_MASK;
+static constexpr uint64_t EXTRAPOLATION = VEST_MASK | OMEGAEST_MASK;
+
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType>
-FixSPHBulkKokkos<DeviceType>::FixSPHBulkKokkos(LAMMPS *lmp, int narg, char **arg) :
-    FixSPHBulk(lmp, narg, arg)
+template <class DeviceType, class Base>
+FixSPHKokkos<DeviceType, Base>::FixSPHKokkos(LAMMPS *lmp, int narg, char **arg) :
+    Base(lmp, narg, arg)
 {
-  kokkosable = 1;
-  atomKK = (AtomKokkos *) atom;
-  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  datamask_read = EMPTY_MASK;    // each function says itself what it reads and modifies
-  datamask_modify = EMPTY_MASK;
+  this->kokkosable = 1;
+  this->atomKK = (AtomKokkos *) this->atom;
+  this->execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  this->datamask_read = EMPTY_MASK;    // each function says itself what it reads and modifies
+  this->datamask_modify = EMPTY_MASK;
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> AtomVecSPHBulkKokkos *FixSPHBulkKokkos<DeviceType>::avec_kokkos() const
+template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::setup_pre_exchange()
 {
-  return dynamic_cast<AtomVecSPHBulkKokkos *>(avec());
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_exchange()
-{
-  atomKK->sync(Host, V_MASK | VEST_MASK | MASK_MASK);
-  FixSPHBulk::setup_pre_exchange();
-  atomKK->modified(Host, VEST_MASK);
+  this->atomKK->sync(Host, MOTION | EXTRAPOLATION | MASK_MASK);
+  Base::setup_pre_exchange();
+  this->atomKK->modified(Host, EXTRAPOLATION);
 }
 
 /* ----------------------------------------------------------------------
    the pair style says itself what it does to masses and densities
 ------------------------------------------------------------------------- */
 
-template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_force(int vflag)
+template <class DeviceType, class Base>
+void FixSPHKokkos<DeviceType, Base>::setup_pre_force(int vflag)
 {
-  atomKK->sync(Host, V_MASK | VEST_MASK);
-  FixSPHBulk::setup_pre_force(vflag);
-  if (remap_v_flag) atomKK->modified(Host, VEST_MASK);
+  this->atomKK->sync(Host, on_host() ? ALL_MASK : MOTION | EXTRAPOLATION);
+  Base::setup_pre_force(vflag);
+  if (on_host()) this->atomKK->modified(Host, VEST_MASK | INERTIA_MASK);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup(int vflag)
+template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::setup(int vflag)
 {
-  atomKK->sync(Host, TYPE_MASK | MASK_MASK);
-  FixSPHBulk::setup(vflag);
+  this->atomKK->sync(Host, TYPE_MASK | MASK_MASK | VFRAC_MASK | INERTIA_MASK);
+  this->atomKK->modified(Host, INERTIA_MASK);    // what follows synchronizes the particles
+  Base::setup(vflag);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::initial_integrate(int vflag)
+template <class DeviceType, class Base>
+void FixSPHKokkos<DeviceType, Base>::initial_integrate(int vflag)
 {
-  check_set_up();
-  constexpr uint64_t READ = X_MASK | V_MASK | F_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK |
-      DESPH_MASK | DESPH_BEFORE_MASK | VEST_MASK;
-  constexpr uint64_t MODIFIED = X_MASK | V_MASK | ESPH_MASK | DESPH_BEFORE_MASK | VEST_MASK;
-  if (on_host()) {
-    atomKK->sync(Host, ALL_MASK);
-    FixSPHBulk::initial_integrate(vflag);
-    return atomKK->modified(Host, MODIFIED | DESPH_MASK);
-  }
-  atomKK->sync(execution_space, READ);
+  this->check_set_up();
+  if (!on_host()) return integrate(BEGIN);
+  this->atomKK->sync(Host, ALL_MASK);
+  Base::initial_integrate(vflag);
+  this->atomKK->modified(Host, MODIFIED[BEGIN]);
+}
 
-  auto *avecKK = avec_kokkos();
-  auto x = atomKK->k_x.template view<DeviceType>();
-  auto v = atomKK->k_v.template view<DeviceType>();
-  auto f = atomKK->k_f.template view<DeviceType>();
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  auto rmass = atomKK->k_rmass.template view<DeviceType>();
-  auto esph = avecKK->k_esph.template view<DeviceType>();
-  auto desph = avecKK->k_desph.template view<DeviceType>();
-  auto desph_before = avecKK->k_desph_before.template view<DeviceType>();
-  auto vest = avecKK->k_vest.template view<DeviceType>();
-  const TimeStep step = time_step();
-  const int bit = groupbit;
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::final_integrate()
+{
+  if (!on_host()) return integrate(END);
+  this->atomKK->sync(Host, ALL_MASK);
+  Base::final_integrate();
+  this->atomKK->modified(Host, MODIFIED[END]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::integrate(Half half)
+{
+  const auto space = this->execution_space;
+  this->atomKK->sync(space, READ);
+  const ParticlesKokkos<DeviceType> particles(this->atomKK);
+  const TimeStep step = this->time_step();
+  const int bit = this->groupbit;
 
   Kokkos::parallel_for(
-      "sph:integrate", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
-        if (!(mask(i) & bit)) return;
-        const double dtfm = step.dtf / rmass(i);
-        step.begin_energy(desph(i), esph(i), desph_before(i));
-        for (int d = 0; d < 3; d++) step.begin(dtfm, f(i, d), x(i, d), v(i, d), vest(i, d));
+      "sph:integrate", Kokkos::RangePolicy<DeviceType>(0, this->nlocal_group()),
+      KOKKOS_LAMBDA(int i) {
+        if (!(particles.mask(i) & bit)) return;
+        if (half == BEGIN)
+          particles.begin(step, i);
+        else
+          particles.end(step, i);
       });
-  if (shift_speed > 0.0) shift_on_device();
-  atomKK->modified(execution_space, MODIFIED);
+  if (half == BEGIN && this->shift_speed > 0.0) shift_on_device();
+  this->atomKK->modified(space, MODIFIED[half]);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
+template <class DeviceType, class Base> bool FixSPHKokkos<DeviceType, Base>::on_host() const
 {
-  if (remap_v_flag || exact) return true;
-  if (shift_speed == 0.0) return false;
-  auto *const pairKK = dynamic_cast<PairSPHBulkKokkos<DeviceType> *>(pair);
+  if (this->remap_v_flag || this->exact) return true;
+  if (this->shift_speed == 0.0) return false;
+  auto *const pairKK = dynamic_cast<PairSPHBulkKokkos<DeviceType> *>(this->pair);
   return !pairKK || !pairKK->computes_on_device();
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::shift_on_device()
+template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::shift_on_device()
 {
-  auto crowding = dynamic_cast<PairSPHBulkKokkos<DeviceType> *>(pair)->crowding_on_device();
-  auto x = atomKK->k_x.template view<DeviceType>();
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  const double speed = shift_speed, support = pair->support_radius(), dt = dtv;
-  const int bit = groupbit;
+  auto crowding = dynamic_cast<PairSPHBulkKokkos<DeviceType> *>(this->pair)->crowding_on_device();
+  auto x = this->atomKK->k_x.template view<DeviceType>();
+  auto mask = this->atomKK->k_mask.template view<DeviceType>();
+  const double speed = this->shift_speed, support = this->pair->support_radius(), dt = this->dtv;
+  const int bit = this->groupbit;
   Kokkos::parallel_for(
-      "sph:shift", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
+      "sph:shift", Kokkos::RangePolicy<DeviceType>(0, this->nlocal_group()), KOKKOS_LAMBDA(int i) {
         if (mask(i) & bit) shift_particle(speed, support, dt, &crowding(i, 0), &x(i, 0));
       });
 }
 
 /* ----------------------------------------------------------------------
-   as FixSPHBulk::reset_extrapolation()
+   as reset_extrapolation() of the CPU style
 ------------------------------------------------------------------------- */
 
-template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::post_integrate()
+template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::post_integrate()
 {
-  if (!first_instance || (integrated_groups & 1)) return;
-  atomKK->sync(execution_space, V_MASK | VEST_MASK | MASK_MASK);
-
-  auto v = atomKK->k_v.template view<DeviceType>();
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  auto vest = avec_kokkos()->k_vest.template view<DeviceType>();
-  const double keep = time_step().keep;
-  const int except = integrated_groups;
+  if (!this->first_instance || (this->integrated_groups & 1)) return;
+  const auto space = this->execution_space;
+  this->atomKK->sync(space, MOTION | EXTRAPOLATION | MASK_MASK);
+  const ParticlesKokkos<DeviceType> particles(this->atomKK);
+  const TimeStep step = this->time_step();
+  const int except = this->integrated_groups;
 
   Kokkos::parallel_for(
-      "sph:follow", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
-        if (mask(i) & except) return;
-        for (int d = 0; d < 3; d++) vest(i, d) = keep * v(i, d);
+      "sph:follow", Kokkos::RangePolicy<DeviceType>(0, this->atom->nlocal), KOKKOS_LAMBDA(int i) {
+        if (!(particles.mask(i) & except)) particles.follow(step, i);
       });
-  atomKK->modified(execution_space, VEST_MASK);
+  this->atomKK->modified(space, EXTRAPOLATION);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::pre_force(int vflag)
+template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::pre_force(int vflag)
 {
-  if (!remap_v_flag) return;
-  atomKK->sync(Host, V_MASK | VEST_MASK);
-  FixSPHBulk::pre_force(vflag);
-  atomKK->modified(Host, VEST_MASK);
+  if (!this->remap_v_flag && !anybody_without_inertia()) return;
+  this->atomKK->sync(Host, V_MASK | VEST_MASK | MASK_MASK | TYPE_MASK | RMASS_MASK | INERTIA_MASK);
+  Base::pre_force(vflag);
+  this->atomKK->modified(Host, VEST_MASK | INERTIA_MASK);
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   among the particles of a new neighbor list, where they need inertia
+------------------------------------------------------------------------- */
 
-template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::final_integrate()
+template <class DeviceType, class Base>
+bool FixSPHKokkos<DeviceType, Base>::anybody_without_inertia() const
 {
-  if (on_host()) {
-    atomKK->sync(Host, ALL_MASK);
-    FixSPHBulk::final_integrate();
-    return atomKK->modified(Host, V_MASK | ESPH_MASK | DESPH_MASK);
-  }
-  atomKK->sync(execution_space,
-               V_MASK | F_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK | DESPH_MASK |
-                   DESPH_BEFORE_MASK);
+  bool asked = false;
+  if constexpr (std::is_base_of_v<FixSPHMicropolar, Base>) asked = this->needs_inertia();
+  if (!asked || this->neighbor->ago != 0) return false;
 
-  auto *avecKK = avec_kokkos();
-  auto v = atomKK->k_v.template view<DeviceType>();
-  auto f = atomKK->k_f.template view<DeviceType>();
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  auto rmass = atomKK->k_rmass.template view<DeviceType>();
-  auto esph = avecKK->k_esph.template view<DeviceType>();
-  auto desph = avecKK->k_desph.template view<DeviceType>();
-  auto desph_before = avecKK->k_desph_before.template view<DeviceType>();
-  const TimeStep step = time_step();
-  const int bit = groupbit;
-
-  Kokkos::parallel_for(
-      "sph:integrate", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
-        if (!(mask(i) & bit)) return;
-        const double dtfm = step.dtf / rmass(i);
-        step.end_energy(desph(i), desph_before(i), esph(i));
-        for (int d = 0; d < 3; d++) step.end(dtfm, f(i, d), v(i, d));
-      });
-  atomKK->modified(execution_space, V_MASK | ESPH_MASK);
+  this->atomKK->sync(this->execution_space, MASK_MASK | INERTIA_MASK);
+  const ParticlesKokkos<DeviceType> particles(this->atomKK);
+  const int bit = this->groupbit;
+  int count = 0, all;
+  Kokkos::parallel_reduce(
+      "sph:inertia", Kokkos::RangePolicy<DeviceType>(0, this->atom->nlocal),
+      KOKKOS_LAMBDA(int i, int &sum) {
+        if ((particles.mask(i) & bit) && !(particles.inertia(i) > 0.0)) sum++;
+      },
+      count);
+  MPI_Allreduce(&count, &all, 1, MPI_INT, MPI_MAX, this->world);
+  return all;
 }
 
 /* ---------------------------------------------------------------------- */
 
 namespace LAMMPS_NS {
-template class FixSPHBulkKokkos<LMPDeviceType>;
+template class FixSPHKokkos<LMPDeviceType, FixSPHBulk>;
+template class FixSPHKokkos<LMPDeviceType, FixSPHMicropolar>;
 #ifdef LMP_KOKKOS_GPU
-template class FixSPHBulkKokkos<LMPHostType>;
+template class FixSPHKokkos<LMPHostType, FixSPHBulk>;
+template class FixSPHKokkos<LMPHostType, FixSPHMicropolar>;
 #endif
 }    // namespace LAMMPS_NS

@@ -28,12 +28,12 @@ FixStyle(sph/bulk/kk/host,FixSPHBulkKokkos<LMPHostType>);
 namespace LAMMPS_NS {
 
 // What is done in every step is done on the device, but for the exchange of energy of thermal noise,
-// large viscosities, and the velocities that fix deform remaps: those, and the start of a run, by the
-// CPU style on the host.
+// large viscosities, and the velocities that fix deform remaps: those, and the start of a run, by Base,
+// the CPU style, on the host.
 
-template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
+template <class DeviceType, class Base> class FixSPHKokkos : public Base {
  public:
-  FixSPHBulkKokkos(class LAMMPS *, int, char **);
+  FixSPHKokkos(class LAMMPS *, int, char **);
   void setup_pre_exchange() override;
   void setup_pre_force(int) override;
   void setup(int) override;
@@ -41,12 +41,19 @@ template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
   void post_integrate() override;
   void pre_force(int) override;
   void final_integrate() override;
-  void shift_on_device();    // public because CUDA asks for it of functions with lambdas
+
+  // of these; public because CUDA asks for it of functions with lambdas
+
+  enum Half { BEGIN, END };
+  void integrate(Half);
+  void shift_on_device();
+  bool anybody_without_inertia() const;
 
  private:
   bool on_host() const;
-  class AtomVecSPHBulkKokkos *avec_kokkos() const;
 };
+
+template <class DeviceType> using FixSPHBulkKokkos = FixSPHKokkos<DeviceType, FixSPHBulk>;
 
 }    // namespace LAMMPS_NS
 

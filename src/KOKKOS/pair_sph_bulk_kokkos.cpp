@@ -14,7 +14,7 @@
 #include "pair_sph_bulk_kokkos.h"
 
 #include "atom_kokkos.h"
-#include "atom_vec_sph_bulk_kokkos.h"
+#include "atom_vec_sph_micropolar_kokkos.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
@@ -43,10 +43,12 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-static constexpr uint64_t READ =
-    X_MASK | F_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK | VEST_MASK;
+// the atom style leaves out the bits of fields that it does not have
+
+static constexpr uint64_t READ = X_MASK | F_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK |
+    VEST_MASK | TORQUE_MASK | OMEGAEST_MASK;
 static constexpr uint64_t DERIVED = SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK;
-static constexpr uint64_t MODIFIED = F_MASK | DESPH_MASK | DERIVED;
+static constexpr uint64_t MODIFIED = F_MASK | TORQUE_MASK | DESPH_MASK | DERIVED;
 
 /* ---------------------------------------------------------------------- */
 
@@ -124,7 +126,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
   datamask_modify = MODIFIED;
   no_virial_fdotr_compute = 1;
 
-  auto *request = neighbor->find_request(this);
+  auto *request = neighbor->find_request(static_cast<Pair *>(this));
   request->set_kokkos_host(std::is_same_v<DeviceType, LMPHostType> &&
                            !std::is_same_v<DeviceType, LMPDeviceType>);
   request->set_kokkos_device(std::is_same_v<DeviceType, LMPDeviceType>);
@@ -292,6 +294,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::compute(int efla
     std::fill_n(atom->desph, atom->nlocal + atom->nghost, 0.0);
     PairSPHBulk::compute(eflag, vflag);
     exchange->reverse({{atom->desph, 1, 1}});    // the atom style does not
+    if (extrapolated_spin()) exchange->reverse({{atom->torque[0], 3, 3}});
     return;
   }
 
@@ -414,6 +417,23 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_particles()
   data->type = type;
   data->f = atomKK->k_f.template view<DeviceType>();
   data->desph = avec->k_desph.template view<DeviceType>();
+  if (engine->has_spin()) set_spins();
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_spins()
+{
+  auto *avec = dynamic_cast<AtomVecSPHMicropolarKokkos *>(atom->avec);
+  auto omegaest = avec->k_omegaest.template view<DeviceType>();
+  auto spin = data->spin;
+  data->torque = atomKK->k_torque.template view<DeviceType>();
+
+  Kokkos::parallel_for(
+      "sph:spins", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+      KOKKOS_LAMBDA(int i) {
+        for (int d = 0; d < 3; d++) spin(i).w[d] = omegaest(i, d);
+      });
 }
 
 /* ---------------------------------------------------------------------- */

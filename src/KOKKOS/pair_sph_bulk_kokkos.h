@@ -39,7 +39,8 @@ namespace SPHDissipation {
 // The pair style on the device.  What is not written for it, see on_host_because(), is computed by the
 // CPU style from the copies of the particles on the host; so are the reports at the start of a run.
 
-template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public KokkosBase {
+template <class DeviceType>
+class PairSPHBulkKokkos : virtual public PairSPHBulk, public KokkosBase {
  public:
   PairSPHBulkKokkos(class LAMMPS *);
   ~PairSPHBulkKokkos() override;
@@ -64,6 +65,7 @@ template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public
   // of compute(); public because CUDA asks for it of functions with lambdas
 
   void set_particles();
+  void set_spins();
   void set_state();
   void find_bound();
   int beyond_bound_of_limit() const;

@@ -29,6 +29,8 @@ namespace SPHDissipation {
   constexpr uint64_t DESPH_MASK = uint64_t(1) << 59;
   constexpr uint64_t DESPH_BEFORE_MASK = uint64_t(1) << 58;
   constexpr uint64_t VEST_MASK = uint64_t(1) << 57;
+  constexpr uint64_t INERTIA_MASK = uint64_t(1) << 56;
+  constexpr uint64_t OMEGAEST_MASK = uint64_t(1) << 55;
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

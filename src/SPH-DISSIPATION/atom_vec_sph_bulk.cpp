@@ -87,7 +87,8 @@ AtomVecSPHBulk::~AtomVecSPHBulk()
                                   return field.name == own.name;
                                 }),
                  fields.end());
-    if (!in_views) owner->remove_custom(own.index, CUSTOM_DOUBLE, own.cols);
+    if (in_views && !own.cols) owner->dvector[own.index] = nullptr;    // not its memory
+    owner->remove_custom(own.index, CUSTOM_DOUBLE, own.cols);
   }
 }
 
@@ -95,6 +96,7 @@ AtomVecSPHBulk::~AtomVecSPHBulk()
    declare an array that class Atom has no member for, with one value per atom or with columns
    class Atom owns it as a custom property, so that the library and other commands know it
    it is no field of fields_grow: style hybrid deletes its sub-styles before it frees those
+   a vector not by class AtomKokkos, which would sync the atom style that is only being made
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double ***array, int cols)
@@ -102,7 +104,8 @@ void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double 
   int flag, known_cols;
   if (atom->find_custom(name.c_str(), flag, known_cols) >= 0)
     error->all(FLERR, "Atom style needs a custom property {}, which is there already", name);
-  const int index = in_views ? -1 : atom->add_custom(name.c_str(), CUSTOM_DOUBLE, cols);
+  const int index = cols ? atom->add_custom(name.c_str(), CUSTOM_DOUBLE, cols)
+                         : atom->Atom::add_custom(name.c_str(), CUSTOM_DOUBLE, cols);
   own_arrays.push_back({name, index, cols, vector, array});
   atom->add_peratom(name, array ? (void *) array : (void *) vector, Atom::DOUBLE, cols);
 }
@@ -115,9 +118,14 @@ void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double 
 void AtomVecSPHBulk::grow_pointers()
 {
   const int n = nmax_own = std::max(nmax_own, owner->nmax);
+  if (in_views) show_custom_vectors();
   for (const auto &own : own_arrays) {
-    if (in_views) break;
-    if (own.cols)
+    if (in_views) {
+      if (!own.cols) continue;
+      double **&rows = owner->darray[own.index];
+      rows = (double **) memory->srealloc(rows, n * sizeof(double *), "atom:own");
+      std::copy_n(*own.array, owner->nmax, rows);
+    } else if (own.cols)
       *own.array = memory->grow(owner->darray[own.index], n, own.cols, "atom:own");
     else
       *own.vector = memory->grow(owner->dvector[own.index], n, "atom:own");
@@ -130,6 +138,14 @@ void AtomVecSPHBulk::grow_pointers()
   esph = atom->esph;
   desph = atom->desph;
   vest = atom->vest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void AtomVecSPHBulk::show_custom_vectors()
+{
+  for (const auto &own : own_arrays)
+    if (!own.cols) owner->dvector[own.index] = *own.vector;
 }
 
 /* ----------------------------------------------------------------------

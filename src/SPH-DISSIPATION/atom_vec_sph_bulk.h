@@ -59,18 +59,19 @@ class AtomVecSPHBulk : virtual public AtomVec {
     add_array(name, nullptr, array, cols);
   }
 
-  class Atom *const owner;    // of the arrays
+  class Atom *const owner;       // of the arrays
+  const bool in_views;           // which a derived class allocates
+  void show_custom_vectors();    // as custom properties, where they are now
 
  private:
   struct OwnArray {
     std::string name;
-    int index;          // of the custom property, -1 if it is none
+    int index;          // of the custom property
     int cols;           // 0: vector
     double **vector;    // the pointers to be kept up to date
     double ***array;
   };
   std::vector<OwnArray> own_arrays;
-  const bool in_views;
   int nmax_own;    // allocated size of the own arrays
   void add_array(const std::string &, double **, double ***, int);
 

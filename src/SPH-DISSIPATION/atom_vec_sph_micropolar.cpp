@@ -26,7 +26,11 @@ static constexpr int FIRST = 100;
 
 /* ---------------------------------------------------------------------- */
 
-AtomVecSPHMicropolar::AtomVecSPHMicropolar(LAMMPS *lmp) :
+AtomVecSPHMicropolar::AtomVecSPHMicropolar(LAMMPS *lmp) : AtomVecSPHMicropolar(lmp, COMPLETE) {}
+
+/* ---------------------------------------------------------------------- */
+
+AtomVecSPHMicropolar::AtomVecSPHMicropolar(LAMMPS *lmp, Complete complete) :
     AtomVec(lmp), AtomVecSPHBulk(lmp, TO_BE_EXTENDED), inertia(nullptr), omegaest(nullptr)
 {
   add_array("inertia", &inertia);
@@ -46,7 +50,7 @@ AtomVecSPHMicropolar::AtomVecSPHMicropolar(LAMMPS *lmp) :
   fields_data_atom = {"id", "type", "rmass", "inertia", "esph", "x"};
   fields_data_vel = {"id", "v", "omega"};
 
-  setup_fields();
+  if (complete == COMPLETE) setup_fields();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -28,7 +28,7 @@ namespace LAMMPS_NS {
 // velocity), torque, moment of inertia per mass (distance^2), and the spin extrapolated to the end
 // of the step (omegaest).
 
-class AtomVecSPHMicropolar : public AtomVecSPHBulk {
+class AtomVecSPHMicropolar : virtual public AtomVecSPHBulk {
  public:
   AtomVecSPHMicropolar(class LAMMPS *);
 
@@ -40,6 +40,7 @@ class AtomVecSPHMicropolar : public AtomVecSPHBulk {
   double **omegaest;
 
  protected:
+  AtomVecSPHMicropolar(class LAMMPS *, Complete);
   void clear_derived(int) override;
 };
 

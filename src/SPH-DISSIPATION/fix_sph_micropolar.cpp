@@ -21,11 +21,13 @@
 #include "force.h"
 #include "neighbor.h"
 #include "pair_sph_micropolar.h"
+#include "sph_dissipation_integrate.h"
 
 #include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
+using namespace SPHDissipation;
 
 enum { DONE, FACTOR, OFFSET, MASSES, NSTATE };    // of a restart file
 
@@ -59,7 +61,7 @@ FixSPHMicropolar::FixSPHMicropolar(LAMMPS *lmp, int narg, char **arg) :
 void FixSPHMicropolar::init()
 {
   FixSPHBulk::init();
-  if (inertia_flag && !force->pair_match(style, 1))
+  if (inertia_flag && !pair)
     error->all(FLERR, "Fix {} inertia requires pair style {}, which gives the volumes", style,
                style);
 }
@@ -138,14 +140,21 @@ void FixSPHMicropolar::set_inertia_of(int i)
   inertia = factor * pow(volume, 2.0 / domain->dimension) + offset;
 }
 
+/* ---------------------------------------------------------------------- */
+
+bool FixSPHMicropolar::has_torques() const
+{
+  const auto *micropolar = dynamic_cast<PairSPHMicropolar *>(pair);
+  return micropolar && micropolar->has_torques();
+}
+
 /* ----------------------------------------------------------------------
    a torque on a particle without inertia would be lost, and angular momentum with it
 ------------------------------------------------------------------------- */
 
 void FixSPHMicropolar::check_inertia() const
 {
-  auto *pair = dynamic_cast<PairSPHMicropolar *>(force->pair_match(style, 1));
-  if (!pair || !pair->has_torques()) return;
+  if (!has_torques()) return;
   const double *const inertia = spinning()->inertia;
   bigint count = 0, all;
   for (int i = 0; i < atom->nlocal; i++)
@@ -188,11 +197,10 @@ void FixSPHMicropolar::final_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   half a step; particles without inertia keep their spin; check_inertia() has seen to
-   it that they have no torque
+   half a step
 ------------------------------------------------------------------------- */
 
-void FixSPHMicropolar::integrate_spin(bool extrapolate)
+void FixSPHMicropolar::integrate_spin(bool begin)
 {
   double **omega = atom->omega;
   double **torque = atom->torque;
@@ -201,16 +209,18 @@ void FixSPHMicropolar::integrate_spin(bool extrapolate)
   const double *const rmass = atom->rmass;
   const int *const mask = atom->mask;
   const int nlocal = nlocal_group();
+  const TimeStep step = time_step();
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
-    const double inverse = (inertia[i] > 0.0) ? 1.0 / (rmass[i] * inertia[i]) : 0.0;
-    const double dtirotate = dtf * inverse;
+    const double inverse = TimeStep::inverse_inertia(rmass[i], inertia[i]);
+    const double dti = dtf * inverse;
     if (exact)
       atom->esph[i] += rest_of_heat(omega[i], omegaest[i], torque[i], pair->own_torque(i), inverse);
     for (int d = 0; d < 3; d++) {
-      const double domega = dtirotate * torque[i][d];
-      omega[i][d] += domega;
-      if (extrapolate) omegaest[i][d] = omega[i][d] + extrapolation * domega;
+      if (begin)
+        step.begin_spin(dti, torque[i][d], omega[i][d], omegaest[i][d]);
+      else
+        step.end(dti, torque[i][d], omega[i][d]);
     }
   }
 }

@@ -44,12 +44,16 @@ class FixSPHMicropolar : public FixSPHBulk {
  protected:
   void reset_extrapolation(int, int, int) override;
 
+  // a particle without inertia gets one, or is an error, when the neighbor list is new
+  bool needs_inertia() const { return inertia_flag || has_torques(); }
+
  private:
   int inertia_flag;    // 1: the keyword is there, I = factor V^(2/n) + offset
   double factor, offset;
   bool inertia_done;    // the particles have the inertia of these numbers, but for new ones
 
   class AtomVecSPHMicropolar *spinning() const;
+  bool has_torques() const;
   void set_inertia_of_arrivals();
   void set_inertia_of(int i);    // unless it has one
   void check_inertia() const;

@@ -29,12 +29,14 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-enum { MU, MU_R, GAMMA1, GAMMA2 };
+enum { MU, MU_R, GAMMA1, GAMMA2 };    // numbers of VISCOSITIES
+const std::string PairSPHMicropolar::NAME = "sph/micropolar";
+const std::vector<std::string> PairSPHMicropolar::VISCOSITIES = {"mu", "mu_r", "gamma1", "gamma2"};
 
 /* ---------------------------------------------------------------------- */
 
 PairSPHMicropolar::PairSPHMicropolar(LAMMPS *lmp) :
-    PairSPHBulk(lmp, "sph/micropolar", {"mu", "mu_r", "gamma1", "gamma2"}), smallest_inertia(0.0)
+    PairSPHBulk(lmp, NAME, VISCOSITIES), smallest_inertia(0.0)
 {
 }
 

@@ -27,7 +27,7 @@ namespace LAMMPS_NS {
 // The fluid of sph/bulk with particles that spin: vortex viscosity mu_r between spin and flow, spin
 // viscosities gamma1, gamma2 between the spins.
 
-class PairSPHMicropolar : public PairSPHBulk {
+class PairSPHMicropolar : virtual public PairSPHBulk {
  public:
   PairSPHMicropolar(class LAMMPS *);
 
@@ -35,6 +35,9 @@ class PairSPHMicropolar : public PairSPHBulk {
   bool has_torques() const;    // any vortex or spin viscosity
 
  protected:
+  static const std::string NAME;
+  static const std::vector<std::string> VISCOSITIES;
+
   SPHDissipation::Shear default_shear() const override;
   SPHDissipation::PairCoeff pair_coefficients(int, int) const override;
   double intrinsic_kappa_of(int, int) const override;

@@ -38,6 +38,22 @@ namespace SPHDissipation {
     }
     SPH_FUNCTION void end(double dtfm, double f, double &v) const { v += dtfm * f; }
 
+    // the same of a spin; dti = dtf/(m I)
+
+    SPH_FUNCTION void begin_spin(double dti, double torque, double &omega, double &omegaest) const
+    {
+      const double domega = dti * torque;
+      omega += domega;
+      omegaest = omega + extrapolation * domega;
+    }
+
+    // without inertia a particle keeps its spin, and must have no torque
+
+    SPH_FUNCTION static double inverse_inertia(double mass, double inertia)
+    {
+      return (inertia > 0.0) ? 1.0 / (mass * inertia) : 0.0;
+    }
+
     // The internal energy, too, is extrapolated to the end of the step, so that the pressure of an
     // ideal gas is accurate to second order in the time step; the end corrects it with the new rate.
     // With random forces, which have no future, it gets half of the rate at each end of the step.

@@ -6,50 +6,104 @@ SPHD_SWITCHES has the switches that turn the suffix on, for instance "-k on t 2 
 import numpy as np
 import pytest
 
-from helpers import FIELDS, INTEGRATE, SUPPORT, SWITCHES, disordered, dump, fluid, header, relative
+from helpers import FIELDS, SUPPORT, SWITCHES, VECTORS, disordered, dump, fluid, header, relative
+import test_micropolar as micropolar
 
 pytestmark = pytest.mark.skipif("kk" not in SWITCHES, reason="no LAMMPS with the package KOKKOS, see ./sphd --help")
 
-THERMO = ("compute HEAT all sph/dissipation\ncompute E all sph/energy\n"
-          "thermo_style custom step temp pe press pxx pyy pzz pxy pxz pyz c_HEAT c_HEAT[1] c_HEAT[2] c_E\n"
-          "thermo_modify norm no format float %.17g\n")
+STYLES = ("sph/bulk", "sph/micropolar")
+SPIN_VECTORS = {"omega": ("omegax", "omegay", "omegaz"), "torque": ("tqx", "tqy", "tqz"),
+                "omegaest": ("c_SPIN[2]", "c_SPIN[3]", "c_SPIN[4]")}
 
 
-def script(particles, model, steps, newton="on", extra="", integrate=INTEGRATE, every=None, vfrac=0.0):
-    return (f"{header(particles.dim, newton)}read_data data.txt\n{model}neighbor 0.2 bin\n"
-            f"neigh_modify delay 0 every 1 check yes\n{integrate}{extra}{THERMO}"
-            f"{dump('dump.txt', every or max(steps, 1))}thermo {every or max(steps, 1)}\nrun {steps}\n")
+@pytest.fixture(params=STYLES)
+def style(request):
+    """Each test runs for both fluids."""
+    return request.param
 
 
-def both(lammps, particles, text, ranks=1):
+def spinning(style):
+    return style == "sph/micropolar"
+
+
+def integrate(style, keywords="", group="all"):
+    inertia = "inertia 0.3 0.05 " if spinning(style) else ""
+    return f"fix FLUID {group} {style} {inertia}{keywords}\ntimestep 0.005\n"
+
+
+def output(style, every):
+    """Everything that the particles have, and the totals."""
+    channels = " ".join(f"c_HEAT[{k}]" for k in range(1, 5 if spinning(style) else 3))
+    text = "compute HEAT all sph/dissipation\ncompute E all sph/energy\n"
+    extra = ""
+    if spinning(style):
+        text += "compute L all sph/angmom\ncompute SPIN all property/atom inertia omegaestx omegaesty omegaestz\n"
+        channels += " c_L[3]"
+        extra = "omegax omegay omegaz tqx tqy tqz c_SPIN[*] d_inertia"
+    return (f"{text}thermo_style custom step temp pe press pxx pyy pzz pxy pxz pyz c_HEAT {channels} c_E\n"
+            f"thermo_modify norm no format float %.17g\n{dump('dump.txt', every, extra)}thermo {every}\n")
+
+
+def script(style, particles, model, steps, newton="on", extra="", fixes=None, every=None):
+    fixes = integrate(style) if fixes is None else fixes
+    return (f"{header(particles.dim, newton, style=style)}read_data data.txt\n{model}neighbor 0.2 bin\n"
+            f"neigh_modify delay 0 every 1 check yes\n{fixes}{extra}{output(style, every or max(steps, 1))}run {steps}\n")
+
+
+def write(lammps, style, particles):
+    if spinning(style):
+        micropolar.write(particles, lammps.path("data.txt"))
+    else:
+        particles.write(lammps.path("data.txt"))
+
+
+def both(lammps, style, particles, text, ranks=1):
     """Last frame and thermodynamic output of the CPU styles and of the /kk styles."""
-    particles.write(lammps.path("data.txt"))
+    write(lammps, style, particles)
     results = []
     for switches in ([], SWITCHES):
         result = lammps(text, ranks=ranks, switches=switches)
         results.append((lammps.frame("dump.txt"), result.thermo()[-1], result))
-    assert "sph/bulk/kk" in results[1][2].log, "the suffix had no effect"
+    assert f"{style}/kk" in results[1][2].log, "the suffix had no effect"
     return results
 
 
-def compare(lammps, particles, text, ranks=1, bound=1e-9):
-    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, particles, text, ranks)
-    assert np.abs(cpu["x"] - kokkos["x"]).max() < bound  # in units of the spacing, 1
-    for name in ("v", "f", *FIELDS[:6], "vest"):
-        scale = np.abs(cpu[name]).max()
-        assert np.abs(cpu[name] - kokkos[name]).max() <= bound * max(scale, 1e-3), name
-    for name, column in thermo.items():
-        assert relative(column - thermo_kokkos[name], np.append(column, 1e-3)) < bound, name
+def fields(style, frame):
+    """By name; of a vector all components."""
+    result = {name: frame[name] for name in (*FIELDS[:6], *VECTORS)}
+    if spinning(style):
+        result.update((name, micropolar.vector(frame, *columns)) for name, columns in SPIN_VECTORS.items())
+        result["inertia"] = frame["c_SPIN[1]"]
+        assert np.all(frame["d_inertia"] == frame["c_SPIN[1]"])
     return result
 
 
-def fluids(dim, ntypes=1, keywords="", options="", kappa=2.0):
-    if ntypes == 1:
-        return fluid(dim, options, kappa=kappa, keywords=keywords)
+def assert_same(style, cpu, kokkos, bound):
+    cpu, kokkos = fields(style, cpu), fields(style, kokkos)
+    assert np.abs(cpu["x"] - kokkos["x"]).max() < bound  # in units of the spacing, 1
+    for name, values in cpu.items():
+        assert np.abs(values - kokkos[name]).max() <= bound * max(np.abs(values).max(), 1e-3), name
+
+
+def assert_same_totals(cpu, kokkos, bound):
+    for name, column in cpu.items():
+        assert relative(column - kokkos[name], np.append(column, 1e-3)) < bound, name
+
+
+def compare(lammps, style, particles, text, ranks=1, bound=1e-9):
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, ranks)
+    assert_same(style, cpu, kokkos, bound)
+    assert_same_totals(thermo, thermo_kokkos, bound)
+    return result
+
+
+def fluids(style, dim, ntypes=1, options="", kappa=2.0):
     rc = SUPPORT[dim]
-    coeff = (f"pair_coeff 1 1 1.0 10.0 0.5 {kappa} {rc} {keywords}\n"
-             f"pair_coeff 2 2 1.2 9.0 0.3 1.5 {rc} {keywords}\n")
-    return fluid(dim, options, coeff=coeff)
+    if spinning(style):
+        return micropolar.fluid(dim, options, kappa=kappa) if ntypes == 1 else micropolar.two_fluids(dim, options)
+    if ntypes == 1:
+        return fluid(dim, options, kappa=kappa)
+    return fluid(dim, options, coeff=f"pair_coeff 1 1 1.0 10.0 0.5 {kappa} {rc}\npair_coeff 2 2 1.2 9.0 0.3 1.5 {rc}\n")
 
 
 # ---------------------------------------------------------------------------------------------
@@ -58,134 +112,170 @@ def fluids(dim, ntypes=1, keywords="", options="", kappa=2.0):
 
 @pytest.mark.parametrize("newton", ["on", "off"])
 @pytest.mark.parametrize("ranks", [1, 2, 4])
-def test_trajectory(lammps, newton, ranks):
+def test_trajectory(lammps, style, newton, ranks):
     """200 steps, in which particles change processors and the neighbor lists are built anew."""
     particles = disordered(2, 20, seed=3, jitter=0.1, speed=0.5, spread=0.0)
-    compare(lammps, particles, script(particles, fluids(2), 200, newton), ranks)
+    compare(lammps, style, particles, script(style, particles, fluids(style, 2), 200, newton), ranks)
 
 
-@pytest.mark.parametrize("options", ["eos tait shear morris", "eos linear shear espanol bulk volume",
-                                     "eos ideal", "volume mass shear mg/fr", "volume mass bulk volume",
-                                     "bulk none shear none"])
+def test_trajectory_in_3d(lammps, style):
+    particles = disordered(3, 8, seed=3, jitter=0.1, speed=0.5, spread=0.0, ntypes=2)
+    compare(lammps, style, particles, script(style, particles, fluids(style, 3, 2), 200), ranks=2)
+
+
+@pytest.mark.parametrize("style, options", [
+    *(("sph/bulk", options) for options in (
+        "eos tait shear morris", "eos linear shear espanol bulk volume", "eos ideal", "volume mass shear mg/fr",
+        "volume mass bulk volume", "bulk none shear none")),
+    *(("sph/micropolar", options) for options in (
+        "eos tait bulk volume", "eos ideal", "volume mass bulk volume", "bulk none"))])
 @pytest.mark.parametrize("ntypes", [1, 2])
-def test_forms(lammps, options, ntypes):
-    kappa = 0.0 if "none" in options else 2.0
+def test_forms(lammps, style, options, ntypes):
     particles = disordered(2, 14, seed=4, jitter=0.1, ntypes=ntypes, speed=0.3, spread=0.0)
-    model = fluids(2, ntypes, options=options, kappa=kappa)
-    if "none" in options:
+    model = fluids(style, 2, ntypes, options=options)
+    if "shear none" in options:
         model = fluid(2, options, mu=0.0, kappa=0.0)
-    compare(lammps, particles, script(particles, model, 50), ranks=2)
+    compare(lammps, style, particles, script(style, particles, model, 50), ranks=2)
 
 
 @pytest.mark.parametrize("kernel", ["wendland/c2", "wendland/c4", "wendland/c6", "cubic", "quintic", "lucy"])
-def test_kernels(lammps, kernel):
+def test_kernels(lammps, style, kernel):
     particles = disordered(3, 8, seed=5, jitter=0.1, speed=0.3, spread=0.0)
-    compare(lammps, particles, script(particles, fluids(3, options=f"kernel {kernel}"), 10), ranks=2)
+    compare(lammps, style, particles, script(style, particles, fluids(style, 3, options=f"kernel {kernel}"), 10), ranks=2)
 
 
-def test_triclinic_box_and_sorting(lammps):
+def test_triclinic_box_and_sorting(lammps, style):
     particles = disordered(2, 16, seed=6, jitter=0.1, tilt=(3.0, 0.0, 0.0), spread=0.0)
-    text = script(particles, fluids(2), 100).replace("read_data", "atom_modify sort 10 2.0\nread_data")
-    compare(lammps, particles, text, ranks=2)
+    text = script(style, particles, fluids(style, 2), 100).replace("read_data", "atom_modify sort 10 2.0\nread_data")
+    compare(lammps, style, particles, text, ranks=2)
 
 
-def test_velocities_of_ghosts(lammps):
+@pytest.mark.parametrize("before", ["comm_modify vel yes\n", "comm_style tiled\n", "atom_modify map hash\n"])
+def test_communication(lammps, style, before):
     """comm_modify vel yes sends more than the own fields."""
     particles = disordered(2, 16, seed=7, jitter=0.1, spread=0.0)
-    compare(lammps, particles, script(particles, fluids(2), 50).replace("read_data", "comm_modify vel yes\nread_data"),
-            ranks=2)
+    text = script(style, particles, fluids(style, 2), 50).replace("read_data", before + "read_data")
+    compare(lammps, style, particles, text, ranks=2)
 
 
-def test_particles_of_another_integrator(lammps):
+def test_particles_of_another_integrator(lammps, style):
     particles = disordered(2, 16, seed=8, jitter=0.1, spread=0.0)
-    integrate = ("region LOW block INF INF 0 5 INF INF\ngroup LOW region LOW\ngroup REST subtract all LOW\n"
-                 "velocity LOW set 0.3 0.0 0.0\nfix FLUID REST sph/bulk\nfix MOVE LOW nve/noforce\ntimestep 0.005\n")
-    compare(lammps, particles, script(particles, fluids(2), 50, integrate=integrate), ranks=2)
+    fixes = ("region LOW block INF INF 0 5 INF INF\ngroup LOW region LOW\ngroup REST subtract all LOW\n"
+             "velocity LOW set 0.3 0.0 0.0\nfix MOVE LOW nve/noforce\n" + integrate(style, group="REST"))
+    compare(lammps, style, particles, script(style, particles, fluids(style, 2), 50, fixes=fixes), ranks=2)
+
+
+def test_velocities_that_are_remapped(lammps, style):
+    particles = disordered(2, 16, seed=8, jitter=0.1, tilt=(0.0, 0.0, 0.0), spread=0.0)
+    text = script(style, particles, fluids(style, 2), 50, extra="fix SHEAR all deform 1 xy erate 0.2 remap v\n")
+    compare(lammps, style, particles, text.replace("read_data", "comm_modify vel yes\nread_data"), ranks=2)
 
 
 # ---------------------------------------------------------------------------------------------
 # output
 
 
-def test_stress_of_atoms(lammps):
+def test_stress_of_atoms(lammps, style):
     particles = disordered(2, 14, seed=9, jitter=0.1, spread=0.0)
     extra = ("compute S all stress/atom NULL virial\ncompute P all pe/atom\ncompute SUM all reduce sum c_S[1] c_S[4] c_P\n"
              "compute Q all sph/dissipation\n")
-    text = script(particles, fluids(2), 10, extra=extra).replace(" c_E\n", " c_E c_SUM[*]\n")
-    compare(lammps, particles, text, ranks=2)
+    text = script(style, particles, fluids(style, 2), 10, extra=extra).replace(" c_E\n", " c_E c_SUM[*]\n")
+    compare(lammps, style, particles, text, ranks=2)
 
 
-def test_output_on_the_way(lammps):
+def test_output_on_the_way(lammps, style):
     """Every output of a run sees the values of its step."""
     particles = disordered(2, 14, seed=10, jitter=0.1, spread=0.0)
-    text = script(particles, fluids(2), 20, every=5)
-    (_, thermo, _), (_, thermo_kokkos, _) = both(lammps, particles, text)
+    text = script(style, particles, fluids(style, 2), 20, every=5)
+    (_, thermo, _), (_, thermo_kokkos, _) = both(lammps, style, particles, text)
     frames = lammps.frames("dump.txt")
     lammps(text, switches=[])
     for cpu, kokkos in zip(lammps.frames("dump.txt"), frames):
-        for name in ("x", "v", "f", *FIELDS[:6], "vest"):
-            assert relative(cpu[name] - kokkos[name], np.append(cpu[name], 1e-3)) < 1e-10, (cpu.step, name)
+        assert_same(style, cpu, kokkos, 1e-10)
     assert len(frames) == 5 and len(thermo["Step"]) == 5
-    for name, column in thermo.items():
-        assert relative(column - thermo_kokkos[name], np.append(column, 1e-3)) < 1e-10, name
+    assert_same_totals(thermo, thermo_kokkos, 1e-10)
 
 
 @pytest.mark.parametrize("writer", ["cpu", "kk"])
-def test_restart(lammps, writer):
+def test_restart(lammps, style, writer):
     """A run continued by the other family goes on as one without a break."""
-    first, second = ([], SWITCHES) if writer == "cpu" else (SWITCHES, [])
     particles = disordered(2, 14, seed=11, jitter=0.1, spread=0.0)
-    particles.write(lammps.path("data.txt"))
-    lammps(script(particles, fluids(2), 40) + "write_restart file.restart\n", switches=first, ranks=2)
-    lammps(f"read_restart file.restart\n{INTEGRATE}{dump('again.txt', 20)}run 20\n", switches=second)
-    lammps(script(particles, fluids(2), 40) + "write_restart file.restart\n", switches=[], ranks=2)
-    lammps(f"read_restart file.restart\n{INTEGRATE}{dump('cpu.txt', 20)}run 20\n", switches=[])
-    cpu, mixed = lammps.frame("cpu.txt"), lammps.frame("again.txt")
-    for name in ("x", "v", "esph", "rho", "f"):
-        assert relative(cpu[name] - mixed[name], cpu[name]) < 1e-9, name
+    write(lammps, style, particles)
+    frames = []
+    for first, then in (([], []), ([], SWITCHES) if writer == "cpu" else (SWITCHES, [])):
+        lammps(script(style, particles, fluids(style, 2), 40) + "write_restart file.restart\n", switches=first, ranks=2)
+        result = lammps(f"read_restart file.restart\n{integrate(style)}{output(style, 20)}run 20\n", switches=then)
+        assert (f"{style}/kk" in result.log) == bool(then)
+        frames.append(lammps.frame("dump.txt"))
+    assert_same(style, *frames, 1e-9)
 
 
-def test_density_keyword(lammps):
+def test_data_file(lammps, style):
+    """One written by the /kk styles, read by the CPU styles."""
+    particles = disordered(2, 14, seed=11, jitter=0.1, spread=0.0)
+    write(lammps, style, particles)
+    frames = []
+    for switches in ([], SWITCHES):
+        lammps(script(style, particles, fluids(style, 2), 40) + "write_data then.data nocoeff\n", switches=switches, ranks=2)
+        lammps(f"{header(2, style=style)}read_data then.data\n{fluids(style, 2)}{integrate(style)}{output(style, 1)}run 0\n",
+               switches=[])
+        frames.append(lammps.frame("dump.txt"))
+    assert_same(style, *frames, 1e-9)
+
+
+def test_density_keyword(lammps, style):
     particles = disordered(2, 14, seed=12, jitter=0.1, spread=0.0)
-    integrate = "fix FLUID all sph/bulk density rho0\ntimestep 0.005\n"
-    compare(lammps, particles, script(particles, fluids(2), 20, integrate=integrate), ranks=2)
+    text = script(style, particles, fluids(style, 2), 20, fixes=integrate(style, "density rho0"))
+    compare(lammps, style, particles, text, ranks=2)
+
+
+def test_custom_properties(lammps):
+    """d_inertia and d2_omegaest, next to those of fix property/atom, set on the way."""
+    style = "sph/micropolar"
+    particles = disordered(2, 14, seed=12, jitter=0.1, spread=0.0)
+    fixes = (f"fix PLACE all property/atom d_weight\nvariable I atom 0.1+0.001*id\nset group all d_inertia v_I\n"
+             f"set group all d_weight 3.0\nfix FLUID all {style}\ntimestep 0.005\n")
+    text = (script(style, particles, fluids(style, 2), 10, fixes=fixes)
+            + "set group all d_inertia 0.5\nset type 1 omega 0 0 2\nrun 10\nrun 10 every 5 \"set group all d_inertia 0.3\"\n"
+            "write_dump all custom out.dump id d_inertia d_weight d2_omegaest[3] omegaz modify sort id format float %.17g\n")
+    compare(lammps, style, particles, text, ranks=2)
+    frame = lammps.frame("out.dump")
+    assert np.all(frame["d_inertia"] == 0.3) and np.all(frame["d_weight"] == 3.0)
+    assert 0.0 < np.abs(frame["d2_omegaest[3]"] - frame["omegaz"]).max() < 0.1
 
 
 # ---------------------------------------------------------------------------------------------
 # limit and shift: further sums
 
 
-@pytest.mark.parametrize("options", ["limit yes", "limit count", "limit yes volume mass shear mg/fr"])
+@pytest.mark.parametrize("style, options", [
+    ("sph/bulk", "limit yes"), ("sph/bulk", "limit count"), ("sph/bulk", "limit yes volume mass shear mg/fr"),
+    ("sph/micropolar", "limit yes"), ("sph/micropolar", "limit count volume mass")])
 @pytest.mark.parametrize("ntypes", [1, 2])
-def test_limit(lammps, options, ntypes):
+def test_limit(lammps, style, options, ntypes):
     """A coefficient of the bulk term that is below the bound of some of the particles, and their number."""
-    rc = SUPPORT[2]
-    coeff = f"pair_coeff 1 1 1.0 10.0 0.5 0.0 {rc}\n"
-    if ntypes == 2:
-        coeff += f"pair_coeff 2 2 1.2 9.0 0.3 0.0 {rc}\n"
     particles = disordered(2, 14, seed=23, jitter=0.1, ntypes=ntypes, speed=0.3, spread=0.0)
-    text = script(particles, fluid(2, options, coeff=coeff), 20, extra="compute B all pair sph/bulk\n", every=20)
-    text = text.replace(" c_E\n", " c_E c_B[1]\n")
-    result = compare(lammps, particles, text, ranks=2)
+    model = fluids(style, 2, ntypes, options).replace(" 0.5 2.0 ", " 0.5 0.0 ").replace(" 0.3 1.5 ", " 0.3 0.0 ")
+    text = script(style, particles, model, 20, extra=f"compute B all pair {style}\n")
+    result = compare(lammps, style, particles, text.replace(" c_E\n", " c_E c_B[1]\n"), ranks=2)
     beyond = result.thermo()[-1]["c_B[1]"]
     assert 0 < beyond[-1] < len(particles), beyond
     assert not any("on the host" in line for line in result.warnings)
 
 
-SHIFT = "fix FLUID all sph/bulk shift 0.5\ntimestep 0.005\n"
-
-
 @pytest.mark.parametrize("dim, options, ranks, newton", [(2, "", 1, "on"), (2, "kernel cubic", 4, "off"), (3, "volume mass", 2, "on")])
-def test_shift(lammps, dim, options, ranks, newton):
+def test_shift(lammps, style, dim, options, ranks, newton):
     particles = disordered(dim, {2: 16, 3: 7}[dim], seed=24, jitter=0.2, speed=0.2, spread=0.0)
-    result = compare(lammps, particles, script(particles, fluids(dim, options=options), 100, newton, integrate=SHIFT), ranks)
+    text = script(style, particles, fluids(style, dim, options=options), 100, newton, fixes=integrate(style, "shift 0.5"))
+    result = compare(lammps, style, particles, text, ranks)
     assert not any("on the host" in line for line in result.warnings)
 
 
-def test_shift_at_walls(lammps):
+def test_shift_at_walls(lammps, style):
     particles = disordered(2, 20, seed=25, jitter=0.1, speed=0.2, spread=0.0)
-    text = with_walls(particles, "cavity", fluids(2), 100).replace("fix FLUID REST sph/bulk\n", "fix FLUID REST sph/bulk shift 0.5\n")
-    compare_walls(lammps, particles, text, 2)
+    text = with_walls(style, particles, "cavity", fluids(style, 2), 100).replace(
+        integrate(style, group="REST"), integrate(style, "shift 0.5", "REST"))
+    compare_walls(lammps, style, particles, text, 2)
 
 
 # ---------------------------------------------------------------------------------------------
@@ -208,74 +298,88 @@ VESSELS = {
 }
 
 
-def with_walls(particles, name, model, steps, newton="on", every=None, step=0.005):
+def with_walls(style, particles, name, model, steps, newton="on", every=None, step=0.005, spins=("free", "rate 0.7")):
     groups, floor, lid = VESSELS[name]
-    integrate = (groups + "fix FLUID REST sph/bulk\n" + f"fix FLOOR FLOOR sph/wall {floor}\nfix LID LID sph/wall {lid}\ntimestep {step}\n")
-    text = script(particles, model, steps, newton, integrate=integrate, every=every)
+    if spinning(style):
+        floor, lid = f"{floor} spin {spins[0]}", f"{lid} spin {spins[1]}"
+    fixes = (groups + integrate(style, group="REST") + f"fix FLOOR FLOOR sph/wall {floor}\nfix LID LID sph/wall {lid}\n"
+             f"timestep {step}\n")
+    text = script(style, particles, model, steps, newton, fixes=fixes, every=every)
     columns = " ".join(f"f_{wall}[{k}]" for wall in ("FLOOR", "LID") for k in (1, 2, 6))
     return text.replace(" c_E\n", f" c_E {columns}\n").replace("c_F[*] ", "c_F[*] f_FLOOR[*] f_LID[*] ")
 
 
-def compare_walls(lammps, particles, text, ranks=1, bound=1e-9):
-    cpu, kokkos = (result[0] for result in both(lammps, particles, text, ranks))
+def compare_walls(lammps, style, particles, text, ranks=1, bound=1e-9):
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, ranks)
+    assert_same(style, cpu, kokkos, bound)
+    assert_same_totals(thermo, thermo_kokkos, bound)
     scale = np.abs(cpu["f"]).max()
     for name in cpu.columns:
         if name.startswith("f_"):
             assert np.abs(cpu[name] - kokkos[name]).max() < bound * scale, name
     assert np.abs(cpu["f_LID[1]"]).max() > 1e-3 * scale
-    result = compare(lammps, particles, text, ranks, bound)
     assert not any("on the host" in line or "legacy" in line for line in result.warnings), result.warnings
     return result
 
 
 @pytest.mark.parametrize("name", VESSELS)
 @pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off"), (4, "on")])
-def test_walls(lammps, name, ranks, newton):
+def test_walls(lammps, style, name, ranks, newton):
     """Walls at rest, moving, turning; forces on them; particles that change processors, the wall's own among them."""
     particles = disordered(2, 20, seed=16, jitter=0.1, speed=0.2, spread=0.0)
-    compare_walls(lammps, particles, with_walls(particles, name, fluids(2), 200, newton), ranks)
+    compare_walls(lammps, style, particles, with_walls(style, particles, name, fluids(style, 2), 200, newton), ranks)
 
 
-@pytest.mark.parametrize("options", ["eos tait shear morris bulk volume", "eos ideal", "volume mass shear espanol",
-                                     "kernel quintic bulk none"])
-def test_walls_of_several_types(lammps, options):
+def test_spin_of_walls(lammps):
+    style = "sph/micropolar"
+    particles = disordered(2, 20, seed=16, jitter=0.1, speed=0.2, spread=0.0)
+    text = with_walls(style, particles, "wheel", fluids(style, 2), 100, spins=("zero", "rate 0.7"))
+    compare_walls(lammps, style, particles, text, ranks=2)
+
+
+@pytest.mark.parametrize("style, options", [
+    *(("sph/bulk", options) for options in ("eos tait shear morris bulk volume", "eos ideal", "volume mass shear espanol",
+                                            "kernel quintic bulk none")),
+    ("sph/micropolar", "eos tait bulk volume"), ("sph/micropolar", "volume mass")])
+def test_walls_of_several_types(lammps, style, options):
     particles = disordered(2, 20, seed=17, jitter=0.1, ntypes=2, speed=0.2, spread=0.0)
-    compare_walls(lammps, particles, with_walls(particles, "channel", fluids(2, 2, options=options, kappa=2.0), 40), 2)
+    text = with_walls(style, particles, "channel", fluids(style, 2, 2, options=options), 40)
+    compare_walls(lammps, style, particles, text, 2)
 
 
-def test_walls_in_three_dimensions(lammps):
+def test_walls_in_three_dimensions(lammps, style):
     particles = disordered(3, (6, 20, 6), seed=18, jitter=0.1, speed=0.2, spread=0.0)
-    compare_walls(lammps, particles, with_walls(particles, "slip", fluids(3), 40), 2)
+    compare_walls(lammps, style, particles, with_walls(style, particles, "slip", fluids(style, 3), 40), 2)
 
 
-def test_walls_in_an_oblique_box_and_sorting(lammps):
+def test_walls_in_an_oblique_box_and_sorting(lammps, style):
     particles = disordered(2, 20, seed=19, jitter=0.1, speed=0.2, tilt=(3.0, 0.0, 0.0), spread=0.0)
-    text = with_walls(particles, "channel", fluids(2), 60).replace("read_data", "atom_modify sort 10 2.0\nread_data")
-    compare_walls(lammps, particles, text, 2)
+    text = with_walls(style, particles, "channel", fluids(style, 2), 60)
+    text = text.replace("read_data", "atom_modify sort 10 2.0\nread_data")
+    compare_walls(lammps, style, particles, text, 2)
 
 
-def test_output_of_walls_on_the_way(lammps):
+def test_output_of_walls_on_the_way(lammps, style):
     particles = disordered(2, 20, seed=20, jitter=0.1, speed=0.2, spread=0.0)
-    text = with_walls(particles, "wheel", fluids(2), 20, every=4)
-    (_, thermo, _), (_, thermo_kokkos, _) = both(lammps, particles, text)
+    text = with_walls(style, particles, "wheel", fluids(style, 2), 20, every=4)
+    (_, thermo, _), (_, thermo_kokkos, _) = both(lammps, style, particles, text)
     frames = lammps.frames("dump.txt")
     lammps(text, switches=[])
     for cpu, kokkos in zip(lammps.frames("dump.txt"), frames):
         for name in ("x", "v", *FIELDS, *(name for name in cpu.columns if name.startswith("f_"))):
             assert relative(cpu[name] - kokkos[name], np.append(cpu["f"], 1.0)) < 1e-11, (cpu.step, name)
     assert len(frames) == 6
-    for name, column in thermo.items():
-        assert relative(column - thermo_kokkos[name], np.append(column, 1e-3)) < 1e-10, name
+    assert_same_totals(thermo, thermo_kokkos, 1e-10)
 
 
 @pytest.mark.parametrize("writer", ["cpu", "kk"])
-def test_restart_with_walls(lammps, writer):
+def test_restart_with_walls(lammps, style, writer):
     """The point that the wheel turns about goes on, whichever family has written the file."""
     particles = disordered(2, 20, seed=21, jitter=0.1, speed=0.2, spread=0.0)
-    particles.write(lammps.path("data.txt"))
+    write(lammps, style, particles)
     frames = []
     for first, second in (([], []), ([], SWITCHES) if writer == "cpu" else (SWITCHES, [])):
-        text = with_walls(particles, "wheel", fluids(2), 40)
+        text = with_walls(style, particles, "wheel", fluids(style, 2), 40)
         lammps(text + "write_restart file.restart\n", switches=first, ranks=2)
         again = "read_restart file.restart\n" + "".join(line + "\n" for line in text.splitlines()
                                                        if line.startswith(("fix ", "timestep", "neigh")))
@@ -286,39 +390,61 @@ def test_restart_with_walls(lammps, writer):
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
-def test_particle_in_a_wall(lammps, ranks):
+def test_particle_in_a_wall(lammps, style, ranks):
     particles = disordered(2, 20, seed=22, jitter=0.05, speed=0.0, spread=0.0)
     shot = np.flatnonzero((np.abs(particles.x[:, 1] - 4.5) < 0.3) & (np.abs(particles.x[:, 0] - 8.5) < 0.4))[0]
     particles.v[shot] = [0.0, -300.0, 0.0]
-    particles.write(lammps.path("data.txt"))
-    result = lammps(with_walls(particles, "channel", fluids(2), 100, step=0.002), ranks=ranks, check=False)
-    assert result.code != 0 and f"Particle {shot + 1} of the fluid of pair style sph/bulk is inside a wall" in result.error
+    write(lammps, style, particles)
+    result = lammps(with_walls(style, particles, "channel", fluids(style, 2), 100, step=0.002), ranks=ranks, check=False)
+    assert result.code != 0 and f"Particle {shot + 1} of the fluid of pair style {style} is inside a wall" in result.error
 
 
 # ---------------------------------------------------------------------------------------------
 # what the CPU style does, on the host
 
 
-@pytest.mark.parametrize("reason, options, integrate", [
-    ("keyword temp", "temp 0.01 1234", INTEGRATE),
-    ("fix sph/wall", "", "region LOW block INF INF 0 3.2 INF INF\ngroup WALL region LOW\ngroup REST subtract all WALL\n"
-     "fix FLUID REST sph/bulk\nsuffix off\nfix WALL WALL sph/wall\ntimestep 0.005\n"),
+@pytest.mark.parametrize("reason, options, keywords, extra", [
+    ("keyword temp", "temp 0.01 1234", "", ""),
+    ("viscous", "", "viscous implicit", ""),
+    ("fix sph/wall", "", "", "suffix off\nfix WALL WALL sph/wall\n"),
 ])
-def test_on_the_host(lammps, reason, options, integrate):
+@pytest.mark.parametrize("newton", ["on", "off"])
+def test_on_the_host(lammps, style, newton, reason, options, keywords, extra):
     particles = disordered(2, 20, seed=13, jitter=0.1, speed=0.1, spread=0.0)
-    result = compare(lammps, particles, script(particles, fluids(2, options=options), 20, integrate=integrate), ranks=2)
+    group = "REST" if extra else "all"
+    fixes = ("region LOW block INF INF 0 3.2 INF INF\ngroup WALL region LOW\ngroup REST subtract all WALL\n"
+             + integrate(style, keywords, group) + extra)
+    text = script(style, particles, fluids(style, 2, options=options), 20, newton, fixes=fixes)
+    result = compare(lammps, style, particles, text, ranks=2)
     assert any("on the host" in line and reason in line for line in result.warnings), result.warnings
 
 
-def test_no_warning_on_the_device(lammps):
+def test_no_warning_on_the_device(lammps, style):
     particles = disordered(2, 14, seed=14, jitter=0.1, spread=0.0)
-    result = compare(lammps, particles, script(particles, fluids(2), 5))
+    result = compare(lammps, style, particles, script(style, particles, fluids(style, 2), 5))
     assert not any("on the host" in line for line in result.warnings)
 
 
-def test_hybrid_is_refused(lammps):
+def test_hybrid_is_refused(lammps, style):
     particles = disordered(2, 14, seed=15, jitter=0.1, spread=0.0)
-    particles.write(lammps.path("data.txt"))
-    model = f"pair_style hybrid/overlay sph/bulk dim 2\npair_coeff * * sph/bulk 1.0 10.0 0.5 2.0 {SUPPORT[2]}\n"
-    result = lammps(script(particles, model, 1), check=False)
+    write(lammps, style, particles)
+    model = fluids(style, 2).replace("pair_style ", "pair_style hybrid/overlay ").replace("* * ", f"* * {style} ")
+    result = lammps(script(style, particles, model, 1), check=False)
     assert result.code != 0 and "hybrid" in result.error
+
+
+def test_torque_without_inertia_is_refused(lammps):
+    style = "sph/micropolar"
+    particles = disordered(2, 14, seed=15, jitter=0.1, spread=0.0)
+    micropolar.write(particles, lammps.path("data.txt"), inertia=0.0)
+    fixes = f"fix FLUID all {style}\ntimestep 0.005\n"
+    result = lammps(script(style, particles, fluids(style, 2), 1, fixes=fixes), check=False)
+    assert result.code != 0 and "inertia must be > 0" in result.error
+
+
+def test_without_the_suffix(lammps, style):
+    """KOKKOS alone has no atom style: LAMMPS says so."""
+    particles = disordered(2, 14, seed=15, jitter=0.1, spread=0.0)
+    write(lammps, style, particles)
+    result = lammps(script(style, particles, fluids(style, 2), 1), switches=SWITCHES[:SWITCHES.index("-sf")], check=False)
+    assert result.code != 0 and "Kokkos-enabled atom_style" in result.error

@@ -30,6 +30,8 @@ def write(particles, path, omega=None, inertia=0.2, style=STYLE):
     lines = ["LAMMPS data file of a test", "", f"{len(particles)} atoms", f"{int(particles.type.max())} atom types", ""]
     lines += [f"{lo!r} {hi!r} {axis}lo {axis}hi"
               for axis, lo, hi in zip("xyz", particles.lo.tolist(), particles.hi.tolist())]
+    if particles.tilt is not None:
+        lines.append(" ".join(repr(float(t)) for t in particles.tilt) + " xy xz yz")
     lines += ["", f"Atoms # {style}", ""]
     for i in range(len(particles)):
         place = " ".join(map(repr, particles.x[i].tolist()))
