@@ -128,6 +128,16 @@ def test_jump_of_the_time_step(lammps, mode):
         refused(lammps, reset, "cannot be used with fix dt/reset", "use fix sph/dt")
 
 
+def test_stages_follow_the_time_step(lammps):
+    """Also in a run without setup."""
+    box(lammps)
+    stages = []
+    for pre in ("pre no", ""):
+        result = lammps(deck(f"{FIX} rkl2", after="thermo_style custom step f_1[1]\nthermo 1\n", run=JUMP.format(pre)))
+        stages.append([table["f_1[1]"][-1] for table in result.thermo()])
+    assert stages[0] == stages[1] and stages[0][1] > stages[0][0]
+
+
 def test_rest_is_not_solved_for(lammps):
     """Velocities of rounding errors, of a lattice at rest under pressure."""
     lattice(2, 10, spacing=0.97).write(lammps.path("box.data"))
