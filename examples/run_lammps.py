@@ -42,6 +42,8 @@ class Example:
         self.parser = argparse.ArgumentParser(description=description)
         self.parser.add_argument("--quick", action="store_true", help="a small version, for tests")
         self.parser.add_argument("--np", type=int, default=1, metavar="N", help="MPI ranks per run (1)")
+        self.parser.add_argument("--switches", type=shlex.split, default=[], metavar="WORDS",
+                                 help='more switches of LAMMPS, in one word, for instance "-k on g 1 -sf kk"')
         self.parser.add_argument("--out", type=Path, default=folder / "results", metavar="DIR",
                                  help="folder for results (%(default)s)")
         self.parser.add_argument("--check", action="store_true", help="exit with 1 if a figure of merit is missed")
@@ -77,7 +79,7 @@ class Example:
         mpi = shlex.split(os.environ.get("SPHD_MPIEXEC") or "mpiexec") + ["-n", str(ranks)] if ranks > 1 else []
         words = [word for key, value in {**variables, "out": name}.items() for word in ("-var", key, str(value))]
         command = [*mpi, lmp, "-in", str(path or self.folder / f"in.{self.name}"), "-screen", "none",
-                   "-log", f"{name}.log", *words]
+                   "-log", f"{name}.log", *self.args.switches, *words]
         # LAMMPS writes its error messages to the log as well; a launcher has only stderr
         done = subprocess.run(command, env=environment(ranks, cores), text=True, cwd=self.out,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)

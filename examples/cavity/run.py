@@ -3,7 +3,7 @@
 """Lid-driven cavity of a Newtonian and of a micropolar fluid against Ghia, Ghia and Shin and finite differences.
 
     ./sphd run cavity          or
-    SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check] [--size N] [--cases NAME ...] [--no-run]
+    SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check] [--size N] [--cases NAME ...] [--switches WORDS] [--sample N] [--no-run]
 """
 
 import csv
@@ -252,6 +252,7 @@ def main():
     example = Example(HERE, "Lid-driven cavity.")
     example.parser.add_argument("--size", type=int, metavar="N", help="particles per side (100, and 50 for comparison; --quick: 50)")
     example.parser.add_argument("--cases", nargs="+", choices=CASES, help="some of the cases only")
+    example.parser.add_argument("--sample", type=int, metavar="N", help="steps between the values that means over time are taken of (1)")
     example.parser.add_argument("--no-run", action="store_true", help="evaluate what an earlier run has left in --out")
     args = example.arguments()
     sizes = [args.size] if args.size else [50] if args.quick else [100, 50]
@@ -259,6 +260,9 @@ def main():
     keys = [(base, size) for size in sizes for base in cases]
     names = {(base, size): f"{base}.n{size}" for base, size in keys}
     variables = {(base, size): {"N": size, **CASES[base][2], **(QUICK[base] if args.quick and base in QUICK else {})} for base, size in keys}
+    if args.sample:
+        for values in variables.values():
+            values["sample"] = args.sample
     jobs = {names[key]: values for key, values in variables.items()}
     disorder = "re1000.noshift"         # for the figure of the particles only
     if not (args.quick or args.cases or args.size):
