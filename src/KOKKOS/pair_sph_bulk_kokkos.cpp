@@ -508,7 +508,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::find_bound()
   with_kernel(model->choice.kernel, [&](auto kernel) {
     Kokkos::parallel_for(
         "sph:bound", Kokkos::RangePolicy<DeviceType>(0, list->inum),
-        BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, model->choice.shear, bound});
+        BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, engine->shear_form(), bound});
   });
 
   if (communicates_on_device()) {
