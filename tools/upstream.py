@@ -277,7 +277,8 @@ def add_pages(tree):
             continue
         text = page.read_text(encoding="utf-8")
         text = re.sub(r"^(\.\. version\w+::) TBD$", rf"\1 {tree.version}", text, flags=re.MULTILINE)
-        if "Accelerator Variants:" in text:    # LAMMPS's text about them stands where a page becomes general
+        # LAMMPS's text about accelerated styles stands where a page becomes general; that of atom styles is on a page of its own
+        if "Accelerator Variants:" in text and not name.startswith("atom_style"):
             text, count = re.subn(r"^(?:-{5,}\n\n)?((?:Mixing|Restart), .*\n\"{5,}\n)",
                                   r"----------\n\n.. include:: accel_styles.rst\n\n----------\n\n\1", text, count=1, flags=re.MULTILINE)
             if count != 1:
