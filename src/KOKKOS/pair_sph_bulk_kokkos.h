@@ -31,13 +31,16 @@ PairStyle(sph/bulk/kk/host,PairSPHBulkKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class Threads;
   template <class DeviceType> class BoundaryStageKokkos;
   template <class DeviceType> struct LoopDataKokkos;
   struct TypeKokkos;
 }    // namespace SPHDissipation
 
-// The pair style on the device.  What is not written for it, see on_host_because(), is computed by the
-// CPU style from the copies of the particles on the host; so are the reports at the start of a run.
+// The pair style on the device, with full neighbor lists; or on the host by the loops of the CPU style
+// and half lists, with the threads of KOKKOS, see runs_on_device().  On a device, what is not written for
+// it, see on_host_because(), is computed on the host from copies of the particles, too; so are the
+// reports at the start of a run.
 
 template <class DeviceType>
 class PairSPHBulkKokkos : virtual public PairSPHBulk, public KokkosBase {
@@ -47,10 +50,12 @@ class PairSPHBulkKokkos : virtual public PairSPHBulk, public KokkosBase {
 
   void compute(int, int) override;
   void init_style() override;
+  void init_list(int, class NeighList *) override;
   double memory_usage() override;
 
   void announce() override;
   void set_mean_density(int) override;
+  void find_volumes() override;
   void heating(double *, double *) const override;
   bool has_forces() const override;
   double elastic_energy(Moment) override;
@@ -75,7 +80,10 @@ class PairSPHBulkKokkos : virtual public PairSPHBulk, public KokkosBase {
 
  private:
   bool on_device;
-  class NeighList *host_list;    // half; for what runs on the host meanwhile
+  bool copied;    // coefficients on the device are those of the model
+  SPHDissipation::Threads *threads;
+  class NeighList *kokkos_list;    // of LAMMPS
+  class NeighList *host_list;      // half; for what runs on the host
   std::vector<int> host_ilist, host_numneigh, host_neighbors;
   std::vector<int *> host_firstneigh;
   SPHDissipation::ColumnsKokkos sent;
@@ -87,9 +95,11 @@ class PairSPHBulkKokkos : virtual public PairSPHBulk, public KokkosBase {
   Crowding crowding_of;
   SPHDissipation::BoundaryStageKokkos<DeviceType> *boundary_device;
 
+  bool runs_on_device() const;
   std::string on_host_because() const;
   template <class Function> void on_host(Function &&);
   void build_host_list();
+  void refer_to_list();
   void grow();
   void copy_coeffs();
   bool communicates_on_device() const;

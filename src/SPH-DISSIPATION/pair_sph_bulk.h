@@ -125,7 +125,7 @@ class PairSPHBulk : public Pair {
   const double *own_force(int i) const;
   const double *own_torque(int i) const;
 
-  void find_volumes();    // before the first step, from the positions alone
+  virtual void find_volumes();    // before the first step, from the positions alone
 
   // of the fluid as it is now: time in which a particle with the speed of sound crosses the length
   // that stability knows, at least; largest viscous rate; time in which one falls as far, at least

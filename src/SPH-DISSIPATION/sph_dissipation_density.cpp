@@ -53,13 +53,13 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
   double *const drho = atom->drho;
   double *const vfrac = atom->vfrac;
   const int nall = atom->nlocal + atom->nghost;
-  for (int i = 0; i < nall; i++) {
+  engine.for_each(nall, [&](int i) {
     const double weight = engine.weight(i);
     engine.particle[i].vol = weight / density[i].c;
-    if (shared && model.coeffs[type[i]].other) continue;
+    if (shared && model.coeffs[type[i]].other) return;
     const double mass = rmass[i] / weight;
     rho[i] = mass * density[i].c;
     drho[i] = mass * density[i].cdot;
     vfrac[i] = engine.particle[i].vol;
-  }
+  });
 }

@@ -27,13 +27,22 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
+// rows of numbers
+
+template <class Row> static void add_row(Row &to, const Row &from)
+{
+  auto *const sum = reinterpret_cast<double *>(&to);
+  const auto *const term = reinterpret_cast<const double *>(&from);
+  for (std::size_t k = 0; k < sizeof(Row) / sizeof(double); k++) sum[k] += term[k];
+}
+
 /* ---------------------------------------------------------------------- */
 
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
     zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
     density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), friction_loop(nullptr), data(),
-    kernel(Kernel::WENDLAND_C2), dim(0), shear(Shear::NONE), bulk(Bulk::NONE),
+    threads(&one_thread), kernel(Kernel::WENDLAND_C2), dim(0), shear(Shear::NONE), bulk(Bulk::NONE),
     volume(Volume::NUMBER), self_weight(0.0), weights(nullptr), nlocal_forces(-1),
     nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
@@ -157,8 +166,9 @@ void Engine::grow_atoms()
 }
 
 /* ----------------------------------------------------------------------
-   room for all pairs of the neighbor list, each atom's filled up to a full block,
-   for one more block, and for the indices that pass 2 looks at ahead of the last block
+   rows and pairs of each thread: about as many entries of the neighbor list for each.  Room for all of
+   them, each atom's filled up to a full block, and for each thread one more block and the indices that
+   pass 2 looks at ahead of the last one.
 ------------------------------------------------------------------------- */
 
 void Engine::grow_pairs(NeighList *list)
@@ -171,16 +181,46 @@ void Engine::grow_pairs(NeighList *list)
     data.count = (int *) memory->smalloc(imax * sizeof(int), "sph:count");
   }
 
-  bigint npair = 3 * BLOCK;
-  for (int ii = 0; ii < list->inum; ii++)
-    npair += (list->numneigh[list->ilist[ii]] + BLOCK - 1) / BLOCK * BLOCK;
-  if (npair <= pair_max) return;
+  auto room = [=](int ii) {
+    return (list->numneigh[list->ilist[ii]] + BLOCK - 1) / BLOCK * BLOCK;
+  };
+  bigint npair = 0;
+  for (int ii = 0; ii < list->inum; ii++) npair += room(ii);
 
+  const int nthread = threads->size();
+  first_row.assign(nthread + 1, list->inum);
+  first_pair.assign(nthread, 0);
+  first_row[0] = 0;
+  bigint end = 0;
+  for (int k = 1, ii = 0; k < nthread; k++) {
+    for (; ii < list->inum && end < npair * k / nthread; ii++) end += room(ii);
+    first_row[k] = ii;
+    first_pair[k] = end + k * 3 * BLOCK;
+  }
+
+  npair += nthread * 3 * BLOCK;
+  if (npair <= pair_max) return;
   pair_max = npair + npair / 16;
   memory->sfree(data.neighbor);
   memory->sfree(data.slope);
   data.neighbor = (int *) memory->smalloc(pair_max * sizeof(int), "sph:neighbor");
   data.slope = (double *) memory->smalloc(pair_max * sizeof(double), "sph:slope");
+}
+
+/* ----------------------------------------------------------------------
+   what the loops of one thread work on, its sums left out
+------------------------------------------------------------------------- */
+
+LoopData Engine::part(int thread) const
+{
+  LoopData part = data;
+  const int from = first_row[thread];
+  part.inum = first_row[thread + 1] - from;
+  part.begin = first_pair[thread];
+  part.ilist += from;
+  part.first += from;
+  part.count += from;
+  return part;
 }
 
 /* ----------------------------------------------------------------------
@@ -199,10 +239,10 @@ void Engine::set_weights()
     memory->create(weights, nmax + BLOCK, "sph:weight");
   }
   const int nall = atom->nlocal + atom->nghost;
-  for (int i = 0; i < nall; i++) {
+  for_each(nall, [&](int i) {
     weights[i] = atom->rmass[i] / rho0[atom->type[i]];
     density[i].c *= weights[i];
-  }
+  });
   std::fill_n(weights + nall, BLOCK, 0.0);
   data.weight = weights;
 }
@@ -219,7 +259,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
 
-  for (int i = 0; i < nall; i++) {
+  for_each(nall, [&](int i) {
     const double *const u = vest ? vest[i] : REST;
     for (int d = 0; d < 3; d++) {
       particle[i].x[d] = x[i][d];
@@ -227,13 +267,13 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     }
     density[i].c = (i < nlocal) ? self_weight : 0.0;
     density[i].cdot = 0.0;
-  }
+  });
 
   if (has_spin())
-    for (int i = 0; i < nall; i++) {
+    for_each(nall, [&](int i) {
       const double *const w = omegaest ? omegaest[i] : REST;
       for (int d = 0; d < 3; d++) spin[i].w[d] = w[d];
-    }
+    });
 
   for (int i = nall; i < nall + BLOCK; i++) {
     particle[i] = Particle();
@@ -251,7 +291,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.particle = particle;
   data.spare = nall;
   data.density = density;
-  density_loop(data);
+  run_density(density_loop);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -260,35 +300,38 @@ void Engine::accumulate_rates()
 {
   const int nrow = atom->nlocal + atom->nghost + BLOCK;
   for (int i = 0; i < nrow; i++) density[i].cdot = 0.0;
-  rate_loop(data);
+  run_density(rate_loop);
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   adds to density[]
+------------------------------------------------------------------------- */
 
-void Engine::begin_forces(NeighList *list)
+void Engine::run_density(Loop loop)
 {
   const int nall = atom->nlocal + atom->nghost;
-  const bigint nrow = (bigint) nall + BLOCK;
-  memset(force, 0, nrow * sizeof(ForceSum));
-  if (bulk == Bulk::VOLUME) memset(divergence, 0, nrow * sizeof(double));
-  if (shear == Shear::MICROPOLAR) memset(torque, 0, nrow * sizeof(TorqueSum));
+  sums.resize(threads->size() - 1);
+  threads->run([&](int k) {
+    LoopData own = part(k);
+    if (k > 0) {
+      sums[k - 1].density.assign(nall + BLOCK, DensitySum());
+      own.density = sums[k - 1].density.data();
+    }
+    loop(own);
+  });
 
-  data.inum = list->inum;
-  data.type = atom->type;
-  data.zeta_term = zeta_term;
-  data.divergence = divergence;
-  data.force = force;
-  data.spin = spin;
-  data.torque = torque;
+  if (sums.empty()) return;
+  for_each(nall, [&](int i) {
+    for (const auto &other : sums) add_row(density[i], other.density[i]);
+  });
 }
 
 /* ---------------------------------------------------------------------- */
 
 void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 {
-  begin_forces(list);
   data.tally = tally;
-  force_loop(data);
+  run_forces(list, force_loop, !tally && force_loop == friction_loop);
   nlocal_forces = atom->nlocal;
   nghost_forces = atom->nghost;
 }
@@ -297,9 +340,56 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 
 void Engine::accumulate_friction(NeighList *list)
 {
-  begin_forces(list);
   data.tally = nullptr;
-  friction_loop(data);
+  run_forces(list, friction_loop, true);
+}
+
+/* ----------------------------------------------------------------------
+   shared: among the threads
+------------------------------------------------------------------------- */
+
+void Engine::run_forces(NeighList *list, Loop loop, bool shared)
+{
+  const bool by_volume = (bulk == Bulk::VOLUME);
+  const int nall = atom->nlocal + atom->nghost;
+  const bigint nrow = (bigint) nall + BLOCK;
+  data.inum = list->inum;
+  data.type = atom->type;
+  data.zeta_term = zeta_term;
+  data.divergence = divergence;
+  data.force = force;
+  data.spin = spin;
+  data.torque = torque;
+
+  auto work = [&](LoopData &own) {
+    memset(static_cast<void *>(own.force), 0, nrow * sizeof(ForceSum));
+    if (by_volume) memset(own.divergence, 0, nrow * sizeof(double));
+    if (has_spin()) memset(static_cast<void *>(own.torque), 0, nrow * sizeof(TorqueSum));
+    loop(own);
+  };
+  if (!shared || sums.empty()) return work(data);
+
+  threads->run([&](int k) {
+    LoopData own = part(k);
+    if (k > 0) {
+      Sums &mine = sums[k - 1];
+      mine.force.resize(nrow);
+      if (by_volume) mine.divergence.resize(nrow);
+      if (has_spin()) mine.torque.resize(nrow);
+      own.force = mine.force.data();
+      own.divergence = mine.divergence.data();
+      own.torque = mine.torque.data();
+    }
+    work(own);
+  });
+
+  for_each(nall, [&](int i) {
+    for (const auto &other : sums) {
+      add_row(force[i], other.force[i]);
+      if (by_volume) divergence[i] += other.divergence[i];
+      if (has_spin()) add_row(torque[i], other.torque[i]);
+    }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -378,7 +468,13 @@ double Engine::memory_usage() const
 {
   double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 2 * sizeof(double);
   if (has_spin()) per_atom += sizeof(Spin) + sizeof(TorqueSum);
-  return nmax * per_atom + (double) nmax_weights * sizeof(double) +
+  double bytes = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double));
+  for (const auto &own : sums)
+    bytes += (double) (own.density.capacity() * sizeof(DensitySum) +
+                       own.force.capacity() * sizeof(ForceSum) +
+                       own.torque.capacity() * sizeof(TorqueSum) +
+                       own.divergence.capacity() * sizeof(double));
+  return bytes;
 }

@@ -18,6 +18,7 @@
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_kernel.h"
 #include "sph_dissipation_rows.h"
+#include "sph_dissipation_threads.h"
 
 #include <string>
 #include <vector>
@@ -80,8 +81,10 @@ namespace SPHDissipation {
     int ntypes_1;              // number of types + 1
     bool uniform;              // the coefficients of type 1 hold for all pairs
 
-    // pairs of the ii-th atom: entries first[ii] ... first[ii] + count[ii] - 1
+    // pairs of the ii-th atom: entries first[ii] ... first[ii] + count[ii] - 1; pass 1 begins with
+    // entry begin
 
+    bigint begin;
     bigint *first;
     int *count;
     int *neighbor;
@@ -135,7 +138,8 @@ namespace SPHDissipation {
 
   // Pair engine of the particle fluid styles: number density and its rate in one loop over the
   // neighbor list, forces and heating in a second one.  Between them the stages of the pair style set
-  // what pass 2 reads.
+  // what pass 2 reads.  With threads each of them has rows of the neighbor list and sums of its own,
+  // which are added up then; the loops of the noise, and those with a tally of each pair, run on one.
 
   class Engine : protected Pointers {
    public:
@@ -145,6 +149,9 @@ namespace SPHDissipation {
     // simd = auto: the loops for the widest vectors of this processor; none, avx2, avx512: those
     // loops; false if processor or compiler do not have them
     bool choose_loops(const std::string &simd);
+
+    void set_threads(Threads *team) { threads = team; }    // which the caller keeps
+    template <class Task> void for_each(int n, const Task &task) { threads->for_each(n, task); }
 
     // choose the form of the loops; n = dimension of the kernel
     // coeff = of the pair terms, for types 0 to ntypes of i, of j within
@@ -218,6 +225,7 @@ namespace SPHDissipation {
     const LoopSet *loops;
     Loop density_loop, rate_loop, force_loop, friction_loop;    // the last one without noise
     LoopData data;
+    Threads one_thread, *threads;
     std::vector<PairCoeff> coeff;
     std::vector<double> rho0;    // by type
     Kernel kernel;
@@ -228,14 +236,29 @@ namespace SPHDissipation {
     double self_weight;    // W(0)
     double *weights;       // reference volumes of atoms (volume mass)
 
+    // rows first_row[k] ... first_row[k+1] - 1 of the neighbor list are those of thread k, whose pairs
+    // begin with entry first_pair[k]; sums of the threads but the first one
+
+    struct Sums {
+      std::vector<DensitySum> density;
+      std::vector<ForceSum> force;
+      std::vector<TorqueSum> torque;
+      std::vector<double> divergence;
+    };
+    std::vector<int> first_row;
+    std::vector<bigint> first_pair;
+    std::vector<Sums> sums;
+
     int nlocal_forces, nghost_forces;    // # of atoms that force[] is of
     int nmax, nmax_weights, imax;
     bigint pair_max;
 
     void grow_atoms();
     void set_weights();
-    void begin_forces(NeighList *);
     void grow_pairs(NeighList *);
+    LoopData part(int thread) const;
+    void run_density(Loop);
+    void run_forces(NeighList *, Loop, bool shared);
   };
 
 }    // namespace SPHDissipation

@@ -40,19 +40,19 @@ void ForceStage::run(NeighList *list, PairTally *tally)
   double **f = atom->f;
   double *const desph = atom->desph;
   const int n = nforce();
-  for (int i = 0; i < n; i++) {
+  engine.for_each(n, [&](int i) {
     const ForceSum &total = engine.force[i];
     for (int d = 0; d < 3; d++) f[i][d] += total.f[d];
     desph[i] += total.heat + bulk_heat(i);
-  }
+  });
 
   if (!engine.has_spin()) return;
   double **torque = atom->torque;
-  for (int i = 0; i < n; i++) {
+  engine.for_each(n, [&](int i) {
     const TorqueSum &total = engine.torque[i];
     for (int d = 0; d < 3; d++) torque[i][d] += total.t[d];
     desph[i] += total.heat_vortex + total.heat_spin;
-  }
+  });
 }
 
 /* ---------------------------------------------------------------------- */

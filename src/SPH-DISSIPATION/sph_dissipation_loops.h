@@ -51,7 +51,7 @@ namespace SPHDissipation {
       const Particle *const particle = data.particle;
       const Vec support_sq = all(data.support * data.support);
       const double support_inv = 1.0 / data.support;
-      bigint next = 0;
+      bigint next = data.begin;
 
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];

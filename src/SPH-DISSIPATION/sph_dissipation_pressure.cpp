@@ -57,16 +57,14 @@ bigint PressureStage::run(const double *bound, int not_fluid)
   const int nall = nlocal + atom->nghost;
   const TypeCoeff *const coeffs = model.coeffs;
   const Eos eos = model.choice.eos;
-  bigint nbeyond = 0;
 
-  for (int i = 0; i < nall; i++) {
+  engine.for_each(nall, [&](int i) {
     Particle &particle = engine.particle[i];
     const TypeCoeff &coeff = coeffs[type[i]];
     if (coeff.other || (mask[i] & not_fluid)) {
       engine.zeta_term[i] = particle.g = 0.0;
-      continue;
+      return;
     }
-    if (i < nlocal && is_beyond(i, bound)) nbeyond++;
 
     const ParticleTerms terms =
         particle_terms(eos, coeff.eos, model.choice.bulk, bulk_coefficient(i, bound), particle.vol,
@@ -74,7 +72,12 @@ bigint PressureStage::run(const double *bound, int not_fluid)
     engine.zeta_term[i] = terms.zeta_term;
     particle.g = terms.g;
     if (i < nlocal) desph[i] += terms.work;
-  }
+  });
+
+  bigint nbeyond = 0;
+  if (bound)
+    for (int i = 0; i < nlocal; i++)
+      if (!coeffs[type[i]].other && !(mask[i] & not_fluid) && is_beyond(i, bound)) nbeyond++;
   return nbeyond;
 }
 
