@@ -36,12 +36,12 @@ MASS = "volume mass"              # which fix sph/refine needs
 REFINE = 10
 
 
-def run(style, ranks, args, wall=None, noise=None, refine=None):
+def run(style, ranks, args, wall=None, noise=None, refine=None, switches=()):
     """One run; returns seconds of the time loop, atoms and how many are fluid, pairs inside the support, checksum of
     the positions."""
     command = [args.lmp, "-in", str(HERE / "in.bench"), "-log", "none", "-nocite",
                "-var", "style", style, "-var", "n", str(args.n), "-var", "steps", str(args.steps),
-               "-var", "simd", args.simd]
+               "-var", "simd", args.simd, *switches]
     if wall:
         command += ["-var", "layers", str(LAYERS), "-var", "wall", wall]
     if noise:
@@ -50,7 +50,8 @@ def run(style, ranks, args, wall=None, noise=None, refine=None):
         command += ["-var", "refine", str(refine)]
     if ranks > 1:
         command = [args.mpiexec, "--oversubscribe", "-np", str(ranks)] + command
-    result = subprocess.run(command, capture_output=True, text=True)
+    threads = switches[switches.index("t") + 1] if "t" in switches else "1"
+    result = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "OMP_NUM_THREADS": threads})
     if result.returncode != 0:
         sys.exit(f"{' '.join(command)}\nfailed:\n{result.stdout[-2000:]}{result.stderr[-2000:]}")
     seconds = float(re.findall(r"Loop time of (\S+) on", result.stdout)[-1])
