@@ -16,6 +16,8 @@ import numpy as np
 LMP = os.environ.get("SPHD_LMP") or shutil.which("lmp") or "lmp"
 MPIEXEC = os.environ.get("SPHD_MPIEXEC") or shutil.which("mpiexec") or "mpiexec"
 SWITCHES = os.environ.get("SPHD_SWITCHES", "").split()  # of an accelerator package
+KOKKOS = any(word in ("kk", "kk/device") for word in SWITCHES)
+DEVICE_LOOPS = "kk/device" in SWITCHES or "g" in SWITCHES  # the pair loops of a GPU, wherever
 
 # Containers run as root and have fewer cores than ranks; Open MPI has to be told that this is meant.
 # The other settings save time in hundreds of short runs: no wait for ranks that an error has ended, no search

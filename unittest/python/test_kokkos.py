@@ -1,15 +1,16 @@
 """The /kk styles against the CPU styles in the same LAMMPS, one built with the package KOKKOS.
 
-SPHD_SWITCHES has the switches that turn the suffix on, for instance "-k on t 2 -sf kk".
+SPHD_SWITCHES has the switches that turn the suffix on, for instance "-k on t 2 -sf kk"; the pair loops are those of a GPU with
+"-sf kk/device".
 """
 
 import numpy as np
 import pytest
 
-from helpers import FIELDS, SUPPORT, SWITCHES, VECTORS, disordered, dump, fluid, header, relative
+from helpers import DEVICE_LOOPS, FIELDS, KOKKOS, SUPPORT, SWITCHES, VECTORS, disordered, dump, fluid, header, relative
 import test_micropolar as micropolar
 
-pytestmark = pytest.mark.skipif("kk" not in SWITCHES, reason="no LAMMPS with the package KOKKOS, see ./sphd --help")
+pytestmark = pytest.mark.skipif(not KOKKOS, reason="no LAMMPS with the package KOKKOS, see ./sphd --help")
 
 STYLES = ("sph/bulk", "sph/micropolar")
 SPIN_VECTORS = {"omega": ("omegax", "omegay", "omegaz"), "torque": ("tqx", "tqy", "tqz"),
@@ -416,7 +417,8 @@ def test_on_the_host(lammps, style, newton, reason, options, keywords, extra):
              + integrate(style, keywords, group) + extra)
     text = script(style, particles, fluids(style, 2, options=options), 20, newton, fixes=fixes)
     result = compare(lammps, style, particles, text, ranks=2)
-    assert any("on the host" in line and reason in line for line in result.warnings), result.warnings
+    warned = any("on the host" in line and reason in line for line in result.warnings)
+    assert warned == DEVICE_LOOPS, result.warnings
 
 
 def test_no_warning_on_the_device(lammps, style):
