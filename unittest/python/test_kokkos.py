@@ -450,3 +450,22 @@ def test_without_the_suffix(lammps, style):
     write(lammps, style, particles)
     result = lammps(script(style, particles, fluids(style, 2), 1), switches=SWITCHES[:SWITCHES.index("-sf")], check=False)
     assert result.code != 0 and "Kokkos-enabled atom_style" in result.error
+
+
+# ---------------------------------------------------------------------------------------------
+# what does not change from step to step
+
+
+@pytest.mark.parametrize("change", [
+    f"pair_coeff * * 1.0 10.0 1.5 1.0 {SUPPORT[2]}\n",
+    fluid(2, "volume mass bulk volume"), fluid(2, "eos tait kernel quintic shear morris"),
+    "variable MU equal 0.5+0.02*(step-20)\nfix CHANGE all adapt 5 pair sph/bulk mu * * v_MU\n"])
+def test_changes_of_the_model(lammps, change):
+    """Coefficients and options that the runs do not share."""
+    style = "sph/bulk"
+    particles = disordered(2, 14, seed=23, jitter=0.1, spread=0.2)
+    text = script(style, particles, fluids(style, 2), 20)
+    compare(lammps, style, particles, text + change + "run 20\n")
+    changed = lammps(text + change + "run 20\n", switches=[]).thermo()[-1]
+    same = lammps(text + "run 20\n", switches=[]).thermo()[-1]
+    assert relative(same["Press"] - changed["Press"], same["Press"]) > 1e-6, "nothing has changed"
