@@ -421,6 +421,15 @@ def test_on_the_host(lammps, style, newton, reason, options, keywords, extra):
     assert warned == DEVICE_LOOPS, result.warnings
 
 
+def test_walls_on_the_host(lammps, style):
+    """The walls of a pair style that computes on the host, as those of the CPU style."""
+    particles = disordered(2, 20, seed=26, jitter=0.1, speed=0.2, spread=0.0)
+    text = with_walls(style, particles, "wheel", fluids(style, 2), 60)
+    fixed = integrate(style, group="REST").splitlines()[0].rstrip()
+    result = compare(lammps, style, particles, text.replace(fixed, f"{fixed} viscous rkl2"), ranks=2)
+    assert any("on the host" in line and "viscous" in line for line in result.warnings), result.warnings
+
+
 def test_no_warning_on_the_device(lammps, style):
     particles = disordered(2, 14, seed=14, jitter=0.1, spread=0.0)
     result = compare(lammps, style, particles, script(style, particles, fluids(style, 2), 5))
