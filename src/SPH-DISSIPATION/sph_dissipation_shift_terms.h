@@ -47,7 +47,7 @@ namespace SPHDissipation {
   // displacement in a time dt: Fickian, with the velocity U R crowding, at most U/2
 
   SPH_FUNCTION void shift_particle(double speed, double support, double dt, const double *crowding,
-                          double *x)
+                                   double *x)
   {
     const double scale = speed * support;
     const double wanted = scale *
