@@ -37,9 +37,6 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, Complete complete) :
     AtomVec(lmp), AtomVecSPHBulk(lmp, IN_VIEWS), AtomVecKokkos(lmp)
 {
   AtomKokkos &atoms = *atomKK;
-  if (atoms.k_dvector.extent(0))
-    error->all(FLERR, "This atom style must come before fixes property/atom with d_ names");
-
   add_field(TAG_MASK, atoms.k_tag, atoms.tag);
   add_field(TYPE_MASK, atoms.k_type, atoms.type);
   add_field(MASK_MASK, atoms.k_mask, atoms.mask);
@@ -62,6 +59,8 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, Complete complete) :
 
 void AtomVecSPHBulkKokkos::setup_views()
 {
+  if (atomKK->k_dvector.extent(0))    // which fix property/atom would grow without our vectors
+    error->all(FLERR, "This atom style must come before fixes property/atom with d_ names");
   bonus_flag = 1;        // for the functions of that name
   forceclearflag = 0;    // the pair style sets desph
   fields_reverse = {};

@@ -152,7 +152,7 @@ void FixSPHBulk::init()
 void FixSPHBulk::init_viscous()
 {
   const ViscousSettings &settings = viscous->settings();
-  for (const auto &ifix : modify->get_fix_by_style("^" + std::string(style) + "$")) {
+  for (const auto &ifix : modify->get_fix_by_style("^" + fluid_style)) {
     const auto *other = dynamic_cast<FixSPHBulk *>(ifix);
     if (other && other->viscous->settings() != settings)
       error->all(FLERR,

@@ -88,7 +88,7 @@ void FixSPHTorque::init()
   }
 
   receiving_groups = 0;
-  for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar$"))
+  for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar"))
     receiving_groups |= ifix->groupbit;
 }
 
@@ -109,7 +109,7 @@ void FixSPHTorque::setup(int vflag)
 
 void FixSPHTorque::check_receivers()
 {
-  for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar$"))
+  for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar"))
     dynamic_cast<FixSPHMicropolar *>(ifix)->set_inertia();
 
   const auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
