@@ -105,8 +105,8 @@ def test_inputs_run(lammps, text, finds):
     """finds: the numbers after "The input finds", which are in the last line of output, rounded"""
     result = lammps(text, timeout=300)
     assert "Loop time" in result.log
-    last = [abs(float(column[-1])) for column in result.thermo()[-1].values()]
     for number in finds:
+        last = [abs(float(column[-1])) for column in result.thermo()[-1].values()]
         assert any(round(value, len(number.partition(".")[2])) == float(number) for value in last), (number, last)
 
 
