@@ -17,9 +17,11 @@
 #include "comm.h"
 #include "error.h"
 #include "fix.h"
+#include "force.h"
 #include "kokkos.h"
 #include "memory_kokkos.h"
 #include "modify.h"
+#include "pair_sph_bulk.h"
 #include "sph_dissipation_masks_kokkos.h"
 
 using namespace LAMMPS_NS;
@@ -86,14 +88,35 @@ void AtomVecSPHBulkKokkos::free_views()
 
 /* ----------------------------------------------------------------------
    CommTiledKokkos::forward_comm_device() of LAMMPS 4 Jul 2026 packs what a processor sends to itself, but
-   unpacks it only with velocities: without them the messages are packed on the host
+   unpacks it only with velocities; with them, messages from several processors overlap in the buffer,
+   whose rows it takes to be as long as those of borders() without velocities: so the messages are packed
+   on the host
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::init()
 {
   AtomVecSPHBulk::init();
   set_atom_masks();
-  if (comm->style == Comm::TILED && !comm->ghost_velocity) lmp->kokkos->forward_comm_legacy = 1;
+  if (comm->style == Comm::TILED) lmp->kokkos->forward_comm_legacy = 1;
+
+  const auto *pair = PairSPHBulk::find(force);
+  if (pair && !pair->kokkosable)
+    error->all(FLERR, Error::NOLASTLINE,
+               "With an atom style sph/bulk/kk or sph/micropolar/kk, the pair style must be one of "
+               "them, too, not {}",
+               force->pair_style);
+  if (!pair || !pair->compute_flag) clear_heating();
+}
+
+/* ----------------------------------------------------------------------
+   which otherwise the pair style sets: class VerletKokkos does not call force_clear()
+------------------------------------------------------------------------- */
+
+void AtomVecSPHBulkKokkos::clear_heating()
+{
+  k_desph.clear_sync_state();
+  Kokkos::deep_copy(k_desph.view_host(), 0.0);
+  Kokkos::deep_copy(k_desph.view_device(), 0.0);
 }
 
 /* ----------------------------------------------------------------------

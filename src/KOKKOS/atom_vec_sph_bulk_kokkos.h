@@ -96,6 +96,7 @@ class AtomVecSPHBulkKokkos : public AtomVecKokkos, virtual public AtomVecSPHBulk
                                   int vel_flag) const;
 
   template <class Function> void with_fields(uint64_t, Function &&);
+  void clear_heating();
 };
 
 /* ---------------------------------------------------------------------- */

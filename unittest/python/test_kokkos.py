@@ -159,6 +159,13 @@ def test_communication(lammps, style, before):
     compare(lammps, style, particles, text, ranks=2)
 
 
+def test_messages_of_several_processors(lammps, style):
+    """Three parts of the box, so that tiles have two neighbors on one side; with velocities in the messages."""
+    particles = disordered(2, 20, seed=7, jitter=0.1, spread=0.0)
+    text = script(style, particles, fluids(style, 2), 20, extra="balance 1.0 rcb\n")
+    compare(lammps, style, particles, text.replace("read_data", "comm_style tiled\ncomm_modify vel yes\nread_data"), ranks=3)
+
+
 def test_particles_of_another_integrator(lammps, style):
     particles = disordered(2, 16, seed=8, jitter=0.1, spread=0.0)
     fixes = ("region LOW block INF INF 0 5 INF INF\ngroup LOW region LOW\ngroup REST subtract all LOW\n"
@@ -452,6 +459,29 @@ def test_torque_without_inertia_is_refused(lammps):
     fixes = f"fix FLUID all {style}\ntimestep 0.005\n"
     result = lammps(script(style, particles, fluids(style, 2), 1, fixes=fixes), check=False)
     assert result.code != 0 and "inertia must be > 0" in result.error
+
+
+def test_pair_style_without_the_suffix_is_refused(lammps, style):
+    """Nothing would clear or add up the heat that it leaves."""
+    particles = disordered(2, 14, seed=15, jitter=0.1, spread=0.0)
+    write(lammps, style, particles)
+    model = f"suffix off\n{fluids(style, 2)}suffix on\n"
+    result = lammps(script(style, particles, model, 1), check=False)
+    assert result.code != 0 and f"the pair style must be one of them, too, not {style}" in result.error
+
+
+@pytest.mark.parametrize("model", ["pair_modify compute no\n", "pair_style zero 3.0\npair_coeff * *\n"])
+def test_no_heat_without_forces(lammps, style, model):
+    """That of the last forces before is not integrated any longer."""
+    particles = disordered(2, 14, seed=15, jitter=0.1, spread=0.0)
+    write(lammps, style, particles)
+    fixes = f"fix FLUID all {style}\ntimestep 0.005\n"
+    text = script(style, particles, fluids(style, 2), 5, fixes=fixes, every=5)
+    before = "run 5\nuncompute E\nuncompute HEAT\n" + ("uncompute L\n" if spinning(style) else "")
+    lammps(text.replace("run 5\n", f"{before}{model}thermo_style one\nrun 5\n"))
+    frames = lammps.frames("dump.txt")
+    assert np.abs(frames[0]["desph"]).max() > 0.1 and np.all(frames[-1]["desph"] == 0.0)
+    assert np.all(frames[-1]["esph"] == frames[-2]["esph"])
 
 
 def test_without_the_suffix(lammps, style):
