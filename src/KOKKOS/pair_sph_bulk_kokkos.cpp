@@ -125,6 +125,9 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
   if (force->pair != this)
     error->all(FLERR, Error::NOLASTLINE, "Pair style {}/kk cannot be used in pair_style hybrid",
                fluid_style);
+  if (neighbor->includegroup)    // which the neighbor lists of KOKKOS ignore
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {}/kk cannot be used with neigh_modify include", fluid_style);
   PairSPHBulk::init_style();
 
   copied = false;

@@ -238,10 +238,13 @@ def test_density_keyword(lammps, style):
 
 
 def test_custom_properties(lammps):
-    """d_inertia and d2_omegaest, next to those of fix property/atom, set on the way."""
+    """d_inertia and d2_omegaest, next to those of fix property/atom, set on the way.
+
+    LAMMPS has no property/atom/kk/device, and the fix without suffix aborts under KOKKOS."""
     style = "sph/micropolar"
     particles = disordered(2, 14, seed=12, jitter=0.1, spread=0.0)
-    fixes = (f"fix PLACE all property/atom d_weight\nvariable I atom 0.1+0.001*id\nset group all d_inertia v_I\n"
+    place = "fix PLACE all property/atom"
+    fixes = (f'if $(is_active(package,kokkos)) then "{place}/kk d_weight" else "{place} d_weight"\nvariable I atom 0.1+0.001*id\nset group all d_inertia v_I\n'
              f"set group all d_weight 3.0\nfix FLUID all {style}\ntimestep 0.005\n")
     text = (script(style, particles, fluids(style, 2), 10, fixes=fixes)
             + "set group all d_inertia 0.5\nset type 1 omega 0 0 2\nrun 10\nrun 10 every 5 \"set group all d_inertia 0.3\"\n"
@@ -450,6 +453,16 @@ def test_hybrid_is_refused(lammps, style):
     model = fluids(style, 2).replace("pair_style ", "pair_style hybrid/overlay ").replace("* * ", f"* * {style} ")
     result = lammps(script(style, particles, model, 1), check=False)
     assert result.code != 0 and "hybrid" in result.error
+
+
+def test_group_of_neighbors_is_refused(lammps, style):
+    """LAMMPS's neighbor lists of KOKKOS have the particles outside of it, too."""
+    particles = disordered(2, 14, seed=15, jitter=0.1, spread=0.0)
+    write(lammps, style, particles)
+    text = script(style, particles, fluids(style, 2), 1, extra="neigh_modify include LOW\n")
+    text = text.replace("read_data data.txt\n", "atom_modify first LOW\nread_data data.txt\ngroup LOW id <= 100\n")
+    assert lammps(text, check=False, switches=[]).code == 0
+    assert "cannot be used with neigh_modify include" in lammps(text, check=False).error
 
 
 def test_torque_without_inertia_is_refused(lammps):
