@@ -114,6 +114,8 @@ template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_b
     auto *integrator = dynamic_cast<FixSPHBulk *>(ifix);
     if (integrator && integrator->has_viscous_stage())
       return fmt::format("fix {} viscous", ifix->style);
+    if (integrator && integrator->shifts_particles() && !integrator->kokkosable)
+      return fmt::format("fix {} shift", ifix->style);
   }
   return "";
 }

@@ -431,6 +431,14 @@ def test_on_the_host(lammps, style, newton, reason, options, keywords, extra):
     assert warned == DEVICE_LOOPS, result.warnings
 
 
+def test_shift_on_the_host(lammps, style):
+    """A fix without the suffix, which reads what the pair style sums up for it."""
+    particles = disordered(2, 20, seed=13, jitter=0.1, speed=0.1, spread=0.0)
+    fixes = "suffix off\n" + integrate(style, "shift 0.1")
+    result = compare(lammps, style, particles, script(style, particles, fluids(style, 2), 20, fixes=fixes), ranks=2)
+    assert any("on the host" in line and "shift" in line for line in result.warnings) == DEVICE_LOOPS, result.warnings
+
+
 def test_walls_on_the_host(lammps, style):
     """The walls of a pair style that computes on the host, as those of the CPU style."""
     particles = disordered(2, 20, seed=26, jitter=0.1, speed=0.2, spread=0.0)
