@@ -192,6 +192,8 @@ void FixSPHRefine::init()
   target->init(support, domain->dimension);
   event->init(support, merge_below);
   reset_dt();
+  if (lmp->kokkos)    // where the list has particles that are gone
+    error->all(FLERR, Error::NOLASTLINE, "Fix {} cannot be used with the KOKKOS package", style);
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
 }
 
