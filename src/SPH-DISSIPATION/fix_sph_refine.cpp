@@ -21,8 +21,10 @@
 #include "math_const.h"
 #include "memory.h"
 #include "modify.h"
+#include "neigh_list.h"
 #include "neigh_request.h"
 #include "neighbor.h"
+#include "npair.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_refine_event.h"
@@ -192,8 +194,6 @@ void FixSPHRefine::init()
   target->init(support, domain->dimension);
   event->init(support, merge_below);
   reset_dt();
-  if (lmp->kokkos)    // where the list has particles that are gone
-    error->all(FLERR, Error::NOLASTLINE, "Fix {} cannot be used with the KOKKOS package", style);
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
 }
 
@@ -276,6 +276,7 @@ void FixSPHRefine::post_integrate()
   if (!wanted(nfluid)) return;
 
   comm->forward_comm();
+  list->np->last_build = -1;    // KOKKOS does not see that it is of particles that are gone
   neighbor->build_one(list);
   set_items();
   const auto most = static_cast<bigint>(fraction * static_cast<double>(nfluid));

@@ -473,16 +473,6 @@ def test_group_of_neighbors_is_refused(lammps, style):
     assert "cannot be used with neigh_modify include" in lammps(text, check=False).error
 
 
-def test_refinement_is_refused(lammps, style):
-    """Its occasional neighbor list has numbers of particles that are gone."""
-    particles = disordered(2, 14, seed=15, jitter=0.1, spread=0.0)
-    write(lammps, style, particles)
-    extra = "variable V atom 1.0\nfix R all sph/refine 1 volume v_V\n"
-    text = script(style, particles, fluids(style, 2, options="volume mass"), 1, extra=extra)
-    assert lammps(text, check=False, switches=[]).code == 0
-    assert "cannot be used with the KOKKOS package" in lammps(text, check=False).error
-
-
 def test_torque_without_inertia_is_refused(lammps):
     style = "sph/micropolar"
     particles = disordered(2, 14, seed=15, jitter=0.1, spread=0.0)
