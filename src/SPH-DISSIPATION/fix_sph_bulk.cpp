@@ -412,7 +412,8 @@ void FixSPHBulk::shift_particles()
   const double support = pair->support_radius();
   const int nlocal = nlocal_group();
   for (int i = 0; i < nlocal; i++)
-    if (atom->mask[i] & groupbit) shift_particle(shift_speed, support, dtv, pair->crowding(i), atom->x[i]);
+    if (atom->mask[i] & groupbit)
+      shift_particle(shift_speed, support, dtv, pair->crowding(i), atom->x[i]);
 }
 
 /* ----------------------------------------------------------------------
