@@ -28,6 +28,8 @@ CASES = {
     "re100": ("Re = 100", "re100", {"Re": 100, "c0": 10, "pb": 0, "end": 10, "mean": 4}),
 }
 QUICK = {"k3": {"end": 9, "mean": 3}, "re100": {"end": 9, "mean": 3}}
+# that pressure grows with 1/spacing
+FINE, STIFF = 200, {"k3": {"c0": 20}, "k3b": {"c0": 20}}
 SUPPORT = 4             # support radius over particle spacing, as in the input
 # The pressure on fluid and wall has a part along the wall, -LEVER rc dp/dx per length of wall: 2/3 of the integral of F r^4 dr
 LEVER = 2 / 3 * (7 / np.pi) * 20 / 280
@@ -260,6 +262,9 @@ def main():
     keys = [(base, size) for size in sizes for base in cases]
     names = {(base, size): f"{base}.n{size}" for base, size in keys}
     variables = {(base, size): {"N": size, **CASES[base][2], **(QUICK[base] if args.quick and base in QUICK else {})} for base, size in keys}
+    for (base, size), values in variables.items():
+        if size > FINE:
+            values.update(STIFF.get(base, {}))
     if args.sample:
         for values in variables.values():
             values["sample"] = args.sample
