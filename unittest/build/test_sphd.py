@@ -51,7 +51,7 @@ def machine(tmp_path):
 
 
 @pytest.mark.parametrize("args, tests", [(["build"], False), (["run", "sound_pulse"], False), (["bench"], False),
-                                         (["test"], True), (["test", "--sanitize"], True)])
+                                         (["test"], True), (["test", "--all"], True), (["test", "--sanitize"], True)])
 def test_only_the_tests_install_what_only_tests_need(machine, args, tests):
     status, output, installed, options = machine(*args)
     assert "configuring failed" in output and status == 1, output
@@ -69,6 +69,8 @@ def test_only_the_tests_install_what_only_tests_need(machine, args, tests):
     (["run"], {}, "There are: brownian cavity"),
     (["run", "nowhere"], {}, 'no example "nowhere"'),
     (["test", "--sanitize", "--valgrind"], {}, "leave one of them out"),
+    (["test", "--all", "-R", "wall"], {}, "--all runs every test"),
+    (["test", "--all", "--sanitize"], {}, "--all runs every test"),
     (["build"], {"LAMMPS_SOURCE_DIR": "/tmp", "SPHD_LAMMPS": "25"}, "both set"),
     (["run", "sound_pulse"], {"SPHD_PYTHON": "/bin/false"}, "SPHD_PYTHON=/bin/false does not run or lacks one of"),
 ])

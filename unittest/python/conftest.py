@@ -1,8 +1,21 @@
 """Fixtures shared by the behaviour tests; the tools they hand out are in helpers.py."""
 
+import os
+
 import pytest
 
 from helpers import Lammps
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "long: runs with SPHD_ALL only, which ./sphd test --all sets")
+
+
+def pytest_collection_modifyitems(config, items):
+    if not os.environ.get("SPHD_ALL"):
+        long = [item for item in items if item.get_closest_marker("long")]
+        config.hook.pytest_deselected(items=long)
+        items[:] = [item for item in items if item not in long]
 
 
 @pytest.fixture
