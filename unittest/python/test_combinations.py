@@ -15,7 +15,7 @@ import pytest
 
 from helpers import Lammps, Result, read_dump
 
-BOUND = 1e-11  # of the largest value
+BOUND = 1e-12  # of the largest value
 SHORT = 5e-4  # a time step for which terms of second order are below NEARLY, those of first order above
 NEARLY = 1e-5
 MOMENTUM = 100.0  # of the fluid, about
@@ -28,7 +28,7 @@ FIRST = 11  # lower IDs are those of particles that are no fluid
 
 @dataclass(frozen=True)
 class Lines:
-    """What is in an input.  The sum of two: tuples are joined, any other value that is not the default replaces."""
+    """What is in an input.  In a sum tuples are joined; any other value is that of the one that sets it."""
 
     particles: tuple = ()  # besides the fluid: "zones", "walls", "alien"
     style: str = "sph/bulk"
@@ -36,6 +36,7 @@ class Lines:
     pair: tuple = ()  # keywords of the pair style
     mu: float = 0.5
     kappa: float = 2.0
+    energy: float = 0.0  # internal, of each particle
     spin: str = ""  # coefficients of a fluid with spin
     others: tuple = ()  # pair_coeff of pair style soft, in a hybrid style
     hybrid: str = "{sph} soft 1.5"
@@ -59,6 +60,7 @@ class Lines:
             if isinstance(mine, tuple):
                 change[one.name] = mine + new
             elif new != one.default:
+                assert mine in (one.default, new), f"two features set {one.name}"
                 change[one.name] = new
         return replace(self, **change)
 
@@ -69,7 +71,8 @@ class Feature:
     plain: Lines = None  # another way of getting the same; None: there is none
     nearly: Lines = None  # what it comes near to as the time step becomes short
     refused: dict = field(default_factory=dict)  # other features, with words of the message
-    nearly_with: dict = field(default_factory=dict)  # other features, and what holds with them instead of NEARLY
+    near: float = NEARLY
+    nearly_with: dict = field(default_factory=dict)  # other features, and what holds with them
     not_plain_with: tuple = ()  # other features, which do not allow the plain way
     effect: bool = True  # particles move differently than without it
 
@@ -99,31 +102,38 @@ FEATURES = {
     "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
     "gravity": Feature(body("gravity 5.0 vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
     "walls": Feature(walls("v_U"), walls("0.3")),
-    "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), refused={"noise": "temp", "rerun": "rerun"}),
+    "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), not_plain_with=("gas",), refused={"noise": "temp", "rerun": "rerun"}),
     "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom {TARGET}", "fix R fluid sph/refine 5 volume v_t")),
-                     Lines(pair=("volume mass",), fixes=(f"variable t atom sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t"))),
+                     Lines(pair=("volume mass",), fixes=(f"variable t atom sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
+                     refused={"rerun": "rerun"}),
     "noise": Feature(Lines(pair=("temp 0.01 4711",))),
     "hybrid": Feature(Lines(particles=("alien",), others=("1 1 soft 2.0",), fixes=("fix alien alien nve",)), Lines(), effect=False),
     "overlay": Feature(Lines(others=("{own} {own} soft 2.0",)), Lines(others=("{own} {own} soft 2.0",), hybrid="soft 1.5 {sph}")),
     "adapt": Feature(Lines(fixes=("variable mu equal 0.8", "fix A all adapt 1 pair {style} mu {own} {own} v_mu reset yes")), Lines(mu=0.8)),
     "timestep": Feature(Lines(early=("timestep 0.003", "run 0"), late=("timestep {timestep}",),
                               between=("timestep 0.003", "run 0", "timestep {timestep}")), Lines(), effect=False),
-    "pre no": Feature(Lines(second="run 2\nrun 3 pre no"), Lines(), effect=False),
-    "reset": Feature(Lines(between=("reset_timestep 1000", "run 0", "reset_timestep 0")), Lines(), effect=False),
+    "short_runs": Feature(Lines(second="run 1\n" * 5), nearly=Lines(), near=1e-7, nearly_with={"noise": 1e-4, "warm": 1e-4}, effect=False),
+    "pre_no": Feature(Lines(second="run 2\nrun 3 pre no"), Lines(), effect=False),
+    "reset": Feature(Lines(between=("reset_timestep 0",)), Lines(), effect=False),
+    "reset_ahead": Feature(Lines(between=("reset_timestep 1000",)), Lines(), effect=False),
     "restart": Feature(Lines(between=("write_restart {name}.restart", "clear", "read_restart {name}.restart", "{again}")), Lines(),
                        effect=False),
     "rerun": Feature(Lines(end="write_dump all custom {name}.last id type x y vx vy modify format float %.17g\n"
-                               "rerun {name}.last dump x y vx vy"), Lines(), effect=False),
+                               "displace_atoms all move 0.2 0.1 0\nvelocity all set 3.0 4.0 NULL\nrerun {name}.last dump x y vx vy"),
+                     Lines(), effect=False),
     "types": Feature(Lines(types=2), Lines(), effect=False),
     "limit": Feature(Lines(pair=("limit yes",), kappa=0.9), Lines(kappa=0.9), not_plain_with=("noise",)),
     "shift": Feature(Lines(integrator=("shift 0.5",)), refused={"noise": "shift"}),
     "spin": Feature(Lines(style="sph/micropolar", spin="0.2 0.05 -0.05")),
-    "idle spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
+    "gas": Feature(Lines(pair=("eos ideal",), energy=2.5), refused={"noise": "ideal"}),
+    "warm": Feature(Lines(pair=("temp energy 100 4711",), energy=2.5),
+                    refused={"walls": "wall", "open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "gas": "ideal"}),
+    "idle_spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
 }
-TOGETHER = {("rkl2", "implicit"), ("spin", "idle spin")}  # make no sense
+NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin")}  # two values of the same
 # pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones
 NO_BALANCE = {("walls", "open"): "", ("open", "overlay"): "not in the ledger"}
-PAIRS = [(name,) for name in FEATURES] + [pair for pair in itertools.combinations(FEATURES, 2) if pair not in TOGETHER]
+PAIRS = [(name,) for name in FEATURES] + [pair for pair in itertools.combinations(FEATURES, 2) if pair not in NEVER]
 
 
 def refusal(names):
@@ -189,7 +199,7 @@ def particles(lines):
         x, y, u, v = (np.append(np.array(new), old) for new, old in (([4.1, 5.2, 4.5, 5.5], x), ([5.0, 5.1, 6.0, 6.2], y),
                                                                     ([0.5, 0.0, -0.5, 0.2], u), ([0.0, 0.4, 0.0, -0.4], v)))
     spinning = lines.style != "sph/bulk"
-    own = "1.0 0.16 0.0" if spinning else "1.0 0.0"
+    own = f"1.0 0.16 {lines.energy}" if spinning else f"1.0 {lines.energy}"
     spin = [f" 0 0 {w!r}" if spinning else "" for w in np.sin(1.7 * ids)]
     xlo, xhi = (-10.0, 26.0) if "zones" in has else (0.0, 16.0)
     ylo, yhi = (-4.0, 14.0) if "walls" in has else (0.0, 10.0)
@@ -199,48 +209,56 @@ def particles(lines):
     return text, groups
 
 
+def coefficients(lines, first, own):
+    """The fluid's are those of types first, first + 1, ..., in `own`."""
+    style = f"{lines.style} " if lines.others else ""
+    types = range(first, first + lines.types) if lines.types > 1 else [own]
+    result = [f"{one} {one} {style}1.0 10.0 {lines.mu} {lines.kappa} {lines.spin} 3.0" for one in types]
+    if lines.others:
+        result += [f"{one} {other} {style}mu mean" for one, other in itertools.combinations(types, 2)]
+        result += ["1 2* none"] * (first > 1) + [one.format(own=own) for one in lines.others]
+    return "".join(f"pair_coeff {one}\n" for one in result)
+
+
+def account(lines):
+    """Variables px, py: momentum of the fluid; fx, fy: force on it from outside; cx, cy: momentum that came with particles."""
+    text = ""
+    for k, d in ((1, "x"), (2, "y")):
+        numbers = dict(k=k, entered=k + 2, left=k + 12, pushed=k + 20)
+        terms = {"p": [f"mass(fluid)*vcm(fluid,{d})"], "f": ["0", *lines.force], "c": ["0", *lines.carried]}
+        text += "".join(f"variable {one}{d} equal {'+'.join(sums).format(**numbers)}\n" for one, sums in terms.items())
+    return (text + "thermo 1\nthermo_style custom step dt v_px v_py v_fx v_fy v_cx v_cy\n"
+            "thermo_modify norm no format float %.17g\n")
+
+
 def write(folder, name, lines):
-    """The input of one case; `name` is that of its files."""
+    """The input of one case, and its data file; `name` is that of all its files."""
     data, groups = particles(lines)
     (folder / f"{name}.data").write_text(data)
-    has = lines.particles
-    first = 2 if "alien" in has else 1
-    own = f"{first}*{first + lines.types - 1}" if first + lines.types > 2 else "*"
-    sph = f"{lines.style} {' '.join(lines.pair)}"
-    coeffs = [f"{one} {one} {lines.style if lines.others else ''} 1.0 10.0 {lines.mu} {lines.kappa} {lines.spin} 3.0"
-              for one in (range(first, first + lines.types) if lines.types > 1 else (own,))]
-    if lines.types > 1 and lines.others:
-        coeffs.append(f"{first} {first + 1} {lines.style} mu mean")
-    if first > 1:
-        coeffs.append("1 2* none")
+    first = 2 if "alien" in lines.particles else 1
+    own = "*" if first + lines.types == 2 else f"{first}*{first + lines.types - 1}"
     words = dict(name=name, style=lines.style, own=own, timestep=lines.timestep)
-    coeffs = "".join(f"pair_coeff {one}\n" for one in coeffs + [one.format(**words) for one in lines.others])
-    kind = "" if not lines.others else "hybrid " if any(one.startswith("1 1") for one in lines.others) and len(lines.others) == 1 else "hybrid/overlay "
-    pair = f"pair_style {kind}{lines.hybrid.format(sph=sph) if lines.others else sph}\n"
-    neighbor = f"neighbor {lines.skin} bin\nneigh_modify every 5 delay 0 check no\n"
-    spin = "omegaz tqz" if lines.style != "sph/bulk" else ""
 
     def block(commands):
         return "".join(one.format(**words) + "\n" for one in commands)
 
-    balance = ""
-    for k, d in ((1, "x"), (2, "y")):
-        numbers = dict(k=k, entered=k + 2, left=k + 12, pushed=k + 20)
-        balance += (f"variable p{d} equal mass(fluid)*vcm(fluid,{d})\n"
-                    + "".join(f"variable {what}{d} equal {'+'.join(('0', *terms)).format(**numbers)}\n"
-                              for what, terms in (("f", lines.force), ("c", lines.carried))))
-    fixes = (block(lines.fixes) + balance + "compute E all property/atom esph\nthermo 1\n"
-             "thermo_style custom step dt v_px v_py v_fx v_fy v_cx v_cy\nthermo_modify norm no format float %.17g\n")
-    integrate = f"timestep {lines.timestep}\nfix FLUID fluid {lines.style} {' '.join(lines.integrator)}\n"
-    words["again"] = neighbor + (coeffs if lines.others else "") + integrate + fixes
-    output = (f"write_dump all custom {name}.{{}} id type mass x y vx vy fx fy c_E {spin} modify sort id format float %.17g\n")
-    text = (f"log {name}.log\nunits lj\ndimension 2\nboundary {'f' if 'zones' in has else 'p'} {'f' if 'walls' in has else 'p'} p\n"
-            f"newton {lines.newton}\natom_style {lines.style}\nread_data {name}.data\n"
+    sph = f"{lines.style} {' '.join(lines.pair)}"
+    hybrid = "hybrid/overlay" if any("{own}" in one for one in lines.others) else "hybrid"
+    pair = f"pair_style {hybrid} {lines.hybrid.format(sph=sph)}\n" if lines.others else f"pair_style {sph}\n"
+    coeffs = coefficients(lines, first, own)
+    begin = (f"neighbor {lines.skin} bin\nneigh_modify every 5 delay 0 check no\n"
+             f"timestep {lines.timestep}\nfix FLUID fluid {lines.style} {' '.join(lines.integrator)}\n")
+    fixes = block(lines.fixes) + "compute E all property/atom esph\n" + account(lines)
+    words["again"] = (coeffs if lines.others else "") + begin + fixes  # what a restart file does not have
+    spin = "omegaz tqz" if lines.style != "sph/bulk" else ""
+    output = f"write_dump all custom {name}.{{}} id mass x y vx vy fx fy c_E {spin} modify sort id format float %.17g\n"
+    ends = "f" if "zones" in lines.particles else "p", "f" if "walls" in lines.particles else "p"
+    return (f"log {name}.log\nunits lj\ndimension 2\nboundary {' '.join(ends)} p\nnewton {lines.newton}\n"
+            f"atom_style {lines.style}\nread_data {name}.data\n"
             + "".join(f"group {one} id {' '.join(map(str, ids))}\n" for one, ids in groups.items())
-            + pair + coeffs + neighbor + integrate + block(lines.early) + fixes + block(lines.late) + "run 5\n"
-            + block(lines.between) + lines.second + "\n" + output.format("after") + lines.end.format(**words) + "\n" + output.format("again")
-            + "print COMPLETE\n")
-    return text
+            + pair + coeffs + begin + block(lines.early) + fixes + block(lines.late)
+            + "run 5\n" + block((*lines.between, lines.second)) + output.format("after")
+            + block((lines.end,)) + output.format("again") + "print COMPLETE\n")
 
 
 # ---------------------------------------------------------------------------------------------
@@ -253,6 +271,7 @@ class Cases:
     def __init__(self, lammps):
         self.lammps = lammps
         self.results = {}
+        self.names = {}
 
     def run(self, cases, ranks):
         """cases: {key: Lines}."""
@@ -260,20 +279,19 @@ class Cases:
         names = {key: f"case{len(self.results) + k}" for k, key in enumerate(left)}
         while left:
             text = "clear\n".join(write(self.lammps.folder, names[key], lines) for key, lines in left.items())
-            failure = Result(0, "", "")
             try:
-                failure = self.lammps(text, ranks=ranks, check=False)
+                process = self.lammps(text, ranks=ranks, check=False)
             except AssertionError as hangs:
-                failure = Result(1, str(hangs), "")
+                process = Result(1, str(hangs), "")
             for key in list(left):
                 log = self.lammps.path(f"{names[key]}.log")
                 text = log.read_text() if log.exists() else ""
                 complete = "\nCOMPLETE" in text
-                self.results[key] = Result(0 if complete else failure.code or 1, "" if complete else failure.output, text)
+                self.results[key] = Result(0 if complete else process.code or 1, "" if complete else process.output, text)
                 del left[key]
                 if not complete:
                     break
-        self.names = {**getattr(self, "names", {}), **names}
+        self.names.update(names)
 
     def state(self, key):
         """{quantity: array} at the end of the last run, and forces of the same particles once more."""
@@ -305,12 +323,11 @@ def difference(one, other):
     """Largest difference of each quantity, relative to its largest value."""
     if len(one["id"]) != len(other["id"]) or (one["id"] != other["id"]).any():
         return {"particles": np.inf}
-    size = {"x": np.array([16.0, 10.0])}
     result = {}
     for name in one.keys() & other.keys():
         change = np.abs(one[name] - other[name])
         if name == "x":
-            change = np.minimum(change, np.abs(size["x"] - change))  # across a periodic boundary
+            change = np.minimum(change, np.abs([16.0, 10.0] - change))  # across a periodic boundary
         scale = 1.0 if name == "x" else max(np.abs(other[name]).max(), 1e-3)
         result[name] = change.max() / scale if np.isfinite(change).all() else np.inf
     return result
@@ -399,6 +416,7 @@ def test_short_steps(cases, name, names):
     together = [pair for one, pair in NEAR if one == name]
     cases.run({(pair, "short", name): near(pair, name) for pair in together}, 1)
     cases.run({(pair, "short", "plain"): near(pair, name, True) for pair in together}, 1)
-    bound = max([FEATURES[name].nearly_with.get(other, 0.0) for other in names] + [NEARLY])
+    one = FEATURES[name]
+    bound = max(one.nearly_with.get(other, one.near) for other in names)
     found = complaints(cases, (names, "short", name), (names, "short", "plain"), bound, ("particles", "x", "v", "spin", "force", "torque"))
     assert not found, "\n".join(found)
