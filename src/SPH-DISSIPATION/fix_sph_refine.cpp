@@ -255,17 +255,17 @@ bool FixSPHRefine::may_change(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   after reset_timestep, the last events are as many steps ago as before
+   the last events are as many steps ago as before, also after reset_timestep
 ------------------------------------------------------------------------- */
 
-void FixSPHRefine::count_anew()
+void FixSPHRefine::count_anew(bigint step)
 {
-  const bigint change = update->ntimestep - 1 - last_step;
+  const bigint change = step - last_step;
   if (last_step >= 0 && change != 0) {
     for (int i = 0; i < atom->nlocal; i++) past[i][STEP] += static_cast<double>(change);
     event_step += change;
   }
-  last_step = update->ntimestep;
+  last_step = step;
 }
 
 /* ----------------------------------------------------------------------
@@ -275,7 +275,8 @@ void FixSPHRefine::count_anew()
 
 void FixSPHRefine::post_integrate()
 {
-  count_anew();
+  count_anew(update->ntimestep - 1);
+  last_step = update->ntimestep;
   if (update->ntimestep % nevery != 0 && !postponed) return;
 
   // ghosts are gone if another fix of this style has just changed particles
@@ -465,6 +466,7 @@ int FixSPHRefine::maxsize_restart()
 
 void FixSPHRefine::write_restart(FILE *fp)
 {
+  count_anew(update->ntimestep);    // before the particles are written
   double state[NSTATE];
   state[0] = -FORMAT;
   ledger->total(state + LEDGER);

@@ -81,7 +81,7 @@ class FixSPHRefine : public Fix {
   void check_overlap();
   bool is_fluid(int i) const;
   bool may_change(int i) const;
-  void count_anew();
+  void count_anew(bigint step);
   double list_volume() const;
   void set_items();
   bool wanted(bigint &nfluid);

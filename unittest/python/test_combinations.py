@@ -134,6 +134,7 @@ NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"
 # pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones
 NO_BALANCE = {("walls", "open"): "", ("open", "overlay"): "not in the ledger"}
 PAIRS = [(name,) for name in FEATURES] + [pair for pair in itertools.combinations(FEATURES, 2) if pair not in NEVER]
+PAIRS += [("split", "reset_ahead", "restart")]  # all three have to do with how long ago the last event of a particle was
 
 
 def refusal(names):
@@ -265,6 +266,10 @@ def write(folder, name, lines):
 # running them
 
 
+QUANTITIES = {"id": ("id",), "mass": ("mass",), "esph": ("c_E",), "x": ("x", "y"), "v": ("vx", "vy"), "spin": ("omegaz",),
+              "force": ("fx", "fy"), "torque": ("tqz",)}
+
+
 class Cases:
     """Results of inputs, of which many run in one process: one after the other, and in a new process after one that fails."""
 
@@ -295,17 +300,13 @@ class Cases:
 
     def state(self, key):
         """{quantity: array} at the end of the last run, and forces of the same particles once more."""
-        frames = [read_dump(self.lammps.path(f"{self.names[key]}.{when}"))[0] for when in ("after", "again")]
-        one = frames[0].columns
-        fluid = one["id"] >= FIRST
-        result = {"id": one["id"][fluid], "mass": one["mass"][fluid], "esph": one["c_E"][fluid]}
-        for quantity, names in {"x": ("x", "y"), "v": ("vx", "vy"), "spin": ("omegaz",)}.items():
-            if names[0] in one:
-                result[quantity] = np.column_stack([one[part][fluid] for part in names])
-        for frame, when in zip(frames, ("", " once more")):
-            for quantity, names in {"force": ("fx", "fy"), "torque": ("tqz",)}.items():
-                if names[0] in one:
-                    result[quantity + when] = np.column_stack([frame[part][fluid] for part in names])
+        result = {}
+        for when, also in ("after", ""), ("again", " once more"):
+            columns = read_dump(self.lammps.path(f"{self.names[key]}.{when}"))[0].columns
+            fluid = columns["id"] >= FIRST
+            for quantity, names in QUANTITIES.items():
+                if names[0] in columns and (when == "after" or quantity in ("id", "force", "torque")):
+                    result[quantity + also] = np.column_stack([columns[name][fluid] for name in names])
         return result
 
 
@@ -321,7 +322,7 @@ def row(names):
 
 def difference(one, other):
     """Largest difference of each quantity, relative to its largest value."""
-    if len(one["id"]) != len(other["id"]) or (one["id"] != other["id"]).any():
+    if any(not np.array_equal(one[name], other[name]) for name in ("id", "id once more")):
         return {"particles": np.inf}
     result = {}
     for name in one.keys() & other.keys():
