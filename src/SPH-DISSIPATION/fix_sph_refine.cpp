@@ -59,7 +59,7 @@ enum { LEDGER = 1, HIGHEST = LEDGER + RefineLedger::NVALUE, NSTATE };
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), target(nullptr), ledger(nullptr), event(nullptr), pair(nullptr),
     list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr),
-    not_fluid(0), event_step(-1), postponed(false), totals_known(false),
+    not_fluid(0), last_step(-1), event_step(-1), postponed(false), totals_known(false),
     totals(new double[RefineLedger::NVALUE])
 {
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
@@ -245,7 +245,7 @@ bool FixSPHRefine::is_fluid(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   a last event in the future is of a time before the steps were counted anew
+   a last event in the future is of a time before the steps were counted anew, and this fix was defined
 ------------------------------------------------------------------------- */
 
 bool FixSPHRefine::may_change(int i) const
@@ -255,12 +255,28 @@ bool FixSPHRefine::may_change(int i) const
 }
 
 /* ----------------------------------------------------------------------
+   the last events are as many steps ago as before, also after reset_timestep
+------------------------------------------------------------------------- */
+
+void FixSPHRefine::count_anew(bigint step)
+{
+  const bigint change = step - last_step;
+  if (last_step >= 0 && change != 0) {
+    for (int i = 0; i < atom->nlocal; i++) past[i][STEP] += static_cast<double>(change);
+    event_step += change;
+  }
+  last_step = step;
+}
+
+/* ----------------------------------------------------------------------
    after the particles have moved, before it is decided whether neighbor lists are built anew: lists
    and ghosts of the last step still fit the particles
 ------------------------------------------------------------------------- */
 
 void FixSPHRefine::post_integrate()
 {
+  count_anew(update->ntimestep - 1);
+  last_step = update->ntimestep;
   if (update->ntimestep % nevery != 0 && !postponed) return;
 
   // ghosts are gone if another fix of this style has just changed particles
@@ -450,6 +466,7 @@ int FixSPHRefine::maxsize_restart()
 
 void FixSPHRefine::write_restart(FILE *fp)
 {
+  count_anew(update->ntimestep);    // before the particles are written
   double state[NSTATE];
   state[0] = -FORMAT;
   ledger->total(state + LEDGER);

@@ -70,6 +70,7 @@ class FixSPHRefine : public Fix {
   double **past;                      // last event of each particle
   std::vector<double> waiting;        // steps, by type
   int not_fluid;                      // bits of the groups of walls and open zones
+  bigint last_step;                   // that this fix has seen
   bigint event_step;                  // of the last events
   bool postponed;                     // the last check
   bool totals_known;
@@ -80,6 +81,7 @@ class FixSPHRefine : public Fix {
   void check_overlap();
   bool is_fluid(int i) const;
   bool may_change(int i) const;
+  void count_anew(bigint step);
   double list_volume() const;
   void set_items();
   bool wanted(bigint &nfluid);

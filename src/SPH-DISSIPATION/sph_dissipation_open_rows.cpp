@@ -19,7 +19,7 @@
 #include "domain.h"
 #include "error.h"
 #include "math_extra.h"
-#include "modify.h"
+#include "sph_dissipation_attributes.h"
 #include "sph_dissipation_gather.h"
 #include "sph_dissipation_open_band.h"
 #include "sph_dissipation_open_plane.h"
@@ -268,7 +268,7 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
     atom->nlocal++;
     atom->tag[j] = tags[k];
     for (int d = 0; d < 3; d++) atom->x[j][d] -= step(i) * plane.normal[d];
-    modify->create_attribute(j);
+    create_attributes(modify, j);
     created.push_back(j);
   }
 

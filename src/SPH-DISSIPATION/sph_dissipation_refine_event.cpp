@@ -19,8 +19,8 @@
 #include "error.h"
 #include "fix.h"
 #include "force.h"
-#include "modify.h"
 #include "neigh_list.h"
+#include "sph_dissipation_attributes.h"
 #include "sph_dissipation_gather.h"
 #include "sph_dissipation_refine_ledger.h"
 
@@ -373,7 +373,7 @@ void RefineEvent::create(const std::vector<tagint> &first, const Changed &change
         atom->avec->copy(i, j, 0);
         atom->nlocal++;
         atom->tag[j] = first[k] + m - 1;
-        modify->create_attribute(j);
+        create_attributes(modify, j);
       }
       set_lump(j, daughters[m]);
       ledger.count(1.0, daughters[m]);

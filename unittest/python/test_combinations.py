@@ -1,0 +1,423 @@
+"""Every two features together: each gives what the plain way of getting the same gives, or the two are refused with a reason.
+
+A feature is one row of FEATURES: the lines that it adds to an input, the plain way of getting the same, and with which
+features it is refused.  The pairs follow by iteration.  The input of a pair, on two ranks, is compared with that of the
+plain ways of both, on one rank with newton off, another skin, and no vector instructions.  In both, the momentum of the
+fluid must balance.
+"""
+
+import itertools
+import re
+from dataclasses import dataclass, field, fields, replace
+
+import numpy as np
+import pytest
+
+from helpers import Lammps, Result, read_dump
+
+BOUND = 1e-12  # of the largest value
+SHORT = 5e-4  # a time step for which terms of second order are below NEARLY, those of first order above
+NEARLY = 1e-5
+MOMENTUM = 100.0  # of the fluid, about
+FIRST = 11  # lower IDs are those of particles that are no fluid
+
+
+# ---------------------------------------------------------------------------------------------
+# the features
+
+
+@dataclass(frozen=True)
+class Lines:
+    """What is in an input.  In a sum tuples are joined; any other value is that of the one that sets it."""
+
+    particles: tuple = ()  # besides the fluid: "zones", "walls", "alien"
+    style: str = "sph/bulk"
+    types: int = 1  # of the fluid
+    pair: tuple = ()  # keywords of the pair style
+    mu: float = 0.5
+    kappa: float = 2.0
+    energy: float = 0.0  # internal, of each particle
+    spin: str = ""  # coefficients of a fluid with spin
+    others: tuple = ()  # pair_coeff of pair style soft, in a hybrid style
+    hybrid: str = "{sph} soft 1.5"
+    integrator: tuple = ()  # keywords of the fix that integrates the fluid
+    early: tuple = ()  # after it, before the other fixes
+    fixes: tuple = ()
+    late: tuple = ()  # after them
+    between: tuple = ()  # the two runs of five steps
+    second: str = "run 5"
+    end: str = "run 0"  # gives the forces once more
+    force: tuple = ()  # on the fluid, from outside: formulas, {k} is 1 for x, 2 for y
+    carried: tuple = ()  # momentum, likewise; {entered}, {left}, {pushed} number the values of fix sph/open
+    timestep: float = 0.01
+    newton: str = "on"
+    skin: float = 0.5
+
+    def __add__(self, other):
+        change = {}
+        for one in fields(Lines):
+            mine, new = getattr(self, one.name), getattr(other, one.name)
+            if isinstance(mine, tuple):
+                change[one.name] = mine + new
+            elif new != one.default:
+                assert mine in (one.default, new), f"two features set {one.name}"
+                change[one.name] = new
+        return replace(self, **change)
+
+
+@dataclass(frozen=True)
+class Feature:
+    adds: Lines
+    plain: Lines = None  # another way of getting the same; None: there is none
+    nearly: Lines = None  # what it comes near to as the time step becomes short
+    refused: dict = field(default_factory=dict)  # other features, with words of the message
+    near: float = NEARLY
+    nearly_with: dict = field(default_factory=dict)  # other features, and what holds with them
+    not_plain_with: tuple = ()  # other features, which do not allow the plain way
+    effect: bool = True  # particles move differently than without it
+
+
+def zones(normal, outlet):
+    return Lines(particles=("zones",), fixes=("variable u atom 0.5+0.02*y",
+                                              f"fix in inlet sph/open fluid 0 0 0 {normal} 0 0 8 velocity v_u 0 0",
+                                              f"fix out outlet sph/open fluid 16 0 0 -{normal} 0 0 8 {outlet}"),
+                 carried=tuple(f"f_{name}[{{entered}}]-f_{name}[{{left}}]+f_{name}[{{pushed}}]" for name in ("in", "out")))
+
+
+def walls(speed):
+    return Lines(particles=("walls",), fixes=("variable U equal 0.3", f"fix low low sph/wall velocity {speed} 0 0 move no",
+                                              "fix high high sph/wall"), force=("-f_low[{k}]", "-f_high[{k}]"))
+
+
+def body(fix):
+    return Lines(fixes=("variable mx atom 4.0*mass", "variable my atom -3.0*mass", "variable driven atom mass*gmask(driven)",
+                        "compute driven fluid reduce sum v_driven", f"fix G driven {fix}"),
+                 force=("c_driven*(4.0*(2-{k})-3.0*({k}-1))",))
+
+
+TARGET = "1.0-0.75*(x>3)*(x<6)+1.6*(x>10)*(x<13)"
+
+FEATURES = {
+    "rkl2": Feature(Lines(integrator=("viscous rkl2",)), nearly=Lines(), refused={"noise": "temp"}),
+    "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
+    "gravity": Feature(body("gravity 5.0 vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
+    "walls": Feature(walls("v_U"), walls("0.3")),
+    "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), not_plain_with=("gas",), refused={"noise": "temp", "rerun": "rerun"}),
+    "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom {TARGET}", "fix R fluid sph/refine 5 volume v_t")),
+                     Lines(pair=("volume mass",), fixes=(f"variable t atom sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
+                     refused={"rerun": "rerun"}),
+    "noise": Feature(Lines(pair=("temp 0.01 4711",))),
+    "hybrid": Feature(Lines(particles=("alien",), others=("1 1 soft 2.0",), fixes=("fix alien alien nve",)), Lines(), effect=False),
+    "overlay": Feature(Lines(others=("{own} {own} soft 2.0",)), Lines(others=("{own} {own} soft 2.0",), hybrid="soft 1.5 {sph}")),
+    "adapt": Feature(Lines(fixes=("variable mu equal 0.8", "fix A all adapt 1 pair {style} mu {own} {own} v_mu reset yes")), Lines(mu=0.8)),
+    "timestep": Feature(Lines(early=("timestep 0.003", "run 0"), late=("timestep {timestep}",),
+                              between=("timestep 0.003", "run 0", "timestep {timestep}")), Lines(), effect=False),
+    "short_runs": Feature(Lines(second="run 1\n" * 5), nearly=Lines(), near=1e-7, nearly_with={"noise": 1e-4, "warm": 1e-4}, effect=False),
+    "pre_no": Feature(Lines(second="run 2\nrun 3 pre no"), Lines(), effect=False),
+    "reset": Feature(Lines(between=("reset_timestep 0",)), Lines(), effect=False),
+    "reset_ahead": Feature(Lines(between=("reset_timestep 1000",)), Lines(), effect=False),
+    "restart": Feature(Lines(between=("write_restart {name}.restart", "clear", "read_restart {name}.restart", "{again}")), Lines(),
+                       effect=False),
+    "rerun": Feature(Lines(end="write_dump all custom {name}.last id type x y vx vy modify format float %.17g\n"
+                               "displace_atoms all move 0.2 0.1 0\nvelocity all set 3.0 4.0 NULL\nrerun {name}.last dump x y vx vy"),
+                     Lines(), effect=False),
+    "types": Feature(Lines(types=2), Lines(), effect=False),
+    "limit": Feature(Lines(pair=("limit yes",), kappa=0.9), Lines(kappa=0.9), not_plain_with=("noise",)),
+    "shift": Feature(Lines(integrator=("shift 0.5",)), refused={"noise": "shift"}),
+    "spin": Feature(Lines(style="sph/micropolar", spin="0.2 0.05 -0.05")),
+    "gas": Feature(Lines(pair=("eos ideal",), energy=2.5), refused={"noise": "ideal"}),
+    "warm": Feature(Lines(pair=("temp energy 100 4711",), energy=2.5),
+                    refused={"walls": "wall", "open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "gas": "ideal"}),
+    "idle_spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
+}
+NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin")}  # two values of the same
+# pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones
+NO_BALANCE = {("walls", "open"): "", ("open", "overlay"): "not in the ledger"}
+PAIRS = [(name,) for name in FEATURES] + [pair for pair in itertools.combinations(FEATURES, 2) if pair not in NEVER]
+PAIRS += [("split", "reset_ahead", "restart")]  # all three have to do with how long ago the last event of a particle was
+
+
+def refusal(names):
+    for one, other in itertools.permutations(names, 2):
+        if other in FEATURES[one].refused:
+            return FEATURES[one].refused[other]
+    return None
+
+
+# ---------------------------------------------------------------------------------------------
+# from features to inputs
+
+
+def combined(names):
+    return sum((FEATURES[name].adds for name in names), Lines())
+
+
+def plain(names, which=None):
+    """The plain ways of all features, or of those in `which`."""
+    result = Lines()
+    for name in names:
+        one = FEATURES[name]
+        other_way = one.plain is not None and name in (which or names) and not set(one.not_plain_with) & set(names)
+        result += one.plain if other_way else one.adds
+    return result
+
+
+def near(names, which, plain=False):
+    """Short steps, with a feature or without."""
+    return sum((FEATURES[name].nearly if plain and name == which else FEATURES[name].adds for name in names), Lines(timestep=SHORT))
+
+
+def other_way(lines):
+    """The same on another way through the code."""
+    return lines + Lines(newton="off", skin=0.4, pair=("simd none",))
+
+
+def particles(lines):
+    """Text of a data file, with the IDs of each group.  Rows of the zones are straight."""
+    random = np.random.default_rng(7)
+    has = lines.particles
+    columns = np.arange(-8, 24) if "zones" in has else np.arange(16)
+    rows = np.arange(-3, 13) if "walls" in has else np.arange(10)
+    x, y = (one.ravel() for one in np.meshgrid(columns + 0.97, rows + 0.5, indexing="ij"))
+    part = np.where(y < 0, "low", np.where(y > 10, "high", np.where(x < 0, "inlet", np.where(x > 16, "outlet", "fluid"))))
+    order = np.argsort(part, kind="stable")
+    x, y, part = x[order], y[order], part[order]
+    wet = part == "fluid"
+    number = wet.sum()
+    u = np.where((part == "inlet") | (part == "outlet"), 0.5, 0.0)
+    v = np.zeros(len(x))
+    driven = wet & (y < 5.0)
+    x[wet] += random.uniform(-0.02, 0.02, number)
+    y[wet] += random.uniform(-0.1, 0.1, number)
+    u[wet], v[wet] = random.normal(0.5, 0.1, number), random.normal(0.0, 0.1, number)
+    ids = np.arange(len(x)) + FIRST
+    types = np.where(x < 8.0, 1, lines.types)
+    groups = {name: ids[part == name] for name in np.unique(part)}
+    groups["driven"] = ids[driven]
+    if "alien" in has:
+        groups["alien"] = np.arange(4) + 1
+        ids, types = np.append(groups["alien"], ids), np.append(np.ones(4, dtype=int), types + 1)
+        x, y, u, v = (np.append(np.array(new), old) for new, old in (([4.1, 5.2, 4.5, 5.5], x), ([5.0, 5.1, 6.0, 6.2], y),
+                                                                    ([0.5, 0.0, -0.5, 0.2], u), ([0.0, 0.4, 0.0, -0.4], v)))
+    spinning = lines.style != "sph/bulk"
+    own = f"1.0 0.16 {lines.energy}" if spinning else f"1.0 {lines.energy}"
+    spin = [f" 0 0 {w!r}" if spinning else "" for w in np.sin(1.7 * ids)]
+    xlo, xhi = (-10.0, 26.0) if "zones" in has else (0.0, 16.0)
+    ylo, yhi = (-4.0, 14.0) if "walls" in has else (0.0, 10.0)
+    text = (f"\n\n{len(x)} atoms\n{types.max()} atom types\n\n{xlo} {xhi} xlo xhi\n{ylo} {yhi} ylo yhi\n-0.5 0.5 zlo zhi\n\n"
+            f"Atoms # {lines.style}\n\n" + "".join(f"{i} {t} {own} {a!r} {b!r} 0.0\n" for i, t, a, b in zip(ids, types, x.tolist(), y.tolist()))
+            + "\nVelocities\n\n" + "".join(f"{i} {a!r} {b!r} 0.0{w}\n" for i, a, b, w in zip(ids, u.tolist(), v.tolist(), spin)))
+    return text, groups
+
+
+def coefficients(lines, first, own):
+    """The fluid's are those of types first, first + 1, ..., in `own`."""
+    style = f"{lines.style} " if lines.others else ""
+    types = range(first, first + lines.types) if lines.types > 1 else [own]
+    result = [f"{one} {one} {style}1.0 10.0 {lines.mu} {lines.kappa} {lines.spin} 3.0" for one in types]
+    if lines.others:
+        result += [f"{one} {other} {style}mu mean" for one, other in itertools.combinations(types, 2)]
+        result += ["1 2* none"] * (first > 1) + [one.format(own=own) for one in lines.others]
+    return "".join(f"pair_coeff {one}\n" for one in result)
+
+
+def account(lines):
+    """Variables px, py: momentum of the fluid; fx, fy: force on it from outside; cx, cy: momentum that came with particles."""
+    text = ""
+    for k, d in ((1, "x"), (2, "y")):
+        numbers = dict(k=k, entered=k + 2, left=k + 12, pushed=k + 20)
+        terms = {"p": [f"mass(fluid)*vcm(fluid,{d})"], "f": ["0", *lines.force], "c": ["0", *lines.carried]}
+        text += "".join(f"variable {one}{d} equal {'+'.join(sums).format(**numbers)}\n" for one, sums in terms.items())
+    return (text + "thermo 1\nthermo_style custom step dt v_px v_py v_fx v_fy v_cx v_cy\n"
+            "thermo_modify norm no format float %.17g\n")
+
+
+def write(folder, name, lines):
+    """The input of one case, and its data file; `name` is that of all its files."""
+    data, groups = particles(lines)
+    (folder / f"{name}.data").write_text(data)
+    first = 2 if "alien" in lines.particles else 1
+    own = "*" if first + lines.types == 2 else f"{first}*{first + lines.types - 1}"
+    words = dict(name=name, style=lines.style, own=own, timestep=lines.timestep)
+
+    def block(commands):
+        return "".join(one.format(**words) + "\n" for one in commands)
+
+    sph = f"{lines.style} {' '.join(lines.pair)}"
+    hybrid = "hybrid/overlay" if any("{own}" in one for one in lines.others) else "hybrid"
+    pair = f"pair_style {hybrid} {lines.hybrid.format(sph=sph)}\n" if lines.others else f"pair_style {sph}\n"
+    coeffs = coefficients(lines, first, own)
+    begin = (f"neighbor {lines.skin} bin\nneigh_modify every 5 delay 0 check no\n"
+             f"timestep {lines.timestep}\nfix FLUID fluid {lines.style} {' '.join(lines.integrator)}\n")
+    fixes = block(lines.fixes) + "compute E all property/atom esph\n" + account(lines)
+    words["again"] = (coeffs if lines.others else "") + begin + fixes  # what a restart file does not have
+    spin = "omegaz tqz" if lines.style != "sph/bulk" else ""
+    output = f"write_dump all custom {name}.{{}} id mass x y vx vy fx fy c_E {spin} modify sort id format float %.17g\n"
+    ends = "f" if "zones" in lines.particles else "p", "f" if "walls" in lines.particles else "p"
+    return (f"log {name}.log\nunits lj\ndimension 2\nboundary {' '.join(ends)} p\nnewton {lines.newton}\n"
+            f"atom_style {lines.style}\nread_data {name}.data\n"
+            + "".join(f"group {one} id {' '.join(map(str, ids))}\n" for one, ids in groups.items())
+            + pair + coeffs + begin + block(lines.early) + fixes + block(lines.late)
+            + "run 5\n" + block((*lines.between, lines.second)) + output.format("after")
+            + block((lines.end,)) + output.format("again") + "print COMPLETE\n")
+
+
+# ---------------------------------------------------------------------------------------------
+# running them
+
+
+QUANTITIES = {"id": ("id",), "mass": ("mass",), "esph": ("c_E",), "x": ("x", "y"), "v": ("vx", "vy"), "spin": ("omegaz",),
+              "force": ("fx", "fy"), "torque": ("tqz",)}
+
+
+class Cases:
+    """Results of inputs, of which many run in one process: one after the other, and in a new process after one that fails."""
+
+    def __init__(self, lammps):
+        self.lammps = lammps
+        self.results = {}
+        self.names = {}
+
+    def run(self, cases, ranks):
+        """cases: {key: Lines}."""
+        left = {key: lines for key, lines in cases.items() if key not in self.results}
+        names = {key: f"case{len(self.results) + k}" for k, key in enumerate(left)}
+        while left:
+            text = "clear\n".join(write(self.lammps.folder, names[key], lines) for key, lines in left.items())
+            try:
+                process = self.lammps(text, ranks=ranks, check=False)
+            except AssertionError as hangs:
+                process = Result(1, str(hangs), "")
+            for key in list(left):
+                log = self.lammps.path(f"{names[key]}.log")
+                text = log.read_text() if log.exists() else ""
+                complete = "\nCOMPLETE" in text
+                self.results[key] = Result(0 if complete else process.code or 1, "" if complete else process.output, text)
+                del left[key]
+                if not complete:
+                    break
+        self.names.update(names)
+
+    def state(self, key):
+        """{quantity: array} at the end of the last run, and forces of the same particles once more."""
+        result = {}
+        for when, also in ("after", ""), ("again", " once more"):
+            columns = read_dump(self.lammps.path(f"{self.names[key]}.{when}"))[0].columns
+            fluid = columns["id"] >= FIRST
+            for quantity, names in QUANTITIES.items():
+                if names[0] in columns and (when == "after" or quantity in ("id", "force", "torque")):
+                    result[quantity + also] = np.column_stack([columns[name][fluid] for name in names])
+        return result
+
+
+@pytest.fixture(scope="module")
+def cases(tmp_path_factory):
+    return Cases(Lammps(tmp_path_factory.mktemp("cases")))
+
+
+def row(names):
+    """The pairs of one feature run together."""
+    return [pair for pair in PAIRS if pair[0] == names[0] and len(pair) == len(names) and not refusal(pair)]
+
+
+def difference(one, other):
+    """Largest difference of each quantity, relative to its largest value."""
+    if any(not np.array_equal(one[name], other[name]) for name in ("id", "id once more")):
+        return {"particles": np.inf}
+    result = {}
+    for name in one.keys() & other.keys():
+        change = np.abs(one[name] - other[name])
+        if name == "x":
+            change = np.minimum(change, np.abs([16.0, 10.0] - change))  # across a periodic boundary
+        scale = 1.0 if name == "x" else max(np.abs(other[name]).max(), 1e-3)
+        result[name] = change.max() / scale if np.isfinite(change).all() else np.inf
+    return result
+
+
+def imbalance(result):
+    """Momentum of the fluid, less what was carried in and the impulse of the forces: the trapezoidal rule is exact."""
+    worst, expected = 0.0, {}
+    for table in result.thermo():
+        for d in "xy" if "v_px" in table else "":
+            own = table[f"v_p{d}"] - table[f"v_c{d}"]
+            force = table[f"v_f{d}"]
+            impulse = np.append(0.0, np.cumsum(0.5 * table["Dt"][1:] * (force[1:] + force[:-1])))
+            worst = max(worst, np.abs(own - impulse - expected.get(d, own[0])).max() / MOMENTUM)
+            expected[d] = own[-1]
+    return worst
+
+
+def end(result):
+    """How a run that failed has ended."""
+    signal = re.search(r"signal \d+ \(.*\)|hangs", result.output)
+    return result.error or (signal[0] if signal else f"status {result.code}") + ", the last output is\n" + result.log[-300:]
+
+
+def complaints(cases, key, other, bound, quantities=None):
+    found = [f"{' '.join(map(str, one))}: {end(cases.results[one])}" for one in (key, other) if cases.results[one].code]
+    if found:
+        return found
+    differences = difference(cases.state(key), cases.state(other))
+    return [f"{name} differs by {value:.1e}" for name, value in sorted(differences.items())
+            if not value < bound and name in (quantities or differences)]
+
+
+def explain(cases, names):
+    """Which single change makes a difference: another number of ranks, another way through the code, each plain way."""
+    if cases.results[names, "all"].code:
+        return ""
+    lines = combined(names)
+    single = {"one rank": lines, "another way through the code": other_way(lines),
+              **{f"the plain way of {name}": plain(names, (name,)) for name in names}}
+    text = ""
+    for change, other in single.items():
+        cases.run({(names, change): other}, 1)
+        text += f"\n  {change}: " + ("; ".join(complaints(cases, (names, "all"), (names, change), BOUND)) or "the same")
+    return text
+
+
+@pytest.mark.parametrize("names", PAIRS, ids="-".join)
+def test_pair(cases, names):
+    words = refusal(names)
+    if words:
+        cases.run({(names, "all"): combined(names)}, 1)
+        result = cases.results[names, "all"]
+        assert result.code, "is not refused"
+        assert words in result.error, f"is not refused with a reason: {end(result)}"
+        return
+
+    together = row(names)
+    cases.run({(pair, "all"): combined(pair) for pair in together}, 2)
+    cases.run({(pair, "plain"): other_way(plain(pair)) for pair in together}, 1)
+    found = complaints(cases, (names, "all"), (names, "plain"), BOUND)
+    assert not found, "\n".join(found) + explain(cases, names)
+    for way in ("all", "plain"):
+        result = cases.results[names, way]
+        if names in NO_BALANCE:
+            assert NO_BALANCE[names] in result.log
+        else:
+            error = imbalance(result)
+            assert error < BOUND, f"the momentum is not that of the account, {way}: {error:.1e}"
+
+    # what is accepted has an effect
+    if len(names) == 2:
+        cases.run({((name,), "all"): combined((name,)) for name in FEATURES}, 2)
+    for name in names:
+        rest = tuple(other for other in names if other != name)
+        if rest and FEATURES[name].effect and not refusal(rest):
+            assert complaints(cases, (names, "all"), (rest, "all"), 1e-7), f"{name} has no effect"
+
+
+NEAR = [(name, pair) for name in FEATURES if FEATURES[name].nearly for pair in PAIRS if name in pair and not refusal(pair)]
+
+
+@pytest.mark.parametrize("name, names", NEAR, ids=lambda value: value if isinstance(value, str) else "-".join(value))
+def test_short_steps(cases, name, names):
+    """What is another integration of the same equations agrees to the second order of the time step."""
+    together = [pair for one, pair in NEAR if one == name]
+    cases.run({(pair, "short", name): near(pair, name) for pair in together}, 1)
+    cases.run({(pair, "short", "plain"): near(pair, name, True) for pair in together}, 1)
+    one = FEATURES[name]
+    bound = max(one.nearly_with.get(other, one.near) for other in names)
+    found = complaints(cases, (names, "short", name), (names, "short", "plain"), bound, ("particles", "x", "v", "spin", "force", "torque"))
+    assert not found, "\n".join(found)
