@@ -38,16 +38,18 @@ static constexpr double STRAIGHT = 0.01;       // of a row, sideways, over the s
 /* ---------------------------------------------------------------------- */
 
 OpenRows::OpenRows(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane, int groupbit) :
-    Pointers(lmp), owner(owner), plane(plane), groupbit(groupbit), given_spacing(0.0), spacing(0.0),
-    half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true), unknown_sides(true)
+    Pointers(lmp), owner(owner), plane(plane), groupbit(groupbit), fluidbit(0), given_spacing(0.0),
+    spacing(0.0), half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true),
+    unknown_sides(true)
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::init(double support_in)
+void OpenRows::init(double support_in, int fluid_bit)
 {
   support = support_in;
+  fluidbit = fluid_bit;
   unknown_end = true;
   interrupt_ids();
   unknown_sides = (spacing == 0.0 || half_width == 0.0);
@@ -196,7 +198,11 @@ void OpenRows::renew(const Refresh &refresh)
                owner, moved_all, plane.length);
   const double depth = unknown_end ? plane.length : moved_all + 2.5 * largest;
   const OpenBand band(lmp, plane, groupbit, end(), depth - plane.length);
-  if (unknown_sides) check_alone(band);
+  if (unknown_sides) {
+    check_alone(band);
+    check_filled(band);
+    check_complete(band, largest);
+  }
   unknown_end = unknown_sides = false;
 
   std::vector<int> last = last_ones(band);
@@ -306,6 +312,60 @@ void OpenRows::check_alone(const OpenBand &band) const
                "{}: {} particles of the zone overlap with others, such as those of a wall, which "
                "must be beside it",
                owner, all);
+}
+
+/* ----------------------------------------------------------------------
+   On a lattice, from the plane to the end of the zone, a particle follows the other: those that lack
+   at the end of rows that move into the fluid are created.  Where there is no lattice, as in a zone
+   that the fluid has filled, nothing can be said of gaps.
+------------------------------------------------------------------------- */
+
+void OpenRows::check_filled(const OpenBand &band) const
+{
+  constexpr double GAP = 1.5, PLAY = 0.5;    // distances of particles in a row
+  constexpr double MOST = 0.9;               // of the particles are in rows, on a lattice
+  enum { NUMBER, IN_ROWS, GAPS, NSUM };
+  bigint sum[NSUM] = {0, 0, 0}, all[NSUM];
+  const double straight = STRAIGHT * 2.0 * half_width;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double *const x = atom->x[i];
+    const double height = plane.height(x), one = step(i);
+    const double ahead = band.next(x, straight, false), behind = band.next(x, straight, true);
+    const bool grows = std::isinf(behind) && MathExtra::dot3(atom->v[i], plane.normal) > 0.0;
+    sum[NUMBER]++;
+    if (std::min(ahead, behind) < GAP * one) sum[IN_ROWS]++;
+    if (std::isinf(ahead) && height < -(1.0 + PLAY) * one) sum[GAPS]++;
+    if (behind > GAP * one && height - (1.0 + PLAY) * one > -plane.length && !grows) sum[GAPS]++;
+  }
+  MPI_Allreduce(sum, all, NSUM, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all[GAPS] && static_cast<double>(all[IN_ROWS]) > MOST * static_cast<double>(all[NUMBER]))
+    error->all(FLERR,
+               "{}: the rows of the zone have {} gaps; it must be filled from the plane to its end",
+               owner, all[GAPS]);
+}
+
+/* ----------------------------------------------------------------------
+   what is at the plane has a row behind it, or a wall
+------------------------------------------------------------------------- */
+
+void OpenRows::check_complete(const OpenBand &band, double largest) const
+{
+  constexpr double APART = 1.5;    // of half the width of a row, which is more than is between rows
+  bigint count = 0, all;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const x = atom->x[i];
+    const double height = plane.height(x);
+    if (!(atom->mask[i] & fluidbit) || height < 0.0 || height > largest || plane.beside(x))
+      continue;
+    if (!band.has_any_behind(x, APART * half_width)) count++;
+  }
+  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all && comm->me == 0)
+    error->warning(FLERR,
+                   "{}: {} particles of the fluid at the plane have neither the zone nor a wall "
+                   "behind them: rows of the zone are missing",
+                   owner, all);
 }
 
 /* ---------------------------------------------------------------------- */
