@@ -445,12 +445,12 @@ void FixSPHOpen::set_state(Engine &engine)
 
 void FixSPHOpen::check_density() const
 {
-  double ratio = 0.0;
+  std::vector<double> ratios;
   for (const int i : members)
     if ((atom->mask[i] & groupbit) &&
         plane->height(atom->x[i]) > pair->support_radius() - plane->length)
-      ratio = std::max(ratio, atom->rho[i] / condition->prescribed_density(i));
-  check_open_density(lmp, this, ratio);
+      ratios.push_back(atom->rho[i] / condition->prescribed_density(i));
+  check_open_density(lmp, this, ratios);
 }
 
 /* ----------------------------------------------------------------------

@@ -291,53 +291,68 @@ void SPHDissipation::check_open_masses(LAMMPS *lmp, const Fix *fix, int fluid_bi
 }
 
 /* ----------------------------------------------------------------------
-   a jet, which is thin at its sides, has the density at its center
+   a jet is thin at its sides, not at its center
 ------------------------------------------------------------------------- */
 
-void SPHDissipation::check_open_density(LAMMPS *lmp, const Fix *fix, double ratio)
+void SPHDissipation::check_open_density(LAMMPS *lmp, const Fix *fix,
+                                        const std::vector<double> &ratios)
 {
   constexpr double THIN = 0.6, DENSE = 1.1;
-  double all;
-  MPI_Allreduce(&ratio, &all, 1, MPI_DOUBLE, MPI_MAX, lmp->world);
-  if ((all < THIN || all > DENSE) && lmp->comm->me == 0)
+  double mine[2] = {0.0, 0.0}, sum[2], largest = 0.0, all;
+  for (const double ratio : ratios) {
+    mine[0] += 1.0;
+    mine[1] += ratio;
+    largest = std::max(largest, ratio);
+  }
+  MPI_Allreduce(mine, sum, 2, MPI_DOUBLE, MPI_SUM, lmp->world);
+  MPI_Allreduce(&largest, &all, 1, MPI_DOUBLE, MPI_MAX, lmp->world);
+  const double mean = sum[1] / std::max(sum[0], 1.0);
+  if ((all < THIN || mean > DENSE) && lmp->comm->me == 0)
     lmp->error->warning(FLERR,
                         "Fix {} {}: the masses of the zone, where its particles are, make {:.3g} "
                         "times the density that is prescribed: a mass should be that density times "
                         "the volume",
-                        fix->style, fix->id, all);
+                        fix->style, fix->id, mean);
 }
 
 /* ----------------------------------------------------------------------
-   Heights at which there is fluid, in front of each node of the plane where particles enter: one bit for
-   each of so many parts of the depth, and one for what enters.  A gas may be as thin as it wants.
+   Heights at which there is fluid in front of a node of the plane: one bit for each of so many parts of
+   the depth.  Four bits for what enters on each side of the node: at the side of a jet, which may
+   contract, and at a wall there is none.  A gas may be as thin as it wants.
 ------------------------------------------------------------------------- */
 
 bool SPHDissipation::warn_of_gap(LAMMPS *lmp, const Fix *fix, const OpenPlane &plane,
                                  const PairSPHBulk *pair, int fluid_bit, double radius,
                                  double spacing)
 {
-  constexpr int PARTS = 62;
+  constexpr int PARTS = 58;
   constexpr double GAP = 1.75;    // sizes of a particle; layers of lattices are one apart
   if (pair->fluid().choice.eos == Eos::IDEAL) return false;
   const Atom *const atom = lmp->atom;
+  const int sides = 2 * (lmp->domain->dimension - 1);
   const double depth = 2.0 * pair->support_radius();
   const double part = depth / PARTS;
-  const bigint one = 1, enters = one << PARTS;
+  const bigint one = 1;
+  const bigint enters = ((one << sides) - 1) << PARTS;
   std::vector<bigint> mine(plane.nnodes(), 0), all(plane.nnodes());
   double size = 0.0, largest;
   for (int i = 0; i < atom->nlocal; i++) {
     const double *const x = atom->x[i];
     const double height = plane.height(x);
-    bigint bit = 0;
+    if (height < -spacing || height >= depth) continue;
     if (atom->mask[i] & fix->groupbit) {
-      if (height > -spacing && MathExtra::dot3(atom->v[i], plane.normal) > 0.0) bit = enters;
-    } else if ((atom->mask[i] & fluid_bit) && height >= 0.0 && height < depth && !plane.beside(x))
-      bit = one << static_cast<int>(height / part);
-    if (!bit) continue;
+      if (!(MathExtra::dot3(atom->v[i], plane.normal) > 0.0)) continue;
+      plane.near(x, radius, [&](int node, const double *l) {
+        for (int k = 0; k < sides; k++)
+          if ((k % 2 ? -l[k / 2] : l[k / 2]) > 0.5 * radius) mine[node] |= one << (PARTS + k);
+      });
+    } else if ((atom->mask[i] & fluid_bit) && height >= 0.0 && !plane.beside(x))
+      plane.near(x, radius, [&](int node, const double *) {
+        mine[node] |= one << static_cast<int>(height / part);
+      });
+    else
+      continue;
     size = std::max(size, atom->rmass[i] / pair->reference_density(atom->type[i]));
-    plane.near(x, radius, [&](int node, const double *) {
-      mine[node] |= bit;
-    });
   }
   MPI_Allreduce(mine.data(), all.data(), plane.nnodes(), MPI_LMP_BIGINT, MPI_BOR, lmp->world);
   MPI_Allreduce(&size, &largest, 1, MPI_DOUBLE, MPI_MAX, lmp->world);
@@ -345,8 +360,8 @@ bool SPHDissipation::warn_of_gap(LAMMPS *lmp, const Fix *fix, const OpenPlane &p
 
   double widest = 0.0;
   for (const bigint bits : all) {
-    if (!(bits & enters)) continue;
-    int last = 0;    // part behind the fluid that is nearer
+    if ((bits & enters) != enters) continue;
+    int last = 0;    // the first part behind the fluid so far
     for (int k = 0; k < PARTS; k++) {
       if (!(bits & (one << k))) continue;
       widest = std::max(widest, (k - last) * part);

@@ -61,10 +61,10 @@ namespace SPHDissipation {
 
   void check_open_masses(LAMMPS *, const Fix *, int fluid_bit);
 
-  // a warning if the sums of the kernel give the zone other densities than are prescribed; largest
-  // ratio of the two on this processor
+  // a warning if the sums of the kernel give the zone other densities than are prescribed; ratios of
+  // the two of particles of this processor
 
-  void check_open_density(LAMMPS *, const Fix *, double ratio);
+  void check_open_density(LAMMPS *, const Fix *, const std::vector<double> &ratios);
 
   // A warning if there is a gap between what enters and the fluid in front of it, up to two support
   // radii from the plane, as wide as particles of this size never leave it; radius: of fluid that is

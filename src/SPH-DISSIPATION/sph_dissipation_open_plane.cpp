@@ -44,8 +44,7 @@ void OpenPlane::set(char **arg)
   length = utils::numeric(FLERR, arg[6], false, lmp);
   double largest = 0.0;
   for (const double component : normal) largest = std::max(largest, fabs(component));
-  if (!(largest > 0.0) || !std::isfinite(largest))
-    error->all(FLERR, "{}: the normal of the plane must not be zero or infinite", owner);
+  if (!(largest > 0.0)) error->all(FLERR, "{}: the normal of the plane must not be zero", owner);
   if (domain->dimension == 2 && normal[2] != 0.0)
     error->all(FLERR, "{}: the normal of the plane must lie in the xy plane in 2d", owner);
   if (!(length > 0.0)) error->all(FLERR, "{}: length must be > 0, not {}", owner, arg[6]);

@@ -322,8 +322,8 @@ void OpenRows::check_alone(const OpenBand &band) const
 
 void OpenRows::check_filled(const OpenBand &band) const
 {
-  constexpr double GAP = 1.5, PLAY = 0.5;    // distances of particles in a row
-  constexpr double MOST = 0.9;               // of the particles are in rows, on a lattice
+  constexpr double GAP = 1.5, FIRST = 1.2, LAST = 1.5;    // distances of particles in a row
+  constexpr double MOST = 0.9;    // of the particles are in rows, on a lattice
   enum { NUMBER, IN_ROWS, GAPS, NSUM };
   bigint sum[NSUM] = {0, 0, 0}, all[NSUM];
   const double straight = STRAIGHT * 2.0 * half_width;
@@ -335,8 +335,8 @@ void OpenRows::check_filled(const OpenBand &band) const
     const bool grows = std::isinf(behind) && MathExtra::dot3(atom->v[i], plane.normal) > 0.0;
     sum[NUMBER]++;
     if (std::min(ahead, behind) < GAP * one) sum[IN_ROWS]++;
-    if (std::isinf(ahead) && height < -(1.0 + PLAY) * one) sum[GAPS]++;
-    if (behind > GAP * one && height - (1.0 + PLAY) * one > -plane.length && !grows) sum[GAPS]++;
+    if (std::isinf(ahead) && height < -FIRST * one) sum[GAPS]++;
+    if (behind > GAP * one && height - LAST * one > -plane.length && !grows) sum[GAPS]++;
   }
   MPI_Allreduce(sum, all, NSUM, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all[GAPS] && static_cast<double>(all[IN_ROWS]) > MOST * static_cast<double>(all[NUMBER]))
