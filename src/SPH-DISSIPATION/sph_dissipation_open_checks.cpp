@@ -326,7 +326,7 @@ bool SPHDissipation::warn_of_gap(LAMMPS *lmp, const Fix *fix, const OpenPlane &p
                                  double spacing)
 {
   constexpr int PARTS = 58;
-  constexpr double GAP = 1.75;    // sizes of a particle; layers of lattices are one apart
+  constexpr double GAP = 2.0;    // sizes of a particle; layers of lattices are one apart
   if (pair->fluid().choice.eos == Eos::IDEAL) return false;
   const Atom *const atom = lmp->atom;
   const int sides = 2 * (lmp->domain->dimension - 1);

@@ -200,8 +200,7 @@ void OpenRows::renew(const Refresh &refresh)
   const OpenBand band(lmp, plane, groupbit, end(), depth - plane.length);
   if (unknown_sides) {
     check_alone(band);
-    check_filled(band);
-    check_complete(band, largest);
+    check_lattice(band, largest);
   }
   unknown_end = unknown_sides = false;
 
@@ -316,56 +315,45 @@ void OpenRows::check_alone(const OpenBand &band) const
 
 /* ----------------------------------------------------------------------
    On a lattice, from the plane to the end of the zone, a particle follows the other: those that lack
-   at the end of rows that move into the fluid are created.  Where there is no lattice, as in a zone
-   that the fluid has filled, nothing can be said of gaps.
+   at the end of rows that move into the fluid are created.  What is at the plane has a row behind it,
+   or a wall.  Where there is no lattice, as in a zone that the fluid has filled, there are no rows.
 ------------------------------------------------------------------------- */
 
-void OpenRows::check_filled(const OpenBand &band) const
+void OpenRows::check_lattice(const OpenBand &band, double largest) const
 {
   constexpr double GAP = 1.5, FIRST = 1.2, LAST = 1.5;    // distances of particles in a row
-  constexpr double MOST = 0.9;    // of the particles are in rows, on a lattice
-  enum { NUMBER, IN_ROWS, GAPS, NSUM };
-  bigint sum[NSUM] = {0, 0, 0}, all[NSUM];
-  const double straight = STRAIGHT * 2.0 * half_width;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const double *const x = atom->x[i];
-    const double height = plane.height(x), one = step(i);
-    const double ahead = band.next(x, straight, false), behind = band.next(x, straight, true);
-    const bool grows = std::isinf(behind) && MathExtra::dot3(atom->v[i], plane.normal) > 0.0;
-    sum[NUMBER]++;
-    if (std::min(ahead, behind) < GAP * one) sum[IN_ROWS]++;
-    if (std::isinf(ahead) && height < -FIRST * one) sum[GAPS]++;
-    if (behind > GAP * one && height - LAST * one > -plane.length && !grows) sum[GAPS]++;
-  }
-  MPI_Allreduce(sum, all, NSUM, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all[GAPS] && static_cast<double>(all[IN_ROWS]) > MOST * static_cast<double>(all[NUMBER]))
-    error->all(FLERR,
-               "{}: the rows of the zone have {} gaps; it must be filled from the plane to its end",
-               owner, all[GAPS]);
-}
-
-/* ----------------------------------------------------------------------
-   what is at the plane has a row behind it, or a wall
-------------------------------------------------------------------------- */
-
-void OpenRows::check_complete(const OpenBand &band, double largest) const
-{
   constexpr double APART = 1.5;    // of half the width of a row, which is more than is between rows
-  bigint count = 0, all;
+  enum { NUMBER, IN_ROWS, GAPS, BARE, NSUM };
+  bigint sum[NSUM] = {0, 0, 0, 0}, all[NSUM];
+  const double straight = STRAIGHT * 2.0 * half_width;
   for (int i = 0; i < atom->nlocal; i++) {
     const double *const x = atom->x[i];
     const double height = plane.height(x);
-    if (!(atom->mask[i] & fluidbit) || height < 0.0 || height > largest || plane.beside(x))
-      continue;
-    if (!band.has_any_behind(x, APART * half_width)) count++;
+    if ((atom->mask[i] & fluidbit) && height >= 0.0 && height < largest && !plane.beside(x) &&
+        !band.has_any_behind(x, APART * half_width))
+      sum[BARE]++;
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double one = step(i);
+    const double ahead = band.next(x, straight, false), behind = band.next(x, straight, true);
+    const double inward = MathExtra::dot3(atom->v[i], plane.normal);
+    sum[NUMBER]++;
+    if (std::min(ahead, behind) < GAP * one) sum[IN_ROWS]++;
+    if (std::isinf(ahead) && height < -(inward < 0.0 ? GAP : FIRST) * one) sum[GAPS]++;
+    if (behind > GAP * one && height - LAST * one > -plane.length &&
+        !(std::isinf(behind) && inward > 0.0))
+      sum[GAPS]++;
   }
-  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all && comm->me == 0)
+  MPI_Allreduce(sum, all, NSUM, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all[IN_ROWS] < all[NUMBER]) return;
+  if (all[GAPS])
+    error->all(FLERR,
+               "{}: the rows of the zone have {} gaps; it must be filled from the plane to its end",
+               owner, all[GAPS]);
+  if (all[BARE] && comm->me == 0)
     error->warning(FLERR,
                    "{}: {} particles of the fluid at the plane have neither the zone nor a wall "
                    "behind them: rows of the zone are missing",
-                   owner, all);
+                   owner, all[BARE]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -81,8 +81,7 @@ namespace SPHDissipation {
     std::vector<int> last_ones(const OpenBand &) const;
     bool fill(std::vector<int> &last, const OpenBand &, const Refresh &);
     void check_alone(const OpenBand &) const;
-    void check_filled(const OpenBand &) const;
-    void check_complete(const OpenBand &, double largest) const;
+    void check_lattice(const OpenBand &, double largest) const;
     void check_seat(double *x, const OpenBand &) const;
     std::vector<tagint> new_tags(const std::vector<int> &last) const;
   };
