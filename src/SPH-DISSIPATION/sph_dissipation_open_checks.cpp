@@ -168,11 +168,12 @@ void SPHDissipation::check_open_region(LAMMPS *lmp, const Fix *fix, const OpenPl
   const double beside = std::max(slack, play);
   bigint number[2] = {0, 0}, all[2];    // of the zone, in front of it
   for (int i = 0; i < atom->nlocal; i++) {
-    const double *const x = atom->x[i];
+    double x[3], front[3];
+    std::copy_n(atom->x[i], 3, x);
     const double height = plane.height(x);
     if (!(atom->mask[i] & fix->groupbit) || height < -plane.length - play) continue;
-    double front[3];
     for (int d = 0; d < 3; d++) front[d] = x[d] + (reach - play - height) * plane.normal[d];
+    lmp->domain->remap(x);
     lmp->domain->remap(front);
     if (plane.beside(x, beside))
       number[0]++;
