@@ -57,6 +57,7 @@ class FixSPHBulk : public Fix {
   // fix that needs them before the integrator is set up.  Each is set once
   void set_masses();
   virtual void set_inertia() {}
+  bool has_set_masses() const { return density_flag && density_done; }
 
   // a particle joins the group within a step, after the first half of the kick
   virtual void arrive(int i);

@@ -22,6 +22,7 @@
 #include "group.h"
 #include "input.h"
 #include "math_extra.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_engine.h"
@@ -69,8 +70,8 @@ enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), condition(nullptr),
     rows(nullptr), ledger(nullptr), pair(nullptr), integrator(nullptr), avec(nullptr),
-    spinning(nullptr), fluidbit(0), radius(0.0), area(0.0), supersonic(false), totals_known(false),
-    totals(new double[NVECTOR])
+    spinning(nullptr), fluidbit(0), radius(0.0), area(0.0), is_new(false), supersonic(false),
+    gap(false), totals_known(false), totals(new double[NVECTOR])
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -177,6 +178,8 @@ void FixSPHOpen::init()
     error->all(FLERR,
                "Fix {} cannot be used with temp of the pair style: its particles do not fluctuate",
                style);
+  if (update->dt < 0.0)
+    error->all(FLERR, "Fix {}: the time step must not be negative: what has left is gone", style);
   pair->add_open_zone(this);
   spinning = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
   avec = spinning ? spinning : dynamic_cast<AtomVecSPHBulk *>(atom->style_match("sph/bulk"));
@@ -185,32 +188,45 @@ void FixSPHOpen::init()
   if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, fluid_name);
   fluidbit = group->bitmask[fluid_group];
   check_open_groups(lmp, this, pair, fluid_group);
+  check_open_lists(lmp, this, fluidbit);
   integrator = find_open_integrator(lmp, this, fluid_group);
 
   const double support = pair->support_radius();
-  values->init();
+  plane->init();
+  values->init(pair->fluid().choice.eos == Eos::IDEAL);
   condition->init(pair->fluid());
   if (area > 0.0)
     rows->set_distance([this](int i) {
       return atom->rmass[i] / (area * (*values)(OpenValues::RHO, i));
     });
-  rows->init(support);
+  rows->init(support, fluidbit);
+  if (rows->are_new()) check_open_styles(lmp, this, pair, fluidbit);
 
   // a small radius, for it smooths the profile, but with a few particles
 
   constexpr double PART = 0.6, WIDTHS = 2.2;
   radius = std::min(support, std::max(PART * support, WIDTHS * rows->width()));
-  plane->init(radius / NODES);
+  plane->set_nodes(radius / NODES);
 
+  samples->init();
+  if (!waves_before.empty() && !samples->unpack(waves_before)) warn_of_other_plane();
+  waves_before.clear();
+}
+
+/* ----------------------------------------------------------------------
+   fix adapt may change the speed of sound
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::set_times()
+{
+  const double support = pair->support_radius();
   double slowest = 1.0e300;
   for (int type = 1; type <= atom->ntypes; type++)
     if (pair->has_type(type)) slowest = std::min(slowest, pair->fluid().coeffs[type].eos.c0);
   const double crossing = support / slowest;
   const double averaging = condition->averaging_time;
-  samples->init(averaging > 0.0 ? averaging : AVERAGING * crossing,
-                10.0 * (plane->length / support + 1.0) * crossing);
-  if (!waves_before.empty() && !samples->unpack(waves_before)) warn_of_other_plane();
-  waves_before.clear();
+  samples->set_times(averaging > 0.0 ? averaging : AVERAGING * crossing,
+                     10.0 * (plane->length / support + 1.0) * crossing);
 }
 
 /* ----------------------------------------------------------------------
@@ -235,6 +251,8 @@ void FixSPHOpen::setup_pre_exchange()
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) set_velocity(i);
   check_open_length(lmp, this, *plane, pair->support_radius(), rows->largest_spacing());
+  is_new = rows->are_new();
+  if (is_new && integrator->has_set_masses()) check_open_masses(lmp, this, fluidbit);
   pre_exchange();
 }
 
@@ -243,6 +261,13 @@ void FixSPHOpen::setup_pre_exchange()
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup_pre_force(int /*vflag*/)
+{
+  find_members();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHOpen::find_members()
 {
   const double reach = pair->support_radius() + neighbor->skin;
   members.clear();
@@ -253,9 +278,21 @@ void FixSPHOpen::setup_pre_force(int /*vflag*/)
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHOpen::pre_force(int vflag)
+void FixSPHOpen::pre_force(int /*vflag*/)
 {
-  if (neighbor->ago == 0) setup_pre_force(vflag);
+  if (neighbor->ago == 0) find_members();
+}
+
+/* ----------------------------------------------------------------------
+   ... unless a fix that comes before this one, as sph/refine, has changed them in this step
+------------------------------------------------------------------------- */
+
+bool FixSPHOpen::has_lost_members() const
+{
+  const auto &fixes = modify->get_fix_list();
+  return std::any_of(fixes.begin(), fixes.end(), [this](const Fix *other) {
+    return other->force_reneighbor && other->next_reneighbor == update->ntimestep;
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -280,6 +317,7 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 
 void FixSPHOpen::post_integrate()
 {
+  if (has_lost_members()) find_members();
   values->evaluate(igroup);
   double farthest = 0.0;
   for (const int i : members) {
@@ -365,6 +403,7 @@ void FixSPHOpen::set_spin(int i)
 
 void FixSPHOpen::pre_exchange()
 {
+  check_open_region(lmp, this, *plane, radius, rows->are_new() ? 0.0 : 0.5 * rows->width());
   rows->renew([this](const std::vector<int> &created) {
     if (!values->vary()) return;
     values->evaluate(igroup);
@@ -391,10 +430,27 @@ void FixSPHOpen::set_impact(const OpenImpact &impact)
 
 void FixSPHOpen::set_state(Engine &engine)
 {
+  set_times();
   sample(engine);
+  if (is_new) check_density();
+  is_new = false;
   for (const int i : members)
     if (atom->mask[i] & groupbit) set_pressure(engine, i);
   totals_known = false;
+}
+
+/* ----------------------------------------------------------------------
+   of particles with a full support behind them
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::check_density() const
+{
+  std::vector<double> ratios;
+  for (const int i : members)
+    if ((atom->mask[i] & groupbit) &&
+        plane->height(atom->x[i]) > pair->support_radius() - plane->length)
+      ratios.push_back(atom->rho[i] / condition->prescribed_density(i));
+  check_open_density(lmp, this, ratios);
 }
 
 /* ----------------------------------------------------------------------
@@ -422,7 +478,9 @@ void FixSPHOpen::sample(Engine &engine)
   }
   samples->finish(condition->clock);
 
-  if (neighbor->ago > 0 || supersonic) return;
+  if (neighbor->ago > 0) return;
+  if (!gap) gap = warn_of_gap(lmp, this, *plane, pair, fluidbit, radius, rows->largest_spacing());
+  if (supersonic) return;
   if (!condition->given_velocity() && !condition->given_state()) return;
   supersonic = warn_of_supersonic(lmp, this, std::count_if(near.begin(), near.end(), [&](int i) {
                                     return condition->is_supersonic(i, engine.particle[i]);
@@ -437,9 +495,16 @@ void FixSPHOpen::set_pressure(Engine &engine, int i)
 {
   double p, rho;
   condition->state(i, p, rho);
-  if (!(rho > 0.0))
+  if (!(rho > 0.0)) {
+    const double energy = condition->energy(i);
+    if (pair->fluid().choice.eos == Eos::IDEAL && !(energy > 0.0))
+      error->one(FLERR,
+                 "Fix {} {}: particle {} has an internal energy of {:g} per mass at step {}, from "
+                 "which eos ideal makes no pressure: give the zone one by keyword energy or set",
+                 style, id, atom->tag[i], energy, update->ntimestep);
     error->one(FLERR, "Fix {} {}: particle {} would have density {:g} and pressure {:g} at step {}",
                style, id, atom->tag[i], rho, p, update->ntimestep);
+  }
 
   Particle &particle = engine.particle[i];
   atom->rho[i] = rho;

@@ -81,17 +81,22 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   double radius;               // of the fluid that is measured at the plane
   double area;                 // of the cross section of a row; 0: rows have a spacing
   std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
-  bool supersonic;             // has been warned of
+  bool is_new;                 // no forces have been computed with this zone
+  bool supersonic, gap;        // has been warned of
   bool totals_known;
   double *totals;
   std::vector<double> waves_before;    // from a restart file, until init()
 
   int keyword_argument(int, int, char **);
+  void set_times();
+  void find_members();
+  bool has_lost_members() const;
   void warn_of_other_plane();
   void enter(int i, const double *v);
   void leave(int i);
   void set_velocity(int i);
   void set_spin(int i);
+  void check_density() const;
   void sample(SPHDissipation::Engine &);
   void set_pressure(SPHDissipation::Engine &, int i);
 };

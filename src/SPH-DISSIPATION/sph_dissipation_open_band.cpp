@@ -18,6 +18,7 @@
 #include "sph_dissipation_open_plane.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -75,6 +76,24 @@ bool OpenBand::has_behind(const double *x, double beside) const
   return any(x, beside, [&](int k, const OpenPlane::Offset &to) {
     return of_zone[k] && to.beside < beside && to.ahead < 0.0;
   });
+}
+
+bool OpenBand::has_any_behind(const double *x, double beside) const
+{
+  return any(x, beside, [&](int, const OpenPlane::Offset &to) {
+    return to.beside < beside && to.ahead < 0.0;
+  });
+}
+
+double OpenBand::next(const double *x, double beside, bool behind) const
+{
+  double nearest = INFINITY;
+  any(x, beside, [&](int k, const OpenPlane::Offset &to) {
+    const double distance = behind ? -to.ahead : to.ahead;
+    if (of_zone[k] && to.beside < beside && distance > 0.0) nearest = std::min(nearest, distance);
+    return false;
+  });
+  return nearest;
 }
 
 bool OpenBand::has_near(const double *x, double distance) const

@@ -33,6 +33,13 @@ namespace SPHDissipation {
     // one of the zone behind x, not farther beside it than this
     bool has_behind(const double *x, double beside) const;
 
+    // distance of the nearest one of the zone behind x, or in front of it, not farther beside it than
+    // this; infinite if there is none
+    double next(const double *x, double beside, bool behind) const;
+
+    // any one behind x, not farther beside it than this
+    bool has_any_behind(const double *x, double beside) const;
+
     // any one, or one that is not of the zone, closer to x than this
     bool has_near(const double *x, double distance) const;
     bool has_other_near(const double *x, double distance) const;

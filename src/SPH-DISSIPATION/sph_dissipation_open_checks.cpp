@@ -15,14 +15,28 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
+#include "force.h"
 #include "group.h"
+#include "math_extra.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "pair_hybrid.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_eos.h"
+#include "sph_dissipation_model.h"
 #include "sph_dissipation_open_plane.h"
+#include "sph_dissipation_wall_checks.h"
 #include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <string>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -139,6 +153,230 @@ void SPHDissipation::check_open_places(LAMMPS *lmp, const Fix *fix, const OpenPl
         "Fix {}: {} particles of other open zones are in this one; limit it by the keyword "
         "region",
         fix->style, all[2]);
+}
+
+/* ----------------------------------------------------------------------
+   a region that is not as wide or as long as the zone loses rows, or the fluid that is measured
+------------------------------------------------------------------------- */
+
+void SPHDissipation::check_open_region(LAMMPS *lmp, const Fix *fix, const OpenPlane &plane,
+                                       double reach, double slack)
+{
+  if (!plane.limited()) return;
+  const Atom *const atom = lmp->atom;
+  const double play = 1.0e-6 * plane.length;
+  const double beside = std::max(slack, play);
+  bigint number[2] = {0, 0}, all[2];    // of the zone, in front of it
+  for (int i = 0; i < atom->nlocal; i++) {
+    double x[3], front[3];
+    std::copy_n(atom->x[i], 3, x);
+    const double height = plane.height(x);
+    if (!(atom->mask[i] & fix->groupbit) || height < -plane.length - play) continue;
+    for (int d = 0; d < 3; d++) front[d] = x[d] + (reach - play - height) * plane.normal[d];
+    lmp->domain->remap(x);
+    lmp->domain->remap(front);
+    if (plane.beside(x, beside))
+      number[0]++;
+    else if (plane.beside(front, beside))
+      number[1]++;
+  }
+  MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+  if (all[0])
+    lmp->error->all(FLERR,
+                    "Fix {}: {} particles of group {} are outside of region {}, which must contain "
+                    "the zone",
+                    fix->style, all[0], lmp->group->names[fix->igroup], plane.region_name());
+  if (all[1])
+    lmp->error->all(
+        FLERR,
+        "Fix {}: region {} must reach {:g} into the fluid, where its state is measured, "
+        "in front of all particles of the zone; it does not for {} of them",
+        fix->style, plane.region_name(), reach, all[1]);
+}
+
+/* ----------------------------------------------------------------------
+   what enters has the group of the fluid instead of that of the zone
+------------------------------------------------------------------------- */
+
+void SPHDissipation::check_open_lists(LAMMPS *lmp, const Fix *fix, int fluid_bit)
+{
+  if (lmp->neighbor->build_once)
+    lmp->error->all(FLERR, "Fix {} needs new neighbor lists: neigh_modify once must be no",
+                    fix->style);
+  const std::set<Kind> kinds = all_kinds(lmp);
+  for (const Kind &zone : kinds) {
+    if (!(zone.second & fix->groupbit)) continue;
+    const Kind entered = {zone.first, (zone.second & ~fix->groupbit) | fluid_bit};
+    bool complete = in_neighbor_lists(lmp, zone, zone) && in_neighbor_lists(lmp, zone, entered);
+    for (const Kind &other : kinds)
+      if ((other.second & fluid_bit) && other.first == zone.first)
+        complete = complete && in_neighbor_lists(lmp, zone, other);
+    if (!complete)
+      lmp->error->all(FLERR,
+                      "Fix {} {}: neigh_modify exclude or include leaves out pairs of the zone "
+                      "with the fluid or with itself",
+                      fix->style, fix->id);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   styles of hybrid/overlay, apart from one without forces
+------------------------------------------------------------------------- */
+
+void SPHDissipation::check_open_styles(LAMMPS *lmp, const Fix *fix, const PairSPHBulk *pair,
+                                       int fluid_bit)
+{
+  auto *const hybrid = dynamic_cast<PairHybrid *>(lmp->force->pair);
+  if (!hybrid) return;
+  std::set<int> zone, fluid;    // types
+  for (const Kind &kind : all_kinds(lmp)) {
+    if (kind.second & fix->groupbit) zone.insert(kind.first);
+    if (kind.second & (fix->groupbit | fluid_bit)) fluid.insert(kind.first);
+  }
+
+  std::string found;
+  for (const char *const names : {"^[^h]", "^h[^y]"}) {    // all but hybrid itself
+    const Pair *last = nullptr;
+    for (int n = 1;; n++) {
+      Pair *const other = lmp->force->pair_match(names, 0, n);
+      if (!other || other == last) break;
+      last = other;
+      char *const name = lmp->force->pair_match_ptr(other);
+      bool acts = false;
+      for (const int a : zone)
+        for (const int b : fluid)
+          if (hybrid->check_ijtype(std::min(a, b), std::max(a, b), name)) acts = true;
+      if (acts && other != pair && strcmp(name, "zero") != 0)
+        found += (found.empty() ? "" : ", ") + std::string(name);
+    }
+  }
+  if (!found.empty() && lmp->comm->me == 0)
+    lmp->error->warning(FLERR,
+                        "Fix {} {}: the impulse and the energy of the forces of pair style {} "
+                        "between zone and fluid are not in the ledger",
+                        fix->style, fix->id, found);
+}
+
+/* ----------------------------------------------------------------------
+   particles of sizes that differ on purpose have masses that differ by more
+------------------------------------------------------------------------- */
+
+void SPHDissipation::check_open_masses(LAMMPS *lmp, const Fix *fix, int fluid_bit)
+{
+  constexpr double SAME = 1.0e-6, ALIKE = 0.05;
+  const Atom *const atom = lmp->atom;
+  const int n = atom->ntypes + 1;
+  std::vector<double> sum(2 * n, 0.0), zone(2 * n), ratio(n, INFINITY), all(n);
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & fix->groupbit)) continue;
+    sum[atom->type[i]] += 1.0;
+    sum[n + atom->type[i]] += atom->rmass[i];
+  }
+  MPI_Allreduce(sum.data(), zone.data(), 2 * n, MPI_DOUBLE, MPI_SUM, lmp->world);
+
+  // of the particle of the fluid that is most like those of the zone
+
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int type = atom->type[i];
+    if (!(atom->mask[i] & fluid_bit) || zone[type] == 0.0) continue;
+    ratio[type] = std::min(ratio[type], fabs(atom->rmass[i] * zone[type] / zone[n + type] - 1.0));
+  }
+  MPI_Allreduce(ratio.data(), all.data(), n, MPI_DOUBLE, MPI_MIN, lmp->world);
+  for (int type = 1; type < n; type++)
+    if (all[type] > SAME && all[type] < ALIKE && lmp->comm->me == 0)
+      lmp->error->warning(
+          FLERR,
+          "Fix {} {}: keyword density has set the masses of the fluid before; those "
+          "of the zone, of type {}, differ from them by a part of {:.2g}",
+          fix->style, fix->id, type, all[type]);
+}
+
+/* ----------------------------------------------------------------------
+   a jet is thin at its sides, not at its center
+------------------------------------------------------------------------- */
+
+void SPHDissipation::check_open_density(LAMMPS *lmp, const Fix *fix,
+                                        const std::vector<double> &ratios)
+{
+  constexpr double THIN = 0.6, DENSE = 1.1;
+  double mine[2] = {0.0, 0.0}, sum[2], largest = 0.0, all;
+  for (const double ratio : ratios) {
+    mine[0] += 1.0;
+    mine[1] += ratio;
+    largest = std::max(largest, ratio);
+  }
+  MPI_Allreduce(mine, sum, 2, MPI_DOUBLE, MPI_SUM, lmp->world);
+  MPI_Allreduce(&largest, &all, 1, MPI_DOUBLE, MPI_MAX, lmp->world);
+  const double mean = sum[1] / std::max(sum[0], 1.0);
+  if ((all < THIN || mean > DENSE) && lmp->comm->me == 0)
+    lmp->error->warning(FLERR,
+                        "Fix {} {}: the masses of the zone, where its particles are, make {:.3g} "
+                        "times the density that is prescribed: a mass should be that density times "
+                        "the volume",
+                        fix->style, fix->id, mean);
+}
+
+/* ----------------------------------------------------------------------
+   Heights at which there is fluid in front of a node of the plane: one bit for each of so many parts of
+   the depth.  Four bits for what enters on each side of the node: at the side of a jet, which may
+   contract, and at a wall there is none.  A gas may be as thin as it wants.
+------------------------------------------------------------------------- */
+
+bool SPHDissipation::warn_of_gap(LAMMPS *lmp, const Fix *fix, const OpenPlane &plane,
+                                 const PairSPHBulk *pair, int fluid_bit, double radius,
+                                 double spacing)
+{
+  constexpr int PARTS = 58;
+  constexpr double GAP = 2.0;    // sizes of a particle; layers of lattices are one apart
+  if (pair->fluid().choice.eos == Eos::IDEAL) return false;
+  const Atom *const atom = lmp->atom;
+  const int sides = 2 * (lmp->domain->dimension - 1);
+  const double depth = 2.0 * pair->support_radius();
+  const double part = depth / PARTS;
+  const bigint one = 1;
+  const bigint enters = ((one << sides) - 1) << PARTS;
+  std::vector<bigint> mine(plane.nnodes(), 0), all(plane.nnodes());
+  double size = 0.0, largest;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const x = atom->x[i];
+    const double height = plane.height(x);
+    if (height < -spacing || height >= depth) continue;
+    if (atom->mask[i] & fix->groupbit) {
+      if (!(MathExtra::dot3(atom->v[i], plane.normal) > 0.0)) continue;
+      plane.near(x, radius, [&](int node, const double *l) {
+        for (int k = 0; k < sides; k++)
+          if ((k % 2 ? -l[k / 2] : l[k / 2]) > 0.5 * radius) mine[node] |= one << (PARTS + k);
+      });
+    } else if ((atom->mask[i] & fluid_bit) && height >= 0.0 && !plane.beside(x))
+      plane.near(x, radius, [&](int node, const double *) {
+        mine[node] |= one << static_cast<int>(height / part);
+      });
+    else
+      continue;
+    size = std::max(size, atom->rmass[i] / pair->reference_density(atom->type[i]));
+  }
+  MPI_Allreduce(mine.data(), all.data(), plane.nnodes(), MPI_LMP_BIGINT, MPI_BOR, lmp->world);
+  MPI_Allreduce(&size, &largest, 1, MPI_DOUBLE, MPI_MAX, lmp->world);
+  const double least = GAP * std::max(spacing, pow(largest, 1.0 / pair->dimension()));
+
+  double widest = 0.0;
+  for (const bigint bits : all) {
+    if ((bits & enters) != enters) continue;
+    int last = 0;    // the first part behind the fluid so far
+    for (int k = 0; k < PARTS; k++) {
+      if (!(bits & (one << k))) continue;
+      widest = std::max(widest, (k - last) * part);
+      last = k + 1;
+    }
+  }
+  if (widest < least) return false;
+  if (lmp->comm->me == 0)
+    lmp->error->warning(
+        FLERR,
+        "Fix {} {}: there is a gap of {:.3g} in the fluid in front of what enters at "
+        "step {}: the fluid tears off",
+        fix->style, fix->id, widest, lmp->update->ntimestep);
+  return true;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -16,6 +16,8 @@
 
 #include "lmptype.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 class Fix;
 class FixSPHBulk;
@@ -40,6 +42,36 @@ namespace SPHDissipation {
   // particles of the fluid are in front of the plane, those of the zone, and of no other one, behind it
 
   void check_open_places(LAMMPS *, const Fix *, const OpenPlane &, int fluid_bit);
+
+  // Each particle of the zone, and the place at that height in front of it, is in the region; slack:
+  // no farther beside it than this
+
+  void check_open_region(LAMMPS *, const Fix *, const OpenPlane &, double height, double slack);
+
+  // the neighbor lists have the pairs of the zone with the fluid and with itself, and are built anew
+
+  void check_open_lists(LAMMPS *, const Fix *, int fluid_bit);
+
+  // a warning if other pair styles, whose forces no ledger has, act between zone and fluid
+
+  void check_open_styles(LAMMPS *, const Fix *, const PairSPHBulk *, int fluid_bit);
+
+  // A warning if the masses of the zone are not quite those of the fluid, as when density rho0 has set
+  // the latter before the zone was there
+
+  void check_open_masses(LAMMPS *, const Fix *, int fluid_bit);
+
+  // a warning if the sums of the kernel give the zone other densities than are prescribed; ratios of
+  // the two of particles of this processor
+
+  void check_open_density(LAMMPS *, const Fix *, const std::vector<double> &ratios);
+
+  // A warning if there is a gap between what enters and the fluid in front of it, up to two support
+  // radii from the plane, as wide as particles of this size never leave it; radius: of fluid that is
+  // next to a place on the plane.  True if there is one.
+
+  bool warn_of_gap(LAMMPS *, const Fix *, const OpenPlane &, const PairSPHBulk *, int fluid_bit,
+                   double radius, double spacing);
 
   // A particle of the zone has a full support as long as the fluid sees it, and rows may be shorter by
   // one spacing and by what the fluid moves between two neighbor lists

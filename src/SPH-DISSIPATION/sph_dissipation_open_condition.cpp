@@ -99,9 +99,7 @@ const EosParams &OpenCondition::eos(int i) const
   return fluid->coeffs[atom->type[i]].eos;
 }
 
-/* ----------------------------------------------------------------------
-   internal energy per mass, which the ideal gas needs
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 double OpenCondition::energy(int i) const
 {

@@ -52,6 +52,8 @@ namespace SPHDissipation {
     void prescribed_velocity(int i, double *u) const;
     void velocity(int i, double *u) const;
     void state(int i, double &p, double &rho) const;
+    double prescribed_density(int i) const { return reference(i).rho; }    // without waves
+    double energy(int i) const;    // internal, per mass, which the ideal gas needs
 
     // of an owned particle of the fluid near the plane
 
@@ -81,7 +83,6 @@ namespace SPHDissipation {
     };
 
     const EosParams &eos(int i) const;
-    double energy(int i) const;
     Reference reference(int i) const;
     double wave(const Reference &) const;
     double changes(const Reference &, double wave) const;

@@ -42,17 +42,19 @@ void OpenPlane::set(char **arg)
     normal[d] = utils::numeric(FLERR, arg[3 + d], false, lmp);
   }
   length = utils::numeric(FLERR, arg[6], false, lmp);
-  if (!(MathExtra::len3(normal) > 0.0))
-    error->all(FLERR, "{}: the normal of the plane must not be zero", owner);
+  double largest = 0.0;
+  for (const double component : normal) largest = std::max(largest, fabs(component));
+  if (!(largest > 0.0)) error->all(FLERR, "{}: the normal of the plane must not be zero", owner);
   if (domain->dimension == 2 && normal[2] != 0.0)
     error->all(FLERR, "{}: the normal of the plane must lie in the xy plane in 2d", owner);
   if (!(length > 0.0)) error->all(FLERR, "{}: length must be > 0, not {}", owner, arg[6]);
+  for (double &component : normal) component /= largest;    // whose square may be out of range
   MathExtra::norm3(normal);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenPlane::init(double node_distance)
+void OpenPlane::init()
 {
   region = nullptr;
   if (!region_id.empty()) {
@@ -64,7 +66,6 @@ void OpenPlane::init(double node_distance)
   }
   check_box();
   set_tangents();
-  set_nodes(node_distance);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -72,6 +73,18 @@ void OpenPlane::init(double node_distance)
 bool OpenPlane::beside(const double *x) const
 {
   return region && !region->match(x[0], x[1], x[2]);
+}
+
+bool OpenPlane::beside(const double *x, double slack) const
+{
+  if (!beside(x)) return false;
+  for (const double *const side : {tangent[0], tangent[1]})
+    for (const double shift : {slack, -slack}) {
+      double near[3];
+      for (int d = 0; d < 3; d++) near[d] = x[d] + shift * side[d];
+      if (!beside(near)) return false;
+    }
+  return true;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -34,7 +34,9 @@ namespace SPHDissipation {
 
     void set(char **arg);    // x y z nx ny nz length
     void set_region(const char *id) { region_id = id; }
-    void init(double node_distance);    // grid of nodes, as far as box and region reach
+    const std::string &region_name() const { return region_id; }
+    void init();                             // region and directions, which must fit the box
+    void set_nodes(double node_distance);    // grid of nodes, as far as box and region reach
 
     // distance of a place from the plane, > 0 in the fluid
     double height(const double *x) const
@@ -42,7 +44,8 @@ namespace SPHDissipation {
       return (x[0] - point[0]) * normal[0] + (x[1] - point[1]) * normal[1] +
           (x[2] - point[2]) * normal[2];
     }
-    bool beside(const double *x) const;    // beyond the sides of the zone
+    bool beside(const double *x) const;                  // beyond the sides of the zone
+    bool beside(const double *x, double slack) const;    // ... and no place so near is within them
 
     // how far a place is, with periodic images, beside the line along the normal through another one,
     // and how far ahead
@@ -83,7 +86,6 @@ namespace SPHDissipation {
 
     void check_box() const;
     void set_tangents();
-    void set_nodes(double distance);
     double along(int k, const double *x) const;
     int wrap(int k, int n) const;
   };

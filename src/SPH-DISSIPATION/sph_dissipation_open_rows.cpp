@@ -38,16 +38,18 @@ static constexpr double STRAIGHT = 0.01;       // of a row, sideways, over the s
 /* ---------------------------------------------------------------------- */
 
 OpenRows::OpenRows(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane, int groupbit) :
-    Pointers(lmp), owner(owner), plane(plane), groupbit(groupbit), given_spacing(0.0), spacing(0.0),
-    half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true), unknown_sides(true)
+    Pointers(lmp), owner(owner), plane(plane), groupbit(groupbit), fluidbit(0), given_spacing(0.0),
+    spacing(0.0), half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true),
+    unknown_sides(true)
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::init(double support_in)
+void OpenRows::init(double support_in, int fluid_bit)
 {
   support = support_in;
+  fluidbit = fluid_bit;
   unknown_end = true;
   interrupt_ids();
   unknown_sides = (spacing == 0.0 || half_width == 0.0);
@@ -196,7 +198,10 @@ void OpenRows::renew(const Refresh &refresh)
                owner, moved_all, plane.length);
   const double depth = unknown_end ? plane.length : moved_all + 2.5 * largest;
   const OpenBand band(lmp, plane, groupbit, end(), depth - plane.length);
-  if (unknown_sides) check_alone(band);
+  if (unknown_sides) {
+    check_alone(band);
+    check_lattice(band, largest);
+  }
   unknown_end = unknown_sides = false;
 
   std::vector<int> last = last_ones(band);
@@ -306,6 +311,49 @@ void OpenRows::check_alone(const OpenBand &band) const
                "{}: {} particles of the zone overlap with others, such as those of a wall, which "
                "must be beside it",
                owner, all);
+}
+
+/* ----------------------------------------------------------------------
+   On a lattice, from the plane to the end of the zone, a particle follows the other: those that lack
+   at the end of rows that move into the fluid are created.  What is at the plane has a row behind it,
+   or a wall.  Where there is no lattice, as in a zone that the fluid has filled, there are no rows.
+------------------------------------------------------------------------- */
+
+void OpenRows::check_lattice(const OpenBand &band, double largest) const
+{
+  constexpr double GAP = 1.5, FIRST = 1.2, LAST = 1.5;    // distances of particles in a row
+  constexpr double APART = 1.5;    // of half the width of a row, which is more than is between rows
+  enum { NUMBER, IN_ROWS, GAPS, BARE, NSUM };
+  bigint sum[NSUM] = {0, 0, 0, 0}, all[NSUM];
+  const double straight = STRAIGHT * 2.0 * half_width;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const x = atom->x[i];
+    const double height = plane.height(x);
+    if ((atom->mask[i] & fluidbit) && height >= 0.0 && height < largest && !plane.beside(x) &&
+        !band.has_any_behind(x, APART * half_width))
+      sum[BARE]++;
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double one = step(i);
+    const double ahead = band.next(x, straight, false), behind = band.next(x, straight, true);
+    const double inward = MathExtra::dot3(atom->v[i], plane.normal);
+    sum[NUMBER]++;
+    if (std::min(ahead, behind) < GAP * one) sum[IN_ROWS]++;
+    if (std::isinf(ahead) && height < -(inward < 0.0 ? GAP : FIRST) * one) sum[GAPS]++;
+    if (behind > GAP * one && height - LAST * one > -plane.length &&
+        !(std::isinf(behind) && inward > 0.0))
+      sum[GAPS]++;
+  }
+  MPI_Allreduce(sum, all, NSUM, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all[IN_ROWS] < all[NUMBER]) return;
+  if (all[GAPS])
+    error->all(FLERR,
+               "{}: the rows of the zone have {} gaps; it must be filled from the plane to its end",
+               owner, all[GAPS]);
+  if (all[BARE] && comm->me == 0)
+    error->warning(FLERR,
+                   "{}: {} particles of the fluid at the plane have neither the zone nor a wall "
+                   "behind them: rows of the zone are missing",
+                   owner, all[BARE]);
 }
 
 /* ---------------------------------------------------------------------- */

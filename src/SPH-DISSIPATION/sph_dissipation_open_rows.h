@@ -42,8 +42,10 @@ namespace SPHDissipation {
     void set_distance(Distance f) { distance = std::move(f); }
     bool by_distance() const { return static_cast<bool>(distance); }
 
-    // finds distance and width of the rows, from the particles of the zone, if they are not known
-    void init(double support);
+    // finds distance and width of the rows, from the particles of the zone, if they are not known: the
+    // zone is new then, until renew()
+    void init(double support, int fluid_bit);
+    bool are_new() const { return unknown_sides; }
     double width() const { return 2.0 * half_width; }    // of a row
     double largest_spacing() const;                      // now
 
@@ -63,6 +65,7 @@ namespace SPHDissipation {
     const std::string owner;
     const OpenPlane &plane;
     const int groupbit;
+    int fluidbit;
     double given_spacing, spacing, half_width, support;
     double moved;
     tagint highest;        // tag that was ever given
@@ -78,6 +81,7 @@ namespace SPHDissipation {
     std::vector<int> last_ones(const OpenBand &) const;
     bool fill(std::vector<int> &last, const OpenBand &, const Refresh &);
     void check_alone(const OpenBand &) const;
+    void check_lattice(const OpenBand &, double largest) const;
     void check_seat(double *x, const OpenBand &) const;
     std::vector<tagint> new_tags(const std::vector<int> &last) const;
   };

@@ -28,10 +28,16 @@ OpenSamples::OpenSamples(LAMMPS *lmp, const OpenPlane &plane) :
 
 /* ---------------------------------------------------------------------- */
 
-void OpenSamples::init(double averaging_time_in, double memory_in)
+void OpenSamples::set_times(double averaging_time_in, double memory_in)
 {
   averaging_time = averaging_time_in;
   memory = memory_in;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenSamples::init()
+{
   const std::size_t n = plane.nnodes();
   if (nodes.size() != n) {
     nodes.assign(n, Node());

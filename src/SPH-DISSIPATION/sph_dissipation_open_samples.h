@@ -42,7 +42,8 @@ namespace SPHDissipation {
 
     OpenSamples(class LAMMPS *, const OpenPlane &);
 
-    void init(double averaging_time, double memory);    // memory: longest lag, time units
+    void init();
+    void set_times(double averaging_time, double memory);    // memory: longest lag, time units
 
     // this time: begin(); add() for each owned particle of the fluid; finish(), until which
     // what is asked for below is that of the step before

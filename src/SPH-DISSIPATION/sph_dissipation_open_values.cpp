@@ -14,6 +14,7 @@
 #include "sph_dissipation_open_values.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "error.h"
 #include "group.h"
 #include "input.h"
@@ -30,7 +31,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 OpenValues::OpenValues(LAMMPS *lmp, const std::string &owner) :
-    Pointers(lmp), owner(owner), number(), any_variable(false)
+    Pointers(lmp), owner(owner), number(), any_variable(false), needs_energy(false)
 {
 }
 
@@ -91,13 +92,32 @@ void OpenValues::check() const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenValues::init()
+const char *OpenValues::fault(Quantity k, double x) const
+{
+  if (!std::isfinite(x)) return "values must be finite";
+  if (domain->dimension == 2 && x != 0.0) {
+    if (k == VZ) return "velocity must lie in the plane in 2d";
+    if (k == WX || k == WY) return "spin must be along z in 2d";
+  }
+  if (k == ENERGY && needs_energy && !(x > 0.0)) return "energy must be > 0 with eos ideal";
+  return nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenValues::init(bool needs_energy_in)
 {
   any_variable = false;
+  needs_energy = needs_energy_in;
   for (int k = 0; k < NQUANTITY; k++) {
     Value &one = value[k];
     column[k].clear();
-    if (one.name.empty()) continue;
+    if (one.name.empty()) {
+      const char *const wrong = fault(static_cast<Quantity>(k), number[k]);
+      if (one.given && wrong)
+        error->all(FLERR, "{}: {:g} cannot be used: {}", owner, number[k], wrong);
+      continue;
+    }
     any_variable = true;
     one.variable = input->variable->find(one.name.c_str());
     if (one.variable < 0) error->all(FLERR, "Variable {} for {} does not exist", one.name, owner);
@@ -121,17 +141,19 @@ void OpenValues::evaluate(int igroup)
     if (one.name.empty()) continue;
     if (!one.by_atom) {
       number[k] = input->variable->compute_equal(one.variable);
-      if (!std::isfinite(number[k]))
-        error->all(FLERR, "{}: variable {} is {} at step {}", owner, one.name, number[k],
-                   update->ntimestep);
+      if (const char *const wrong = fault(static_cast<Quantity>(k), number[k]))
+        error->all(FLERR, "{}: variable {} is {} at step {}: {}", owner, one.name, number[k],
+                   update->ntimestep, wrong);
       continue;
     }
     column[k].resize(atom->nmax);
     input->variable->compute_atom(one.variable, igroup, column[k].data(), 1, 0);
-    for (int i = 0; i < nlocal; i++)
-      if ((atom->mask[i] & groupbit) && !std::isfinite(column[k][i]))
-        error->one(FLERR, "{}: variable {} is {} for particle {} at step {}", owner, one.name,
-                   column[k][i], atom->tag[i], update->ntimestep);
+    for (int i = 0; i < nlocal; i++) {
+      if (!(atom->mask[i] & groupbit)) continue;
+      if (const char *const wrong = fault(static_cast<Quantity>(k), column[k][i]))
+        error->one(FLERR, "{}: variable {} is {} for particle {} at step {}: {}", owner, one.name,
+                   column[k][i], atom->tag[i], update->ntimestep, wrong);
+    }
   }
   modify->addstep_compute(update->ntimestep + 1);
 }

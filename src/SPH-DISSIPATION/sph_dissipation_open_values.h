@@ -33,7 +33,7 @@ namespace SPHDissipation {
     // # of words of the keyword at arg[iarg], with which it sets quantities; 0 if it is none of those
     int keyword_argument(int iarg, int narg, char **arg);
     void check() const;
-    void init();    // finds the variables
+    void init(bool needs_energy);    // finds the variables; the energies must then be > 0
 
     bool given(Quantity k) const { return value[k].given; }
     bool vary() const { return any_variable; }
@@ -61,9 +61,10 @@ namespace SPHDissipation {
     Value value[NQUANTITY];
     double number[NQUANTITY];                 // now, where it is the same for all particles
     std::vector<double> column[NQUANTITY];    // now, by owned particle, where it is not
-    bool any_variable;
+    bool any_variable, needs_energy;
 
-    void set(Quantity, const char *word);    // a number or v_name
+    const char *fault(Quantity, double) const;    // what a value must not be; nullptr: nothing
+    void set(Quantity, const char *word);         // a number or v_name
   };
 
 }    // namespace SPHDissipation

@@ -27,6 +27,7 @@
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_gather.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,70 +59,60 @@ void SPHDissipation::check_wall_particles(LAMMPS *lmp, const Fix *fix)
   }
 }
 
-/* ----------------------------------------------------------------------
-   particles alike in all that decides whether they have pairs: type and groups
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-namespace {
-struct Kind {
-  int type, mask;
-  bool operator<(const Kind &other) const
-  {
-    return std::make_pair(type, mask) < std::make_pair(other.type, other.mask);
-  }
-};
-}    // namespace
-
-// those of the particles of all ranks
-
-static std::set<Kind> all_kinds(LAMMPS *lmp)
+std::set<Kind> SPHDissipation::all_kinds(LAMMPS *lmp)
 {
   const Atom *const atom = lmp->atom;
   std::set<Kind> own;
   Kind last{0, 0};    // particles alike come in a row
   for (int i = 0; i < atom->nlocal; i++) {
     const Kind kind{atom->type[i], atom->mask[i]};
-    if (kind.type == last.type && kind.mask == last.mask) continue;
-    own.insert(last = kind);
+    if (kind != last) own.insert(last = kind);
   }
 
-  const std::vector<Kind> send(own.begin(), own.end());
-  const int nprocs = lmp->comm->nprocs;
-  int nsend = 2 * send.size();
-  std::vector<int> nreceived(nprocs), offset(nprocs + 1, 0);
-  MPI_Allgather(&nsend, 1, MPI_INT, nreceived.data(), 1, MPI_INT, lmp->world);
-  for (int p = 0; p < nprocs; p++) offset[p + 1] = offset[p] + nreceived[p];
-  std::vector<Kind> all(offset[nprocs] / 2);
-  MPI_Allgatherv(send.data(), nsend, MPI_INT, all.data(), nreceived.data(), offset.data(), MPI_INT,
-                 lmp->world);
-  return {all.begin(), all.end()};
+  std::vector<int> mine;
+  for (const Kind &kind : own) mine.insert(mine.end(), {kind.first, kind.second});
+  const std::vector<int> every = gather_all(lmp->world, mine, MPI_INT);
+  std::set<Kind> all;
+  for (std::size_t k = 0; k < every.size(); k += 2) all.insert({every[k], every[k + 1]});
+  return all;
 }
 
 /* ----------------------------------------------------------------------
-   for two kinds of particles, what NPair and pair style hybrid do
+   as NPair decides
 ------------------------------------------------------------------------- */
 
-static bool have_pairs(LAMMPS *lmp, const PairSPHBulk *pair, const Kind &a, const Kind &b)
+bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b)
 {
   const Neighbor *const neighbor = lmp->neighbor;
   const int *const bitmask = lmp->group->bitmask;
-
-  if (neighbor->includegroup && !(a.mask & b.mask & bitmask[neighbor->includegroup])) return false;
+  const int included = neighbor->includegroup ? bitmask[neighbor->includegroup] : ~0;
+  if (!(a.second & b.second & included)) return false;
   for (int n = 0; n < neighbor->nex_type; n++) {
     const int first = neighbor->ex1_type[n], second = neighbor->ex2_type[n];
-    if ((a.type == first && b.type == second) || (b.type == first && a.type == second))
+    if ((a.first == first && b.first == second) || (b.first == first && a.first == second))
       return false;
   }
   for (int n = 0; n < neighbor->nex_group; n++) {
     const int first = bitmask[neighbor->ex1_group[n]], second = bitmask[neighbor->ex2_group[n]];
-    if (((a.mask & first) && (b.mask & second)) || ((b.mask & first) && (a.mask & second)))
+    if (((a.second & first) && (b.second & second)) || ((b.second & first) && (a.second & second)))
       return false;
   }
+  return true;
+}
 
+/* ----------------------------------------------------------------------
+   and what pair style hybrid does
+------------------------------------------------------------------------- */
+
+static bool have_pairs(LAMMPS *lmp, const PairSPHBulk *pair, const Kind &a, const Kind &b)
+{
+  if (!in_neighbor_lists(lmp, a, b)) return false;
   auto *const hybrid = dynamic_cast<PairHybrid *>(lmp->force->pair);
   if (!hybrid) return true;
   char *const name = lmp->force->pair_match_ptr(const_cast<PairSPHBulk *>(pair));
-  return hybrid->check_ijtype(std::min(a.type, b.type), std::max(a.type, b.type), name);
+  return hybrid->check_ijtype(std::min(a.first, b.first), std::max(a.first, b.first), name);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -134,15 +125,15 @@ void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Pai
 
   std::vector<Kind> solid, fluid;
   for (const Kind &kind : all_kinds(lmp)) {
-    const bool has_coefficients = pair->has_type(kind.type);
-    if (kind.mask & fix->groupbit) {
+    const bool has_coefficients = pair->has_type(kind.first);
+    if (kind.second & fix->groupbit) {
       if (!has_coefficients)
         lmp->error->all(FLERR,
                         "The wall of fix {} {} has particles of type {}, for which there are no "
                         "coefficients of the pair style of the fluid",
-                        fix->id, fix->style, kind.type);
+                        fix->id, fix->style, kind.first);
       solid.push_back(kind);
-    } else if (has_coefficients && !(kind.mask & walls))
+    } else if (has_coefficients && !(kind.second & walls))
       fluid.push_back(kind);
   }
 
@@ -151,7 +142,7 @@ void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Pai
     const bool feels = std::any_of(solid.begin(), solid.end(), [&](const Kind &wall) {
       return have_pairs(lmp, pair, f, wall);
     });
-    (feels ? felt : ignored).insert(f.type);
+    (feels ? felt : ignored).insert(f.first);
   }
   if (ignored.empty()) return;
   const char *const reason =

@@ -14,12 +14,21 @@
 #ifndef LMP_SPH_DISSIPATION_WALL_CHECKS_H
 #define LMP_SPH_DISSIPATION_WALL_CHECKS_H
 
+#include <set>
+#include <utility>
+
 namespace LAMMPS_NS {
 class Fix;
 class LAMMPS;
 class PairSPHBulk;
 
 namespace SPHDissipation {
+
+  // Particles alike in all that decides whether they have pairs: type and bits of groups
+
+  using Kind = std::pair<int, int>;
+  std::set<Kind> all_kinds(LAMMPS *);    // those of the particles of all ranks
+  bool in_neighbor_lists(LAMMPS *, const Kind &, const Kind &);    // pairs of two kinds
 
   // What a wall of particles must be like to be one.  Called by all ranks; messages name the fix.
 

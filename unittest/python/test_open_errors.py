@@ -47,6 +47,9 @@ def refused(lammps, message, inlet=INLET, outlet=OUTLET, ranks=(1, 4), run="run 
     ("velocity v_nanatom 0 0", "variable nanatom is -?nan for particle"),
     ("velocity 0.1 0 0 density v_behind area 1.0", "gives -.* as the distance from the next one"),
     ("velocity 0.1 0 0 density v_late area 1.0", "variable late is|distance from the next one|would have density"),
+    ("velocity 0.1 0 0.2", "0.2 cannot be used: velocity must lie in the plane in 2d"),
+    ("velocity 0.1 0 v_late", "variable late is .* at step 0: velocity must lie in the plane in 2d"),
+    ("velocity 0.1 0 v_behind", "variable behind is .* for particle .* at step 0: velocity must lie in the plane in 2d"),
     ("velocity 0.1 0 0 density -1.0", "would have density|density"),
     ("velocity 0.1 0 0 pressure -2.0", "would have density"),
 ])
@@ -61,6 +64,23 @@ def test_variable_that_becomes_nan_in_the_run(lammps):
             before="variable late equal 0.1+0.0*exp(1000.0*(step>50))\n", run="run 100\n")
 
 
+@pytest.mark.parametrize("spin", ["1 0 0", "0 1 0", "v_one 0 0", "0 v_each 0"])
+def test_spin_out_of_the_plane(lammps, spin):
+    refused(lammps, "spin must be along z in 2d", inlet=f"{INLET} spin {spin}", ranks=(2,), style="sph/micropolar",
+            coeff="1.0 1.0 0.1 0.2 0.05 0.05 -0.05 {R}", integrate="density rho0 inertia 0.1 0.01",
+            before="variable one equal 1\nvariable each atom 1+x\n")
+
+
+@pytest.mark.parametrize("energy", ["0", "-3", "v_none", "v_cold"])
+def test_energy_of_an_ideal_gas(lammps, energy):
+    """Without energy, a gas has no pressure: also if it was not given, and the particles have none."""
+    words, message = f"{INLET} energy {energy}", "energy must be > 0 with eos ideal"
+    if energy == "v_none":
+        words, message = INLET, "particle .* has an internal energy of 0 per mass at step 0, from which eos ideal makes no pressure"
+    refused(lammps, message, inlet=words, outlet="pressure 1.0 energy 2.5", ranks=(2,), options="eos ideal",
+            before="variable cold atom 1+x\n")
+
+
 @pytest.mark.parametrize("change, message", [
     (("8.0 velocity", "-8.0 velocity"), "length must be > 0"),
     (("in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0", "in sph/open fluid 0.0 0.0 0.0 0.0 0.0 0.0"), "must not be zero"),
@@ -68,6 +88,7 @@ def test_variable_that_becomes_nan_in_the_run(lammps):
     (("in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0", "in sph/open fluid 0.0 0.0 0.0 -1.0 0.0 0.0"),
      "the plane .* which must point into the fluid"),
     (("in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0", "in sph/open fluid 0.0 0.0 0.0 1.0 0.2 0.0"), "periodic in y and the plane crosses"),
+    (("in sph/open fluid 0.0 0.0 0.0 1.0 0.0 0.0", "in sph/open fluid 0.0 0.0 0.0 1.0 0.1 0.0"), "periodic in y and the plane crosses"),
     (("in sph/open fluid 0.0 0.0 0.0 1.0", "in sph/open fluid 3.0 0.0 0.0 1.0"), "of the fluid are behind the plane"),
     (("fix in in", "fix X in sph/open\nfix in in"), "Illegal fix sph/open command: missing argument"),
     (("in sph/open fluid", "in sph/open liquid"), "group liquid does not exist"),
@@ -94,6 +115,12 @@ def test_variable_that_becomes_nan_in_the_run(lammps):
     (("pair_style sph/bulk", "pair_style zero 3.0\npair_coeff * *\n#"), "requires pair style|pair_coeff|Incorrect"),
     (("run 100", "pair_style zero 3.0\npair_coeff * *\nrun 100"), "requires pair style"),
     (("run 100", "group in clear\nrun 100"), "group in is empty"),
+    (("run 100", "neigh_modify exclude group in fluid\nrun 100"), "leaves out pairs of the zone with the fluid or with itself"),
+    (("run 100", "neigh_modify exclude group in in\nrun 100"), "leaves out pairs of the zone with the fluid or with itself"),
+    (("run 100", "neigh_modify exclude type 1 1\nrun 100"), "leaves out pairs of the zone with the fluid or with itself"),
+    (("run 100", "group water union fluid\nneigh_modify exclude group water in\nrun 100"), "leaves out pairs of the zone"),
+    (("run 100", "neigh_modify once yes\nrun 100"), "needs new neighbor lists: neigh_modify once must be no"),
+    (("timestep 0.3", "timestep -0.3"), "the time step must not be negative"),
 ])
 def test_setup(lammps, change, message):
     before, after = change
@@ -112,6 +139,51 @@ def test_zone_too_short(lammps):
     channel = Channel()
     channel.zone = 7.4
     refused(lammps, r"the zone must be at least 7\.53 long, not 7\.4", channel=channel)
+
+
+@pytest.mark.parametrize("region, message", [
+    ("INF INF 2 5", "40 particles of group in are outside of region tube, which must contain the zone"),
+    ("INF INF 0 7.4", "8 particles of group in are outside of region tube"),
+    ("-7 INF INF INF", "8 particles of group in are outside of region tube"),
+    ("INF 0.5 INF INF", r"region tube must reach 2\.2 into the fluid, where its state is measured.* for 64 of them"),
+    ("INF 2.1 INF INF", r"region tube must reach 2\.2 into the fluid"),
+])
+@pytest.mark.parametrize("box", ["straight", "free"])
+def test_region_that_does_not_fit_the_zone(lammps, region, message, box):
+    refused(lammps, message, inlet=f"{INLET} region tube", ranks=(2,), channel=Channel(box=box),
+            before=f"region tube block {region} INF INF\n", edit=lambda text: move(text, "region tube", "pair_style"))
+
+
+def move(text, line, before):
+    """A line of the input to another place."""
+    (found,) = [one for one in text.splitlines(True) if one.startswith(line)]
+    return text.replace(found, "").replace(before, found + before, 1)
+
+
+def test_zone_that_drifts_out_of_its_region(lammps):
+    """By more than half a row, at a later list of neighbors."""
+    refused(lammps, "particles of group in are outside of region tube", inlet="velocity 0.1 0.2 0 region tube", ranks=(1, 2),
+            channel=Channel(box="free"), before="region tube block INF INF INF 8.1 INF INF\n",
+            edit=lambda text: move(text, "region tube", "pair_style"))
+
+
+@pytest.mark.parametrize("kind, box", [("sq", "straight"), ("hex", "straight"), ("sq", "walls")])
+@pytest.mark.parametrize("hole, message", [
+    ("-4.2 -3.2 3 4", "the rows of the zone have 1 gaps; it must be filled from the plane to its end"),
+    ("-1.2 0 3 4", "have 1 gaps"),
+    ("-5 -2 INF INF", "have [0-9]+ gaps"),
+])
+def test_zone_with_a_hole(lammps, kind, box, hole, message):
+    channel = Channel(kind=kind, box=box)
+    refused(lammps, message, channel=channel, ranks=(2,), edit=lambda text: text.replace(
+        "pair_style", f"region hole block {hole} INF INF\ngroup hole region hole\ngroup solid subtract hole in\n"
+        "group hole subtract hole solid\ndelete_atoms group hole compress no\npair_style", 1).replace(" density rho0", ""))
+
+
+def test_outlet_that_is_not_filled_to_its_end(lammps):
+    """What flows out does not fill it."""
+    refused(lammps, "the rows of the zone have 8 gaps", ranks=(2,), edit=lambda text: text.replace(
+        "pair_style", "region far block 21 INF INF INF INF INF\ndelete_atoms region far compress no\npair_style", 1))
 
 
 def test_zone_that_overlaps_another(lammps):
@@ -179,6 +251,54 @@ def test_supersonic_outflow(lammps):
             result = lammps(channel.text(lammps, "velocity 1.5 0 0 density 1.0 condition fixed", outlet, timestep=0.05,
                                          velocity=lambda place: place * 0 + [1.5, 0, 0]) + "run 40\nrun 40\n", ranks=ranks)
             assert len(re.findall("WARNING.*leave faster than sound", result.log)) == number
+
+
+def warned(lammps, message, channel=None, ranks=(1, 2), edit=None, times=1, run="run 2\nrun 2\n", inlet=INLET, outlet=OUTLET, **keywords):
+    """So many times in two runs, once for each zone."""
+    channel = channel or Channel()
+    text = channel.text(lammps, inlet, outlet, **{"velocity": lambda place: place * 0 + [U, 0, 0], **keywords}) + run
+    for number in ranks:
+        result = lammps(edit(text) if edit else text, ranks=number)
+        assert len(re.findall(message, re.sub(r"\s+", " ", result.log))) == times, result.warnings
+
+
+@pytest.mark.parametrize("kind", ["sq", "hex", "hexrows"])
+def test_missing_row(lammps, kind):
+    channel = Channel(kind=kind, zone=9.0)
+    rows = channel.place[channel.part == 0][:, 1]
+    row = sorted(set(rows.round(6)))[3]
+    warned(lammps, "WARNING: Fix sph/open: [0-9]+ particles of the fluid at the plane have neither the zone nor a wall behind them",
+           channel=channel, edit=lambda text: text.replace(
+               "pair_style", f"region row block INF 0 {row - 0.1} {row + 0.1} INF INF\ndelete_atoms region row compress no\npair_style", 1))
+
+
+@pytest.mark.parametrize("factor, found", [(3.0, "3"), (1.2, r"1\.2"), (0.5, r"0\.5")])
+def test_mass_that_is_not_that_of_the_density(lammps, factor, found):
+    warned(lammps, f"Fix sph/open in: the masses of the zone, where its particles are, make {found}[0-9.]* times the density",
+           edit=lambda text: text.replace("pair_style", f"set group in mass {factor}\npair_style", 1))
+
+
+def test_masses_that_were_set_before_there_was_a_zone(lammps):
+    """By a part in a thousand, which is what density rho0 changes.  Not if the zones were there: they have the factor, too."""
+    warned(lammps, r"keyword density has set the masses of the fluid before; those of the zone, of type 1, differ from them by a part of",
+           times=2, edit=lambda text: text.replace("fix in in", "run 0\nfix in in", 1))
+    again = "".join(f"unfix {name}\nfix {name} {Channel().plane(name)} {words}\n" for name, words in (("in", INLET), ("out", OUTLET)))
+    warned(lammps, "keyword density has set", times=0, run=f"run 2\n{again}run 2\n")
+
+
+@pytest.mark.parametrize("styles, times", [("lj/cut 1.2 zero 1.2", 2), ("zero 1.2", 0)])
+def test_forces_of_other_pair_styles(lammps, styles, times):
+    """The ledger does not have them; a style without forces has none."""
+    others = "".join(f"pair_coeff * * {name}{' 0.01 0.5' if name == 'lj/cut' else ''}\n" for name in styles.split()[::2])
+    warned(lammps, "the impulse and the energy of the forces of pair style lj/cut between zone and fluid are not in the ledger", times=times,
+           edit=lambda text: text.replace("pair_style sph/bulk", f"pair_style hybrid/overlay sph/bulk {styles}").replace(
+               "pair_coeff * * ", f"{others}pair_coeff * * sph/bulk ", 1))
+
+
+def test_fluid_that_tears_off(lammps):
+    """It is five times as fast as what enters."""
+    warned(lammps, r"Fix sph/open in: there is a gap of [0-9.]+ in the fluid in front of what enters at step [0-9]+: the fluid tears off",
+           velocity=lambda place: place * 0 + [[0.5, 0, 0] if s > 0 else [U, 0, 0] for s in place[:, 0]], timestep=0.1, run="run 50\nrun 50\n")
 
 
 def test_no_warning_of_subsonic_flow(lammps):

@@ -153,6 +153,28 @@ def test_zone_with_fluid_at_its_side(lammps, ranks):
     assert_balance(table, ("n", "m", "px", "py"))
 
 
+@pytest.mark.parametrize("size", [1e200, 1e-200])
+def test_normal_of_any_length(lammps, size):
+    channel = Channel(kind="hex", length=20)
+    frames = []
+    for scale in ("1.0", repr(size)):
+        lammps(unsteady(lammps, channel).replace("0.0 0.0 0.0 1.0 0.0 0.0", f"0.0 0.0 0.0 {scale} 0.0 0.0")
+               + dump("out.dump", 20) + "run 20\n")
+        frames.append(lammps.frame("out.dump"))
+    assert (frames[0]["x"] == frames[1]["x"]).all()
+
+
+def test_region_that_just_fits(lammps):
+    """It ends with the zone, with its first and last row, and with what is measured."""
+    channel = Channel(kind="hex", length=20)
+    numbers = []
+    for region, words in (("", ""), (f"region tube block -8 2.4 {0.5 * channel.pitch[1]!r} {channel.place[:, 1].max()!r} INF INF\n", "region tube")):
+        lammps(channel.text(lammps, f"velocity {channel.vector(U)} {words}", "density 1.0", velocity=stream, after_read=region, timestep=0.25)
+               + "thermo_style custom step f_in[28] f_in[1]\nrun 60\nrun 60\n", ranks=2)
+        numbers.append([table[name][-1] for table in lammps.results[-1].thermo() for name in ("f_in[28]", "f_in[1]")])
+    assert numbers[0] == numbers[1] and numbers[0][-1] > 16
+
+
 def cross(lammps, ranks, steps):
     """A square of fluid with a zone at each side: two inlets, two outlets."""
     grid = np.arange(-9, 21) + 0.5
@@ -204,6 +226,35 @@ def test_settings_that_do_not_matter(lammps, before, after):
     assert frame["id"].max() > 600 and len(np.unique(frame["id"])) == len(frame["id"])
     assert np.abs(frame["v"] - U * channel.along).max() < 1e-10 * U
     assert np.abs(frame["c_RHO"] - 1.0).max() < 1e-10
+
+
+def test_speed_of_sound_by_fix_adapt(lammps):
+    """The default time of the average is that of the speed of sound in effect."""
+    channel = Channel(kind="hex", length=20)
+    frames = []
+    for c0, after in ((1.5, ""), (1.0, "variable c equal 1.5\nfix A all adapt 0 pair sph/bulk c0 * * v_c\n")):
+        lammps(channel.text(lammps, f"velocity {channel.vector(U)}", "density 1.0", velocity=wavy(channel), timestep=0.2,
+                            coeff=f"1.0 {c0} 0.1 0.2 {{R}}") + after + dump("out.dump", 100) + "run 100\n")
+        frames.append(lammps.frame("out.dump"))
+    for name in ("x", "v", "c_RHO"):
+        assert np.abs(frames[0][name] - frames[1][name]).max() < 1e-12, name
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("before", [True, False])
+def test_particles_that_split_and_merge(lammps, before, ranks):
+    """By a fix that is defined before the zones or after them: the account of number, mass, and momentum closes."""
+    channel = Channel()
+    text = channel.text(lammps, f"velocity {channel.vector(0.4)} density 1.0", "density 1.0", timestep=0.05, options="volume mass",
+                        coeff="1.0 4.0 0.1 0.2 {R}", before='variable t atom "0.4+2.2*(x>8)"\n',
+                        velocity=lambda place: np.tile([0.4, 0.0, 0.0], (len(place), 1)))
+    text = text.replace("fix in in" if before else "timestep", "fix R fluid sph/refine 1 volume v_t wait 0.0\n"
+                        + ("fix in in" if before else "timestep"), 1)
+    lammps(text + output(channel, "sph/bulk", 5).replace("v_n v_m", "f_R[1] f_R[2] f_R[3] v_n v_m") + "run 400\n", ranks=ranks)
+    (table,) = lammps.results[-1].thermo()
+    assert table["f_R[1]"][-1] > 100 and table["f_R[2]"][-1] > 200
+    assert table["f_in[1]"][-1] > 150 and table["f_out[11]"][-1] > 30
+    assert_balance(table, ("n", "m", "px", "py"), {"n": -table["f_R[3]"]})
 
 
 def test_results_before_the_first_run(lammps):
