@@ -20,10 +20,10 @@
 #include "fix_sph_bulk.h"
 #include "force.h"
 #include "group.h"
-#include "input.h"
 #include "math_extra.h"
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_checks.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_checks.h"
@@ -37,7 +37,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -69,8 +68,8 @@ enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), condition(nullptr),
     rows(nullptr), ledger(nullptr), pair(nullptr), integrator(nullptr), avec(nullptr),
-    spinning(nullptr), fluidbit(0), radius(0.0), area(0.0), supersonic(false), totals_known(false),
-    totals(new double[NVECTOR])
+    spinning(nullptr), fluidbit(0), radius(0.0), area(0.0), supersonic(false), set_up(false),
+    totals_known(false), totals(new double[NVECTOR])
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -168,7 +167,7 @@ void FixSPHOpen::init()
   if (update->whichflag == 2)
     error->all(FLERR, "Fix {} cannot be used in a minimization: its particles have a velocity",
                style);
-  if (input->command && strcmp(input->command, "rerun") == 0)
+  if (is_rerun(lmp))
     error->all(FLERR,
                "Fix {} cannot be used with rerun: snapshots have neither the groups of the "
                "particles nor the waves in the zone",
@@ -229,6 +228,7 @@ bool FixSPHOpen::zone_near(const double *x, double reach) const
 
 void FixSPHOpen::setup_pre_exchange()
 {
+  set_up = true;
   check_open_places(lmp, this, *plane, fluidbit);
   values->evaluate(igroup);
   if (condition->given_velocity() && !samples->any())
@@ -265,6 +265,7 @@ void FixSPHOpen::pre_force(int vflag)
 
 void FixSPHOpen::initial_integrate(int /*vflag*/)
 {
+  check_set_up(lmp, this, set_up);
   ledger->advance(0.5 * update->dt);
   condition->clock += update->dt;
   totals_known = false;

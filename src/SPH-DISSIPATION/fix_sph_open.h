@@ -82,6 +82,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   double area;                 // of the cross section of a row; 0: rows have a spacing
   std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
   bool supersonic;             // has been warned of
+  bool set_up;                 // since it was defined
   bool totals_known;
   double *totals;
   std::vector<double> waves_before;    // from a restart file, until init()
