@@ -159,3 +159,19 @@ def test_help_of_an_example(machine):
 def test_help(machine, command):
     status, output, installed, _ = machine(command, "--help")
     assert status == 0 and output.startswith("./sphd run EXAMPLE") and not installed
+
+
+@pytest.mark.parametrize("precision, there", [("double", True), ("DOUBLE", True), ("", True), ("mixed", False), ("SINGLE", False)])
+def test_precision_of_kokkos(tmp_path, precision, there):
+    """The hook into LAMMPS's build adds the /kk styles for double precision, which LAMMPS takes in any case."""
+    for name, text in {"cmake/Modules/StyleHeaderUtils.cmake": 'function(RegisterStyles folder)\nmessage(STATUS "styles of ${folder}")\nendfunction()\n',
+                       "src/version.h": '#define LAMMPS_VERSION "4 Jul 2026"\n',
+                       "cmake/CMakeLists.txt": f'cmake_minimum_required(VERSION 3.20)\nproject(lammps NONE)\ninclude("{ROOT}/cmake/SPH-DISSIPATION.cmake")\n'}.items():
+        file = tmp_path / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+    done = subprocess.run(["cmake", "-S", str(tmp_path / "cmake"), "-B", str(tmp_path / "build"), "-D", "PKG_SPH-DISSIPATION=on",
+                           "-D", "PKG_KOKKOS=on", "-D", f"KOKKOS_PREC={precision}"],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)    # there is nothing to build
+    assert f"styles of {ROOT}/src/SPH-DISSIPATION" in done.stdout, done.stdout
+    assert (f"styles of {ROOT}/src/KOKKOS" in done.stdout) == there and ("KOKKOS_PREC=double" in done.stdout) != there, done.stdout
