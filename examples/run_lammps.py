@@ -39,7 +39,8 @@ class Example:
         self.folder, self.name = folder, folder.name
         self.begin = time.monotonic()
         self.missed = []
-        self.parser = argparse.ArgumentParser(description=description)
+        self.parser = argparse.ArgumentParser(prog=f"./sphd run {self.name}" if Path(sys.argv[0]).stem == "run" else None,
+                                              description=description)
         self.parser.add_argument("--quick", action="store_true", help="a small version, for tests")
         self.parser.add_argument("--np", type=int, default=1, metavar="N", help="MPI ranks per run (1)")
         self.parser.add_argument("--switches", type=shlex.split, default=[], metavar="WORDS",

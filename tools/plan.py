@@ -4,11 +4,12 @@
 
     ./sphd plan --fluid water --length 1e-3 --velocity 0.01 > in.flow
     ./sphd plan --rho 1 --mu 0.01 --kappa 0.02 --length 1 --velocity 1 --dim 3 --particles 32
-    ./sphd plan --fluid water --length 1e-6 --velocity 100 --c real      # sound: the speed of sound of the fluid itself
+    ./sphd plan --fluid water --length 1e-6 --velocity 1 --c real        # sound: a wave in the fluid itself
     ./sphd plan --rho 1 --mu 0.5 --length 16 --velocity 0.1 --c 3 --particles 16 --temperature 0.02
 
 With --fluid, a name of potentials/fluids.sph, all numbers are in SI units; else in the units of --units. The input is a
-periodic box, filled with a stream; the flow is to be put in its place. What the choices are made by is in the manual,
+periodic box, filled with a stream; the flow is to be put in its place. With --c real it is filled with a standing wave of
+sound, as long as the box. What the choices are made by is in the manual,
 "Choosing numbers".
 """
 import argparse
@@ -45,13 +46,20 @@ BOLTZMANN = {"lj": 1.0, "si": 1.380649e-23}
 LATTICE = {2: ("hex", math.sqrt(2 / math.sqrt(3)), 2, (1, math.sqrt(3))), 3: ("bcc", 2 ** (1 / 3), 2, (1, 1, 1))}
 
 
+STIFF = 10.0      # times the step of sound, from which rate of the viscous terms on they get a solver of their own,
+STIFFER = 300.0   # and from which on one that damps fast motions at once; see the page about large viscosities
+MOST_STEPS = 2**31 - 1    # of LAMMPS's run command
+
+
 def read_fluid(name):
-    """rho, c, mu, kappa in three dimensions"""
+    """rho, c, mu, kappa in three dimensions; the lowest and the highest frequency for which that kappa holds"""
     fluids = {}
     for line in FLUIDS.read_text().splitlines():
-        words = line.partition("#")[0].split()
+        words, _, comment = line.partition("#")
+        words, valid = words.split(), re.match(r" kappa (above|below) (\S+)$", comment)
         if words:
-            fluids[words[0]] = [float(word) for word in words[2:6]]
+            range_of_kappa = {"above": 0.0, "below": math.inf, **({valid[1]: float(valid[2])} if valid else {})}
+            fluids[words[0]] = [*(float(word) for word in words[2:6]), (range_of_kappa["above"], range_of_kappa["below"])]
     if name not in fluids:
         raise SystemExit(f"plan: no fluid {name} in {FLUIDS.name}, which has: {' '.join(fluids)}")
     return fluids[name]
@@ -65,9 +73,10 @@ class Plan:
 
     def __post_init__(self):
         args = self.args
-        self.dim, self.units = args.dim, "si" if args.fluid else args.units
+        self.dim, self.units = args.dim, "si" if args.fluid else args.units or "lj"
+        self.wave, self.valid = args.c == "real", (0.0, math.inf)
         if args.fluid:
-            self.rho, self.c_fluid, self.mu, kappa = read_fluid(args.fluid)
+            self.rho, self.c_fluid, self.mu, kappa, self.valid = read_fluid(args.fluid)
             self.kappa = kappa + (self.mu / 3 if self.dim == 2 else 0.0)    # the plane flow of the real fluid
         else:
             self.rho, self.c_fluid, self.mu, self.kappa = args.rho, None, args.mu, args.kappa
@@ -83,12 +92,16 @@ class Plan:
         self.lattice = f"{name} {1 / self.dx**self.dim:.8g}" if self.units == "lj" else f"{name} {constant * self.dx:.8g}"
         self.cells = [max(round(args.particles / (constant * edge)), 1) for edge in edges]
         self.number = per_cell * math.prod(self.cells)
+        self.box = constant * self.cells[0] * edges[0] * self.dx    # along x; whole cells, about the length
         width = constant * min(n * e for n, e in zip(self.cells, edges))
         if width < 2 * args.support:
             raise SystemExit(f"plan: a lattice of {args.particles} particles across is {width:.3g} distances wide, less than two support "
                              f"radii, {2 * args.support:g}")
         self.set_time_step()
-        self.steps = math.ceil((args.time or 10 * args.length / args.velocity) / self.dt)
+        self.steps = math.ceil((args.time or 10 * args.length / (self.c0 if self.wave else args.velocity)) / self.dt)
+        if self.steps > MOST_STEPS:
+            raise SystemExit(f"plan: these are {self.steps:.2g} steps of {self.dt:g}, more than LAMMPS can run; take a lower speed of "
+                             "sound (--c), a shorter --time, or a larger length")
 
     def set_sound_speed(self):
         u, wanted = self.args.velocity, self.args.c
@@ -112,7 +125,12 @@ class Plan:
             "bulk": 0.4 * self.rho * hsq / abs(self.zeta) if self.zeta else math.inf,
         }
         self.rate = 1 / self.limits["shear"] + 1 / self.limits["bulk"]    # of the fastest viscous mode
-        self.largest = min(self.limits["acoustic"], 1 / self.rate if self.rate else math.inf)
+        self.explicit = min(self.limits["acoustic"], 1 / self.rate if self.rate else math.inf)
+        self.stiffness = self.rate * self.limits["acoustic"]
+        self.viscous = ""
+        if args.temperature is None and self.stiffness > STIFF:
+            self.viscous = "viscous rkl2" if self.stiffness < STIFFER else "viscous implicit scheme sdirk2"
+        self.largest = self.limits["acoustic"] if self.viscous else self.explicit
         self.dt = float(f"{args.fraction * self.largest:.3g}")
         if args.temperature is not None:
             self.dt = float(f"{min(self.largest / 3, 0.095 / self.rate if self.rate else math.inf):.3g}")
@@ -130,10 +148,24 @@ class Plan:
             lines.append(f"                    of the fluid itself {args.velocity / self.c_fluid:.3g}, c = {self.c_fluid:g}")
         if args.velocity > 0.3 * self.c0:
             lines.append("                    NOTE: the flow is compressible")
-        if self.mu:
+        frequency = self.c0 / self.box if self.wave else args.velocity / args.length
+        if not self.valid[0] <= frequency <= self.valid[1]:
+            lines.append(f"NOTE                kappa of {args.fluid} holds {'below' if frequency > self.valid[1] else 'above'} "
+                         f"{self.valid[frequency > self.valid[1]]:g} Hz, this has {frequency:.3g}; see {FLUIDS.relative_to(ROOT)}")
+        if self.wave:
+            longitudinal = self.kappa + (2 - 2 / self.dim) * self.mu
+            lines.append("                    with pb the particles are a crystal, of which LAMMPS warns: right for sound, not for shear")
+            lines.append(f"times               period of the wave {1 / frequency:.4g}, decay of its amplitude "
+                         f"{2 * self.rho * self.box**2 / (4 * math.pi**2 * longitudinal):.4g}")
+        elif self.mu:
             lines.append(f"times               passage {args.length / args.velocity:.4g}, viscous {self.rho * args.length**2 / self.mu:.4g}")
         steps = ", ".join(f"{name} {step:.4g}" for name, step in self.limits.items() if step < math.inf)
         lines.append(f"largest stable step {self.largest:.4g}: {steps}")
+        if self.viscous:
+            lines.append(f"viscous terms       their rate times the step {self.rate * self.dt:.3g}: {self.viscous}, with the step of sound; "
+                         f"explicit {self.explicit:.4g}")
+            if not self.wave and self.stiffness > STIFF > self.limits["acoustic"] / self.limits["shear"]:
+                lines.append("                    NOTE: slow flows hardly feel kappa; with intrinsic in its place they need no such solver")
         if args.temperature is not None:
             lines.append(f"thermal noise       viscous rate times step {self.rate * self.dt:.3g}, thermal speed over c0 {self.thermal_mach():.2g}"
                          + ("; NOTE: above 0.1, raise c0 or the particle size" if self.thermal_mach() > 0.1 else ""))
@@ -144,7 +176,16 @@ class Plan:
         args = self.args
         noise = "" if args.temperature is None else (" limit yes" if self.zeta < 0.0 else "") + f" temp {args.temperature:g} 4711"
         kappa = "intrinsic" if self.kappa is None else f"{self.kappa:.6g}"
-        shift = "" if args.temperature is not None else f" shift {args.velocity:g}    # no shift with a free surface"
+        shift = "" if args.temperature is not None or self.wave else f" shift {args.velocity:g}    # no shift with a free surface"
+        viscous = f" {self.viscous}" if self.viscous else ""
+        pressure = f" pb {self.rho * self.c0**2:.6g}" if self.wave else ""
+        flow = f"velocity        all set {args.velocity:g} 0.0 0.0 units box    # put the flow here\n"
+        output = ""
+        if self.wave:
+            flow = (f'variable        wave atom sin(2.0*PI*x/lx)\nvariable        ux atom {args.velocity:g}*v_wave\n'
+                    "velocity        all set v_ux NULL NULL units box    # put another wave here\n")
+            output = ("variable        part atom 2.0*vx*v_wave\ncompute         amplitude all reduce ave v_part\n"
+                      "thermo_style    custom step time c_amplitude press\n")
         box = " ".join(f"0 {n}" for n in self.cells) + (" -0.5 0.5" if self.dim == 2 else "")
         return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
 units           {self.units}
@@ -156,34 +197,36 @@ region          box block {box}
 create_box      1 box
 create_atoms    1 box
 set             group all mass {self.rho * self.dx**self.dim:.8g}
-velocity        all set {args.velocity:g} 0.0 0.0 units box    # put the flow here
-
+{flow}
 neighbor        {0.3 * self.dx:.4g} bin
 pair_style      sph/bulk kernel {args.kernel} shear {args.shear}{noise}
-pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa} {self.rc:.6g}    # rho0 c0 mu kappa rc
-fix             1 all sph/bulk density rho0{shift}
+pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa} {self.rc:.6g}{pressure}    # rho0 c0 mu kappa rc
+fix             1 all sph/bulk density rho0{viscous}{shift}
 
 timestep        {self.dt:.3g}
-thermo          {max(self.steps // 100, 1)}
+{output}thermo          {max(self.steps // 100, 1)}
 variable        steps index {self.steps}
 run             ${{steps}}
 """
 
 
 def measured_time(plan, lmp):
-    """seconds of one core per particle and step; of a box that is smaller, if it is large"""
+    """seconds of one core per particle and step; of a box that is smaller, if it is large; None: takes too long"""
     most = 30000
     args = argparse.Namespace(**vars(plan.args))
     if plan.number > most:
         args.particles = max(int(args.particles * (most / plan.number) ** (1 / plan.dim)), math.ceil(2 * args.support) + 2)
         args.length = plan.dx * args.particles
     small = Plan(args)
-    steps = max(10, min(200, 400000 // small.number))
+    steps = 10 if small.viscous else max(10, min(200, 400000 // small.number))
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "in.plan").write_text(small.input())
-        done = subprocess.run([str(lmp), "-in", "in.plan", "-var", "steps", str(steps), "-nocite", "-log", "none"], cwd=folder,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, check=False,
-                              env={**os.environ, "OMP_NUM_THREADS": "1"})
+        try:
+            done = subprocess.run([str(lmp), "-in", "in.plan", "-var", "steps", str(steps), "-nocite", "-log", "none"], cwd=folder,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, check=False,
+                                  timeout=60, env={**os.environ, "OMP_NUM_THREADS": "1"})
+        except subprocess.TimeoutExpired:
+            return None
     loop = re.search(r"^Loop time of (\S+) on", done.stdout, re.MULTILINE)
     share = re.search(r"([\d.]+)% CPU use", done.stdout)    # others may use the machine, too
     if done.returncode or not loop or not share:
@@ -223,10 +266,10 @@ def arguments(argv):
     parser.add_argument("--rho", type=positive, help="density")
     parser.add_argument("--mu", type=not_negative, help="shear viscosity")
     parser.add_argument("--kappa", type=not_negative, help="bulk viscosity (default: what the shear term brings along)")
-    parser.add_argument("--units", choices=BOLTZMANN, default="lj", help="without --fluid (default: %(default)s)")
+    parser.add_argument("--units", choices=BOLTZMANN, help="without --fluid (default: lj)")
     parser.add_argument("--length", type=positive, required=True, help="of the flow; the box is as wide")
     parser.add_argument("--velocity", type=positive, required=True, help="the largest of the flow")
-    parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real (default: ten times the velocity)")
+    parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real: a wave of sound (default: ten times the velocity)")
     parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
     parser.add_argument("--particles", type=int, default=50, metavar="N", help="across the length (default: %(default)s)")
     parser.add_argument("--support", type=positive, default=4.0, help="support radius over particle distance (default: %(default)s)")
@@ -239,6 +282,8 @@ def arguments(argv):
     args = parser.parse_args(argv)
     if bool(args.fluid) == (args.rho is not None) or (args.fluid and (args.mu, args.kappa) != (None, None)):
         parser.error("give --fluid, or --rho, --mu, and --kappa")
+    if args.fluid and args.units:
+        parser.error("--fluid is in SI units: leave --units out")
     if not args.fluid and args.mu is None:
         parser.error("--mu is missing")
     if args.particles < 1:
@@ -251,9 +296,13 @@ def arguments(argv):
 def main(argv=None):
     plan = Plan(arguments(argv))
     time = "run time            not measured, there is no LAMMPS at build/lmp; ./sphd build makes it"
+    if plan.args.lmp.exists() and not (plan.args.lmp.is_file() and os.access(plan.args.lmp, os.X_OK)):
+        raise SystemExit(f"plan: {plan.args.lmp} is no program that can be run")
     if plan.args.lmp.exists():
-        seconds = measured_time(plan, plan.args.lmp.resolve()) * plan.number * plan.steps
-        time = f"run time            about {duration(seconds)} of one core, from a short run on this machine"
+        time = "run time            not measured, a short run takes more than a minute on this machine"
+        each = measured_time(plan, plan.args.lmp.resolve())
+        if each is not None:
+            time = f"run time            about {duration(each * plan.number * plan.steps)} of one core, from a short run on this machine"
     sys.stdout.write(plan.input(time))
 
 

@@ -108,7 +108,7 @@ def main():
             axes.plot(t, wave[:, 1] * 1e3, ".", ms=2, color=color, label=f"kappa = {kappa}")
             for sign in (-1, 1):
                 axes.plot(t, sign * 5 * np.exp(-rate * t), "-", lw=1, color=color)
-        axes.set(xlabel="time", ylabel="amplitude / 1000", xlim=(0, 5))
+        axes.set(xlabel="time", ylabel=r"amplitude / $10^{-3}$", xlim=(0, 5))
         axes.legend(fontsize=8, markerscale=4)
     figure("3", sound_wave, out)
     wave = sound["0.2"]

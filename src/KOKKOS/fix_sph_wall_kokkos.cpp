@@ -18,6 +18,7 @@
 #include "domain_kokkos.h"
 #include "memory_kokkos.h"
 #include "neighbor.h"
+#include "sph_dissipation_checks.h"
 #include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_wall_motion.h"
 
@@ -118,6 +119,7 @@ template <class DeviceType> uint64_t FixSPHWallKokkos<DeviceType>::spin_mask() c
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate(int /*vflag*/)
 {
+  check_set_up(lmp, this, checked);
   if (motion->has_variables()) atomKK->sync(Host, ALL_MASK);    // which may be of any particles
   const WallVelocity old = motion->velocity();
   motion->advance();

@@ -49,6 +49,11 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
   atom->esph_flag = 1;
   atom->vest_flag = 1;
 
+  for (const auto &field : atom->peratom)
+    if (field.name == "desph_before")
+      error->all(FLERR,
+                 "Atom style hybrid of sph/bulk and sph/micropolar: use one of the two, "
+                 "sph/micropolar has all that sph/bulk has");
   add_array("desph_before", &desph_before);
 
   // strings with peratom variables to include in each AtomVec method

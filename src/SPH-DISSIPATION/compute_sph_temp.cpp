@@ -118,6 +118,11 @@ double ComputeSPHTemp::internal() const
 {
   const auto *const pair = PairSPHBulk::find(force);
   if (!pair || !pair->has_own_temperatures()) return 0.0;
+  if (!pair->is_set_up())
+    error->all(FLERR,
+               "Compute {} needs the coefficients of the pair style that is there now: use run 0 "
+               "first",
+               style);
   double own[2] = {}, all[2];    // particles with heat, and their 1/T_i
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !pair->has_type(atom->type[i])) continue;

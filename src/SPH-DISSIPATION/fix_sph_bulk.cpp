@@ -21,6 +21,7 @@
 #include "force.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_checks.h"
 #include "sph_dissipation_integrate.h"
 #include "sph_dissipation_shift_terms.h"
 #include "sph_dissipation_suffix.h"
@@ -117,7 +118,7 @@ void FixSPHBulk::init()
 
   if (first_instance) check_integrated_once();
 
-  pair = dynamic_cast<PairSPHBulk *>(force->pair_match("^" + fluid_style, 0));
+  pair = find_pair();
   const bool noise = pair && pair->has_noise();
   extrapolation = viscous->settings().extrapolation(noise);
   balanced = pair && pair->has_own_temperatures() && pair->compute_flag;
@@ -145,6 +146,13 @@ void FixSPHBulk::init()
   if (remap_v_flag && !comm->ghost_velocity)
     error->all(FLERR, "Fix {} requires comm_modify vel yes when fix deform remaps velocities",
                style);
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairSPHBulk *FixSPHBulk::find_pair() const
+{
+  return dynamic_cast<PairSPHBulk *>(force->pair_match("^" + fluid_style, 0));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -365,12 +373,14 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
    the time step, the pair style, and its forces are those of another fix then, or none
 ------------------------------------------------------------------------- */
 
-void FixSPHBulk::check_set_up() const
+void FixSPHBulk::check_set_up()
 {
-  if (!set_up)
+  SPHDissipation::check_set_up(lmp, this, set_up);
+  const PairSPHBulk *const now = find_pair();
+  if (now != pair || (now && !now->is_set_up()))
     error->all(FLERR, Error::NOLASTLINE,
-               "Fix {} {} was defined after the last run was set up: the next one cannot be a run "
-               "with pre no",
+               "Fix {} {}: the pair style or its coefficients were changed after the last run was "
+               "set up: the next one cannot be a run with pre no",
                id, style);
 }
 

@@ -77,7 +77,7 @@ class FixSPHBulk : public Fix {
   int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
   int integrated_groups;    // bits of all groups with an integrator of this kind
   bool first_instance;      // acts for the particles outside all these groups
-  void check_set_up() const;
+  void check_set_up();
   int nlocal_group() const;
   SPHDissipation::TimeStep time_step() const;
   class AtomVecSPHBulk *avec() const;
@@ -99,6 +99,7 @@ class FixSPHBulk : public Fix {
   void check_integrated_once();
   void warn_of_jump() const;
   void init_viscous();
+  class PairSPHBulk *find_pair() const;
   void warn_not_integrated();
   void add_remapped_velocity();
   void shift_particles();

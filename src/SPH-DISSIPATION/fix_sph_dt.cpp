@@ -21,6 +21,7 @@
 #include "output.h"
 #include "pair.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_checks.h"
 #include "sph_dissipation_coeffs.h"
 #include "update.h"
 
@@ -30,7 +31,7 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using SPHDissipation::UNLIMITED_STEP;
+using namespace SPHDissipation;
 
 // largest factor between a time step and the next one: forces are those of the time step before
 
@@ -47,7 +48,7 @@ static double part_of(double part, double time)
 
 FixSPHDt::FixSPHDt(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), pair(nullptr), part{0.25, 1.0, 0.25}, given(), smallest(0.0),
-    largest(UNLIMITED_STEP), limits()
+    largest(UNLIMITED_STEP), limits(), set_up(false)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix sph/dt", error);
   if (igroup != 0) error->all(FLERR, "Fix {} must use group all", style);
@@ -128,6 +129,7 @@ void FixSPHDt::setup_pre_force(int /*vflag*/)
 
 void FixSPHDt::setup(int /*vflag*/)
 {
+  set_up = true;
   limits[FORCE] = part_of(part[FORCE], pair->fall_time());
   const double step = allowed_step();
   reset_step(pair->has_viscous_stage() ? std::min(step, update->dt) : step);
@@ -137,6 +139,7 @@ void FixSPHDt::setup(int /*vflag*/)
 
 void FixSPHDt::end_of_step()
 {
+  check_set_up(lmp, this, set_up);
   limits[FORCE] = part_of(part[FORCE], pair->fall_time());
   reset_step(std::min(allowed_step(), GROWTH * update->dt));
 }

@@ -44,6 +44,7 @@ class FixSPHDt : public Fix {
   bool given[NLIMIT];          // by the keyword
   double smallest, largest;    // time steps
   double limits[NLIMIT];       // time steps; the last ones
+  bool set_up;                 // since it was defined
 
   double allowed_step();
   void reset_step(double);

@@ -20,11 +20,11 @@
 #include "fix_sph_bulk.h"
 #include "force.h"
 #include "group.h"
-#include "input.h"
 #include "math_extra.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_checks.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_checks.h"
@@ -38,7 +38,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -71,7 +70,7 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), condition(nullptr),
     rows(nullptr), ledger(nullptr), pair(nullptr), integrator(nullptr), avec(nullptr),
     spinning(nullptr), fluidbit(0), radius(0.0), area(0.0), is_new(false), supersonic(false),
-    gap(false), totals_known(false), totals(new double[NVECTOR])
+    gap(false), set_up(false), totals_known(false), totals(new double[NVECTOR])
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -169,7 +168,7 @@ void FixSPHOpen::init()
   if (update->whichflag == 2)
     error->all(FLERR, "Fix {} cannot be used in a minimization: its particles have a velocity",
                style);
-  if (input->command && strcmp(input->command, "rerun") == 0)
+  if (is_rerun(lmp))
     error->all(FLERR,
                "Fix {} cannot be used with rerun: snapshots have neither the groups of the "
                "particles nor the waves in the zone",
@@ -245,6 +244,7 @@ bool FixSPHOpen::zone_near(const double *x, double reach) const
 
 void FixSPHOpen::setup_pre_exchange()
 {
+  set_up = true;
   check_open_places(lmp, this, *plane, fluidbit);
   values->evaluate(igroup);
   if (condition->given_velocity() && !samples->any())
@@ -302,6 +302,7 @@ bool FixSPHOpen::has_lost_members() const
 
 void FixSPHOpen::initial_integrate(int /*vflag*/)
 {
+  check_set_up(lmp, this, set_up);
   ledger->advance(0.5 * update->dt);
   condition->clock += update->dt;
   totals_known = false;

@@ -83,6 +83,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
   bool is_new;                 // no forces have been computed with this zone
   bool supersonic, gap;        // has been warned of
+  bool set_up;                 // since it was defined
   bool totals_known;
   double *totals;
   std::vector<double> waves_before;    // from a restart file, until init()

@@ -26,6 +26,7 @@
 #include "neighbor.h"
 #include "npair.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_checks.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_refine_event.h"
 #include "sph_dissipation_refine_ledger.h"
@@ -41,7 +42,7 @@ using namespace FixConst;
 using namespace SPHDissipation;
 
 static constexpr double SPLIT = 1.6, MERGE = 0.6;    // defaults: volume over target
-static constexpr double NEVER = -1.0e300;            // step of the last event
+static constexpr double NEVER = -INFINITY;           // step of the last event
 
 // of each particle: step of its last event; if that was a split, which its daughters can undo as a
 // whole, the lowest of their new IDs, else 0
@@ -60,7 +61,7 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), target(nullptr), ledger(nullptr), event(nullptr), pair(nullptr),
     list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr),
     not_fluid(0), last_step(-1), event_step(-1), postponed(false), totals_known(false),
-    totals(new double[RefineLedger::NVALUE])
+    set_up(false), totals(new double[RefineLedger::NVALUE])
 {
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
@@ -188,20 +189,24 @@ void FixSPHRefine::init()
     error->all(FLERR, "Fix {} does not support fix deform with remap v", style);
   if (neighbor->build_once)
     error->all(FLERR, "Fix {} needs new neighbor lists: neigh_modify once must be no", style);
+  if (is_rerun(lmp))
+    error->all(FLERR,
+               "Fix {} cannot be used with rerun: snapshots have no masses, which it changes",
+               style);
   check_overlap();
 
   const double support = pair->support_radius();
   target->init(support, domain->dimension);
   event->init(support, merge_below);
-  reset_dt();
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
+  set_up = true;
 }
 
 /* ----------------------------------------------------------------------
-   steps from one event of a particle to the next one
+   steps from one event of a particle to the next one, with the time step as it is now
 ------------------------------------------------------------------------- */
 
-void FixSPHRefine::reset_dt()
+void FixSPHRefine::find_waiting()
 {
   constexpr double ROUNDOFF = 1.0e-6;
   waiting.assign(atom->ntypes + 1, 0.0);
@@ -275,6 +280,7 @@ void FixSPHRefine::count_anew(bigint step)
 
 void FixSPHRefine::post_integrate()
 {
+  check_set_up(lmp, this, set_up);
   count_anew(update->ntimestep - 1);
   last_step = update->ntimestep;
   if (update->ntimestep % nevery != 0 && !postponed) return;
@@ -288,6 +294,7 @@ void FixSPHRefine::post_integrate()
 
   target->evaluate(igroup);
   not_fluid = pair->not_fluid();
+  find_waiting();
   bigint nfluid;
   if (!wanted(nfluid)) return;
 
@@ -440,7 +447,7 @@ int FixSPHRefine::unpack_exchange(int nlocal, double *buf)
 
 int FixSPHRefine::pack_restart(int i, double *buf)
 {
-  buf[0] = 1.0 + NPAST;
+  buf[0] = 1 + NPAST;
   std::copy_n(past[i], static_cast<int>(NPAST), buf + 1);
   return 1 + NPAST;
 }
@@ -491,5 +498,5 @@ void FixSPHRefine::restart(char *buf)
 
 double FixSPHRefine::memory_usage()
 {
-  return (double) atom->nmax * NPAST * sizeof(double) + event->items.memory_usage();
+  return static_cast<double>(atom->nmax * NPAST * sizeof(double)) + event->items.memory_usage();
 }

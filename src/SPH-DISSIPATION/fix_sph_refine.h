@@ -41,7 +41,6 @@ class FixSPHRefine : public Fix {
   void init_list(int, class NeighList *) override;
   void post_integrate() override;
   void post_force(int) override;
-  void reset_dt() override;
   double compute_vector(int) override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
@@ -68,17 +67,19 @@ class FixSPHRefine : public Fix {
   double wait;                        // time between two events of a particle; < 0: R/c0
   double fraction;                    // of the particles, that may have an event at once
   double **past;                      // last event of each particle
-  std::vector<double> waiting;        // steps, by type
+  std::vector<double> waiting;        // steps, by type, of the last check
   int not_fluid;                      // bits of the groups of walls and open zones
   bigint last_step;                   // that this fix has seen
   bigint event_step;                  // of the last events
   bool postponed;                     // the last check
   bool totals_known;
+  bool set_up;    // since it was defined
   double *totals;
 
   int keyword_argument(int, int, char **);
   void check_setup();
   void check_overlap();
+  void find_waiting();
   bool is_fluid(int i) const;
   bool may_change(int i) const;
   void count_anew(bigint step);

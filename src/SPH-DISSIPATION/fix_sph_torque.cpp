@@ -22,6 +22,7 @@
 #include "input.h"
 #include "memory.h"
 #include "modify.h"
+#include "sph_dissipation_checks.h"
 #include "update.h"
 #include "variable.h"
 
@@ -29,6 +30,7 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
+using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
@@ -36,7 +38,7 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), name{nullptr, nullptr, nullptr}, variable{-1, -1, -1},
     per_atom{false, false, false}, value{0.0, 0.0, 0.0}, nmax(0),
     field(nullptr), total{0.0, 0.0, 0.0}, power(0.0), work(0.0), receiving_groups(0),
-    not_receiving(0)
+    not_receiving(0), set_up(false)
 {
   if (!atom->style_match("sph/micropolar"))
     error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);
@@ -96,6 +98,7 @@ void FixSPHTorque::init()
 
 void FixSPHTorque::setup(int vflag)
 {
+  set_up = true;
   check_receivers();
   const double before = work;
   post_force(vflag);
@@ -140,6 +143,7 @@ void FixSPHTorque::check_receivers()
 
 void FixSPHTorque::post_force(int /*vflag*/)
 {
+  check_set_up(lmp, this, set_up);
   bool any_per_atom = false, any_variable = false;
   for (int d = 0; d < 3; d++) {
     any_per_atom = any_per_atom || per_atom[d];

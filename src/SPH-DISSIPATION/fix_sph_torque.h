@@ -54,6 +54,7 @@ class FixSPHTorque : public Fix {
 
   int receiving_groups;    // bits of the groups whose spin is integrated
   bigint not_receiving;    // # of particles that the last warning was about
+  bool set_up;             // since it was defined
 
   void check_receivers();
 };

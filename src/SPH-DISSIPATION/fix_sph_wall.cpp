@@ -22,6 +22,7 @@
 #include "memory.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_checks.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exclusions.h"
 #include "sph_dissipation_wall_checks.h"
@@ -204,6 +205,7 @@ void FixSPHWall::min_setup(int vflag)
 
 void FixSPHWall::initial_integrate(int /*vflag*/)
 {
+  check_set_up(lmp, this, checked);
   motion->advance();
 
   if (move) {

@@ -69,7 +69,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   SPHDissipation::WallCondition *condition;
   bool move;
   bool noise;      // of the fluid
-  bool checked;    // the thickness, in the first run
+  bool checked;    // the thickness, in the first run; false: not set up since it was defined
 
   double total[6], total_all[6];    // force and torque, of this rank and of all
   bool total_summed;

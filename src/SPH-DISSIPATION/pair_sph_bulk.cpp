@@ -85,8 +85,8 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
                          const std::vector<std::string> &viscosities) :
     Pair(lmp),
     fluid_style(name), model(new FluidModel(lmp, name, viscosities)), dim(0), support(0.0),
-    announced(false), stale(false), warned_step(0.0), noise_step(0.0), engine(new Engine(lmp)),
-    crowding_requested(false)
+    set_up(false), announced(false), stale(false), warned_step(0.0), noise_step(0.0),
+    engine(new Engine(lmp)), crowding_requested(false)
 {
   exchange =
       new Exchange(lmp, this,
@@ -95,7 +95,7 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
                              ViscousStage::FORWARD, FluidState::FORWARD}),
                    std::max({DensityStage::REVERSE, LimitStage::REVERSE, SurfaceStage::REVERSE,
                              BoundaryStage::REVERSE, CrowdingStage::REVERSE, NoiseStage::REVERSE,
-                             ViscousStage::REVERSE, FluidState::REVERSE}));
+                             ForceStage::REVERSE, ViscousStage::REVERSE, FluidState::REVERSE}));
   density = new DensityStage(lmp, *engine, *exchange, *model);
   limit = new LimitStage(lmp, *engine, *exchange);
   pressure = new PressureStage(lmp, *engine, *exchange, *model);
@@ -380,7 +380,7 @@ void PairSPHBulk::settings(int narg, char **arg)
     error->all(FLERR,
                "Pair_style {} simd {}: not in this processor, or not in this executable of LAMMPS",
                fluid_style, model->simd);
-  announced = false;
+  announced = set_up = false;
 }
 
 /* ----------------------------------------------------------------------
@@ -390,8 +390,9 @@ void PairSPHBulk::settings(int narg, char **arg)
 void PairSPHBulk::coeff(int narg, char **arg)
 {
   if (!allocated) allocate();
+  model->adopt();    // what others have set comes first
   model->coeff(narg, arg, setflag);
-  announced = false;
+  announced = set_up = false;
 }
 
 /* ----------------------------------------------------------------------
@@ -405,6 +406,7 @@ void PairSPHBulk::init_style()
   check_setup();
   derive_coeffs();
   neighbor->add_request(this);
+  set_up = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -414,6 +416,7 @@ void PairSPHBulk::init_style()
 void PairSPHBulk::check_setup()
 {
   check_styles(lmp, fluid_style);
+  check_rerun(lmp, fluid_style, *model);
   if (update->whichflag == 2 && model->choice.eos == Eos::IDEAL)
     error->all(FLERR,
                "Pair style {} with eos ideal cannot be used in a minimization: its energy depends "
@@ -460,6 +463,7 @@ void PairSPHBulk::find_own_types()
 void PairSPHBulk::derive_coeffs()
 {
   stale = false;
+  if (model->adopt()) announced = false;
   viscous->forget_rates();
   const int n = atom->ntypes;
   std::vector<PairCoeff> pair_coeffs((n + 1) * (n + 1));
@@ -696,7 +700,6 @@ void PairSPHBulk::set_mean_density(int groupbit)
 
 double PairSPHBulk::init_one(int i, int j)
 {
-  if (i == 1 && j == 1 && model->adopt()) announced = false;
   stale = true;
   if (i != j && model->is_mixed(i, j)) did_mix = true;
   return support;

@@ -137,6 +137,8 @@ class PairSPHBulk : public Pair {
   bool has_own_temperatures() const;    // temp energy: of the particles
   double internal_temperature(int i) const;
 
+  bool is_set_up() const { return list && set_up; }    // what the commands say is in effect
+
   double support_radius() const { return support; }
   int dimension() const { return dim; }    // of the kernel
   double reference_density(int) const;     // of a type
@@ -151,6 +153,7 @@ class PairSPHBulk : public Pair {
   SPHDissipation::FluidModel *model;    // what pair_style and pair_coeff set
   int dim;                              // dimension of the kernel
   double support;                       // support radius rc
+  bool set_up;                          // since pair_style and pair_coeff
   bool announced;                       // the table of coefficients is up to date
   bool stale;                           // what follows from the coefficients is to be derived anew
   double warned_step;                   // the time step that the last warning was about

@@ -19,6 +19,7 @@
 #include "error.h"
 #include "fix.h"
 #include "force.h"
+#include "input.h"
 #include "lammps.h"
 #include "modify.h"
 #include "sph_dissipation_engine.h"
@@ -27,6 +28,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -47,6 +49,42 @@ std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool
   MPI_Allreduce(&first, &first_all, 1, MPI_LMP_TAGINT, MPI_MIN, lmp->world);
   if (!found_all) return "";
   return atom->tag_enable ? fmt::format("particle {}", first_all) : "a particle";
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SPHDissipation::check_set_up(LAMMPS *lmp, const Fix *fix, bool set_up)
+{
+  if (!set_up)
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "Fix {} {} was defined after the last run was set up: the next one cannot be a "
+                    "run with pre no",
+                    fix->id, fix->style);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool SPHDissipation::is_rerun(LAMMPS *lmp)
+{
+  return lmp->input->command && strcmp(lmp->input->command, "rerun") == 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SPHDissipation::check_rerun(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+{
+  if (!is_rerun(lmp)) return;
+  const bool gas = (model.choice.eos == Eos::IDEAL);
+  if (gas || model.choice.own_temperatures)
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "Pair style {} {} cannot be used with rerun: snapshots have no internal "
+                    "energies of the particles",
+                    style, gas ? "eos ideal" : "temp energy");
+  if (lmp->atom->style_match("sph/micropolar") && lmp->comm->me == 0)
+    lmp->error->warning(FLERR,
+                        "Pair style {} with rerun: snapshots have no spins, forces are those of "
+                        "the spins that the particles have now",
+                        style);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -242,8 +280,16 @@ void SPHDissipation::check_sizes(LAMMPS *lmp, const std::string &style, const Fl
 void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const FluidModel &model,
                                     int boundary_bits)
 {
-  if (model.choice.eos != Eos::IDEAL) return;
   Atom *atom = lmp->atom;
+  const auto odd = first_particle(lmp, [&](int i) {
+    return !model.coeffs[atom->type[i]].other && !std::isfinite(atom->esph[i]);
+  });
+  if (!odd.empty())
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "Pair style {}: internal energy must be a finite number, which that of {} is "
+                    "not; use the set command",
+                    style, odd);
+  if (model.choice.eos != Eos::IDEAL) return;
   bigint number[2] = {0, 0}, all[2];    // of fluid particles, of those without internal energy
   for (int i = 0; i < atom->nlocal; i++) {
     if (model.coeffs[atom->type[i]].other || (atom->mask[i] & boundary_bits)) continue;

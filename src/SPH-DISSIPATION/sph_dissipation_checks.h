@@ -18,6 +18,7 @@
 #include <string>
 
 namespace LAMMPS_NS {
+class Fix;
 class LAMMPS;
 
 namespace SPHDissipation {
@@ -31,6 +32,18 @@ namespace SPHDissipation {
   // one: "particle 17"; empty if there is none
 
   std::string first_particle(LAMMPS *, const std::function<bool(int)> &wrong);
+
+  // a fix that was defined after the last run was set up cannot take part in a run with pre no
+
+  void check_set_up(LAMMPS *, const Fix *, bool set_up);
+
+  // the rerun command is executed: it reads positions and velocities of particles, and no more
+
+  bool is_rerun(LAMMPS *);
+
+  // no state of the particles that rerun cannot read, where forces and energies depend on it
+
+  void check_rerun(LAMMPS *, const std::string &style, const FluidModel &);
 
   // atom style, integrator, units, special bonds; no other pair style that cannot be there
 
@@ -55,8 +68,8 @@ namespace SPHDissipation {
 
   void check_sizes(LAMMPS *, const std::string &style, const FluidModel &, int boundary_bits);
 
-  // warnings about a fluid that exerts no forces: no internal energy with an equation of state that
-  // needs it, no neighbors inside the support.  Particles with one of boundary_bits in their mask are
+  // internal energies are numbers; warnings about a fluid that exerts no forces: no internal energy
+  // with an equation of state that needs it, no neighbors inside the support.  Particles with one of boundary_bits in their mask are
   // no fluid.
 
   void check_energies(LAMMPS *, const std::string &style, const FluidModel &, int boundary_bits);

@@ -81,7 +81,11 @@ Fluid SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const std
 
   if (lmp->comm->me == 0) {
     FILE *fp = utils::open_potential(file, lmp, nullptr);
-    if (!fp) error->one(FLERR, "Cannot open file of fluids {}: {}", file, utils::getsyserror());
+    if (!fp)
+      error->one(FLERR,
+                 "Cannot open file of fluids {}, which is looked for in the current folder and in "
+                 "those of the environment variable LAMMPS_POTENTIALS: {}",
+                 file, utils::getsyserror());
 
     std::string line;
     int number = 0;

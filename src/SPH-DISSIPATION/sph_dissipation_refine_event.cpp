@@ -149,7 +149,7 @@ bigint RefineEvent::plan(NeighList *full, bigint most)
   for (int ii = 0; ii < full->inum; ii++) {
     const int i = full->ilist[ii];
     Split one = {i, Stencil()};
-    if (items[i].state == SPLITS && find_stencil(full, i, one.stencil)) splits.push_back(one);
+    if (items[i].is(SPLITS) && find_stencil(full, i, one.stencil)) splits.push_back(one);
   }
   return withhold(most);
 }
@@ -171,7 +171,7 @@ bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
     double r[3];
     for (int d = 0; d < 3; d++) r[d] = atom->x[j][d] - atom->x[i][d];
     arrangement.add(r);
-    if (items[j].state == SPLITS && dot(r, r) < NEXT * NEXT * spacing * spacing) alone = false;
+    if (items[j].is(SPLITS) && dot(r, r) < NEXT * NEXT * spacing * spacing) alone = false;
   }
   double axis[3], ratio;
   const double widest = arrangement.widest(dim, items[i].volume, axis, ratio);
@@ -244,7 +244,7 @@ bigint RefineEvent::withhold(bigint most)
 void RefineEvent::give_rest(NeighList *full)
 {
   for (int i = 0; i < atom->nlocal; i++)
-    if (items[i].state == APART || (merging(i) && !pairs.leads(i))) items[i].mass = 0.0;
+    if (items[i].is(APART) || (merging(i) && !pairs.leads(i))) items[i].mass = 0.0;
   for (const Merge &one : merges) {
     RefineItem &item = items[one.i];
     item.mass = one.whole.mass;

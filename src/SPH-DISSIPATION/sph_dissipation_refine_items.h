@@ -31,7 +31,7 @@ namespace SPHDissipation {
   // A particle and what its neighbors are to know of it in an event; all doubles, to be sent as rows
 
   struct RefineItem {
-    double state;     // RefineState
+    double state;     // RefineState, see is()
     double mask;      // bits of its groups
     double volume;    // now
     double most;      // volume that a merge may give it
@@ -51,6 +51,8 @@ namespace SPHDissipation {
 
     double gives;    // its neighbors take over its rest of angular momentum
     Rotation rotation;
+
+    bool is(RefineState one) const { return state == static_cast<double>(one); }
   };
 
   // Items of all owned and ghost particles during one event

@@ -60,8 +60,8 @@ double RefinePairs::distance_sq(int i, int j) const
 bool RefinePairs::fits(int i, int j) const
 {
   const RefineItem &a = items[i], &b = items[j];
-  return b.state == MERGES && b.settled == 0.0 && atom->type[i] == atom->type[j] &&
-      a.mask == b.mask && a.volume <= ONE_CLASS * b.volume && b.volume <= ONE_CLASS * a.volume &&
+  return b.is(MERGES) && b.settled == 0.0 && atom->type[i] == atom->type[j] && a.mask == b.mask &&
+      a.volume <= ONE_CLASS * b.volume && b.volume <= ONE_CLASS * a.volume &&
       a.volume + b.volume <= std::min(a.most, b.most) && atom->tag[i] != atom->tag[j];
 }
 
@@ -157,7 +157,7 @@ std::vector<int> RefinePairs::family(int i, const int *neighbors, int n, double 
 void RefinePairs::find_families(NeighList *full, double farthest, int size)
 {
   auto may_merge = [&](int i) {
-    return items[i].state == MERGES && items[i].family != 0.0;
+    return items[i].is(MERGES) && items[i].family != 0.0;
   };
   for (int ii = 0; ii < full->inum; ii++) {
     const int i = full->ilist[ii];
@@ -192,7 +192,7 @@ void RefinePairs::find(NeighList *full, double farthest)
     for (int ii = 0; ii < full->inum; ii++) {
       const int i = full->ilist[ii];
       choice[i] = -1;
-      if (items[i].state == MERGES && items[i].settled == 0.0)
+      if (items[i].is(MERGES) && items[i].settled == 0.0)
         choice[i] = nearest(i, full->firstneigh[i], full->numneigh[i], farthest * farthest);
       items[i].choice = choice[i] < 0 ? 0.0 : static_cast<double>(atom->tag[choice[i]]);
     }

@@ -66,7 +66,7 @@ void RefineRest::take(NeighList *full)
   clear();
   for (int ii = 0; ii < full->inum; ii++) {
     const int i = full->ilist[ii];
-    if (items[i].state == APART) continue;
+    if (items[i].is(APART)) continue;
     const int point = (items[i].mass > 0.0) ? i : pairs.mate(i);
     const int *const neighbors = full->firstneigh[i];
     for (int k = 0; k < full->numneigh[i]; k++) {

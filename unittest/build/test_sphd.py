@@ -1,4 +1,5 @@
-"""What ./sphd installs and configures on a machine that has nothing: apt-get, dpkg-query, and CMake are stand-ins here."""
+"""What ./sphd installs and configures on a machine that has nothing, or all, or no administrator: apt-get, dpkg-query, compiler,
+and CMake are stand-ins here."""
 
 import os
 import shutil
@@ -11,23 +12,36 @@ ROOT = Path(__file__).resolve().parents[2]
 BUILD = {"g++", "make", "cmake", "ninja-build", "ccache", "ca-certificates", "openmpi-bin", "libopenmpi-dev",
          "libfftw3-dev"}
 TESTS = {"libeigen3-dev", "libgtest-dev", "libgmock-dev", "libyaml-dev", "valgrind", "git", "hunspell-en-us"}
+SYSTEM = ["awk", "bash", "cat", "cp", "cut", "date", "df", "dirname", "env", "flock", "grep", "head", "id", "ls", "mkdir", "nproc",
+          "python3", "realpath", "rm", "sed", "sh", "sha256sum", "sort", "tail", "tee", "tput"]
 STAND_INS = {
     "dpkg-query": "exit 1",  # none of the packages is there
     "sudo": 'exec "$@"',
-    "apt-get": 'echo "$@" >>"$RECORD/apt-get"',
-    "cmake": 'echo "$@" >>"$RECORD/cmake"; exit 1',  # ends the build
-    "c++": "exit 0", "ninja": "exit 0", "mpiexec": "exit 0",
+    "apt-get": 'echo "$@" >>"$RECORD/apt-get"\ncase "$*" in *" install "*) cp "$RECORD"/tools/* "$RECORD/bin" ;; esac',
 }
+TOOLS = {
+    "cmake": 'echo "$@" >>"$RECORD/cmake"; exit 1',  # ends the build
+    "c++": "exit 1",  # has no header of any library
+    "ninja": "exit 0", "mpiexec": "exit 0", "mpicxx": "exit 0",
+}
+
+
+def write(folder, scripts):
+    folder.mkdir(exist_ok=True)
+    for name, body in scripts.items():
+        script = folder / name
+        script.unlink(missing_ok=True)    # which may be a link to a command of the system
+        script.write_text(f"#!/bin/sh\n{body}\n")
+        script.chmod(0o755)
 
 
 @pytest.fixture
 def machine(tmp_path):
     """Runs ./sphd of a clone that was never built; returns (exit status, output, packages installed, options of CMake)."""
-    for name, body in STAND_INS.items():
-        script = tmp_path / "bin" / name
-        script.parent.mkdir(exist_ok=True)
-        script.write_text(f"#!/bin/sh\n{body}\n")
-        script.chmod(0o755)
+    write(tmp_path / "bin", STAND_INS)
+    write(tmp_path / "tools", TOOLS)
+    for name in SYSTEM:
+        (tmp_path / "bin" / name).symlink_to(shutil.which(name))
     clone = tmp_path / "a clone"
     clone.mkdir()
     shutil.copy(ROOT / "sphd", clone)
@@ -36,7 +50,7 @@ def machine(tmp_path):
     def sphd(*args, **variables):
         environment = {name: value for name, value in os.environ.items()
                        if not name.startswith("SPHD_") and name != "LAMMPS_SOURCE_DIR"}
-        environment.update(PATH=f"{tmp_path / 'bin'}:/usr/bin:/bin", RECORD=str(tmp_path), SPHD_CACHE=str(tmp_path / "cache"),
+        environment.update(PATH=str(tmp_path / "bin"), RECORD=str(tmp_path), SPHD_CACHE=str(tmp_path / "cache"),
                            **variables)
         done = subprocess.run(["bash", str(clone / "sphd"), *args], env=environment, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
@@ -68,6 +82,7 @@ def test_only_the_tests_install_what_only_tests_need(machine, args, tests):
     (["--help", "run"], {}, "--help takes no arguments"),
     (["run"], {}, "There are: brownian cavity"),
     (["run", "nowhere"], {}, 'no example "nowhere"'),
+    (["build", "--kokkos", "foo"], {}, 'the backends are openmp, serial, and cuda, not "foo"'),
     (["test", "--sanitize", "--valgrind"], {}, "leave one of them out"),
     (["test", "--all", "-R", "wall"], {}, "--all runs every test"),
     (["test", "--all", "--sanitize"], {}, "--all runs every test"),
@@ -81,7 +96,84 @@ def test_wrong_use_is_an_error_before_anything_is_installed(machine, args, varia
     assert not installed and not options
 
 
+def test_what_is_there_from_elsewhere_is_not_installed(machine, tmp_path):
+    """Compiler, MPI and so on of modules or of an environment, no root and no sudo: what only saves time may be missing."""
+    write(tmp_path / "bin", {**TOOLS, "c++": "exit 0", "id": "echo 65534"})
+    (tmp_path / "bin" / "sudo").unlink()
+    status, output, installed, options = machine("build")
+    assert "configuring failed" in output and options and not installed
+    assert "going on without what these packages bring: make ccache ca-certificates" in output
+
+
+@pytest.mark.parametrize("missing, package", [("c++", "g++"), ("mpicxx", "libopenmpi-dev"), ("ninja", "ninja-build")])
+def test_without_root_the_administrator_is_asked(machine, tmp_path, missing, package):
+    write(tmp_path / "bin", {**TOOLS, "id": "echo 65534"})
+    for name in ("sudo", missing):
+        (tmp_path / "bin" / name).unlink()
+    status, output, installed, options = machine("build")
+    assert status == 1 and not installed and not options
+    assert "ask the administrator for: apt-get install " in output and package in output.split("apt-get install ")[1].split()
+
+
+def test_install_nothing(machine, tmp_path):
+    status, output, installed, options = machine("build", SPHD_INSTALL="0")
+    assert status == 1 and "c++ not found" in output and not installed
+    write(tmp_path / "bin", TOOLS)
+    status, output, installed, options = machine("build", SPHD_INSTALL="0")
+    assert "configuring failed" in output and options and not installed
+
+
+def test_lock_of_the_package_lists(machine, tmp_path):
+    """Packages are not known yet, and somebody else is fetching their lists."""
+    write(tmp_path / "bin", {"sleep": "exit 0", "apt-get": """echo "$@" >>"$RECORD/apt-get"
+case "$*" in
+*update*) if [ ! -e "$RECORD/free" ]; then
+  : >"$RECORD/free"
+  echo "E: Could not get lock /var/lib/apt/lists/lock. It is held by process 17 (apt-get)" >&2
+  exit 100
+fi
+: >"$RECORD/lists" ;;
+*install*) [ -e "$RECORD/lists" ] || exit 100
+cp "$RECORD"/tools/* "$RECORD/bin" ;;
+esac"""})
+    status, output, installed, options = machine("build")
+    assert "waiting: Could not get lock /var/lib/apt/lists/lock. It is held by process 17" in output
+    assert "configuring failed" in output and options and installed == BUILD
+
+
+def test_apt_fails(machine, tmp_path):
+    """... for good, which matters for what is needed."""
+    write(tmp_path / "bin", {"apt-get": "echo no network; exit 100"})
+    status, output, _, options = machine("build")
+    assert status == 1 and "no network" in output and "apt-get could not install g++" in output and not options
+    write(tmp_path / "bin", TOOLS)
+    status, output, _, options = machine("build")
+    assert "going on without" in output and "configuring failed" in output and options
+
+
+def test_help_of_an_example(machine):
+    """... is there before anything is built."""
+    status, output, installed, options = machine("run", "sound_pulse", "--help")
+    assert status == 0 and output.startswith("usage: ./sphd run sound_pulse ") and not installed and not options
+
+
 @pytest.mark.parametrize("command", ["run", "test", "doc", "build"])
 def test_help(machine, command):
     status, output, installed, _ = machine(command, "--help")
     assert status == 0 and output.startswith("./sphd run EXAMPLE") and not installed
+
+
+@pytest.mark.parametrize("precision, there", [("double", True), ("DOUBLE", True), ("", True), ("mixed", False), ("SINGLE", False)])
+def test_precision_of_kokkos(tmp_path, precision, there):
+    """The hook into LAMMPS's build adds the /kk styles for double precision, which LAMMPS takes in any case."""
+    for name, text in {"cmake/Modules/StyleHeaderUtils.cmake": 'function(RegisterStyles folder)\nmessage(STATUS "styles of ${folder}")\nendfunction()\n',
+                       "src/version.h": '#define LAMMPS_VERSION "4 Jul 2026"\n',
+                       "cmake/CMakeLists.txt": f'cmake_minimum_required(VERSION 3.20)\nproject(lammps NONE)\ninclude("{ROOT}/cmake/SPH-DISSIPATION.cmake")\n'}.items():
+        file = tmp_path / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+    done = subprocess.run(["cmake", "-S", str(tmp_path / "cmake"), "-B", str(tmp_path / "build"), "-D", "PKG_SPH-DISSIPATION=on",
+                           "-D", "PKG_KOKKOS=on", "-D", f"KOKKOS_PREC={precision}"],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)    # there is nothing to build
+    assert f"styles of {ROOT}/src/SPH-DISSIPATION" in done.stdout, done.stdout
+    assert (f"styles of {ROOT}/src/KOKKOS" in done.stdout) == there and ("KOKKOS_PREC=double" in done.stdout) != there, done.stdout

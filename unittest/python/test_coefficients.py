@@ -114,6 +114,27 @@ def test_adapt_of_all_types_and_of_an_unlike_pair(lammps, pair_style):
     assert relative(have - want, want) < 1e-12
 
 
+@pytest.mark.parametrize("ours", [1, 2])
+def test_adapt_in_hybrid_whichever_type_is_the_fluid(lammps, ours):
+    """Also after a run, and before pair_coeff, which comes last and counts."""
+    other = 3 - ours
+    pair = "hybrid zero 3.0 sph/bulk"
+    lines = f"pair_coeff {other} {other} zero\npair_coeff 1 2 zero\npair_coeff {ours} {ours} sph/bulk 1.0 10.0 {{}} 2.0 3.0\n"
+
+    def text(mu, before=""):
+        return start(lammps, lines.format(mu), before=before).replace("pair_style sph/bulk", f"pair_style {pair}")
+
+    change = adapt(("mu", f"{ours} {ours}", "0.9"))
+    want = forces(lammps, text(0.9), steps=10)
+    have = forces(lammps, text(0.5, change), steps=10)
+    assert relative(have - want, want) < 1e-12
+    assert relative(forces(lammps, text(0.5), steps=10) - want, want) > 1e-4
+    again = adapt(("mu", f"{ours} {ours}", "0.9"), extra="reset yes")
+    want = forces(lammps, text(0.5, again) + "run 10\nunfix A\n" + lines.format(0.7))
+    have = forces(lammps, text(0.5, again) + "run 10\nunfix A\nrun 0\n" + lines.format(0.7))
+    assert relative(have - want, want) == 0.0
+
+
 def test_adapt_of_the_mean_with_both_types(lammps):
     """Ranges that cover both types, and factors, change a mixed pair to what it would be anyway."""
     want = forces(lammps, start(lammps, coeffs(mu=(0.7, 0.7), kappa=(1.0, 1.0))))
@@ -215,6 +236,22 @@ def test_adapt_micropolar(lammps, dim):
                     + adapt(("mu_r", "* *", "0.1*step"), pair="sph/micropolar") + test_micropolar.integrate() + "run 0\n",
                     check=False)
     assert re.search("mu_r not supported", result.error), result.error
+
+
+# ---------------------------------------------------------------------------------------------
+# files
+
+
+def test_data_file_after_a_pair_style_without_temperatures(lammps):
+    """The heat capacity of a type stays with its coefficients, but only temp energy can read it."""
+    pair = "pair_style sph/bulk {}\n"
+    text = start(lammps, coeffs().replace("3.0\n", "3.0 cv 20.0\n"), "temp energy 10.0 5")
+    result = lammps(text + "set group all sph/e 1.0\nwrite_data with.data\n" + pair.format("") + "write_data out.data\n"
+                    + pair.format("temp energy 10.0 5") + "write_data again.data\n")
+    assert not result.error
+    lammps(header(2) + pair.format("") + "read_data out.data\n" + INTEGRATE + "run 0\n")
+    assert "cv 20" in lammps.path("with.data").read_text() and "cv" not in lammps.path("out.data").read_text()
+    assert lammps.path("again.data").read_text().count("cv 20") == 2
 
 
 # ---------------------------------------------------------------------------------------------

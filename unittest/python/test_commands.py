@@ -1,8 +1,11 @@
 """LAMMPS commands that change, copy or describe the particles."""
 
+import re
+
 import numpy as np
 import pytest
 
+import test_micropolar as micropolar
 from helpers import FIELDS, INTEGRATE, disordered, dump, fluid, header, relative, undump
 
 SAME = 1e-12
@@ -228,6 +231,27 @@ def test_rerun(lammps):
     start, later = zip(lammps.frames("run.dump"), lammps.frames("again.dump"))
     assert_same(start[1], start[0])
     assert relative(later[1]["f"] - later[0]["f"], later[0]["f"]) < 1e-3  # velocity there, extrapolated velocity here
+
+
+@pytest.mark.parametrize("options, fix, words", [
+    ("eos ideal", "", "eos ideal cannot be used with rerun"), ("temp energy 5.0 5 bulk none", "", "temp energy cannot be used with rerun"),
+    ("volume mass", "fix R all sph/refine 5 volume 1.0\n", "Fix sph/refine cannot be used with rerun")])
+def test_rerun_refused(lammps, options, fix, words):
+    """Snapshots that LAMMPS reads have no masses and no heat."""
+    disordered(2, 8).write(lammps.path("box.data"))
+    text = header(2) + "read_data box.data\nset group all sph/e 30.0\n" + fluid(2, options) + INTEGRATE + fix
+    lammps(text + dump("run.dump", 2) + "run 2\n")
+    result = lammps(text + "rerun run.dump dump x y vx vy\n", check=False, ranks=2)
+    assert result.code == 1 and re.search(words, result.error), result.output[-2000:]
+
+
+def test_rerun_with_spins(lammps):
+    """Those of the start, with a warning."""
+    micropolar.write(disordered(2, 8), lammps.path("box.data"))
+    text = header(2, style="sph/micropolar") + "read_data box.data\n" + micropolar.fluid(2) + micropolar.integrate()
+    lammps(text + "dump D all custom 2 run.dump id type x y vx vy\nrun 2\n")
+    result = lammps(text + "rerun run.dump dump x y vx vy\n")
+    assert sum("snapshots have no spins" in line for line in result.warnings) == 1, result.warnings
 
 
 @pytest.mark.parametrize("units", ["si", "cgs", "micro", "nano"])

@@ -137,6 +137,9 @@ FIX = [
 ]
 
 PARTICLES = [
+    case(["sph/bulk and sph/micropolar", "one of the two"], atom_style="atom_style hybrid sph/bulk sph/micropolar"),
+    case(["sph/bulk and sph/micropolar", "one of the two"], atom_style="atom_style hybrid charge sph/micropolar sph/bulk"),
+    case(["internal energy .* finite .* particle 7 ", "set"], extra="variable e atom 1e308*10\nset atom 7 sph/e v_e"),
     case("requires atom style sph/bulk", atom_style="atom_style sph", box="region B block 0 9 0 9 -.5 .5\n"
          "create_box 2 B\ncreate_atoms 1 random 50 1 B\nmass * 1.0", fix=""),
     case("requires atom style sph/bulk", atom_style="atom_style atomic", box="region B block 0 9 0 9 -.5 .5\n"
@@ -171,7 +174,7 @@ water 20 1.0 10.0 0.5 2.0
 ice 0 1.0 10.0 0.5 {}
 """
 FILES = [
-    coeff("nowhere.sph", "* * nowhere.sph water 3.0"),
+    coeff(["nowhere.sph", "LAMMPS_POTENTIALS"], "* * nowhere.sph water 3.0"),
     coeff("wine.*good.sph|good.sph.*wine", "* * good.sph wine 3.0"),
     coeff("solid", "* * word.sph water 3.0"),
     coeff("kappa must be >= 0", "* * negative.sph water 3.0"),

@@ -123,7 +123,7 @@ BAD = {
     "unknown name": (spoilt("water", "Water"), r"No fluid water in .*my\.fluids.*: honey Water"),
     "empty": ("# UNITS: si\n", r"No fluid water in .*my\.fluids"),
     "other units": (spoilt("UNITS: si", "UNITS: cgs"), r"my\.fluids requires cgs units but si units are in use"),
-    "missing file": (None, r"Cannot open file of fluids my\.fluids: No such file"),
+    "missing file": (None, r"Cannot open file of fluids my\.fluids, .*LAMMPS_POTENTIALS: No such file"),
 }
 
 

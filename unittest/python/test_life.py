@@ -423,6 +423,93 @@ def test_several_instances_in_one_process(lammps):
         """)
 
 
+# ---------------------------------------------------------------------------------------------
+# between runs: what is defined after a run, and what was replaced since
+
+
+BOX = """units lj
+dimension 2
+atom_style {style}
+boundary {boundary} p p
+lattice sq 1.0
+region box block 0 24 0 12 -0.5 0.5
+create_box 1 box
+create_atoms 1 box
+set group all mass 1.0
+set group all sph/e 1.0
+region floor block INF INF INF 3.9 INF INF
+group wall region floor
+region in block INF 7.9 INF INF INF INF
+group in region in
+group fluid subtract all wall in
+pair_style {style} volume mass
+pair_coeff * * {coeff}
+fix FLUID fluid {style} {keywords}
+timestep 0.001
+thermo_style custom step atoms pe
+variable target equal "0.3+1.5*(floor((step+1)/2)%2)"
+variable torque equal 0.1
+"""
+FIXES = {"refine": "fix NEW fluid sph/refine 1 volume v_target wait 0.0", "dt": "fix NEW all sph/dt 1",
+         "wall": "fix NEW wall sph/wall velocity 0.1 0 0", "torque": "fix NEW fluid sph/torque 0 0 v_torque",
+         "open": "fix NEW in sph/open fluid 8 0 0 1 0 0 8 velocity 0.1 0 0", "integrator": "fix NEW fluid {style} {keywords}",
+         "rkl2": "fix NEW fluid {style} viscous rkl2"}
+PAIRS = {"none": "pair_style none", "zero": "pair_style zero 3.0\npair_coeff * *", "new": "pair_style none\npair_style {style} volume mass",
+         "hybrid": "pair_style hybrid {style} volume mass zero 3.0"}
+
+
+def between_runs(name, text):
+    spin = (name == "torque")
+    words = {"style": "sph/micropolar" if spin else "sph/bulk", "keywords": "inertia 0.1667 0.0" if spin else "",
+             "boundary": "f" if name == "open" else "p",
+             "coeff": "1.0 10.0 0.5 1.0 " + ("0.1 0.05 -0.05 3.0" if spin else "3.0")}
+    keep = name not in ("integrator", "rkl2")
+    box = BOX if keep else BOX.replace("fix FLUID", "#")
+    return (box + text).replace("FIX", FIXES[name]).format(**words)
+
+
+def test_refine_defined_after_a_run(lammps):
+    """... and the time step changed then: it waits for the same time as if that had been in the other order."""
+    fix = FIXES["refine"].replace("0.0", "0.002")
+    numbers = []
+    for commands in (f"{fix}\ntimestep 0.0005", f"timestep 0.0005\n{fix}"):
+        result = lammps(between_runs("refine", f"run 2\n{commands}\nthermo 1\nrun 8\n"))
+        numbers.append(result.thermo()[-1]["Atoms"])
+    assert len(np.unique(numbers[0])) > 2 and np.all(numbers[0] == numbers[1])
+
+
+@pytest.mark.parametrize("name, pair", [(name, pair) for name in FIXES for pair in PAIRS if name == "refine" or pair in ("zero", "new")])
+def test_pair_style_replaced(lammps, name, pair):
+    """Another time step, other particles, output, the end of the fix; a run with pre no is refused."""
+    values = "" if name in ("integrator",) else "print '$(f_NEW[1])'\n"
+    text = f"FIX\nrun 2\n{PAIRS[pair]}\n"
+    lammps(between_runs(name, text + "timestep 0.0005\ncreate_atoms 1 single 9.3 7.1 0\n" + values + "unfix NEW\nclear\n"))
+    result = lammps(between_runs(name, text + "run 1 pre no\n"), check=False)
+    assert result.code == 1 and "changed after the last run was set up" in result.error, result.output[-2000:]
+
+
+@pytest.mark.parametrize("change", ["pair_coeff * * 1.0 10.0 0.5 2.0 3.0", "pair_style sph/bulk volume mass eos tait"])
+def test_new_coefficients_and_no_setup(lammps, change):
+    """What follows from the coefficients is derived when a run is set up."""
+    result = lammps(between_runs("wall", f"FIX\nrun 2\n{change}\nrun 2 pre no\n"), check=False, ranks=2)
+    assert result.code == 1 and "changed after the last run was set up" in result.error, result.output[-2000:]
+    lammps(between_runs("wall", f"FIX\nrun 2\n{change}\nrun 2\nrun 2 pre no\n"))
+
+
+@pytest.mark.parametrize("name", FIXES)
+def test_fix_defined_again_and_no_setup(lammps, name):
+    result = lammps(between_runs(name, "FIX\nrun 2\nFIX\ntimestep 0.0005\nrun 2 pre no\n"), check=False)
+    assert result.code == 1 and "was defined after the last run was set up" in result.error, result.output[-2000:]
+    lammps(between_runs(name, "FIX\nrun 2\nFIX\nrun 2\nrun 2 pre no\n"))
+
+
+def test_temperature_of_a_pair_style_without_coefficients(lammps):
+    text = between_runs("wall", "").replace("volume mass", "temp energy 1.0 5 volume mass") + "compute T all sph/temp\nrun 2\n"
+    for ranks in (1, 2):
+        result = lammps(text + "pair_style none\npair_style sph/bulk temp energy 1.0 5\nprint '$(c_T[5])'\n", check=False, ranks=ranks)
+        assert "Compute sph/temp needs the coefficients of the pair style" in result.error, result.output[-2000:]
+
+
 def test_a_custom_property_of_the_same_name_is_refused(lammps):
     result = lammps("fix 1 all property/atom d_inertia\natom_style sph/micropolar\n", check=False)
     assert "inertia" in result.error

@@ -312,6 +312,8 @@ def test_wait_and_fraction(lammps):
     waits = lammps(text.format("wait 0.02") + "run 25\n").thermo()[0]["Atoms"]
     changes = np.flatnonzero(np.diff(waits)) + 1
     assert changes.tolist() == [1, 11, 21][:len(changes)] and len(changes) >= 2
+    once = lammps(text.format("wait 1e300") + "run 12\n").thermo()[0]
+    assert once["f_R[1]"].tolist() == [0.0] + 12 * [256.0]
     some = lammps(text.format("wait 0.0 fraction 0.1") + "run 3\n").thermo()[0]
     assert np.diff(some["f_R[1]"]).max() <= 0.1 * some["Atoms"].max()
     assert some["f_R[1]"][1] == 25
