@@ -58,8 +58,9 @@ class FixSPHBulk : public Fix {
   void set_masses();
   virtual void set_inertia() {}
 
-  // a particle joins the group within a step, after the first half of the kick
+  // a particle joins the group, or leaves it, within a step, after the first half of the kick
   virtual void arrive(int i);
+  virtual void depart(int i);
 
   bool shifts_particles() const { return shift_speed > 0.0; }
   bool has_viscous_stage() const;
