@@ -309,7 +309,7 @@ void FixSPHBulk::arrive(int i)
 }
 
 /* ----------------------------------------------------------------------
-   the velocity at the end of the step, extrapolated; vest need not be that, see ViscousStage
+   with its velocity at the end of the step, extrapolated, which vest need not be
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::depart(int i)

@@ -30,7 +30,7 @@ using DenseReference::Vector;
 
 static constexpr double TOLERANCE = 1.0e-12;
 static constexpr double DT = 0.05;
-static constexpr int STAGES = 21;
+static constexpr int STAGES = 27;
 static constexpr int SMALL = 400;    // unknowns of a dense solution
 
 struct Case {
