@@ -130,6 +130,7 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
   symmetric = symmetric_in;
   if (update->setupflag) {
     warned = false;
+    outdated = true;
     statistics[APPLICATIONS] = 0.0;
   }
   statistics[ITERATIONS] = statistics[RESIDUAL] = 0.0;
@@ -520,10 +521,11 @@ void ViscousStage::rkl2_step(double interval)
 {
   constexpr int OFTEN = 20;          // steps between estimates
   constexpr double SAFETY = 1.15;    // for they are too low
-  if (outdated || update->setupflag || update->ntimestep % OFTEN == 0) {
+  if (outdated || (update->ntimestep % OFTEN == 0 && !update->setupflag)) {
     const double estimate = estimated_rate();
     check_finite(std::isfinite(estimate));
     rate = std::max(known_rate, SAFETY * estimate);
+    outdated = false;
   }
   const double modes = rate * interval;
   const double needed = RKL2::stages_for(modes);
