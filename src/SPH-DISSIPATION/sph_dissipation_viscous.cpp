@@ -188,11 +188,15 @@ void ViscousStage::find_unknowns(const double *inertia)
 
 /* ----------------------------------------------------------------------
    the forces of other styles, from what vest carries, and the guess of the integrator instead of it;
-   where the particles may have changed places since, it is v-
+   where the particles may have changed places since, it is v-.  Nothing has been carried to the start of a run
 ------------------------------------------------------------------------- */
 
 void ViscousStage::set_guess()
 {
+  if (update->setupflag) {
+    std::fill(others.begin(), others.end(), 0.0);
+    return;
+  }
   const std::size_t nall = atom->nlocal + atom->nghost, nlocal = atom->nlocal;
   const double rate = (update->dt != 0.0) ? 1.0 / update->dt : 0.0;
   const bool same = neighbor->ago > 0 && ahead.size() >= 3 * nlocal &&
