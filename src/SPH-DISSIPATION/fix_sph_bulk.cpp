@@ -313,6 +313,17 @@ void FixSPHBulk::set_arrays(int i)
 void FixSPHBulk::arrive(int i)
 {
   avec()->desph_before[i] = 0.0;
+  if (has_viscous_stage()) pair->carry_other_force(i, time_step().keep);
+}
+
+/* ----------------------------------------------------------------------
+   with its velocity at the end of the step, extrapolated, which vest need not be
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::depart(int i)
+{
+  const double dtfm = dtf / atom->rmass[i];
+  for (int d = 0; d < 3; d++) atom->vest[i][d] = atom->v[i][d] += dtfm * atom->f[i][d];
 }
 
 /* ----------------------------------------------------------------------
@@ -358,6 +369,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
   int *mask = atom->mask;
   const int nlocal = nlocal_group();
   const TimeStep step = time_step();
+  const bool stage = has_viscous_stage();
 
   for (int i = 0; i < nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
@@ -365,6 +377,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
     step.begin_energy(desph[i], esph[i], desph_before[i]);
     if (exact) esph[i] += rest_of_heat(v[i], vest[i], f[i], pair->own_force(i), 1.0 / rmass[i]);
     for (int d = 0; d < 3; d++) step.begin(dtfm, f[i][d], x[i][d], v[i][d], vest[i][d]);
+    if (stage) pair->carry_other_force(i, step.keep);
   }
   if (shift_speed > 0.0) shift_particles();
 }

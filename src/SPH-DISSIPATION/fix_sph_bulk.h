@@ -31,8 +31,8 @@ namespace SPHDissipation {
 // Velocity Verlet for position, velocity and internal energy of a particle fluid, with the
 // velocity extrapolated to the end of the step for the forces: vest = v + dt f/m.  With thermal
 // noise, it is the velocity in the middle of the step: then those at its ends have the temperature of
-// the noise exactly in the linear regime, whatever the time step.  With large viscosities, it is
-// the first guess of ViscousStage.
+// the noise exactly in the linear regime, whatever the time step.  With large viscosities, it carries
+// to ViscousStage what other styles add to the forces.
 
 class FixSPHBulk : public Fix {
  public:
@@ -59,8 +59,9 @@ class FixSPHBulk : public Fix {
   virtual void set_inertia() {}
   bool has_set_masses() const { return density_flag && density_done; }
 
-  // a particle joins the group within a step, after the first half of the kick
+  // a particle joins the group, or leaves it, within a step, after the first half of the kick
   virtual void arrive(int i);
+  virtual void depart(int i);
 
   bool shifts_particles() const { return shift_speed > 0.0; }
   bool has_viscous_stage() const;

@@ -127,6 +127,17 @@ void FixSPHMicropolar::arrive(int i)
 {
   FixSPHBulk::arrive(i);
   if (inertia_flag) set_inertia_of(i);
+  if (has_viscous_stage()) pair->carry_other_torque(i);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHMicropolar::depart(int i)
+{
+  FixSPHBulk::depart(i);
+  const double dti = dtf * TimeStep::inverse_inertia(atom->rmass[i], spinning()->inertia[i]);
+  for (int d = 0; d < 3; d++)
+    spinning()->omegaest[i][d] = atom->omega[i][d] += dti * atom->torque[i][d];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -222,6 +233,7 @@ void FixSPHMicropolar::integrate_spin(bool begin)
       else
         step.end(dti, torque[i][d], omega[i][d]);
     }
+    if (begin && has_viscous_stage()) pair->carry_other_torque(i);
   }
 }
 

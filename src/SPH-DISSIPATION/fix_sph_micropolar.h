@@ -39,6 +39,7 @@ class FixSPHMicropolar : public FixSPHBulk {
   void write_restart(FILE *) override;
   void restart(char *) override;
   void arrive(int) override;
+  void depart(int) override;
   void set_inertia() override;
 
  protected:

@@ -368,8 +368,7 @@ void FixSPHOpen::leave(int i)
   atom->mask[i] = (atom->mask[i] & ~fluidbit) | groupbit;
   atom->esph[i] -= 0.5 * update->dt * avec->desph_before[i];
   ledger->carry(OpenLedger::OUT, i, atom->v[i], atom->esph[i]);
-  std::copy_n(atom->vest[i], 3, atom->v[i]);
-  if (spinning) std::copy_n(spinning->omegaest[i], 3, atom->omega[i]);
+  integrator->depart(i);
 }
 
 /* ----------------------------------------------------------------------

@@ -201,12 +201,11 @@ void PairSPHBulk::find_viscous_velocity()
     find_smallest_inertia();
     viscous->set_rate(coeff_table(0.0).fastest_rate());
   }
-  viscous->begin();
+  viscous->begin(not_fluid(), extrapolated_spin(), spin_inertia());
   sum_before_forces();
   forces->run(list, nullptr);
   const bool symmetric = (boundary->empty() || has_noise()) && engine->bulk_form() != Bulk::VOLUME;
-  viscous->run(list, (model->choice.limit != Limit::NO) ? limit->bound : nullptr, not_fluid(),
-               symmetric, extrapolated_spin(), spin_inertia());
+  viscous->run(list, (model->choice.limit != Limit::NO) ? limit->bound : nullptr, symmetric);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -224,6 +223,16 @@ bool PairSPHBulk::has_viscous_stage() const
 const double *PairSPHBulk::viscous_statistics() const
 {
   return viscous->statistics;
+}
+
+void PairSPHBulk::carry_other_force(int i, double keep)
+{
+  viscous->carry_force(i, keep);
+}
+
+void PairSPHBulk::carry_other_torque(int i)
+{
+  viscous->carry_torque(i, spin_inertia(), extrapolated_spin());
 }
 
 /* ---------------------------------------------------------------------- */

@@ -121,6 +121,11 @@ class PairSPHBulk : public Pair {
   bool has_viscous_stage() const;    // the velocity in the friction is found by a stage of its own
   const double *viscous_statistics() const;    // see ViscousStage
 
+  // from them, of a particle that they have moved: this stage needs what other styles add to the forces
+
+  void carry_other_force(int i, double keep);
+  void carry_other_torque(int i);
+
   // of the last step, on an owned particle, without what other styles add
   const double *own_force(int i) const;
   const double *own_torque(int i) const;

@@ -16,10 +16,12 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "neighbor.h"
 #include "platform.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_integrate.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_pressure.h"
 #include "sph_dissipation_rkl2.h"
@@ -40,7 +42,7 @@ ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, cons
     Stage(lmp, engine, exchange),
     statistics(), model(model), pressure(pressure), boundary(boundary), groups(0), known_rate(0.0),
     rate(0.0), outdated(true), warned(false), list(nullptr), bound(nullptr), omegaest(nullptr),
-    symmetric(true), width(3), h(0.0), mean()
+    symmetric(true), prescribed(0), width(3), h(0.0), mean()
 {
 }
 
@@ -56,8 +58,46 @@ void ViscousStage::configure(const ViscousSettings &settings_in, int groups_in,
 
 /* ---------------------------------------------------------------------- */
 
-void ViscousStage::begin()
+static void carry(double scale, const double *f, const double *own, const double *now, double keep,
+                  double *acting, double *increment)
 {
+  for (int d = 0; d < 3; d++) {
+    increment[d] = acting[d] - keep * now[d];
+    acting[d] = keep * now[d] + scale * (f[d] - own[d]);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::carry_force(int i, double keep)
+{
+  if (!is_unknown(i)) return;
+  if (ahead.size() < 3 * static_cast<std::size_t>(atom->nlocal)) ahead.resize(3 * atom->nmax);
+  carry(update->dt / atom->rmass[i], atom->f[i], engine.force[i].f, atom->v[i], keep, atom->vest[i],
+        &ahead[3 * i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::carry_torque(int i, const double *inertia, double **spins)
+{
+  if (!is_unknown(i)) return;
+  if (ahead_spin.size() < 3 * static_cast<std::size_t>(atom->nlocal))
+    ahead_spin.resize(3 * atom->nmax);
+  carry(update->dt * TimeStep::inverse_inertia(atom->rmass[i], inertia[i]), atom->torque[i],
+        engine.torque[i].t, atom->omega[i], 1.0, spins[i], &ahead_spin[3 * i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::begin(int prescribed_in, double **omegaest_in, const double *inertia)
+{
+  prescribed = prescribed_in;
+  omegaest = omegaest_in;
+  width = omegaest ? 6 : 3;
+  find_unknowns(inertia);
+  set_guess();
+
   const std::size_t nall = atom->nlocal + atom->nghost;
   if (nall == 0) return;
   double *const f = atom->f[0];
@@ -80,22 +120,17 @@ void ViscousStage::restore()
   if (engine.has_spin()) std::copy(torques_before.begin(), torques_before.end(), atom->torque[0]);
 }
 
-/* ----------------------------------------------------------------------
-   at the start of a run the velocity is that of the time of the positions, with half a step to the middle
-   of the first one
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void ViscousStage::run(NeighList *list_in, const double *bound_in, int prescribed,
-                       bool symmetric_in, double **omegaest_in, const double *inertia)
+void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetric_in)
 {
   const double begin = platform::walltime();
   list = list_in;
   bound = bound_in;
   symmetric = symmetric_in;
-  omegaest = omegaest_in;
-  width = omegaest ? 6 : 3;
   if (update->setupflag) {
     warned = false;
+    outdated = true;
     statistics[APPLICATIONS] = 0.0;
   }
   statistics[ITERATIONS] = statistics[RESIDUAL] = 0.0;
@@ -105,58 +140,107 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, int prescribe
     exchange.reverse({f, {atom->nmax ? atom->torque[0] : nullptr, 3, 3}});
   else
     exchange.reverse({f});
-  find_unknowns(prescribed);
-  gather(inertia);
+  gather();
   restore();
   if (!boundary.empty()) find_rest();
 
-  const double interval = update->setupflag ? 0.5 * update->dt : update->dt;
-  if (settings.mode == Viscous::RKL2)
-    rkl2_step(interval);
-  else if (settings.scheme == Scheme::SDIRK2)
-    sdirk2_step(interval);
+  if (update->setupflag)
+    start();
   else
-    implicit_step((settings.scheme == Scheme::EULER) ? interval : 0.5 * interval);
+    step(update->dt);
+  add_velocities(x);
   outdated = false;
   statistics[SECONDS] = platform::walltime() - begin;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void ViscousStage::find_unknowns(int prescribed)
+bool ViscousStage::is_unknown(int i) const
 {
-  unknown.clear();
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groups) && !(atom->mask[i] & prescribed) &&
-        !model.coeffs[atom->type[i]].other)
-      unknown.push_back(i);
+  return (atom->mask[i] & groups) && !(atom->mask[i] & prescribed) &&
+      !model.coeffs[atom->type[i]].other;
 }
 
 /* ----------------------------------------------------------------------
    the spin of a particle without inertia stays as it is; there are no torques then
 ------------------------------------------------------------------------- */
 
-void ViscousStage::gather(const double *inertia)
+void ViscousStage::find_unknowns(const double *inertia)
 {
-  const std::size_t n = width * unknown.size();
-  for (Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force})
-    one->resize(n);
+  unknown.clear();
+  for (int i = 0; i < atom->nlocal; i++)
+    if (is_unknown(i)) unknown.push_back(i);
 
-  double sums[4] = {0.0, 0.0, 0.0, 0.0};
+  const std::size_t n = width * unknown.size();
+  for (Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force, &others})
+    one->resize(n);
   for (std::size_t k = 0; k < unknown.size(); k++) {
     const int i = unknown[k];
-    const double m = atom->rmass[i];
     for (int d = 0; d < width; d++) {
       const bool turns = (d >= 3);
       const std::size_t row = width * k + d;
-      mass[row] = turns ? m * inertia[i] : m;
+      mass[row] = turns ? atom->rmass[i] * inertia[i] : atom->rmass[i];
       inverse_mass[row] = (mass[row] > 0.0) ? 1.0 / mass[row] : 0.0;
       before[row] = turns ? atom->omega[i][d - 3] : atom->v[i][d];
-      guess[row] = turns ? omegaest[i][d - 3] : atom->vest[i][d];
-      force[row] = turns ? atom->torque[i][d - 3] : atom->f[i][d];
-      if (!turns) sums[d] += m * before[row];
     }
-    sums[3] += m;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the forces of other styles, from what vest carries, and the guess of the integrator instead of it;
+   where the particles may have changed places since, it is v-.  Nothing has been carried to the start of a run
+------------------------------------------------------------------------- */
+
+void ViscousStage::set_guess()
+{
+  if (update->setupflag) {
+    std::fill(others.begin(), others.end(), 0.0);
+    return;
+  }
+  const std::size_t nall = atom->nlocal + atom->nghost, nlocal = atom->nlocal;
+  const double rate = (update->dt != 0.0) ? 1.0 / update->dt : 0.0;
+  const bool same = neighbor->ago > 0 && ahead.size() >= 3 * nlocal &&
+      (!omegaest || ahead_spin.size() >= 3 * nlocal);
+  std::vector<double> change[2];    // of vest, and omegaest
+  for (int s = 0; s < width / 3; s++) change[s].assign(3 * nall, 0.0);
+  for (std::size_t k = 0; k < unknown.size(); k++) {
+    const int i = unknown[k];
+    for (int d = 0; d < width; d++) {
+      const int s = d / 3, c = d % 3;
+      const std::size_t row = width * k + d;
+      const double carried = (s ? omegaest[i][c] : atom->vest[i][c]) - before[row];
+      others[row] = rate * mass[row] * carried;
+      change[s][3 * i + c] = (same ? (s ? ahead_spin : ahead)[3 * i + c] : 0.0) - carried;
+    }
+  }
+
+  const Field u = {change[0].data(), 3, 3};
+  if (omegaest)
+    exchange.forward({u, {change[1].data(), 3, 3}});
+  else
+    exchange.forward({u});
+  for (std::size_t i = 0; i < nall; i++)
+    for (int c = 0; c < 3; c++) {
+      atom->vest[i][c] += change[0][3 * i + c];
+      if (omegaest) omegaest[i][c] += change[1][3 * i + c];
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::gather()
+{
+  double sums[4] = {0.0, 0.0, 0.0, 0.0};
+  for (std::size_t k = 0; k < unknown.size(); k++) {
+    const int i = unknown[k];
+    for (int d = 0; d < width; d++) {
+      const bool turns = (d >= 3);
+      const std::size_t row = width * k + d;
+      guess[row] = turns ? omegaest[i][d - 3] : atom->vest[i][d];
+      force[row] = (turns ? atom->torque[i][d - 3] : atom->f[i][d]) + others[row];
+      if (!turns) sums[d] += mass[row] * before[row];
+    }
+    sums[3] += atom->rmass[i];
   }
   if (settings.mode != Viscous::IMPLICIT) return;    // nobody needs the scale
   sum(sums, 4);
@@ -337,6 +421,38 @@ void ViscousStage::check_finite(bool finite) const
 }
 
 /* ----------------------------------------------------------------------
+   x = v_b - guess
+------------------------------------------------------------------------- */
+
+void ViscousStage::step(double interval)
+{
+  if (settings.mode == Viscous::RKL2)
+    rkl2_step(interval);
+  else if (settings.scheme == Scheme::SDIRK2)
+    sdirk2_step(interval);
+  else
+    implicit_step((settings.scheme == Scheme::EULER) ? interval : 0.5 * interval);
+}
+
+/* ----------------------------------------------------------------------
+   The velocity at the start of a run is that of the time of the positions.  Extrapolated from v_b of two
+   intervals, v_b is the same to second order, as that of the last step of a run before was.  The
+   intervals are those for which the half kick of a stiff motion takes all of it; v_b of the
+   trapezoidal step is that of half the interval with the others.
+------------------------------------------------------------------------- */
+
+void ViscousStage::start()
+{
+  const double interval = (settings.trapezoidal() ? 3.0 : 1.5) * update->dt;
+  const Unknowns guess_before = guess;
+  step(0.5 * interval);
+  const Unknowns half = x;
+  guess = guess_before;
+  step(interval);
+  for (std::size_t k = 0; k < x.size(); k++) x[k] = 2.0 * half[k] - x[k];
+}
+
+/* ----------------------------------------------------------------------
    M (v_b - v-) = h F(v_b) with v_b = guess + x, F(v_b) = F(guess) - Gamma x
 ------------------------------------------------------------------------- */
 
@@ -346,7 +462,6 @@ void ViscousStage::implicit_step(double part)
   for (std::size_t k = 0; k < x.size(); k++)
     residual[k] = mass[k] * (before[k] - guess[k]) + h * force[k];
   solve();
-  set_guess(x);
 }
 
 /* ----------------------------------------------------------------------
@@ -359,11 +474,13 @@ void ViscousStage::sdirk2_step(double interval)
 {
   constexpr double GAMMA = SDIRK2_GAMMA;
   implicit_step(GAMMA * interval);
-  for (std::size_t k = 0; k < x.size(); k++)
+  const Unknowns first = x;
+  for (std::size_t k = 0; k < x.size(); k++) {
+    guess[k] += first[k];
     residual[k] = (1.0 / GAMMA - 1.0) * mass[k] * (guess[k] - before[k]) + residual[k] / GAMMA;
+  }
   solve();
-  for (double &value : x) value *= GAMMA;
-  set_guess(x);
+  for (std::size_t k = 0; k < x.size(); k++) x[k] = first[k] + GAMMA * x[k];
 }
 
 /* ----------------------------------------------------------------------
@@ -401,17 +518,18 @@ double ViscousStage::estimated_rate()
 
 /* ----------------------------------------------------------------------
    Increments Y_j of the stages, and what is multiplied with Gamma to give them,
-   M Y_j = dt (theta_j F(v-) - Gamma Z_j) with theta_s = 1: v_b = v- + Z_s.
+   M Y_j = dt (theta_j F(v-) - Gamma Z_j) with theta_s = 1: v_b = v- + Z_s, x = Z_s for the guess is v-.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::rkl2_step(double interval)
 {
   constexpr int OFTEN = 20;          // steps between estimates
   constexpr double SAFETY = 1.15;    // for they are too low
-  if (outdated || update->setupflag || update->ntimestep % OFTEN == 0) {
+  if (outdated || (update->ntimestep % OFTEN == 0 && !update->setupflag)) {
     const double estimate = estimated_rate();
     check_finite(std::isfinite(estimate));
     rate = std::max(known_rate, SAFETY * estimate);
+    outdated = false;
   }
   const double modes = rate * interval;
   const double needed = RKL2::stages_for(modes);
@@ -422,18 +540,23 @@ void ViscousStage::rkl2_step(double interval)
         "{}, which needs {:.4g} stages, more than the {} that there may be; use viscous "
         "implicit or a smaller time step",
         style, modes, update->ntimestep, needed, static_cast<int>(RKL2::MOST));
-  const int s = settings.stages ? settings.stages : static_cast<int>(needed);
+  const int fewest = static_cast<int>(needed);
+  const int s = !settings.stages ? fewest
+      : update->setupflag        ? std::max(settings.stages, fewest)
+                                 : settings.stages;
   if (modes > RKL2::rate_limit(s))
     error->all(
         FLERR, Error::NOLASTLINE,
         "Fix {} viscous rkl2: the largest viscous rate times the time step is {:.4g} at step {}, "
         "which needs {} stages, not {}",
-        style, modes, update->ntimestep, static_cast<int>(needed), s);
+        style, modes, update->ntimestep, fewest, s);
   statistics[ITERATIONS] = s;
 
   const RKL2 rkl2(s);
   const std::size_t n = x.size();
-  Unknowns first(n), y(n), y_old(n, 0.0), z(n, 0.0), z_old(n, 0.0), drag(n);
+  Unknowns first(n), y(n), y_old(n, 0.0), z_old(n, 0.0), drag(n);
+  Unknowns &z = x;
+  std::fill(z.begin(), z.end(), 0.0);
   for (std::size_t k = 0; k < n; k++) {
     first[k] = interval * inverse_mass[k] * force[k];
     y[k] = rkl2.first().mu_rate * first[k];
@@ -452,16 +575,14 @@ void ViscousStage::rkl2_step(double interval)
       std::swap(y[k], y_old[k]);
     }
   }
-  set_guess(z);
 }
 
 /* ----------------------------------------------------------------------
    the ghosts, too, get the increment, for fix deform may have changed their velocities
 ------------------------------------------------------------------------- */
 
-void ViscousStage::set_guess(const Unknowns &increment)
+void ViscousStage::add_velocities(const Unknowns &increment)
 {
-  for (std::size_t k = 0; k < guess.size(); k++) guess[k] += increment[k];
   set_velocities(increment);
   for (int i = 0; i < atom->nlocal + atom->nghost; i++)
     for (int d = 0; d < 3; d++) {
@@ -475,8 +596,8 @@ void ViscousStage::set_guess(const Unknowns &increment)
 double ViscousStage::memory_usage() const
 {
   double values = 0.0;
-  for (const Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force,
-                              &forces_before, &torques_before, &heat_before})
+  for (const Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force, &others,
+                              &ahead, &ahead_spin, &forces_before, &torques_before, &heat_before})
     values += static_cast<double>(one->capacity());
   return values * sizeof(double) + static_cast<double>(unknown.capacity() * sizeof(int)) +
       static_cast<double>(rest.capacity() * sizeof(Rest));

@@ -38,6 +38,11 @@ namespace SPHDissipation {
   //   sdirk2:       v_b = (1 - gamma) Y1 + gamma Y2 of its two stages
   // Unknown are the velocities, with spins, of the particles of the fluid that the integrators move.
   // One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
+  //
+  // F contains the forces of other styles, which come after those of the pair style: as they were in the
+  // step before.  In the first half step of a run they are not known, and v- is the velocity at the
+  // time of the positions: v_b is that velocity to second order in the time step, without the fast motions
+  // that would not be stable, see start().
 
   class ViscousStage : public Stage {
    public:
@@ -57,14 +62,20 @@ namespace SPHDissipation {
     void forget_rates() { outdated = true; }
     bool has_old_rates() const { return outdated; }
 
+    // From the integrator at the beginning of a step, of a particle that it has moved: vest, or omegaest,
+    // travels with it as v + dt/m times the forces of other styles, until begin() makes it the
+    // guess again, extrapolated if the particle is still where it was.  keep: 0 if v is added later
+
+    void carry_force(int i, double keep);
+    void carry_torque(int i, const double *inertia, double **omegaest);
+
     // One step: begin() sets the forces aside; then the passes, with the guess of v_b that vest is; then
     // run(), after which the forces are those of begin() again, and the passes follow with v_b.
     // Particles with a bit of prescribed are not unknown; omega, omegaest and inertia: nullptr
     // without spin
 
-    void begin();
-    void run(NeighList *, const double *bound, int prescribed, bool symmetric, double **omegaest,
-             const double *inertia);
+    void begin(int prescribed, double **omegaest, const double *inertia);
+    void run(NeighList *, const double *bound, bool symmetric);
 
     // of the last step: iterations, or stages; residual; seconds; and applications of Gamma in this run
 
@@ -98,12 +109,18 @@ namespace SPHDissipation {
     const double *bound;
     double **omegaest;
     bool symmetric;
+    int prescribed;
     int width;                   // unknowns per particle: velocity, and spin
     double h;                    // of M + h Gamma
     std::vector<int> unknown;    // owned particles
     Unknowns before;             // v-
     Unknowns guess, force;       // v_b, F(v_b) of the beginning
+    Unknowns others;             // forces of other styles
     double mean[3];              // velocity
+
+    // increments on v-, spin-, of the integrator's guess, by particles as they were then
+
+    std::vector<double> ahead, ahead_spin;
 
     // forces, torques and heat of begin()
 
@@ -117,8 +134,10 @@ namespace SPHDissipation {
     };
     std::vector<Rest> rest;
 
-    void find_unknowns(int prescribed);
-    void gather(const double *inertia);
+    bool is_unknown(int i) const;
+    void find_unknowns(const double *inertia);
+    void set_guess();
+    void gather();
     void restore();
     void set_velocities(const Unknowns &);
     void set_bulk_term();
@@ -129,8 +148,10 @@ namespace SPHDissipation {
     void implicit_step(double interval);
     void sdirk2_step(double interval);
     void rkl2_step(double interval);
+    void step(double interval);
+    void start();
     double estimated_rate();
-    void set_guess(const Unknowns &increment);
+    void add_velocities(const Unknowns &increment);
   };
 
 }    // namespace SPHDissipation

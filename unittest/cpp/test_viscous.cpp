@@ -6,8 +6,8 @@
    version 2. See the LICENSE file in the top-level directory.
 ------------------------------------------------------------------------- */
 
-// Keyword viscous of the integrators: forces, torques and heat of the first half step against those at
-// the velocity v_b that dense solutions with the friction matrix of the reference give.
+// Keyword viscous of the integrators: forces, torques and heat at the start of a run against those at
+// the velocity v_b, from two intervals, that dense solutions with the friction matrix of the reference give.
 
 #include "configuration.h"
 #include "dense_reference.h"
@@ -30,7 +30,7 @@ using DenseReference::Vector;
 
 static constexpr double TOLERANCE = 1.0e-12;
 static constexpr double DT = 0.05;
-static constexpr int STAGES = 21;
+static constexpr int STAGES = 27;
 static constexpr int SMALL = 400;    // unknowns of a dense solution
 
 struct Case {
@@ -160,13 +160,15 @@ static void check(const Case &one, const std::vector<Layout> &layouts, Record &r
   std::vector<Real> heat(modes.size(), 0.0L);    // of the friction
   if (root) {
     const Dense dense(one);
-    const Vector acting[3] = {dense.trapezoidal(0.5L * DT), dense.euler(0.5L * DT),
-                              dense.sdirk2(0.5L * DT)};
+    const Real half = 0.75L * DT, all = 1.5L * DT;
+    const Vector acting[3] = {2.0L * dense.trapezoidal(2.0L * half) - dense.trapezoidal(2.0L * all),
+                              2.0L * dense.euler(half) - dense.euler(all),
+                              2.0L * dense.sdirk2(half) - dense.sdirk2(all)};
     for (int k = 0; k < 3; k++) {
       expected[k] = dense.F(acting[k]);
       heat[k] = acting[k].dot(dense.gamma * acting[k]);
     }
-    expected[3] = dense.rkl2_force(0.5L * DT, STAGES);
+    expected[3] = 2.0L * dense.rkl2_force(half, STAGES) - dense.rkl2_force(all, STAGES);
   }
   for (const auto &layout : layouts) {
     lammps().create(one.config, layout);

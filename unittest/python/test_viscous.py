@@ -11,7 +11,7 @@ import open_boundaries as ends
 import test_micropolar as micro
 import test_open_ledger as ledger
 import test_wall as walls
-from helpers import SUPPORT, disordered, drop, dump, fluid, free, header, lattice, relative
+from helpers import disordered, drop, dump, fluid, free, header, lattice, relative
 
 RKL2 = "viscous rkl2"
 SCHEMES = {"rkl2": RKL2, **{scheme: f"viscous implicit scheme {scheme}" for scheme in ("trapezoidal", "sdirk2", "euler")}}
@@ -74,7 +74,7 @@ def test_stiff_start(lammps):
         print(name, size)
         assert np.all(np.diff(size[:6]) < 0.0), name
     for name in ("sdirk2", "euler"):
-        assert left[name][5] < 0.01 * left["trapezoidal"][5]
+        assert left[name][10] < 0.01 * left["trapezoidal"][10]
 
 
 @pytest.mark.parametrize("name", SECOND_ORDER)
@@ -91,6 +91,134 @@ def test_shear_waves_do_not_notice_kappa(lammps, name):
     one, thousand = amplitude(1.0), amplitude(500.0)
     assert 0.5 < one < 0.9  # it decays by exp(-0.21)
     assert thousand == pytest.approx(one, rel=1e-4)
+
+
+# ---- forces of other styles --------------------------------------------------------------------------------------
+
+ROWS = 16       # of the driven flows; in channels, of the fluid
+STEP = 0.0375   # of sound; the friction is seven times as fast as explicit steps allow
+EXPLICIT = 0.004
+MICRO = micro.STYLE
+WAVE = f"variable w atom 0.01*sin(2*PI*y/{ROWS})\nfix B all addforce v_w 0 0\n"
+RINGS = f"variable c atom 0.01*(1+cos(2*PI*y/{ROWS}))\nfix T all sph/torque 0 0 v_c\n"
+GRAVITY = "fix B fluid gravity 1.0 vector 1 0 0\n"
+ONE_BY_ONE = "label a\nvariable i loop {}\nrun 1\nnext i\njump SELF a\n"
+
+
+def in_runs_of_one(steps):
+    return ONE_BY_ONE.format(steps)
+
+
+def driven(lammps, keywords, timestep, end, particles, fluid, after, style="sph/bulk", group="all", boundary="p p p", before="",
+           run="run {}\n".format):
+    """Velocities at the end, with spins; from rest or what particles have."""
+    if style == MICRO:
+        micro.write(particles, lammps.path("box.data"), omega=np.zeros((len(particles), 3)))
+    else:
+        particles.write(lammps.path("box.data"))
+    spin = "omegax omegay omegaz" if style == MICRO else ""
+    lammps(header(2, style=style, boundary=boundary) + "read_data box.data\n" + before + fluid + integrate(keywords, style, group)
+           + after + f"timestep {timestep!r}\n" + run(round(end / timestep)) + dump("out.dump", extra=spin) + "run 0\n")
+    frame = lammps.frame("out.dump")
+    return np.column_stack([frame["v"][:, :2], *([frame["omegaz"]] if spin else [])])
+
+
+def shear_wave(lammps, keywords, timestep, end, after=WAVE, **settings):
+    return driven(lammps, keywords, timestep, end, lattice(2, (8, ROWS)), fluid(2, mu=18.0, kappa=40.0), after, **settings)
+
+
+def spinning(lammps, keywords, timestep, end, **settings):
+    """Force and torque in waves, and a mean torque."""
+    return driven(lammps, keywords, timestep, end, lattice(2, (8, ROWS)), micro.fluid(2, mu=18.0, kappa=40.0, mu_r=9.0, gamma1=2.0),
+                  WAVE + RINGS, style=MICRO, **settings)
+
+
+def channel(lammps, keywords, timestep, end, after=GRAVITY, wall="", **settings):
+    particles = lattice(2, (7, 16))
+    height = particles.x[:, 1]
+    particles, owner = walls.arrange(particles, [height < 3.0, height > 13.0])
+    found = driven(lammps, keywords, timestep, end, particles, fluid(2, mu=18.0, kappa=40.0), f"fix W0 wall0 sph/wall {wall}\n"
+                   "fix W1 wall1 sph/wall\n" + after, group="fluid", boundary="p f p", before=walls.groups(owner), **settings)
+    return found[owner < 0]
+
+
+@pytest.mark.parametrize("flow, end, precision", [(shear_wave, 6.0, 2e-5), (spinning, 5.0, 3e-5), (channel, 9.0, 4e-4)])
+def test_steady_velocity(lammps, flow, end, precision):
+    """That of the explicit step, at the time step of sound, for every scheme: fluid under a force, a torque, and between walls."""
+    expected = flow(lammps, "", 0.001 if flow is spinning else EXPLICIT, end)
+    for name, keywords in SCHEMES.items():
+        precise = "" if name == "rkl2" else " tolerance 1e-9"
+        found = flow(lammps, keywords + precise, STEP, end)
+        error = relative(found - expected, expected)
+        print(name, error)
+        assert error < precision, name
+
+
+def second_order(lammps, flow, stages=5, **settings):
+    """Errors at two time steps, against the explicit one at much shorter ones; four times less at half the step."""
+    fine, finer = (flow(lammps, "", step, 0.3, **settings) for step in (0.001, 0.0005))
+    expected = finer + (finer - fine) / 3.0
+    for name in SECOND_ORDER:
+        precise = f" stages {stages}" if name == "rkl2" else " tolerance 1e-10"
+        errors = [np.linalg.norm(flow(lammps, SCHEMES[name] + precise, step, 0.3, **settings) - expected) / np.linalg.norm(expected)
+                  for step in (0.02, 0.01)]
+        print(name, errors)
+        assert errors[0] < 0.01 and errors[0] > 3.3 * errors[1], name
+
+
+def soft(lammps, keywords, timestep, end, fluid=None, after="", **settings):
+    """A disturbed lattice with a shear wave."""
+    particles = lattice(2, 10)
+    particles.v[:, 0] = 0.1 * np.sin(2 * np.pi * particles.x[:, 1] / 10)
+    particles.x[:, 0] += 0.05 * np.sin(2 * np.pi * particles.x[:, 0] / 10)
+    return driven(lammps, keywords, timestep, end, particles, fluid or STIFF, after, **settings)
+
+
+STIFF = fluid(2, mu=18.0, kappa=40.0)
+OVERLAY = ("pair_style hybrid/overlay sph/bulk dim 2 soft 2.5\npair_coeff * * sph/bulk 1.0 10.0 18.0 40.0 3.0\n"
+           "pair_coeff * * soft 5.0\n")
+IN_TIME = "variable a equal 1+sin(6*time)\nfix B all addforce v_a 0 0\n"
+
+
+@pytest.mark.parametrize("flow, settings", [
+    (shear_wave, {}),
+    (channel, {"wall": "velocity v_u 0 0", "after": "variable u equal 0.2*sin(6*time)\n" + GRAVITY}),
+    (channel, {"after": IN_TIME.replace("all", "fluid")}),
+    (soft, {"fluid": OVERLAY}),
+    (soft, {"after": "fix S all spring/self 20.0\n"}),
+    (soft, {"after": "group some id 1:20\nfix S some setforce 0 0 0\n"}),
+], ids=["force", "moving wall", "force in time", "other pair style", "springs", "no force on some"])
+def test_second_order_with_forces_of_other_styles(lammps, flow, settings):
+    second_order(lammps, flow, **settings)
+
+
+def test_second_order_with_torques(lammps):
+    second_order(lammps, spinning, stages=11)
+
+
+def test_many_short_runs_are_of_second_order(lammps):
+    """The first half step of a run does not know the forces of other styles."""
+    second_order(lammps, shear_wave, run=in_runs_of_one)
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_runs_go_on(lammps, name):
+    """Without setup exactly, with new neighbor lists in between; a restart file as a second run."""
+    particles = disordered(2, 12, spread=0.04)
+    micro.write(particles, lammps.path("box.data"), inertia=0.05)
+    forces = "variable w atom sin(2*PI*y/12)\nfix B all addforce v_w 0 0\nfix T all sph/torque 0 0 v_w\nneighbor 0.1 bin\n"
+    start = (header(2, style=MICRO) + "read_data box.data\n" + micro.fluid(2, mu=5.0, kappa=50.0, mu_r=2.0, gamma1=0.5))
+    fixes = integrate(SCHEMES[name] + ("" if name == "rkl2" else " tolerance 1e-13"), MICRO) + forces + "timestep 0.02\n"
+    v = {}
+    for key, text in (("one", "run 12\n"), ("no setup", "run 5\nrun 7 pre no\n"), ("two", "run 5\nrun 7\n"),
+                      ("file", "run 5\nwrite_restart half.restart\n")):
+        lammps(start + fixes + text + micro.dump("out.dump") + "run 0\n")
+        v[key] = np.column_stack([lammps.frame("out.dump")["v"], micro.omega_of(lammps.frame("out.dump"))])
+    lammps(f"read_restart half.restart\n{fixes}run 7\n{micro.dump('out.dump')}run 0\n", ranks=2)
+    again = np.column_stack([lammps.frame("out.dump")["v"], micro.omega_of(lammps.frame("out.dump"))])
+    assert relative(v["no setup"] - v["one"], v["one"]) < 1e-13
+    assert relative(again - v["two"], v["two"]) < 1e-11
+    assert relative(v["two"] - v["one"], v["one"]) > 1e-9
 
 
 # ---- conservation ------------------------------------------------------------------------------------------------
@@ -167,7 +295,7 @@ def test_ranks(lammps, name):
     x = {}
     for ranks, newton in ((1, "on"), (2, "on"), (4, "on"), (4, "off")):
         lammps(header(2, newton=newton) + "read_data box.data\n" + fluid(2, coeff=coeff)
-               + integrate(SCHEMES[name] + tight) + "timestep 0.01\n" + dump("out.dump", 20) + "run 20\n", ranks=ranks)
+               + integrate(SCHEMES[name] + tight) + WAVE + "timestep 0.01\n" + dump("out.dump", 20) + "run 20\n", ranks=ranks)
         x[ranks, newton] = lammps.frame("out.dump")["x"]
     first = x[1, "on"]
     moved = np.abs(first - lammps.frames("out.dump")[0]["x"]).max()
@@ -211,8 +339,9 @@ def test_walls(lammps, wall, options):
     v = particles.v[group, :2].ravel()
     asymmetry = relative(matrix - matrix.T, matrix)
     assert asymmetry < 1e-12 if options else asymmetry > 1e-3
-    for name, part in (("trapezoidal", 0.01), ("euler", 0.02))[:1 if options else 2]:
-        acting = np.linalg.solve(np.diag(mass) - part * matrix, mass * v + part * rest)
+    one, two = (np.linalg.solve(np.diag(mass) - part * matrix, mass * v + part * rest) for part in (0.03, 0.06))
+    acting = 2.0 * one - two
+    for name in ("trapezoidal", "euler")[:1 if options else 2]:
         lammps(before + integrate(SCHEMES[name] + " tolerance 1e-13", group="fluid") + after + dump("v.dump") + "run 0\n")
         force = lammps.frame("v.dump")["f"][group][:, :2].ravel()
         assert relative(force - rest - matrix @ acting, rest + matrix @ acting) < 1e-10, name
@@ -235,6 +364,32 @@ def test_open_ends(lammps, name, style, options):
     ledger.assert_balance(table, ledger.PLANE)
 
 
+def stream(lammps, keywords, timestep, condition):
+    """Velocities at three places of a stream between two open ends, under a force and with a jump of what enters."""
+    open_channel = ends.Channel(length=12, width=6, zone=8.0)
+    lammps(open_channel.text(lammps, f"velocity 0.6 0 0 {condition}", f"pressure 0 {condition}",
+                             velocity=lambda place: np.full((len(place), 3), (0.5, 0.0, 0.0)), coeff="1.0 6.0 1.0 3.0 {R} pb 1.0",
+                             integrate=f"density rho0 {keywords}", timestep=timestep)
+           + f"fix B all addforce 0.1 0 0\n{dump('out.dump', round(2.0 / timestep))}run {round(2.0 / timestep)}\n")
+    frame = lammps.frame("out.dump")
+    weight = np.exp(-0.5 * (frame["x"][:, :1] - [1.5, 6.0, 10.5]) ** 2)
+    return (weight * frame["v"][:, :1]).sum(axis=0) / weight.sum(axis=0)
+
+
+@pytest.mark.parametrize("condition, first_order", [("condition lagged", 5e-4), ("condition fixed", 7e-3)])
+def test_open_ends_as_the_explicit_step(lammps, condition, first_order):
+    """The condition at the ends is of first order, with any step: they differ from one another by the second order."""
+    explicit = {step: stream(lammps, "", step, condition) for step in (0.02, 0.01, 0.0025)}
+    fine = explicit.pop(0.0025)
+    assert relative(explicit[0.02] - fine, fine) == pytest.approx(first_order, rel=0.3)
+    for name in SECOND_ORDER:
+        precise = "" if name == "rkl2" else " tolerance 1e-10"
+        one, two = (relative(stream(lammps, SCHEMES[name] + precise, step, condition) - explicit[step], explicit[step])
+                    for step in explicit)
+        print(name, one, two)
+        assert one < 1e-3 and one > 3.3 * two, name
+
+
 def temperature_of_the_drift(lammps, keywords, timestep):
     """Of the velocities between the steps, over kT."""
     particles = lattice(2, 16)
@@ -251,6 +406,21 @@ def temperature_of_the_drift(lammps, keywords, timestep):
 def test_temperature_with_noise(lammps):
     """The trapezoidal step has kT between the steps at any time step, here with rates of thirty times its inverse."""
     assert temperature_of_the_drift(lammps, SCHEMES["trapezoidal"], 0.015) == pytest.approx(1.0, abs=0.01)
+
+
+def test_springs_with_noise(lammps):
+    """Where particles are on their springs: kT over the spring constant, in the waves that friction damps most, too."""
+    rows, spring, kT, timestep = 12, 100.0, 0.01, 0.015
+    particles = lattice(2, rows)
+    particles.write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\n" + fluid(2, f"temp {kT} 4711", mu=20.0, kappa=40.0, c0=2.0)
+           + integrate(SCHEMES["trapezoidal"] + " tolerance 1e-4") + f"fix S all spring/self {spring}\ntimestep {timestep}\nrun 300\n"
+           + dump("out.dump", 25) + "run 3000\n")
+    moved = np.array([frame["x"][:, :2] - particles.x[:, :2] for frame in lammps.frames("out.dump")])
+    waves = [(along, f(2 * np.pi * k * particles.x[:, 1 - along] / rows)) for along in (0, 1) for k in (3, 4, 5) for f in (np.cos, np.sin)]
+    energy = [spring * np.mean((moved[:, :, along] @ wave) ** 2) / (wave @ wave) for along, wave in waves]
+    print(np.mean(energy) / kT, np.std(energy) / kT)
+    assert np.mean(energy) == pytest.approx(kT, rel=0.12)
 
 
 # ---- work --------------------------------------------------------------------------------------------------------
