@@ -156,7 +156,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
   if (viscous->active()) find_viscous_velocity();
   const bigint nbeyond = sum_before_forces();
   if (crowding_requested) crowd->run();
-  forces->run(list, tally);
+  sum_forces(tally);
   if (!open->empty()) open->sum_impacts(list);
   if (viscous->active() || has_own_temperatures()) forces->collect();
 
@@ -191,6 +191,14 @@ bigint PairSPHBulk::sum_before_forces()
   return nbeyond;
 }
 
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::sum_forces(PairTally *tally)
+{
+  forces->run(list, tally);
+  if (!boundary->empty()) boundary->repel(tally);
+}
+
 /* ----------------------------------------------------------------------
    friction that is extended behind walls, and the form P1 (64), have no symmetric matrix
 ------------------------------------------------------------------------- */
@@ -203,7 +211,7 @@ void PairSPHBulk::find_viscous_velocity()
   }
   viscous->begin();
   sum_before_forces();
-  forces->run(list, nullptr);
+  sum_forces(nullptr);
   const bool symmetric = (boundary->empty() || has_noise()) && engine->bulk_form() != Bulk::VOLUME;
   viscous->run(list, (model->choice.limit != Limit::NO) ? limit->bound : nullptr, not_fluid(),
                symmetric, extrapolated_spin(), spin_inertia());
@@ -257,7 +265,9 @@ double PairSPHBulk::elastic_energy(Moment moment)
 
 void PairSPHBulk::tally_energy()
 {
-  const double energy = pressure->elastic_energy(eflag_atom ? eatom : nullptr, not_fluid());
+  double *const each_atom = eflag_atom ? eatom : nullptr;
+  double energy = pressure->elastic_energy(each_atom, not_fluid());
+  if (!boundary->empty()) energy += boundary->energy(each_atom);
   if (eflag_global) eng_vdwl += energy;
 }
 

@@ -38,6 +38,7 @@ namespace SPHDissipation {
   class NoiseStage;
   class OpenStage;
   class OpenZone;
+  class PairTally;
   class PressureStage;
   class ViscousStage;
   struct PairCoeff;
@@ -191,6 +192,7 @@ class PairSPHBulk : public Pair {
   void find_own_types();
   void derive_coeffs();
   bigint sum_before_forces();
+  void sum_forces(SPHDissipation::PairTally *);
   void find_viscous_velocity();
   SPHDissipation::CoeffTable coeff_table(double speed) const;
   double stability_length() const;
