@@ -86,7 +86,7 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
     Pair(lmp),
     fluid_style(name), model(new FluidModel(lmp, name, viscosities)), dim(0), support(0.0),
     announced(false), stale(false), warned_step(0.0), noise_step(0.0), engine(new Engine(lmp)),
-    crowding_requested(false)
+    crowding_requested(false), continued(false)
 {
   exchange =
       new Exchange(lmp, this,
@@ -153,7 +153,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
   PairTally *tally = vflag_either ? &stress : nullptr;
   if (cvflag_atom) tally = &centroid;
 
-  if (viscous->active()) find_viscous_velocity();
+  if (viscous->active() && !(continued && update->setupflag)) find_viscous_velocity();
   const bigint nbeyond = sum_before_forces();
   if (crowding_requested) crowd->run();
   sum_forces(tally);
@@ -187,7 +187,7 @@ bigint PairSPHBulk::sum_before_forces()
   const bigint nbeyond = pressure->run(bound, boundary->bits());
   if (!open->empty()) open->run();
   if (walls) boundary->run(list);
-  if (has_noise()) noise->run(bound, boundary->bits());
+  if (has_noise()) noise->run(bound, boundary->bits(), continued);
   return nbeyond;
 }
 
@@ -410,7 +410,7 @@ void PairSPHBulk::coeff(int narg, char **arg)
 
 void PairSPHBulk::init_style()
 {
-  crowding_requested = false;
+  crowding_requested = continued = false;
   viscous->configure(ViscousSettings(), 0, fluid_style);
   check_setup();
   derive_coeffs();
@@ -670,6 +670,8 @@ void PairSPHBulk::announce_noise(double rate)
                    "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
                    "step {:.3g}\n",
                    fluid_style, temperature, model->choice.seed, rate * update->dt);
+  if (rate == 0.0 && (has_own_temperatures() || model->choice.temperature > 0.0) && comm->me == 0)
+    error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", fluid_style);
   if (rate * update->dt > ACCURATE_NOISE && !viscous->active() && comm->me == 0)
     error->warning(
         FLERR,

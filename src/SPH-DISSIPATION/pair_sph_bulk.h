@@ -122,6 +122,11 @@ class PairSPHBulk : public Pair {
   bool has_viscous_stage() const;    // the velocity in the friction is found by a stage of its own
   const double *viscous_statistics() const;    // see ViscousStage
 
+  // from the setup_pre_exchange() of all integrators: the run continues the last one, and the velocities in
+  // the friction are those of its last step
+  void set_continued(bool flag) { continued = flag; }
+  bool is_continued() const { return continued; }
+
   // of the last step, on an owned particle, without what other styles add
   const double *own_force(int i) const;
   const double *own_torque(int i) const;
@@ -171,6 +176,7 @@ class PairSPHBulk : public Pair {
   SPHDissipation::ForceStage *forces;
   SPHDissipation::ViscousStage *viscous;
   bool crowding_requested;
+  bool continued;
 
   PairSPHBulk(class LAMMPS *, const std::string &, const std::vector<std::string> &);
 
