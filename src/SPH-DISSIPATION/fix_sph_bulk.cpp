@@ -19,6 +19,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "input.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_integrate.h"
@@ -340,13 +341,15 @@ FixSPHBulk::Motion FixSPHBulk::sum_of(const Motion &mine, MPI_Comm world)
 }
 
 /* ----------------------------------------------------------------------
-   on all processors; not in a minimization, which has no velocities
+   on all processors; not in a minimization, which has no velocities, nor for the snapshots of a rerun
 ------------------------------------------------------------------------- */
 
 bool FixSPHBulk::is_continued() const
 {
+  if (update->whichflag == 2 || (input->command && strcmp(input->command, "rerun") == 0))
+    return false;
   const Motion before = sum_of(last, world), now = sum_of(find_motion(), world);
-  return update->whichflag != 2 && before.known && std::equal(now.sum, now.sum + 2, before.sum);
+  return before.known && std::equal(now.sum, now.sum + 2, before.sum);
 }
 
 /* ---------------------------------------------------------------------- */

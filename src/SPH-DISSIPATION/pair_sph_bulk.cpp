@@ -153,7 +153,10 @@ void PairSPHBulk::compute(int eflag, int vflag)
   PairTally *tally = vflag_either ? &stress : nullptr;
   if (cvflag_atom) tally = &centroid;
 
-  if (viscous->active() && !(continued && update->setupflag)) find_viscous_velocity();
+  if (continued && update->setupflag)
+    viscous->start();
+  else if (viscous->active())
+    find_viscous_velocity();
   const bigint nbeyond = sum_before_forces();
   if (crowding_requested) crowd->run();
   sum_forces(tally);

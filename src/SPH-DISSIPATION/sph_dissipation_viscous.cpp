@@ -80,6 +80,14 @@ void ViscousStage::restore()
   if (engine.has_spin()) std::copy(torques_before.begin(), torques_before.end(), atom->torque[0]);
 }
 
+/* ---------------------------------------------------------------------- */
+
+void ViscousStage::start()
+{
+  warned = false;
+  statistics[APPLICATIONS] = 0.0;
+}
+
 /* ----------------------------------------------------------------------
    at the start of a run the velocity is that of the time of the positions, with half a step to the middle
    of the first one
@@ -94,10 +102,7 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, int prescribe
   symmetric = symmetric_in;
   omegaest = omegaest_in;
   width = omegaest ? 6 : 3;
-  if (update->setupflag) {
-    warned = false;
-    statistics[APPLICATIONS] = 0.0;
-  }
+  if (update->setupflag) start();
   statistics[ITERATIONS] = statistics[RESIDUAL] = 0.0;
 
   const Field f = {atom->nmax ? atom->f[0] : nullptr, 3, 3};

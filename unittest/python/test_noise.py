@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from helpers import disordered, drop, dump, fluid, free, header, lattice, relative
+from helpers import disordered, drop, dump, free, header, lattice, relative, undump
 
 HOT = "temp 30.0 4711"
 STOKES = "limit yes"
@@ -109,6 +109,32 @@ def test_a_restarted_run_continues_with_the_same_numbers(lammps, style):
             assert one.step == other.step
             for field in "xvf":
                 assert relative(one[field] - other[field], one[field]) < 1e-12, (one.step, field)
+
+
+def test_random_numbers_go_on_after_reset_timestep(lammps):
+    """As in one run without it; the offset is in restart files.  rerun and other steps have the numbers of the step."""
+    make_box(lammps)
+    rest = "fix FLUID all sph/bulk\ntimestep 0.002\n"
+    lammps(deck() + "run 10\n" + dump("whole.dump") + "run 0\n")
+    lammps(deck() + "run 4\nreset_timestep 0\nrun 2\nreset_timestep 0\nrun 2\nwrite_restart eight.restart\nrun 2\n"
+           + dump("parts.dump") + "run 0\n")
+    lammps("read_restart eight.restart\n" + rest + "reset_timestep 1\nrun 2\n" + dump("read.dump") + "run 0\n", ranks=2)
+    whole = lammps.frame("whole.dump")
+    for name in ("parts.dump", "read.dump"):
+        for field in "xvf":
+            assert relative(lammps.frame(name)[field] - whole[field], whole[field]) < 1e-11, (name, field)
+
+
+def test_rerun_repeats_the_random_numbers(lammps):
+    """Of the steps of the file, also after a run that has passed them."""
+    make_box(lammps)
+    again = "rerun run.dump first 1 dump x y vx vy\n"
+    lammps(deck() + "dump T all custom 1 run.dump id x y vx vy\ndump_modify T sort id format float %.17g\nrun 3\n"
+           "undump T\n" + dump("after.dump") + again)
+    lammps(deck() + dump("alone.dump") + again)
+    for after, alone in zip(lammps.frames("after.dump"), lammps.frames("alone.dump")):
+        assert after.step == alone.step
+        assert relative(after["f"] - alone["f"], alone["f"]) < 1e-13
 
 
 # ---- what is conserved -------------------------------------------------------------------------------------------
@@ -307,6 +333,14 @@ def test_rate_times_time_step_is_printed_and_warned_of(lammps):
     assert len(lines) == 2
     assert float(lines[1]) == pytest.approx(25.0 * float(lines[0]), rel=0.01)
     assert len([line for line in result.warnings if "hotter" in line]) == 1
+
+
+def test_temp_without_viscosity_is_warned_of(lammps):
+    make_box(lammps)
+    for viscosities, temperature, count in (("0.0 0.0", 1.0, 1), ("0.0 0.5", 1.0, 0), ("0.5 2.0", 1.0, 0), ("0.0 0.0", 0.0, 0)):
+        text = deck(options=f"temp {temperature} 5", coeff=f"pair_coeff * * 1.0 10.0 {viscosities} 3.0\n")
+        result = lammps(text + "run 1\nrun 1\n")
+        assert len([line for line in result.warnings if "temp has no effect without viscosity" in line]) == count
 
 
 def test_open_boundaries_do_not_fluctuate(lammps):
