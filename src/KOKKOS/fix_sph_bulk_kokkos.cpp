@@ -34,6 +34,7 @@ static constexpr uint64_t MODIFIED[] = {    // at the beginning and at the end o
     V_MASK | ESPH_MASK | DESPH_BEFORE_MASK | OMEGA_MASK};
 static constexpr uint64_t MOTION = V_MASK | OMEGA_MASK;
 static constexpr uint64_t EXTRAPOLATION = VEST_MASK | OMEGAEST_MASK;
+static constexpr uint64_t IDENTITY = X_MASK | IMAGE_MASK | MASK_MASK | TAG_MASK;
 static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK;
 
 /* ---------------------------------------------------------------------- */
@@ -53,7 +54,7 @@ FixSPHKokkos<DeviceType, Base>::FixSPHKokkos(LAMMPS *lmp, int narg, char **arg) 
 
 template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::setup_pre_exchange()
 {
-  this->atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | MASK_MASK | TAG_MASK);
+  this->atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
   Base::setup_pre_exchange();
   this->atomKK->modified(Host, EXTRAPOLATION | ENERGY);
 }
@@ -62,14 +63,14 @@ template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::set
 
 template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::post_run()
 {
-  this->atomKK->sync(Host, MOTION | MASK_MASK | TAG_MASK);
+  this->atomKK->sync(Host, MOTION | IDENTITY);
   Base::post_run();
 }
 
 template <class DeviceType, class Base>
 void FixSPHKokkos<DeviceType, Base>::write_restart(FILE *fp)
 {
-  this->atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | MASK_MASK | TAG_MASK);
+  this->atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
   Base::write_restart(fp);
 }
 

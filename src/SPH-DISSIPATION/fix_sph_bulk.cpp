@@ -30,6 +30,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -279,6 +280,7 @@ void FixSPHBulk::warn_not_integrated()
 
 void FixSPHBulk::setup_pre_exchange()
 {
+  if (update->whichflag == 0) return;    // from a command that moves particles between processors
   const bool continued = is_continued();
   if (first_instance) reset_extrapolation(0, atom->nlocal, integrated_groups);
   if (pair) pair->set_continued(continued && (first_instance || pair->is_continued()));
@@ -304,16 +306,24 @@ void FixSPHBulk::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   sums of two numbers of 32 bits that follow from the bits of the velocity and the spin, and the ID
+   sums of two numbers of 32 bits that follow from the bits of the velocity and the spin, the position, as
+   far as writing a restart file leaves it alone, and the ID
 ------------------------------------------------------------------------- */
 
 FixSPHBulk::Motion FixSPHBulk::find_motion() const
 {
-  Motion motion = {0, {0, 0}};
+  const double length = std::max({domain->xprd, domain->yprd, domain->zprd});
+  const double fine =
+      0.75487766624669276 * 16777216.0 / length;    // no fraction: lattices have those
+  Motion motion = {0, {0, 0}, dtv};
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     std::uint64_t number = atom->tag_enable ? atom->tag[i] : 0;
-    for (const double *values : {static_cast<const double *>(atom->v[i]), spin_of(i)}) {
+    double place[3];
+    domain->unmap(atom->x[i], atom->image[i], place);
+    for (double &x : place) x = std::floor(x * fine + 0.5);
+    for (const double *values : {static_cast<const double *>(atom->v[i]), spin_of(i),
+                                 static_cast<const double *>(place)}) {
       if (!values) continue;
       std::uint64_t bits[3];
       memcpy(bits, values, sizeof(bits));
@@ -333,7 +343,7 @@ FixSPHBulk::Motion FixSPHBulk::find_motion() const
 FixSPHBulk::Motion FixSPHBulk::sum_of(const Motion &mine, MPI_Comm world)
 {
   constexpr bigint EXACT = (bigint(1) << 52) - 1;    // as a number of a restart file
-  Motion all;
+  Motion all = mine;
   MPI_Allreduce(&mine.known, &all.known, 1, MPI_LMP_BIGINT, MPI_MAX, world);
   MPI_Allreduce(mine.sum, all.sum, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   for (auto &sum : all.sum) sum &= EXACT;
@@ -341,7 +351,8 @@ FixSPHBulk::Motion FixSPHBulk::sum_of(const Motion &mine, MPI_Comm world)
 }
 
 /* ----------------------------------------------------------------------
-   on all processors; not in a minimization, which has no velocities, nor for the snapshots of a rerun
+   on all processors; not in a minimization, which has no velocities, nor for the snapshots of a rerun.
+   With large viscosities, the extrapolated velocity makes a step of one length only.
 ------------------------------------------------------------------------- */
 
 bool FixSPHBulk::is_continued() const
@@ -349,7 +360,8 @@ bool FixSPHBulk::is_continued() const
   if (update->whichflag == 2 || (input->command && strcmp(input->command, "rerun") == 0))
     return false;
   const Motion before = sum_of(last, world), now = sum_of(find_motion(), world);
-  return before.known && std::equal(now.sum, now.sum + 2, before.sum);
+  return before.known && (before.dt == now.dt || !has_viscous_stage()) &&
+      std::equal(now.sum, now.sum + 2, before.sum);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -590,7 +602,7 @@ void FixSPHBulk::write_restart(FILE *fp)
   if (comm->me == 0) {
     const double state[1 + NMOTION] = {
         static_cast<double>(density_done), static_cast<double>(motion.known),
-        static_cast<double>(motion.sum[0]), static_cast<double>(motion.sum[1])};
+        static_cast<double>(motion.sum[0]), static_cast<double>(motion.sum[1]), motion.dt};
     const int size = sizeof(state);
     fwrite(&size, sizeof(int), 1, fp);
     fwrite(state, sizeof(double), 1 + NMOTION, fp);
@@ -613,12 +625,13 @@ FixSPHBulk::Motion FixSPHBulk::restart_motion() const
   const bool known = (update->whichflag == 1) || is_continued();
   Motion motion = sum_of(find_motion(), world);
   motion.known = known;
+  if (update->whichflag == 0) motion.dt = last.dt;
   return motion;
 }
 
 void FixSPHBulk::restart_motion(const double *state)
 {
-  last = {static_cast<bigint>(state[0]), {0, 0}};
+  last = {static_cast<bigint>(state[0]), {0, 0}, state[3]};
   if (comm->me == 0)
     for (int k = 0; k < 2; k++) last.sum[k] = static_cast<bigint>(state[1 + k]);
 }

@@ -95,16 +95,17 @@ class FixSPHBulk : public Fix {
   // integrates them
   virtual void reset_extrapolation(int, int, int);
 
-  // Numbers that tell the velocities of the particles of the group: a run continues the last one, with the
-  // extrapolated quantities of its last step, if nobody has changed the velocities since then
+  // Numbers that tell positions and velocities of the particles of the group: a run continues the last one, with
+  // the extrapolated quantities of its last step, if nobody has changed them since then
 
   struct Motion {
     bigint known;    // 0: no step was taken
     bigint sum[2];
+    double dt;    // time step
   };
   Motion restart_motion() const;          // on all processors; of the particles as they are written
   void restart_motion(const double *);    // those of the file
-  static constexpr int NMOTION = 3;
+  static constexpr int NMOTION = 4;
   virtual const double *spin_of(int) const { return nullptr; }
 
  private:

@@ -29,7 +29,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-enum { DONE, FACTOR, OFFSET, MASSES, MOTION, NSTATE = MOTION + 3 };    // of a restart file
+enum { DONE, FACTOR, OFFSET, MASSES, MOTION, NSTATE = MOTION + 4 };    // of a restart file
 
 /* ---------------------------------------------------------------------- */
 
@@ -249,7 +249,8 @@ void FixSPHMicropolar::write_restart(FILE *fp)
                                   static_cast<double>(density_done),
                                   static_cast<double>(motion.known),
                                   static_cast<double>(motion.sum[0]),
-                                  static_cast<double>(motion.sum[1])};
+                                  static_cast<double>(motion.sum[1]),
+                                  motion.dt};
     const int size = sizeof(state);
     fwrite(&size, sizeof(int), 1, fp);
     fwrite(state, sizeof(double), NSTATE, fp);

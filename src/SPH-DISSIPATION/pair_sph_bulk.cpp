@@ -86,7 +86,7 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
     Pair(lmp),
     fluid_style(name), model(new FluidModel(lmp, name, viscosities)), dim(0), support(0.0),
     announced(false), stale(false), warned_step(0.0), noise_step(0.0), engine(new Engine(lmp)),
-    crowding_requested(false), continued(false)
+    crowding_requested(false), continued(false), changed(false)
 {
   exchange =
       new Exchange(lmp, this,
@@ -153,7 +153,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
   PairTally *tally = vflag_either ? &stress : nullptr;
   if (cvflag_atom) tally = &centroid;
 
-  if (continued && update->setupflag)
+  if (continued && !changed && update->setupflag)
     viscous->start();
   else if (viscous->active())
     find_viscous_velocity();
@@ -163,6 +163,7 @@ void PairSPHBulk::compute(int eflag, int vflag)
   if (!open->empty()) open->sum_impacts(list);
   if (viscous->active() || has_own_temperatures()) forces->collect();
 
+  changed = false;
   pvector[0] = static_cast<double>(nbeyond);
   if (eflag_either) tally_energy();
   if (vflag_fdotr) virial_fdotr_compute();
@@ -394,6 +395,7 @@ void PairSPHBulk::settings(int narg, char **arg)
                "Pair_style {} simd {}: not in this processor, or not in this executable of LAMMPS",
                fluid_style, model->simd);
   announced = false;
+  changed = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -405,6 +407,7 @@ void PairSPHBulk::coeff(int narg, char **arg)
   if (!allocated) allocate();
   model->coeff(narg, arg, setflag);
   announced = false;
+  changed = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -711,7 +714,10 @@ void PairSPHBulk::set_mean_density(int groupbit)
 
 double PairSPHBulk::init_one(int i, int j)
 {
-  if (i == 1 && j == 1 && model->adopt()) announced = false;
+  if (i == 1 && j == 1 && model->adopt()) {
+    announced = false;
+    changed = true;
+  }
   stale = true;
   if (i != j && model->is_mixed(i, j)) did_mix = true;
   return support;

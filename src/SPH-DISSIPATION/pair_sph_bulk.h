@@ -177,6 +177,7 @@ class PairSPHBulk : public Pair {
   SPHDissipation::ViscousStage *viscous;
   bool crowding_requested;
   bool continued;
+  bool changed;    // other coefficients than those of the last forces
 
   PairSPHBulk(class LAMMPS *, const std::string &, const std::vector<std::string> &);
 

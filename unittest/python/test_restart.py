@@ -160,7 +160,7 @@ def test_short_runs_are_one_long_run(lammps, name):
     text = continued(lammps, name)
     last = lambda name: dump(name) + "run 0\n"
     lammps(text + "run 10\n" + last("one.dump"))
-    lammps(text + "run 3\nrun 4\nrun 1\nwrite_restart eight.restart\nrun 1\nrun 1\n" + last("many.dump"))
+    lammps(text + "run 3\nwrite_data three.data\nrun 4\nrun 1\nwrite_restart eight.restart\nrun 1\nrun 1\n" + last("many.dump"))
     again = "".join(line + "\n" for line in text.splitlines() if line.startswith(("fix", "timestep")))
     lammps("read_restart eight.restart\n" + again + "run 2\n" + last("rest.dump"), ranks=2)
     one = lammps.frame("one.dump")
