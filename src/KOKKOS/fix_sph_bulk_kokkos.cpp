@@ -31,9 +31,11 @@ static constexpr uint64_t READ = X_MASK | V_MASK | F_MASK | MASK_MASK | RMASS_MA
     DESPH_MASK | DESPH_BEFORE_MASK | VEST_MASK | SPINS;
 static constexpr uint64_t MODIFIED[] = {    // at the beginning and at the end of a step
     X_MASK | V_MASK | ESPH_MASK | DESPH_BEFORE_MASK | VEST_MASK | OMEGA_MASK | OMEGAEST_MASK,
-    V_MASK | ESPH_MASK | OMEGA_MASK};
+    V_MASK | ESPH_MASK | DESPH_BEFORE_MASK | OMEGA_MASK};
 static constexpr uint64_t MOTION = V_MASK | OMEGA_MASK;
 static constexpr uint64_t EXTRAPOLATION = VEST_MASK | OMEGAEST_MASK;
+static constexpr uint64_t IDENTITY = X_MASK | IMAGE_MASK | MASK_MASK | TAG_MASK;
+static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK;
 
 /* ---------------------------------------------------------------------- */
 
@@ -52,9 +54,24 @@ FixSPHKokkos<DeviceType, Base>::FixSPHKokkos(LAMMPS *lmp, int narg, char **arg) 
 
 template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::setup_pre_exchange()
 {
-  this->atomKK->sync(Host, MOTION | EXTRAPOLATION | MASK_MASK);
+  this->atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
   Base::setup_pre_exchange();
-  this->atomKK->modified(Host, EXTRAPOLATION);
+  this->atomKK->modified(Host, EXTRAPOLATION | ENERGY);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::post_run()
+{
+  this->atomKK->sync(Host, MOTION | IDENTITY);
+  Base::post_run();
+}
+
+template <class DeviceType, class Base>
+void FixSPHKokkos<DeviceType, Base>::write_restart(FILE *fp)
+{
+  this->atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
+  Base::write_restart(fp);
 }
 
 /* ----------------------------------------------------------------------
@@ -73,8 +90,8 @@ void FixSPHKokkos<DeviceType, Base>::setup_pre_force(int vflag)
 
 template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::setup(int vflag)
 {
-  this->atomKK->sync(Host, TYPE_MASK | MASK_MASK | VFRAC_MASK | INERTIA_MASK);
-  this->atomKK->modified(Host, INERTIA_MASK);    // what follows synchronizes the particles
+  this->atomKK->sync(Host, TYPE_MASK | MASK_MASK | VFRAC_MASK | INERTIA_MASK | ENERGY);
+  this->atomKK->modified(Host, INERTIA_MASK | ESPH_MASK);    // what follows synchronizes the particles
   Base::setup(vflag);
 }
 

@@ -41,6 +41,8 @@ template <class DeviceType, class Base> class FixSPHKokkos : public Base {
   void post_integrate() override;
   void pre_force(int) override;
   void final_integrate() override;
+  void post_run() override;
+  void write_restart(FILE *) override;
 
   // of these; public because CUDA asks for it of functions with lambdas
 

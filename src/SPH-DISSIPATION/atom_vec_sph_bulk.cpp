@@ -61,7 +61,7 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
   // order of fields in a string does not matter
   // except: fields_data_atom & fields_data_vel must match data file
   // rho, drho, vfrac are computed anew in every step, for owned and ghost atoms, by the
-  // pair style; vest is set from the velocity at the start of every run
+  // pair style; vest and desph_before of restart files are those of the last step
 
   fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
   fields_copy = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest", "desph_before"};
@@ -71,7 +71,7 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
   fields_border = {"rmass", "esph", "vest"};
   fields_border_vel = {"rmass", "esph", "vest"};
   fields_exchange = {"rmass", "esph", "vest", "desph_before"};
-  fields_restart = {"rmass", "esph"};
+  fields_restart = {"rmass", "esph", "vest", "desph_before"};
   fields_create = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest", "desph_before"};
   fields_data_atom = {"id", "type", "rmass", "esph", "x"};
   fields_data_vel = {"id", "v"};
@@ -174,6 +174,7 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
     error->one(FLERR, "Invalid mass {} in Atoms section of data file: mass must be > 0",
                rmass[ilocal]);
   clear_derived(ilocal);
+  desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -186,13 +187,12 @@ void AtomVecSPHBulk::unpack_restart_init(int ilocal)
 }
 
 /* ----------------------------------------------------------------------
-   zero the quantities that only a force computation or an integrator can set
+   zero the quantities that only a force computation can set
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::clear_derived(int ilocal)
 {
-  rho[ilocal] = drho[ilocal] = vfrac[ilocal] = desph[ilocal] = desph_before[ilocal] = 0.0;
-  vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
+  rho[ilocal] = drho[ilocal] = vfrac[ilocal] = desph[ilocal] = 0.0;
 }
 
 /* ----------------------------------------------------------------------

@@ -46,7 +46,7 @@ class AtomVecSPHBulk : virtual public AtomVec {
   void pack_property_atom(int, double *, int, int) override;
   double memory_usage() override;
 
-  double *desph_before;    // desph at the start of the step, for the integrator
+  double *desph_before;    // of the integrator, see TimeStep
 
  protected:
   virtual void clear_derived(int);

@@ -46,7 +46,7 @@ AtomVecSPHMicropolar::AtomVecSPHMicropolar(LAMMPS *lmp, Complete complete) :
   for (auto *fields : {&fields_comm, &fields_comm_vel, &fields_border, &fields_border_vel})
     fields->push_back("omegaest");
   fields_reverse.push_back("torque");
-  fields_restart.insert(fields_restart.end(), {"omega", "inertia"});
+  fields_restart.insert(fields_restart.end(), {"omega", "inertia", "omegaest"});
   fields_data_atom = {"id", "type", "rmass", "inertia", "esph", "x"};
   fields_data_vel = {"id", "v", "omega"};
 
@@ -61,7 +61,7 @@ void AtomVecSPHMicropolar::data_atom_post(int ilocal)
   if (!(inertia[ilocal] >= 0.0))
     error->one(FLERR, "Invalid inertia {} in Atoms section of data file: must be >= 0",
                inertia[ilocal]);
-  for (int d = 0; d < 3; d++) atom->omega[ilocal][d] = 0.0;
+  for (int d = 0; d < 3; d++) omegaest[ilocal][d] = atom->omega[ilocal][d] = 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -69,7 +69,7 @@ void AtomVecSPHMicropolar::data_atom_post(int ilocal)
 void AtomVecSPHMicropolar::clear_derived(int ilocal)
 {
   AtomVecSPHBulk::clear_derived(ilocal);
-  for (int d = 0; d < 3; d++) omegaest[ilocal][d] = atom->torque[ilocal][d] = 0.0;
+  for (int d = 0; d < 3; d++) atom->torque[ilocal][d] = 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

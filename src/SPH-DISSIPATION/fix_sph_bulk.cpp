@@ -19,6 +19,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "input.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
@@ -29,6 +30,9 @@
 #include "sph_dissipation_viscous_keywords.h"
 #include "update.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -41,8 +45,8 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), fluid_style(without_suffix(style)), dtv(0.0), dtf(0.0), dt_of_forces(0.0),
     extrapolation(1.0), balanced(false), exact(false), density_done(0), shift_speed(0.0),
     remap_v_flag(0), integrated_groups(0), first_instance(false),
-    viscous(new ViscousKeywords(lmp, style)), pair(nullptr), density_flag(0), set_up(false),
-    last_instance(false), not_integrated(0)
+    viscous(new ViscousKeywords(lmp, style)), pair(nullptr), last(), density_flag(0), set_up(false),
+    energy_extrapolated(false), last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -50,7 +54,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
 
   time_integrate = 1;
   create_attribute = 1;
-  restart_global = density_flag;
+  restart_global = 1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -242,6 +246,10 @@ void FixSPHBulk::setup(int /*vflag*/)
 {
   set_up = true;
   dt_of_forces = dtv;
+  if (energy_extrapolated)
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) atom->esph[i] += avec()->desph_before[i];
+  energy_extrapolated = false;
   if (!pair || !last_instance) return;
   pair->announce();
   warn_not_integrated();
@@ -273,14 +281,95 @@ void FixSPHBulk::warn_not_integrated()
 }
 
 /* ----------------------------------------------------------------------
-   at the start of a run the extrapolated velocity is the velocity itself
-   before the exchange of atoms, so that ghost atoms get it with their borders
-   with velocity remapping vest holds the increment only, see add_remapped_velocity()
+   A run that continues the last one begins with the extrapolated velocity and energy of its last step, others
+   with velocity and energy themselves.  Before the exchange of atoms, so that ghost atoms get it with their borders.
+   With velocity remapping vest holds the increment only, see add_remapped_velocity()
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::setup_pre_exchange()
 {
-  if (first_instance) reset_extrapolation(0, atom->nlocal, 0);
+  if (update->whichflag == 0) return;    // from a command that moves particles between processors
+  const bool continued = is_continued();
+  if (first_instance) reset_extrapolation(0, atom->nlocal, integrated_groups);
+  if (pair) pair->set_continued(continued && (first_instance || pair->is_continued()));
+  double *const desph_before = avec()->desph_before;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    if (!continued) {
+      reset_extrapolation(i, i + 1, 0);
+      desph_before[i] = 0.0;
+    } else if (remap_v_flag)
+      for (int d = 0; d < 3; d++) atom->vest[i][d] -= atom->v[i][d];
+    atom->esph[i] -= desph_before[i];
+  }
+  energy_extrapolated = true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::post_run()
+{
+  last = find_motion();
+  last.known = (update->whichflag == 1);
+}
+
+/* ----------------------------------------------------------------------
+   sums of two numbers of 32 bits that follow from the bits of the velocity and the spin, the position, as
+   far as writing a restart file leaves it alone, and the ID
+------------------------------------------------------------------------- */
+
+FixSPHBulk::Motion FixSPHBulk::find_motion() const
+{
+  const double length = std::max({domain->xprd, domain->yprd, domain->zprd});
+  const double fine =
+      0.75487766624669276 * 16777216.0 / length;    // no fraction: lattices have those
+  Motion motion = {0, {0, 0}, dtv};
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    std::uint64_t number = atom->tag_enable ? atom->tag[i] : 0;
+    double place[3];
+    domain->unmap(atom->x[i], atom->image[i], place);
+    for (double &x : place) x = std::floor(x * fine + 0.5);
+    for (const double *values : {static_cast<const double *>(atom->v[i]), spin_of(i),
+                                 static_cast<const double *>(place)}) {
+      if (!values) continue;
+      std::uint64_t bits[3];
+      memcpy(bits, values, sizeof(bits));
+      for (const auto word : bits) {
+        number = (number ^ word) * 0x9E3779B97F4A7C15;
+        number ^= number >> 32;
+      }
+    }
+    motion.sum[0] += static_cast<bigint>(number & 0xffffffff);
+    motion.sum[1] += static_cast<bigint>(number >> 32);
+  }
+  return motion;
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHBulk::Motion FixSPHBulk::sum_of(const Motion &mine, MPI_Comm world)
+{
+  constexpr bigint EXACT = (bigint(1) << 52) - 1;    // as a number of a restart file
+  Motion all = mine;
+  MPI_Allreduce(&mine.known, &all.known, 1, MPI_LMP_BIGINT, MPI_MAX, world);
+  MPI_Allreduce(mine.sum, all.sum, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  for (auto &sum : all.sum) sum &= EXACT;
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   on all processors; not in a minimization, which has no velocities, nor for the snapshots of a rerun.
+   With large viscosities, the extrapolated velocity makes a step of one length only.
+------------------------------------------------------------------------- */
+
+bool FixSPHBulk::is_continued() const
+{
+  if (update->whichflag == 2 || (input->command && strcmp(input->command, "rerun") == 0))
+    return false;
+  const Motion before = sum_of(last, world), now = sum_of(find_motion(), world);
+  return before.known && (before.dt == now.dt || !has_viscous_stage()) &&
+      std::equal(now.sum, now.sum + 2, before.sum);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -493,7 +582,11 @@ void FixSPHBulk::final_integrate()
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
     step.end_energy(desph[i], desph_before[i], esph[i]);
-    if (exact) esph[i] += rest_of_heat(v[i], vest[i], f[i], pair->own_force(i), 1.0 / rmass[i]);
+    if (exact) {
+      const double rest = rest_of_heat(v[i], vest[i], f[i], pair->own_force(i), 1.0 / rmass[i]);
+      esph[i] += rest;
+      desph_before[i] += rest;
+    }
     for (int d = 0; d < 3; d++) step.end(dtfm, f[i][d], v[i][d]);
   }
 }
@@ -528,11 +621,14 @@ AtomVecSPHBulk *FixSPHBulk::avec() const
 
 void FixSPHBulk::write_restart(FILE *fp)
 {
+  const Motion motion = restart_motion();
   if (comm->me == 0) {
-    const int size = sizeof(double);
-    const double done = density_done;
+    const double state[1 + NMOTION] = {
+        static_cast<double>(density_done), static_cast<double>(motion.known),
+        static_cast<double>(motion.sum[0]), static_cast<double>(motion.sum[1]), motion.dt};
+    const int size = sizeof(state);
     fwrite(&size, sizeof(int), 1, fp);
-    fwrite(&done, sizeof(double), 1, fp);
+    fwrite(state, sizeof(double), 1 + NMOTION, fp);
   }
 }
 
@@ -540,5 +636,25 @@ void FixSPHBulk::write_restart(FILE *fp)
 
 void FixSPHBulk::restart(char *buf)
 {
-  density_done = static_cast<int>(reinterpret_cast<double *>(buf)[0]);
+  const auto *state = reinterpret_cast<double *>(buf);
+  density_done = static_cast<int>(state[0]);
+  restart_motion(state + 1);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHBulk::Motion FixSPHBulk::restart_motion() const
+{
+  const bool known = (update->whichflag == 1) || is_continued();
+  Motion motion = sum_of(find_motion(), world);
+  motion.known = known;
+  if (update->whichflag == 0) motion.dt = last.dt;
+  return motion;
+}
+
+void FixSPHBulk::restart_motion(const double *state)
+{
+  last = {static_cast<bigint>(state[0]), {0, 0}, state[3]};
+  if (comm->me == 0)
+    for (int k = 0; k < 2; k++) last.sum[k] = static_cast<bigint>(state[1 + k]);
 }

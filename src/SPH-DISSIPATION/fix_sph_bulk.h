@@ -50,6 +50,7 @@ class FixSPHBulk : public Fix {
   void reset_dt() override;
   double compute_vector(int) override;
   void set_arrays(int) override;
+  void post_run() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
 
@@ -96,7 +97,24 @@ class FixSPHBulk : public Fix {
   // integrates them
   virtual void reset_extrapolation(int, int, int);
 
+  // Numbers that tell positions and velocities of the particles of the group: a run continues the last one, with
+  // the extrapolated quantities of its last step, if nobody has changed them since then
+
+  struct Motion {
+    bigint known;    // 0: no step was taken
+    bigint sum[2];
+    double dt;    // time step
+  };
+  Motion restart_motion() const;          // on all processors; of the particles as they are written
+  void restart_motion(const double *);    // those of the file
+  static constexpr int NMOTION = 4;
+  virtual const double *spin_of(int) const { return nullptr; }
+
  private:
+  Motion last;    // at the end of the last step, of this processor
+  Motion find_motion() const;
+  static Motion sum_of(const Motion &, MPI_Comm);
+  bool is_continued() const;
   void check_integrated_once();
   void warn_of_jump() const;
   void init_viscous();
@@ -105,10 +123,11 @@ class FixSPHBulk : public Fix {
   void add_remapped_velocity();
   void shift_particles();
 
-  int density_flag;         // set the masses so that the mean density is rho0
-  bool set_up;              // since it was defined
-  bool last_instance;       // acts when all are set up
-  bigint not_integrated;    // # of fluid particles that the last warning was about
+  int density_flag;            // set the masses so that the mean density is rho0
+  bool set_up;                 // since it was defined
+  bool energy_extrapolated;    // for the first forces of a run
+  bool last_instance;          // acts when all are set up
+  bigint not_integrated;       // # of fluid particles that the last warning was about
 };
 
 }    // namespace LAMMPS_NS

@@ -29,15 +29,13 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-enum { DONE, FACTOR, OFFSET, MASSES, NSTATE };    // of a restart file
+enum { DONE, FACTOR, OFFSET, MASSES, MOTION, NSTATE = MOTION + 4 };    // of a restart file
 
 /* ---------------------------------------------------------------------- */
 
 FixSPHMicropolar::FixSPHMicropolar(LAMMPS *lmp, int narg, char **arg) :
     FixSPHBulk(lmp, 3, arg), inertia_flag(0), factor(0.0), offset(0.0), inertia_done(false)
 {
-  restart_global = 1;
-
   for (int iarg = 3; iarg < narg;) {
     if (strcmp(arg[iarg], "inertia") != 0) {
       iarg += keyword_argument(iarg, narg, arg);
@@ -193,6 +191,13 @@ void FixSPHMicropolar::reset_extrapolation(int from, int to, int except)
 
 /* ---------------------------------------------------------------------- */
 
+const double *FixSPHMicropolar::spin_of(int i) const
+{
+  return atom->omega[i];
+}
+
+/* ---------------------------------------------------------------------- */
+
 void FixSPHMicropolar::initial_integrate(int vflag)
 {
   FixSPHBulk::initial_integrate(vflag);
@@ -225,8 +230,12 @@ void FixSPHMicropolar::integrate_spin(bool begin)
     if (!(mask[i] & groupbit)) continue;
     const double inverse = TimeStep::inverse_inertia(rmass[i], inertia[i]);
     const double dti = dtf * inverse;
-    if (exact)
-      atom->esph[i] += rest_of_heat(omega[i], omegaest[i], torque[i], pair->own_torque(i), inverse);
+    if (exact) {
+      const double rest =
+          rest_of_heat(omega[i], omegaest[i], torque[i], pair->own_torque(i), inverse);
+      atom->esph[i] += rest;
+      if (!begin) avec()->desph_before[i] += rest;
+    }
     for (int d = 0; d < 3; d++) {
       if (begin)
         step.begin_spin(dti, torque[i][d], omega[i][d], omegaest[i][d]);
@@ -244,9 +253,16 @@ void FixSPHMicropolar::integrate_spin(bool begin)
 
 void FixSPHMicropolar::write_restart(FILE *fp)
 {
+  const Motion motion = restart_motion();
   if (comm->me == 0) {
-    const double state[NSTATE] = {static_cast<double>(inertia_done), factor, offset,
-                                  static_cast<double>(density_done)};
+    const double state[NSTATE] = {static_cast<double>(inertia_done),
+                                  factor,
+                                  offset,
+                                  static_cast<double>(density_done),
+                                  static_cast<double>(motion.known),
+                                  static_cast<double>(motion.sum[0]),
+                                  static_cast<double>(motion.sum[1]),
+                                  motion.dt};
     const int size = sizeof(state);
     fwrite(&size, sizeof(int), 1, fp);
     fwrite(state, sizeof(double), NSTATE, fp);
@@ -260,6 +276,7 @@ void FixSPHMicropolar::restart(char *buf)
   const auto *state = reinterpret_cast<double *>(buf);
   inertia_done = state[DONE] != 0.0 && state[FACTOR] == factor && state[OFFSET] == offset;
   density_done = (state[MASSES] != 0.0);
+  restart_motion(state + MOTION);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -44,6 +44,7 @@ class FixSPHMicropolar : public FixSPHBulk {
 
  protected:
   void reset_extrapolation(int, int, int) override;
+  const double *spin_of(int) const override;
 
   // a particle without inertia gets one, or is an error, when the neighbor list is new
   bool needs_inertia() const { return inertia_flag || has_torques(); }

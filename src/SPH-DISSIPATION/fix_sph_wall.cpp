@@ -25,6 +25,7 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exclusions.h"
+#include "sph_dissipation_model.h"
 #include "sph_dissipation_wall_checks.h"
 #include "sph_dissipation_wall_motion.h"
 #include "sph_dissipation_wall_terms.h"
@@ -272,6 +273,7 @@ void FixSPHWall::set_boundary(Engine &engine, const Surface *surfaces, const Bou
 {
   if (update->whichflag == 2) return;
 
+  const FluidModel &fluid = PairSPHBulk::find(force)->fluid();
   const WallVelocity now = motion->velocity();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
@@ -287,12 +289,14 @@ void FixSPHWall::set_boundary(Engine &engine, const Surface *surfaces, const Bou
     now.acceleration_at(r, acceleration);
 
     // with thermal noise: motion, volume, and friction of the wall itself, for which the friction
-    // matrix is symmetric, and the pressure without that of the friction
+    // matrix is symmetric, and a pressure that does not depend on the fluid, whose force has an energy
 
-    double pressure = wall_pressure(sum, condition->gravity, acceleration);
-    if (noise)
-      pressure -= sum.zeta_term * norm;
-    else {
+    double pressure;
+    if (noise) {
+      const EosParams &eos = fluid.coeffs[atom->type[i]].eos;
+      pressure = surface_pressure(surfaces[i], eos.rho0, eos.pb, condition->gravity, acceleration);
+    } else {
+      pressure = wall_pressure(sum, condition->gravity, acceleration);
       atom->rho[i] = sum.rho * norm;
       atom->vfrac[i] = particle.vol = atom->rmass[i] / atom->rho[i];
     }

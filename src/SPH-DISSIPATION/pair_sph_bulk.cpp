@@ -86,7 +86,7 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
     Pair(lmp),
     fluid_style(name), model(new FluidModel(lmp, name, viscosities)), dim(0), support(0.0),
     set_up(false), announced(false), stale(false), warned_step(0.0), noise_step(0.0),
-    engine(new Engine(lmp)), crowding_requested(false)
+    engine(new Engine(lmp)), crowding_requested(false), continued(false), changed(false)
 {
   exchange =
       new Exchange(lmp, this,
@@ -153,13 +153,17 @@ void PairSPHBulk::compute(int eflag, int vflag)
   PairTally *tally = vflag_either ? &stress : nullptr;
   if (cvflag_atom) tally = &centroid;
 
-  if (viscous->active()) find_viscous_velocity();
+  if (continued && !changed && update->setupflag)
+    viscous->begin_run();
+  else if (viscous->active())
+    find_viscous_velocity();
   const bigint nbeyond = sum_before_forces();
   if (crowding_requested) crowd->run();
-  forces->run(list, tally);
+  sum_forces(tally);
   if (!open->empty()) open->sum_impacts(list);
   if (viscous->active() || has_own_temperatures()) forces->collect();
 
+  changed = false;
   pvector[0] = static_cast<double>(nbeyond);
   if (eflag_either) tally_energy();
   if (vflag_fdotr) virial_fdotr_compute();
@@ -187,8 +191,16 @@ bigint PairSPHBulk::sum_before_forces()
   const bigint nbeyond = pressure->run(bound, boundary->bits());
   if (!open->empty()) open->run();
   if (walls) boundary->run(list);
-  if (has_noise()) noise->run(bound, boundary->bits());
+  if (has_noise()) noise->run(bound, boundary->bits(), continued);
   return nbeyond;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::sum_forces(PairTally *tally)
+{
+  forces->run(list, tally);
+  if (!boundary->empty()) boundary->repel(tally);
 }
 
 /* ----------------------------------------------------------------------
@@ -203,7 +215,7 @@ void PairSPHBulk::find_viscous_velocity()
   }
   viscous->begin(not_fluid(), extrapolated_spin(), spin_inertia());
   sum_before_forces();
-  forces->run(list, nullptr);
+  sum_forces(nullptr);
   const bool symmetric = (boundary->empty() || has_noise()) && engine->bulk_form() != Bulk::VOLUME;
   viscous->run(list, (model->choice.limit != Limit::NO) ? limit->bound : nullptr, symmetric);
 }
@@ -266,7 +278,9 @@ double PairSPHBulk::elastic_energy(Moment moment)
 
 void PairSPHBulk::tally_energy()
 {
-  const double energy = pressure->elastic_energy(eflag_atom ? eatom : nullptr, not_fluid());
+  double *const each_atom = eflag_atom ? eatom : nullptr;
+  double energy = pressure->elastic_energy(each_atom, not_fluid());
+  if (!boundary->empty()) energy += boundary->energy(each_atom);
   if (eflag_global) eng_vdwl += energy;
 }
 
@@ -390,6 +404,7 @@ void PairSPHBulk::settings(int narg, char **arg)
                "Pair_style {} simd {}: not in this processor, or not in this executable of LAMMPS",
                fluid_style, model->simd);
   announced = set_up = false;
+  changed = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -402,6 +417,7 @@ void PairSPHBulk::coeff(int narg, char **arg)
   model->adopt();    // what others have set comes first
   model->coeff(narg, arg, setflag);
   announced = set_up = false;
+  changed = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -410,7 +426,7 @@ void PairSPHBulk::coeff(int narg, char **arg)
 
 void PairSPHBulk::init_style()
 {
-  crowding_requested = false;
+  crowding_requested = continued = false;
   viscous->configure(ViscousSettings(), 0, fluid_style);
   check_setup();
   derive_coeffs();
@@ -472,7 +488,10 @@ void PairSPHBulk::find_own_types()
 void PairSPHBulk::derive_coeffs()
 {
   stale = false;
-  if (model->adopt()) announced = false;
+  if (model->adopt()) {
+    announced = false;
+    changed = true;
+  }
   viscous->forget_rates();
   const int n = atom->ntypes;
   std::vector<PairCoeff> pair_coeffs((n + 1) * (n + 1));
@@ -673,6 +692,8 @@ void PairSPHBulk::announce_noise(double rate)
                    "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
                    "step {:.3g}\n",
                    fluid_style, temperature, model->choice.seed, rate * update->dt);
+  if (rate == 0.0 && (has_own_temperatures() || model->choice.temperature > 0.0) && comm->me == 0)
+    error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", fluid_style);
   if (rate * update->dt > ACCURATE_NOISE && !viscous->active() && comm->me == 0)
     error->warning(
         FLERR,

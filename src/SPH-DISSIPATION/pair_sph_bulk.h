@@ -38,6 +38,7 @@ namespace SPHDissipation {
   class NoiseStage;
   class OpenStage;
   class OpenZone;
+  class PairTally;
   class PressureStage;
   class ViscousStage;
   struct PairCoeff;
@@ -126,6 +127,11 @@ class PairSPHBulk : public Pair {
   void carry_other_force(int i, double keep);
   void carry_other_torque(int i);
 
+  // from the setup_pre_exchange() of all integrators: the run continues the last one, and the velocities in
+  // the friction are those of its last step
+  void set_continued(bool flag) { continued = flag; }
+  bool is_continued() const { return continued; }
+
   // of the last step, on an owned particle, without what other styles add
   const double *own_force(int i) const;
   const double *own_torque(int i) const;
@@ -178,6 +184,8 @@ class PairSPHBulk : public Pair {
   SPHDissipation::ForceStage *forces;
   SPHDissipation::ViscousStage *viscous;
   bool crowding_requested;
+  bool continued;
+  bool changed;    // other coefficients than those of the last forces
 
   PairSPHBulk(class LAMMPS *, const std::string &, const std::vector<std::string> &);
 
@@ -199,6 +207,7 @@ class PairSPHBulk : public Pair {
   void find_own_types();
   void derive_coeffs();
   bigint sum_before_forces();
+  void sum_forces(SPHDissipation::PairTally *);
   void find_viscous_velocity();
   SPHDissipation::CoeffTable coeff_table(double speed) const;
   double stability_length() const;

@@ -43,6 +43,7 @@ namespace SPHDissipation {
     double pressure;     // p + zeta cdot/c (bulk density), p (otherwise)
     double zeta_term;    // zeta cdot/c
     double filled;       // fluid particles only
+    double occupied;     // the same of a smaller support, with thermal noise; fluid particles only
     double d, d2, d3;    // d, d^2, d^3
     double u[3];         // relative velocity
     double ud[3];        // relative velocity times d

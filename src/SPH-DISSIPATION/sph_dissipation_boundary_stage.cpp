@@ -15,6 +15,7 @@
 
 #include "atom.h"
 #include "error.h"
+#include "force.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -32,6 +33,14 @@
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+// Repulsion of the surfaces with thermal noise: a particle of the fluid has the energy HARDNESS kT s^2, where s is
+// the part beyond one half of a support of CONTACT spacings that boundary particles fill.  It is half full at the
+// surface and at least 0.96 full inside of lattices: 32 kT.
+
+static constexpr double HARDNESS = 150.0;
+static constexpr double CONTACT = 1.7;
+typedef WendlandC2 ContactKernel;
 
 /* ---------------------------------------------------------------------- */
 
@@ -127,6 +136,96 @@ void BoundaryStage::extend()
 
 /* ---------------------------------------------------------------------- */
 
+bool BoundaryStage::has_energy() const
+{
+  return model.choice.thermal && !model.choice.own_temperatures;
+}
+
+double BoundaryStage::over(int i) const
+{
+  return std::max(sum[i].occupied - 0.5, 0.0);
+}
+
+double BoundaryStage::stiffness() const
+{
+  return 2.0 * HARDNESS * force->boltz * model.choice.temperature;
+}
+
+int BoundaryStage::nforce() const
+{
+  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+}
+
+/* ----------------------------------------------------------------------
+   the force of the pressure of a wall is in pass 2 already
+------------------------------------------------------------------------- */
+
+void BoundaryStage::repel(PairTally *tally)
+{
+  if (!has_energy()) return;
+  exchange.forward({field(sum, &sum->occupied, 1)});
+  const double *const slope = engine.pairs().slope;
+  const int n = nforce();
+  for (const auto &pair : pairs) {
+    const Particle &f = engine.particle[pair.fluid];
+    const Particle &w = engine.particle[pair.wall];
+    double r[3], approach = 0.0;
+    for (int d = 0; d < 3; d++) {
+      r[d] = f.x[d] - w.x[d];
+      approach -= r[d] * (f.u[d] - w.u[d]);
+    }
+    const double pressing =
+        engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * slope[pair.entry];
+    if (pair.fluid < n) atom->desph[pair.fluid] += pressing * approach;
+
+    const NearKernel &wall = contact[pair.wall];
+    const double s = over(pair.fluid), q = sqrt(inner_product(r, r)) * wall.scale;
+    if (!(s > 0.0 && q < 1.0)) continue;
+    const double repulsion =
+        stiffness() * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
+    if (pair.fluid < n) atom->desph[pair.fluid] += repulsion * approach;
+    double push[3];
+    for (int d = 0; d < 3; d++) {
+      push[d] = repulsion * r[d];
+      engine.force[pair.fluid].f[d] += push[d];
+      engine.force[pair.wall].f[d] -= push[d];
+      if (pair.fluid < n) atom->f[pair.fluid][d] += push[d];
+      if (pair.wall < n) atom->f[pair.wall][d] -= push[d];
+    }
+    if (tally) tally->tally(pair.fluid, pair.wall, push, r);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double BoundaryStage::energy(double *each_atom) const
+{
+  if (!has_energy()) return 0.0;
+  const LoopData &all = engine.pairs();
+  double total = 0.0;
+  auto add = [&](int i, double energy) {
+    total += energy;
+    if (each_atom) each_atom[i] += energy;
+  };
+  with_kernel(engine.kernel_form(), [&](auto k) {
+    for (const auto &pair : pairs) {
+      if (pair.fluid >= nforce()) continue;
+      const Particle &w = engine.particle[pair.wall];
+      double r[3];
+      for (int d = 0; d < 3; d++) r[d] = engine.particle[pair.fluid].x[d] - w.x[d];
+      const double kernel_weight =
+          all.weight_norm * k.shape(sqrt(inner_product(r, r)) / all.support);
+      add(pair.fluid, engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * kernel_weight);
+    }
+    return 0;
+  });
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!(atom->mask[i] & group_bits)) add(i, 0.5 * stiffness() * over(i) * over(i));
+  return total;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void BoundaryStage::find_rows(NeighList *list)
 {
   const int *const mask = atom->mask;
@@ -149,10 +248,18 @@ void BoundaryStage::find_rows(NeighList *list)
 void BoundaryStage::set_near()
 {
   const LoopData &all = engine.pairs();
-  near.resize(atom->nlocal + atom->nghost);
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
-    if (atom->mask[i] & group_bits)
-      near[i] = near_kernel(engine.dimension(), all.support, all.weight_norm, atom->vfrac[i]);
+  const int nall = atom->nlocal + atom->nghost;
+  const int dim = engine.dimension();
+  near.resize(nall);
+  contact.resize(has_energy() ? nall : 0);
+  for (int i = 0; i < nall; i++) {
+    if (!(atom->mask[i] & group_bits)) continue;
+    const double volume = atom->vfrac[i];
+    near[i] = near_kernel(dim, all.support, all.weight_norm, volume);
+    if (!has_energy()) continue;
+    const double radius = std::min(all.support, CONTACT * pow(volume, 1.0 / dim));
+    contact[i] = {volume * ContactKernel::norm(dim) / pow(radius, dim), 1.0 / radius};
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -179,6 +286,7 @@ void BoundaryStage::accumulate()
   const double *const rho = atom->rho;
   const bool has_spin = engine.has_spin();
   const LoopData &all = engine.pairs();
+  const bool repulsive = has_energy();
 
   with_kernel(engine.kernel_form(), [&](auto k) {
     for (const auto &pair : pairs) {
@@ -198,6 +306,11 @@ void BoundaryStage::accumulate()
       const NearKernel &wall = near[pair.wall];
       const double q = distance * wall.scale;
       if (q < 1.0) sum[pair.fluid].filled += wall.norm * k.shape(q);
+      if (!repulsive) continue;
+      const NearKernel &touching = contact[pair.wall];
+      const double q_touching = distance * touching.scale;
+      if (q_touching < 1.0)
+        sum[pair.fluid].occupied += touching.norm * ContactKernel::shape(q_touching);
     }
     return 0;
   });
@@ -232,6 +345,7 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 double BoundaryStage::memory_usage() const
 {
   return (double) nmax * sizeof(BoundarySum) + (double) pairs.capacity() * sizeof(BoundaryPair) +
-      (double) rows.capacity() * sizeof(int) + (double) near.capacity() * sizeof(NearKernel) +
+      (double) rows.capacity() * sizeof(int) +
+      (double) (near.capacity() + contact.capacity()) * sizeof(NearKernel) +
       surface->memory_usage();
 }

@@ -25,6 +25,7 @@ namespace SPHDissipation {
 
   class Boundary;
   class FluidModel;
+  class PairTally;
   class SurfaceStage;
 
   // a pair of a fluid and a boundary particle inside the support
@@ -41,7 +42,7 @@ namespace SPHDissipation {
     BoundaryStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &,
                   const std::string &style);
     ~BoundaryStage() override;
-    static constexpr int FORWARD = 9, REVERSE = 23;    // values per atom
+    static constexpr int FORWARD = 10, REVERSE = 24;    // values per atom
 
     void add(Boundary *);       // no effect if it is there
     void remove(Boundary *);    // no effect if it is not there
@@ -57,6 +58,16 @@ namespace SPHDissipation {
 
     // the same once more in the step, for other velocities and pressures of the fluid
     void extend();
+
+    // With thermal noise, the forces of walls on the fluid have an energy.  After pass 2: add the repulsion of the
+    // surfaces to the forces of the engine and of LAMMPS, and take its work and that of the pressure of the
+    // walls from the internal energies
+
+    void repel(PairTally *);
+
+    // add that energy to those of the particles (nullptr: to none); return its sum on this processor
+
+    double energy(double *each_atom) const;
 
     // what run() consists of, for another one that does the sums elsewhere: the surfaces of the
     // owned and ghost atoms, when the neighbor list is new, from the vectors toward the fluid of the
@@ -85,11 +96,16 @@ namespace SPHDissipation {
     // for BoundarySum::filled, of boundary atoms until the list is built anew
 
     std::vector<NearKernel> near;
+    std::vector<NearKernel> contact;    // for BoundarySum::occupied
 
     int nmax;
     SurfaceStage *surface;
     bigint surface_step;    // that the normals of the surface are for
 
+    bool has_energy() const;    // with thermal noise
+    double over(int i) const;
+    double stiffness() const;
+    int nforce() const;    // # of owned and, with newton on, ghost particles
     void set_near();
     void find_rows(NeighList *);
     void find_pairs();

@@ -57,15 +57,17 @@ namespace SPHDissipation {
     // The internal energy, too, is extrapolated to the end of the step, so that the pressure of an
     // ideal gas is accurate to second order in the time step; the end corrects it with the new rate.
     // With random forces, which have no future, it gets half of the rate at each end of the step.
+    // At the end, rate_before becomes what this has added, for a run that continues.
 
     SPH_FUNCTION void begin_energy(double rate, double &energy, double &rate_before) const
     {
       rate_before = balanced ? 0.0 : rate;
       energy += (balanced ? 0.5 : 1.0) * dtv * rate;
     }
-    SPH_FUNCTION void end_energy(double rate, double rate_before, double &energy) const
+    SPH_FUNCTION void end_energy(double rate, double &rate_before, double &energy) const
     {
-      energy += 0.5 * dtv * (rate - rate_before);
+      rate_before = 0.5 * dtv * (rate - rate_before);
+      energy += rate_before;
     }
   };
 

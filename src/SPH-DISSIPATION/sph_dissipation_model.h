@@ -48,6 +48,12 @@ namespace SPHDissipation {
     int seed;
   };
 
+  // the step of the last random numbers, and what is added to a step to get numbers that no step before had
+
+  struct NoiseClock {
+    bigint step = -1, offset = 0;
+  };
+
   // what pair_coeff I I sets and what follows from it
 
   struct TypeCoeff {
@@ -120,6 +126,7 @@ namespace SPHDissipation {
     bool is_mixed(int i, int j) const { return !viscosity_set[0][i][j]; }
 
     Settings choice;
+    NoiseClock clock;
     std::string simd;    // pair loops to use; not in restart files, which may go to another machine
     TypeCoeff *coeffs;    // by type, from 1
     bool shared;          // there are types of other styles

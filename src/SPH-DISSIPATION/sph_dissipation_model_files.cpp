@@ -25,7 +25,7 @@ using namespace SPHDissipation;
 // first number of the settings in a restart file; the settings of older versions begin with one
 // below 10.  A new one for every change of what is stored.
 
-static constexpr int FORMAT = 1003;
+static constexpr int FORMAT = 1004;
 
 /* ----------------------------------------------------------------------
    numbers to and from a restart file; proc 0 reads and checks, all get them
@@ -104,6 +104,8 @@ void FluidModel::write_settings(FILE *fp) const
   put(fp, static_cast<int>(choice.own_temperatures));
   put(fp, choice.heat_capacity);
   put(fp, choice.seed);
+  put(fp, static_cast<double>(clock.step));
+  put(fp, static_cast<double>(clock.offset));
 }
 
 /* ----------------------------------------------------------------------
@@ -136,6 +138,8 @@ void FluidModel::read_settings(FILE *fp, Shear default_shear)
   choice.own_temperatures = read.integer("flag of temperatures", 0, 1);
   choice.heat_capacity = read.number("heat capacity");
   choice.seed = read.integer("seed", 0, MAXSMALLINT);
+  clock.step = static_cast<bigint>(read.number("step of the noise"));
+  clock.offset = static_cast<bigint>(read.number("offset of the noise"));
 }
 
 /* ----------------------------------------------------------------------

@@ -18,6 +18,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "input.h"
 #include "neighbor.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
@@ -27,20 +28,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const FluidModel &model) :
+NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, FluidModel &model) :
     Stage(lmp, engine, exchange), model(model), form(), data()
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
-void NoiseStage::run(const double *bound, int not_fluid)
+void NoiseStage::run(const double *bound, int not_fluid, bool continued)
 {
   if (neighbor->ago == 0) check_box();
   const bool energy = model.choice.own_temperatures;
@@ -57,11 +59,12 @@ void NoiseStage::run(const double *bound, int not_fluid)
 
   const double factor = 2.0 * force->boltz * (energy ? 1.0 : model.choice.temperature) / update->dt;
   data.seed = static_cast<std::uint64_t>(model.choice.seed);
-  data.step = static_cast<std::uint64_t>(update->ntimestep);
+  count_step();
+  data.step = static_cast<std::uint64_t>(update->ntimestep + model.clock.offset);
   data.type = atom->type;
 
   set_tags();
-  if (energy) set_temperatures();
+  if (energy) set_temperatures(continued);
   add_pressure(factor, not_fluid);
   if (!set_coeffs(factor) && !energy) return;    // who pays for a random pressure is known by pairs
   if (form.kind == NoiseKind::DIRECTED) set_shares(bound, not_fluid);
@@ -70,6 +73,18 @@ void NoiseStage::run(const double *bound, int not_fluid)
   random.resize(MOST_NUMBERS * (most + BLOCK));
   data.random = random.data();
   engine.add_noise(form, &data);
+}
+
+/* ----------------------------------------------------------------------
+   the random numbers go on when reset_timestep has gone back; rerun repeats them
+------------------------------------------------------------------------- */
+
+void NoiseStage::count_step()
+{
+  if (input->command && strcmp(input->command, "rerun") == 0) return;
+  NoiseClock &clock = model.clock;
+  if (update->ntimestep < clock.step) clock.offset += clock.step - update->ntimestep;
+  clock.step = update->ntimestep;
 }
 
 /* ----------------------------------------------------------------------
@@ -124,11 +139,11 @@ double NoiseStage::internal_temperature(int i) const
    without heat has temperature 0: it gets no noise, and friction warms it.
 ------------------------------------------------------------------------- */
 
-void NoiseStage::set_temperatures()
+void NoiseStage::set_temperatures(bool continued)
 {
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
-  const double missing = update->setupflag ? 0.0 : 0.5 * update->dt;
+  const double missing = (update->setupflag && !continued) ? 0.0 : 0.5 * update->dt;
   auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
   const bool spins = engine.has_spin() && avec;
   row.assign(nall + BLOCK, NoiseRow());

@@ -41,14 +41,14 @@ namespace SPHDissipation {
 
   class NoiseStage : public Stage {
    public:
-    NoiseStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
+    NoiseStage(class LAMMPS *, Engine &, Exchange &, FluidModel &);
     static constexpr int FORWARD = 2, REVERSE = 1;    // values per atom
 
     // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and has it add the rest.
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure
-    // of their own
+    // of their own; continued = the first forces of a run are to be the last ones of the run before
 
-    void run(const double *bound, int not_fluid);
+    void run(const double *bound, int not_fluid, bool continued);
 
     // of a particle with its density and its energy as they are now (temp energy)
 
@@ -57,7 +57,7 @@ namespace SPHDissipation {
     double memory_usage() const override;
 
    private:
-    const FluidModel &model;
+    FluidModel &model;
     NoiseForm form;
     NoiseData data;
     std::vector<NoiseCoeff> coeff;
@@ -67,7 +67,8 @@ namespace SPHDissipation {
 
     void check_box() const;
     void set_tags();
-    void set_temperatures();
+    void count_step();
+    void set_temperatures(bool continued);
     double heat_of(int i) const;
     bool set_coeffs(double factor);
     bool is_negative(int i) const;

@@ -122,6 +122,14 @@ void ViscousStage::restore()
 
 /* ---------------------------------------------------------------------- */
 
+void ViscousStage::begin_run()
+{
+  warned = false;
+  statistics[APPLICATIONS] = 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetric_in)
 {
   const double begin = platform::walltime();
@@ -129,9 +137,8 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
   bound = bound_in;
   symmetric = symmetric_in;
   if (update->setupflag) {
-    warned = false;
+    begin_run();
     outdated = true;
-    statistics[APPLICATIONS] = 0.0;
   }
   statistics[ITERATIONS] = statistics[RESIDUAL] = 0.0;
 

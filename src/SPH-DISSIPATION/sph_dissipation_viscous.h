@@ -69,6 +69,8 @@ namespace SPHDissipation {
     void carry_force(int i, double keep);
     void carry_torque(int i, const double *inertia, double **omegaest);
 
+    void begin_run();    // run() calls it if it is there for the first forces
+
     // One step: begin() sets the forces aside; then the passes, with the guess of v_b that vest is; then
     // run(), after which the forces are those of begin() again, and the passes follow with v_b.
     // Particles with a bit of prescribed are not unknown; omega, omegaest and inertia: nullptr

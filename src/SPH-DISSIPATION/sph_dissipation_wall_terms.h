@@ -176,6 +176,17 @@ namespace SPHDissipation {
     return pressure;
   }
 
+  // the same from the background pressure at the surface alone
+
+  SPH_FUNCTION double surface_pressure(const Surface &surface, double rho0, double pb,
+                                       const double *gravity, const double *acceleration)
+  {
+    double pressure = pb;
+    for (int d = 0; d < 3; d++)
+      pressure -= rho0 * (gravity[d] - acceleration[d]) * surface.depth * surface.normal[d];
+    return pressure;
+  }
+
   // Velocity and spin of the fluid go on behind the surface as its condition says: added to those of
   // the wall, u and spin (nullptr: there is none) of one of its particles, sum.weight > 0
 

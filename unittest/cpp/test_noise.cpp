@@ -163,6 +163,11 @@ static void check(const Case &one, const std::vector<Layout> &layouts, Record &r
     create(one, layout);
     const auto cold = forces_and_torques(one, 0.0, step);
     auto hot = forces_and_torques(one, KT, step);
+    if (!one.config.wall.empty()) {    // which repel in proportion to T
+      const auto hotter = forces_and_torques(one, 4.0 * KT, step);
+      for (std::size_t k = 0; k < hot.size(); k++)
+        hot[k] = 2.0 * hot[k] - 0.5 * (hotter[k] + cold[k]);
+    }
     if (LammpsDriver::rank() != 0) continue;
     for (std::size_t k = 0; k < hot.size(); k++) hot[k] -= cold[k];
     const std::string where = one.label() + (layout.newton ? " newton on " : " newton off ") +

@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from helpers import disordered, drop, dump, fluid, free, header, lattice, relative
+from helpers import disordered, drop, dump, free, header, lattice, relative, undump
 
 HOT = "temp 30.0 4711"
 STOKES = "limit yes"
@@ -109,6 +109,32 @@ def test_a_restarted_run_continues_with_the_same_numbers(lammps, style):
             assert one.step == other.step
             for field in "xvf":
                 assert relative(one[field] - other[field], one[field]) < 1e-12, (one.step, field)
+
+
+def test_random_numbers_go_on_after_reset_timestep(lammps):
+    """As in one run without it; the offset is in restart files.  rerun and other steps have the numbers of the step."""
+    make_box(lammps)
+    rest = "fix FLUID all sph/bulk\ntimestep 0.002\n"
+    lammps(deck() + "run 10\n" + dump("whole.dump") + "run 0\n")
+    lammps(deck() + "run 4\nreset_timestep 0\nrun 2\nreset_timestep 0\nrun 2\nwrite_restart eight.restart\nrun 2\n"
+           + dump("parts.dump") + "run 0\n")
+    lammps("read_restart eight.restart\n" + rest + "reset_timestep 1\nrun 2\n" + dump("read.dump") + "run 0\n", ranks=2)
+    whole = lammps.frame("whole.dump")
+    for name in ("parts.dump", "read.dump"):
+        for field in "xvf":
+            assert relative(lammps.frame(name)[field] - whole[field], whole[field]) < 1e-11, (name, field)
+
+
+def test_rerun_repeats_the_random_numbers(lammps):
+    """Of the steps of the file, also after a run that has passed them."""
+    make_box(lammps)
+    again = "rerun run.dump first 1 dump x y vx vy\n"
+    lammps(deck() + "dump T all custom 1 run.dump id x y vx vy\ndump_modify T sort id format float %.17g\nrun 3\n"
+           "undump T\n" + dump("after.dump") + again)
+    lammps(deck() + dump("alone.dump") + again)
+    for after, alone in zip(lammps.frames("after.dump"), lammps.frames("alone.dump")):
+        assert after.step == alone.step
+        assert relative(after["f"] - alone["f"], alone["f"]) < 1e-13
 
 
 # ---- what is conserved -------------------------------------------------------------------------------------------
@@ -309,6 +335,14 @@ def test_rate_times_time_step_is_printed_and_warned_of(lammps):
     assert len([line for line in result.warnings if "hotter" in line]) == 1
 
 
+def test_temp_without_viscosity_is_warned_of(lammps):
+    make_box(lammps)
+    for viscosities, temperature, count in (("0.0 0.0", 1.0, 1), ("0.0 0.5", 1.0, 0), ("0.5 2.0", 1.0, 0), ("0.0 0.0", 0.0, 0)):
+        text = deck(options=f"temp {temperature} 5", coeff=f"pair_coeff * * 1.0 10.0 {viscosities} 3.0\n")
+        result = lammps(text + "run 1\nrun 1\n")
+        assert len([line for line in result.warnings if "temp has no effect without viscosity" in line]) == count
+
+
 def test_open_boundaries_do_not_fluctuate(lammps):
     make_box(lammps)
     text = deck(extra="region low block INF 1.5 INF INF INF INF\ngroup inflow region low\n").replace(
@@ -338,6 +372,77 @@ def test_temperature_between_walls(lammps, options, kappa):
     error = 0.3 * np.sqrt(2.0 / (200 * 36 * 0.5))
     for name in ("f_av[1]", "f_av[2]", "f_av[3]"):
         assert abs(thermo[name][-1] - 0.3) < 5 * error, name
+
+
+def channel(style="sph/bulk", size=(20, 14), options="limit yes temp 0.3 1", coeff="0.5 0.5", extra="", pb=0.0):
+    """A fluid between two walls of four rows, with a thermal speed of 0.09 of that of sound and no pressure on average."""
+    spin = " 0.2 0.02 -0.02" if style == "sph/micropolar" else ""
+    width, height = size
+    return (f"units lj\ndimension 2\nboundary p f p\natom_style {style}\nlattice sq 1.0\n"
+            f"region box block 0 {width} -4 {height + 4} -0.5 0.5\ncreate_box 1 box\ncreate_atoms 1 box\n"
+            f"set group all mass 1.0\nregion fluid block INF INF -0.25 {height - 0.25} INF INF\n"
+            "group fluid region fluid\ngroup wall subtract all fluid\nvelocity fluid create 0.3 1 loop geom\n"
+            f"pair_style {style} {options}\npair_coeff * * 1.0 6.0 {coeff}{spin} 3.6 pb {pb}\nfix 1 fluid {style}"
+            + (" inertia 0.16 0.0" if spin else "") + "\nfix W wall sph/wall\ntimestep 0.004\n"
+            "compute low fluid reduce min y\ncompute high fluid reduce max y\n" + extra
+            + "thermo_modify norm no format float %.17g\n")
+
+
+SPLITTING = """variable phase equal "floor((step+1)/1000)%2"
+variable target atom "1.0-0.75*v_phase*((y<3)+(y>10))"
+fix R fluid sph/refine 20 volume v_target split 1.6 merge 0.7
+"""
+
+
+@pytest.mark.parametrize("style, options, extra", [
+    ("sph/bulk", "limit yes temp 0.3 1", ""), ("sph/micropolar", "limit yes temp 0.3 1", ""),
+    ("sph/bulk", "volume mass limit yes temp 0.07 1", SPLITTING)])
+def test_no_particle_enters_a_wall(lammps, style, options, extra):
+    """The surfaces are at -0.5 and 13.5: the repulsion lets a particle go 0.2 beyond, a quarter of its spacing if split there."""
+    text = channel(style, options=options, extra=extra + "thermo_style custom step c_low c_high\nthermo 25\n")
+    thermo = lammps(text + "run 2500\n", timeout=300).thermo()[-1]
+    deepest = 0.2 if not extra else 0.5
+    assert thermo["c_low"].min() > -0.5 - deepest and thermo["c_high"].max() < 13.5 + deepest
+    assert thermo["c_low"].min() < -0.4
+
+
+@pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off")])
+def test_forces_of_walls_have_an_energy(lammps, ranks, newton):
+    """Without friction there is no noise: energy is constant up to the square of the step, and the walls get the momentum."""
+    drift = {}
+    for dt in (0.004, 0.002):
+        text = channel(size=(10, 8), options="temp 0.3 1", coeff="0.0 0.0", pb=4.0, extra=(
+            f"displace_atoms fluid random 0.2 0.2 0.0 7\nvelocity fluid create 0.5 5 loop geom\ntimestep {dt}\n"
+            "variable E equal ke+pe\nvariable p equal vcm(fluid,y)*mass(fluid)\n"
+            "thermo_style custom step v_E ke pe c_low v_p f_W[2]\nthermo 1\n"))
+        thermo = lammps(f"newton {newton}\n" + text + f"run {round(1.2 / dt)}\n", ranks=ranks).thermo()[-1]
+        drift[dt] = np.abs(thermo["v_E"] - thermo["v_E"][0]).max()
+        force = thermo["f_W[2]"]
+        impulse = np.cumsum(0.5 * dt * (force[1:] + force[:-1]))
+        assert thermo["c_low"].min() < -0.52 and np.ptp(thermo["KinEng"]) > 5.0
+        assert np.abs(thermo["v_p"][1:] - thermo["v_p"][0] + impulse).max() < 1e-11
+    assert drift[0.004] < 2e-3
+    assert drift[0.002] < 0.3 * drift[0.004]
+
+
+def test_repulsion_on_any_number_of_ranks_and_in_the_virial(lammps):
+    lammps(channel(size=(16, 8), extra="displace_atoms fluid random 0.7 0.7 0.0 7\n") + "write_restart box.restart\n")
+    text = ("read_restart box.restart\nfix 1 fluid sph/bulk\nfix W wall sph/wall\ntimestep 0.004\n"
+            "compute low fluid reduce min y\ncompute S all stress/atom NULL virial\n"
+            "compute sum all reduce sum c_S[1] c_S[2]\ncompute each all pe/atom\ncompute pe all reduce sum c_each\n"
+            "compute P all pressure NULL virial\nthermo_style custom step c_P c_sum[*] vol pe c_pe c_low\n"
+            "thermo_modify norm no format float %.17g\n" + dump("f.dump") + "run 0\n")
+    reference = None
+    for ranks, newton in ((1, "on"), (1, "off"), (2, "on"), (2, "off")):
+        thermo = lammps(f"newton {newton}\n" + text, ranks=ranks).thermo()[-1]
+        force, energy = lammps.frame("f.dump")["f"], thermo["PotEng"]
+        assert thermo["c_low"][0] < -0.52
+        assert relative(thermo["c_pe"] - energy, energy) < 1e-13
+        by_atom = -(thermo["c_sum[1]"] + thermo["c_sum[2]"]) / (2.0 * thermo["Volume"])
+        assert relative(by_atom - thermo["c_P"], thermo["c_P"]) < 1e-12
+        reference = reference or (force, energy)
+        assert relative(force - reference[0], reference[0]) < 1e-12, (ranks, newton)
+        assert relative(energy - reference[1], energy) < 1e-13, (ranks, newton)
 
 
 # ---- temperatures of the particles -------------------------------------------------------------------------------

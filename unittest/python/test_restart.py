@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from helpers import INTEGRATE, disordered, dump, fluid, header, relative, undump
+from test_micropolar import fluid as micropolar_fluid, spins, write as write_micropolar
 
 # every keyword away from its default at least once
 SETTINGS = {
@@ -88,7 +89,7 @@ def test_data_file_round_trip(lammps, name):
     """Particles, velocities and the coefficients of all type pairs survive write_data and read_data."""
     dim = SETTINGS[name][0]
     style = model(name).splitlines()[0] + "\n"
-    lammps(start(lammps, name) + "run 20\nwrite_data out.data pair ij\n" + dump("before.dump") + "run 0\n")
+    lammps(start(lammps, name) + "run 20\nvelocity all scale 0.3\nwrite_data out.data pair ij\n" + dump("before.dump") + "run 0\n")
     lammps(header(dim) + style + "read_data out.data\n" + INTEGRATE + dump("after.dump") + "run 0\n")
     before, after = lammps.frame("before.dump"), lammps.frame("after.dump")
     for key in ("mass", "type", "esph", "v"):  # LAMMPS writes them with 16 digits
@@ -122,3 +123,57 @@ def test_unlike_viscosity_is_the_harmonic_mean(lammps):
     for name in ("last", "first", "swapped"):
         assert relative(forces[name] - forces["default"], forces["default"]) < 1e-13, name
     assert relative(forces["other"] - forces["default"], forces["default"]) > 1e-4
+
+
+# ---- a run that continues another one ----------------------------------------------------------------------------
+
+IMPLICIT = "viscous implicit tolerance 1e-14 scheme"
+CONTINUED = {
+    "spins": ("sph/micropolar", "", "", "fix G all gravity 5.0 vector 0 -1 0\n"),
+    "ideal": ("sph/bulk", "eos ideal", "", "set group all sph/e 100.0\n"),
+    "shift": ("sph/bulk", "", "shift 0.1", ""),
+    "walls": ("sph/micropolar", "", "", "fix W wall sph/wall velocity 0.3 0 0 move no\n"),
+    "noise": ("sph/bulk", "limit yes temp 30.0 5", "", ""),
+    "temperatures": ("sph/micropolar", "temp energy 20.0 5", "", "set group all sph/e 100.0\n"),
+    "rkl2": ("sph/micropolar", "", "viscous rkl2", ""),
+    "euler": ("sph/bulk", "", f"{IMPLICIT} euler", ""),
+    "trapezoidal": ("sph/micropolar", "limit yes temp 30.0 5", f"{IMPLICIT} trapezoidal", ""),
+}
+
+
+def continued(lammps, name):
+    style, options, keywords, extra = CONTINUED[name]
+    particles = disordered(2, 12, spread=0.0)
+    if style == "sph/micropolar":
+        write_micropolar(particles, lammps.path("box.data"), omega=spins(particles, size=0.1))
+    else:
+        particles.write(lammps.path("box.data"))
+    pair = micropolar_fluid(2, options) if style == "sph/micropolar" else fluid(2, options)
+    return (header(2, style=style) + "read_data box.data\n" + pair + "region low block INF INF INF 2.9 INF INF\n"
+            "group wall region low\ngroup fluid subtract all wall\n"
+            f"fix FLUID {'fluid' if name == 'walls' else 'all'} {style} {keywords}\ntimestep 0.002\n{extra}")
+
+
+@pytest.mark.parametrize("name", CONTINUED)
+def test_short_runs_are_one_long_run(lammps, name):
+    """Also the rest of it from a restart file, which has the extrapolated velocities and energies."""
+    text = continued(lammps, name)
+    last = lambda name: dump(name) + "run 0\n"
+    lammps(text + "run 10\n" + last("one.dump"))
+    lammps(text + "run 3\nwrite_data three.data\nrun 4\nrun 1\nwrite_restart eight.restart\nrun 1\nrun 1\n" + last("many.dump"))
+    again = "".join(line + "\n" for line in text.splitlines() if line.startswith(("fix", "timestep")))
+    lammps("read_restart eight.restart\n" + again + "run 2\n" + last("rest.dump"), ranks=2)
+    one = lammps.frame("one.dump")
+    for other in (lammps.frame("many.dump"), lammps.frame("rest.dump")):
+        for field in ("x", "v", "vest", "esph", "f"):
+            assert relative(other[field] - one[field], one[field]) < 1e-11, field
+
+
+def test_another_velocity_starts_anew(lammps):
+    text = start(lammps, "c4")
+    lammps(text + "run 5\n" + dump("same.dump") + "run 0\n" + undump() + "velocity all scale 0.3\n" + dump("other.dump")
+           + "write_restart other.restart\nrun 0\n")
+    lammps("read_restart other.restart\n" + INTEGRATE + dump("read.dump") + "run 0\n")
+    same, other, read = (lammps.frame(f"{name}.dump") for name in ("same", "other", "read"))
+    assert relative(same["vest"] - same["v"], same["v"]) > 1e-4
+    assert (other["vest"] == other["v"]).all() and (read["vest"] == read["v"]).all()

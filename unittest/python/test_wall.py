@@ -557,7 +557,7 @@ def test_position_of_the_axis_is_in_the_restart_file(lammps):
 
 def test_data_file_round_trip(lammps):
     (particles, owner), walls = vessel(2)
-    run_vessel(lammps, particles, owner, one_fluid(2), walls, "run 20\nwrite_data out.data\n" + dump("before.dump", owner)
+    run_vessel(lammps, particles, owner, one_fluid(2), walls, "run 20\nvelocity all scale 0.3\nwrite_data out.data\n" + dump("before.dump", owner)
                + "run 0\n")
     # the file has the coefficients of the pair style; the obstacle goes on about the same point
     text = start(one_fluid(2), owner, walls, step=0.005).replace(
