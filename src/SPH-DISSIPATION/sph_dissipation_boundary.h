@@ -43,11 +43,14 @@ namespace SPHDissipation {
     double pressure;     // p + zeta cdot/c (bulk density), p (otherwise)
     double zeta_term;    // zeta cdot/c
     double filled;       // fluid particles only
-    double d, d2, d3;    // d, d^2, d^3
+    double d;            // d
+    double d2, d3;       // d^2, d^3
+    double d4, d5;       // d^4, d^5
     double u[3];         // relative velocity
-    double ud[3];        // relative velocity times d
-    double w[3];         // relative spin (micropolar)
-    double wd[3];        // relative spin times d (micropolar)
+    double ud2[3];       // relative velocity times d^2
+    double ud3[3];       // relative velocity times d^3
+    double wd2[3];       // relative spin times d^2 (micropolar)
+    double wd3[3];       // relative spin times d^3 (micropolar)
   };
 
   // What a fix does between the two passes of the pair style whose particles are not fluid, but

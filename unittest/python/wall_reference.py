@@ -161,15 +161,15 @@ def surface_of(model, x_from, dist, F, solid, fluid, volume):
 
 def beyond(kind, depth, d, q, weight):
     """What a field q of the fluid at distances d is at the given depth behind the surface, where q ("zero") or its
-    derivative ("flat") vanishes: the other one and the second derivative from the moments of q, the third moment of d
-    a tenth larger."""
-    m1, m2, m3 = (weight @ d ** k for k in (1, 2, 3))
-    moments = np.array([weight @ q, (weight * d) @ q])
+    derivative ("flat") vanishes: the other one and the second derivative from the moments of q with d^2 and d^3. The
+    fifth moment of d is larger by a hundredth and by depth^5 ("zero"), or by a tenth."""
+    m1, m2, m3, m4, m5 = (weight @ d ** k for k in (1, 2, 3, 4, 5))
+    moments = np.array([(weight * d ** 2) @ q, (weight * d ** 3) @ q])
     if kind == "zero":
-        slope, bend = np.linalg.solve([[m1, m2], [m2, 1.1 * m3]], moments)
+        slope, bend = np.linalg.solve([[m3, m4], [m4, 1.01 * m5 + depth ** 5]], moments)
         return -slope * depth + bend * depth ** 2, slope
-    level, bend = np.linalg.solve([[1.0, m2], [m1, 1.1 * m3]], moments)
-    return level + bend * depth ** 2, (moments[1] - m1 * moments[0]) / (1.1 * m2 - m1 ** 2)
+    level, bend = np.linalg.solve([[m2, m4], [m3, 1.1 * m5]], moments)
+    return level + bend * depth ** 2, np.linalg.solve([[m2, m3], [m3, 1.1 * m4]], moments)[1]
 
 
 def forces(model, state, walls):
