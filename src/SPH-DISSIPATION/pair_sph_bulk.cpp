@@ -590,9 +590,10 @@ void PairSPHBulk::adopt_changes()
 }
 
 /* ----------------------------------------------------------------------
-   of the pairs of types, for the fluid as it is now: by type, the fastest particle, with the speed
-   of sound at its density and energy, and the thinnest one.  A type without particles counts with
-   its coefficients.  Whatever has to do with the largest stable time step takes it from here.
+   of the pairs of types, for the fluid as it is now: by type, the fastest particle, those of walls
+   as well, with the speed of sound at its density and energy, and the thinnest one of the fluid.
+   A type without particles counts with its coefficients.  Whatever has to do with the largest
+   stable time step takes it from here.
 ------------------------------------------------------------------------- */
 
 CoeffTable PairSPHBulk::coeff_table()
@@ -605,18 +606,17 @@ CoeffTable PairSPHBulk::coeff_table()
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
     const TypeCoeff &coeff = model->coeffs[type];
-    if (coeff.other || is_boundary(i)) continue;
+    if (coeff.other) continue;
     const double rho = atom->rho[i];
     const double sound = sound_speed(eos, coeff.eos, rho, atom->esph[i] / atom->rmass[i]);
     mine[type] = std::max(mine[type], sound + MathExtra::len3(atom->v[i]));
-    mine[n + 1 + type] = std::max(mine[n + 1 + type], coeff.eos.rho0 / rho);
+    if (!is_boundary(i)) mine[n + 1 + type] = std::max(mine[n + 1 + type], coeff.eos.rho0 / rho);
   }
   MPI_Allreduce(mine.data(), all.data(), 2 * (n + 1), MPI_DOUBLE, MPI_MAX, world);
-  for (int i = 1; i <= n; i++)
-    if (thinness[i] == 0.0) {
-      speed[i] = (eos == Eos::IDEAL) ? 0.0 : model->coeffs[i].eos.c0;
-      thinness[i] = 1.0;
-    }
+  for (int i = 1; i <= n; i++) {
+    if (speed[i] == 0.0 && eos != Eos::IDEAL) speed[i] = model->coeffs[i].eos.c0;
+    if (thinness[i] == 0.0) thinness[i] = 1.0;
+  }
 
   const double h = stability_length(), hsq = h * h;
   CoeffTable table;

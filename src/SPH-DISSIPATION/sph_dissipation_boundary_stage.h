@@ -41,7 +41,7 @@ namespace SPHDissipation {
     BoundaryStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &,
                   const std::string &style);
     ~BoundaryStage() override;
-    static constexpr int FORWARD = 9, REVERSE = 25;    // values per atom
+    static constexpr int FORWARD = 9, REVERSE = 28;    // values per atom
 
     void add(Boundary *);       // no effect if it is there
     void remove(Boundary *);    // no effect if it is not there
