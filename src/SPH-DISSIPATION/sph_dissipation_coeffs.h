@@ -253,8 +253,8 @@ namespace SPHDissipation {
     return (rate > 0.0) ? SAFETY / rate : UNLIMITED_STEP;
   }
 
-  // Sound: linear waves are stable up to 3.5 times this step, at a background pressure of rho c^2, and 7
-  // times without one.  But a fluid far from equilibrium heats from this step on.
+  // Sound: linear waves are stable up to several times this step, but the energy of a fluid far from
+  // equilibrium is not right even at it; J. J. Monaghan, Rep. Prog. Phys. 68, 1703 (2005)
 
   constexpr double ACOUSTIC = 0.25;
 

@@ -11,9 +11,9 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// How a field of the fluid goes on behind a surface.  Known are its means <q d^2> and <q d^3> over fluid
-// particles at distances d from the surface, and those of d^2 to d^5.  They are what a fit of least squares
-// needs whose weights grow with d: next to the surface, q/d is no slope.  The weights decide how fast the
+// How a field of the fluid goes on behind a surface.  Known are its means <q d^3> and <q d^4> over fluid
+// particles at distances d from the surface, and those of d^3 to d^6.  They are what a fit of least squares
+// needs whose weights grow as d^2: next to the surface, q/d is no slope.  The weights decide how fast the
 // friction damps what changes from one layer of particles to the next: with these, not faster than inside of
 // the fluid.  The distances are bounded from below, each by CLOSEST spacings of the particles, their mean by
 // CLOSEST_MEAN, which on lattices is that of the first layer.
@@ -42,21 +42,21 @@ namespace SPHDissipation {
   // means of the powers of the distance
 
   struct DistanceMeans {
-    double d2, d3, d4, d5;
+    double d3, d4, d5, d6;
 
-    // q is zero at the surface.  Least of <d (q - slope d - bend d^2)^2> + depth (bend depth^2)^2: a bend
-    // is worth what it adds at this depth, so that deep in a wall, seen by the first layer only, the
-    // field is straight.  So it is where the distances are all alike, for <d^5> is raised by the share
-    // ALIKE.  A field without a bend is met exactly.
+    // q is zero at the surface.  Least of <d^2 (q - slope d - bend d^2)^2> + STIFF depth^2 (bend depth^2)^2:
+    // a bend is worth what it adds at this depth, so that deep in a wall, seen by the first layer only,
+    // the field is straight.  So it is where the distances are all alike, for <d^6> is raised by the
+    // share ALIKE.  A field without a bend is met exactly.
 
-    static constexpr double ALIKE = 0.01;
+    static constexpr double STIFF = 0.003, ALIKE = 0.003;
 
-    SPH_FUNCTION Extension stuck(double f_d2, double f_d3, double depth) const
+    SPH_FUNCTION Extension stuck(double f_d3, double f_d4, double depth) const
     {
-      const double depth_sq = depth * depth;
-      const double fifth = (1.0 + ALIKE) * d5 + depth * depth_sq * depth_sq;
-      const double norm = 1.0 / (d3 * fifth - d4 * d4);
-      return {0.0, norm * (f_d2 * fifth - f_d3 * d4), norm * (f_d3 * d3 - f_d2 * d4)};
+      const double depth_cubed = depth * depth * depth;
+      const double sixth = (1.0 + ALIKE) * d6 + STIFF * depth_cubed * depth_cubed;
+      const double norm = 1.0 / (d4 * sixth - d5 * d5);
+      return {0.0, norm * (f_d3 * sixth - f_d4 * d5), norm * (f_d4 * d4 - f_d3 * d5)};
     }
 
     // The same for what follows, which stays inside of the range of the fluid: the share is larger
@@ -65,18 +65,18 @@ namespace SPHDissipation {
 
     // its derivative is zero there
 
-    SPH_FUNCTION Extension free(double f_d2, double f_d3) const
+    SPH_FUNCTION Extension free(double f_d3, double f_d4) const
     {
-      const double fifth = (1.0 + DAMPING) * d5;
-      const double norm = 1.0 / (d2 * fifth - d4 * d3);
-      return {norm * (f_d2 * fifth - f_d3 * d4), 0.0, norm * (f_d3 * d2 - f_d2 * d3)};
+      const double sixth = (1.0 + DAMPING) * d6;
+      const double norm = 1.0 / (d3 * sixth - d5 * d4);
+      return {norm * (f_d3 * sixth - f_d4 * d5), 0.0, norm * (f_d4 * d3 - f_d3 * d4)};
     }
 
     // derivative of the straight line through q
 
-    SPH_FUNCTION double straight_slope(double f_d2, double f_d3) const
+    SPH_FUNCTION double straight_slope(double f_d3, double f_d4) const
     {
-      return (f_d3 * d2 - f_d2 * d3) / ((1.0 + DAMPING) * d2 * d4 - d3 * d3);
+      return (f_d4 * d3 - f_d3 * d4) / ((1.0 + DAMPING) * d3 * d5 - d4 * d4);
     }
   };
 

@@ -132,22 +132,22 @@ namespace SPHDissipation {
     const double weight = f.vol * kernel_weight;
     const double inside = -s.depth - inner_product(s.normal, r);
     const double height = (inside > CLOSEST * s.spacing) ? inside : CLOSEST * s.spacing;
-    const double weight_d2 = weight * height * height, weight_d3 = weight_d2 * height;
+    const double weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
     double turn[3];
     cross_product(s.omega, r, turn);
 
     total.weight += weight;
     total.d += weight * height;
-    total.d2 += weight_d2;
     total.d3 += weight_d3;
-    total.d4 += weight_d2 * height * height;
-    total.d5 += weight_d3 * height * height;
+    total.d4 += weight_d4;
+    total.d5 += weight_d4 * height;
+    total.d6 += weight_d4 * height * height;
     for (int d = 0; d < 3; d++) {
       const double relative = f.u[d] - w.u[d] + turn[d];
       total.r[d] += weight * r[d];
       total.u[d] += weight * relative;
-      total.ud2[d] += weight_d2 * relative;
       total.ud3[d] += weight_d3 * relative;
+      total.ud4[d] += weight_d4 * relative;
     }
     total.rho += weight * rho;
     total.pressure += kernel_weight * w_f * w_f * f.g / f.vol;
@@ -161,9 +161,9 @@ namespace SPHDissipation {
                                    const Surface &s, BoundarySum &total)
   {
     for (int d = 0; d < 3; d++) {
-      const double weighted = weight * height * height * (spin[d] - s.omega[d]);
-      total.wd2[d] += weighted;
-      total.wd3[d] += weighted * height;
+      const double weighted = weight * height * height * height * (spin[d] - s.omega[d]);
+      total.wd3[d] += weighted;
+      total.wd4[d] += weighted * height;
     }
   }
 
@@ -188,11 +188,10 @@ namespace SPHDissipation {
     const double norm = 1.0 / sum.weight;
     const double needed = CLOSEST_MEAN * surface.spacing / (norm * sum.d);
     const double stretch = (needed > 1.0) ? needed : 1.0;
-    const double norm_d2 = norm * stretch * stretch, norm_d3 = norm_d2 * stretch;
+    const double norm_d3 = norm * stretch * stretch * stretch, norm_d4 = norm_d3 * stretch;
     const double mean_d = norm * stretch * sum.d;
-    const DistanceMeans distance = {norm_d2 * sum.d2, norm_d3 * sum.d3,
-                                    norm_d2 * stretch * stretch * sum.d4,
-                                    norm_d3 * stretch * stretch * sum.d5};
+    const DistanceMeans distance = {norm_d3 * sum.d3, norm_d4 * sum.d4, norm_d4 * stretch * sum.d5,
+                                    norm_d4 * stretch * stretch * sum.d6};
     const double *const normal = surface.normal;
     const double depth = surface.depth;
 
@@ -201,15 +200,15 @@ namespace SPHDissipation {
 
     const double mirrored = (depth < mean_d) ? depth / mean_d : 1.0;
     const double across = inner_product(sum.u, normal) * norm;
-    const double across_d2 = inner_product(sum.ud2, normal) * norm_d2;
     const double across_d3 = inner_product(sum.ud3, normal) * norm_d3;
+    const double across_d4 = inner_product(sum.ud4, normal) * norm_d4;
     double slope[3];
     for (int d = 0; d < 3; d++) {
-      const double along_d2 = sum.ud2[d] * norm_d2 - across_d2 * normal[d];
       const double along_d3 = sum.ud3[d] * norm_d3 - across_d3 * normal[d];
-      const Extension along = condition.slip ? distance.free(along_d2, along_d3)
-                                             : distance.stuck(along_d2, along_d3, depth);
-      slope[d] = condition.slip ? distance.straight_slope(along_d2, along_d3) : along.slope;
+      const double along_d4 = sum.ud4[d] * norm_d4 - across_d4 * normal[d];
+      const Extension along = condition.slip ? distance.free(along_d3, along_d4)
+                                             : distance.stuck(along_d3, along_d4, depth);
+      slope[d] = condition.slip ? distance.straight_slope(along_d3, along_d4) : along.slope;
       u[d] += along.behind(depth) - mirrored * across * normal[d];
     }
     if (!spin) return;
@@ -220,11 +219,11 @@ namespace SPHDissipation {
     if (condition.spin == WallSpin::RATE) cross_product(normal, slope, surface_spin);
     for (int d = 0; d < 3; d++) {
       const double at_surface = 0.5 * condition.alpha * surface_spin[d];
-      const double s_d2 = sum.wd2[d] * norm_d2 - at_surface * distance.d2;
       const double s_d3 = sum.wd3[d] * norm_d3 - at_surface * distance.d3;
+      const double s_d4 = sum.wd4[d] * norm_d4 - at_surface * distance.d4;
       const Extension beyond = (condition.spin == WallSpin::FREE)
-          ? distance.free(s_d2, s_d3)
-          : distance.stuck(s_d2, s_d3, depth);
+          ? distance.free(s_d3, s_d4)
+          : distance.stuck(s_d3, s_d4, depth);
       spin[d] += at_surface + beyond.behind(depth);
     }
   }

@@ -36,7 +36,7 @@ FORMS = {
     "volume": (BULK, "shear morris bulk volume", "{0} {0}"),
     "shear": (MICRO, "", "{0} intrinsic {0} 0.0 0.0", 5.0),
     "vortex": (MICRO, "", "{0} intrinsic {0} 0.0 0.0", 0.2),
-    "spin": (MICRO, "", "{0} intrinsic 0.1 {0} {1}", 0.15),
+    "spin": (MICRO, "", "1.0 intrinsic 0.1 {0} {1}", 1.0),
 }
 
 
@@ -85,13 +85,20 @@ def case(dim, form, where):
 
 
 def run(lammps, text, part=PART, steps=STEPS):
-    """The step of the table and kinetic energies; no warning of it."""
+    """The steps of the table, energies of the motion of the fluid, and squares of its spins."""
     tail = "compute K fluid ke\nthermo_style custom step c_K\nthermo_modify norm no\n"
+    if MICRO in text:
+        tail = ("compute S fluid property/atom omegax omegay omegaz\ncompute S2 fluid reduce sumsq c_S[*]\n"
+                + tail.replace("c_K\n", "c_K c_S2[*]\n"))
     first = lammps(text + tail + "timestep 1e-9\nrun 0\n")
-    dt = part * steps_of(first.log)["all"]
-    result = lammps(text + tail + f"timestep {dt!r}\nthermo {steps // 10}\nrun {steps}\n")
-    assert not any("exceeds the largest" in line for line in result.warnings)
-    return steps_of(first.log), result.thermo()[0]["c_K"]
+    table = steps_of(first.log)
+    result = lammps(text + tail + f"timestep {part * table['all']!r}\nthermo {steps // 10}\nrun {steps}\n", check=part < 1.0)
+    if result.code:
+        return table, [np.inf], [np.inf]
+    if part < 1.0:
+        assert not any("exceeds the largest" in line for line in result.warnings)
+    thermo = result.thermo()[0]
+    return table, thermo["c_K"], sum(thermo[f"c_S2[{k}]"] for k in (1, 2, 3)) if MICRO in text else np.zeros(1)
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -102,12 +109,13 @@ def test_stable_between_walls(lammps, dim, where, form):
         micro.write(particles, lammps.path("box.data"), inertia=inertia)
     else:
         particles.write(lammps.path("box.data"))
-    table, energy = run(lammps, text)
-    print(table, energy)
+    table, energy, spin = run(lammps, text)
+    print(table, energy, spin)
     assert table["all"] < 0.8 * table["acoustic"], "friction is to be the limit"
     if inertia:
         assert min(table, key=lambda name: table[name] if name != "all" else np.inf) == form
     assert energy[-1] < 0.5 * particles.mass.sum() * SPEED ** 2
+    assert spin[-1] <= spin[0]
 
 
 @pytest.mark.parametrize("form", ["mg", "morris", "spin"])
@@ -118,6 +126,88 @@ def test_stable_with_open_ends(lammps, form):
     text = channel.text(lammps, f"velocity {0.5 * SPEED} 0 0", "pressure 0", lambda place: np.array([0.5 * SPEED, 0, 0]) + 0.0 * place,
                         "1.0 10.0 " + coefficients.format(25.0, -25.0) + " {R}", style, options, wall="slip no",
                         integrate="density rho0" + (f" inertia 0.0 {inertia[0]}" if inertia else ""))
-    _, energy = run(lammps, text.replace("timestep 0.3\n", ""))
+    _, energy, _ = run(lammps, text.replace("timestep 0.3\n", ""))
     print(energy)
     assert energy[-1] < 0.5 * len(channel.part) * SPEED ** 2
+
+
+@pytest.mark.parametrize("form", [form for form in FORMS if form != "volume"])
+def test_not_needlessly_careful(lammps, form):
+    """A lattice of many particles blows up at 2.2 times the step of its fastest channel."""
+    style, options, coefficients, *inertia = FORMS[form]
+    particles = disordered(2, 12, jitter=0.0, speed=0.2, spread=0.0)
+    if inertia:
+        micro.write(particles, lammps.path("box.data"), inertia=inertia[0])
+    else:
+        particles.write(lammps.path("box.data"))
+    mu = 200.0 if form == "bulk" else 25.0
+    text = (header(2, style=style) + f"read_data box.data\ngroup fluid id > 0\npair_style {style} {options}\n"
+            + f"pair_coeff * * 1.0 10.0 {coefficients.format(mu, -mu)} 4.0 pb 20.0\nfix 1 all {style}\nthermo_modify lost ignore\n")
+    table, energy, spin = run(lammps, text, 0.99, 400)
+    bound, bound_of_spin = energy[0], spin[0]
+    assert energy[-1] < bound and spin[-1] <= bound_of_spin
+    table, energy, spin = run(lammps, text, 2.2, 400)
+    print(table, energy, spin)
+    assert not (energy[-1] < 2.0 * bound and spin[-1] <= 2.0 * bound_of_spin)
+
+
+# ---------------------------------------------------------------------------------------------
+# one number at all places
+
+PAIRS = {  # pair style, its coefficients, options of the fixes
+    "two speeds of sound": ("", "pair_coeff 1 1 1.0 10.0 0.5 2.0 3.0\npair_coeff 2 2 1.0 8.0 0.5 2.0 3.0\n"),
+    "two viscosities": ("shear morris", "pair_coeff 1 1 1.0 10.0 9.0 2.0 3.0\npair_coeff 2 2 1.5 10.0 70.0 80.0 3.0\n"),
+    "tait": ("eos tait", "pair_coeff * * 0.9 10.0 0.5 2.0 3.0 pb 3.0\n"),
+    "gas": ("eos ideal", "pair_coeff * * 1.0 10.0 0.5 2.0 3.0 pb 2.0\n"),
+}
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_fix_dt_has_the_steps_of_the_table(lammps, name):
+    """At the default values, to the four digits of the table, and the pair style has nothing to warn of."""
+    options, coefficients = PAIRS[name]
+    particles = disordered(2, 10, ntypes=2)
+    particles.v[particles.type == 2] *= 3.0
+    particles.write(lammps.path("box.data"))
+    result = lammps(header(2) + f"read_data box.data\npair_style sph/bulk {options}\n{coefficients}fix 1 all sph/bulk\n"
+                    "fix D all sph/dt 1 force 100\nthermo_style custom step dt f_D[*]\nthermo_modify format float %.17g\nrun 0\n")
+    table, thermo = steps_of(result.log), result.thermo()[0]
+    assert not any("exceeds" in line for line in result.warnings), result.warnings
+    assert thermo["f_D[1]"][0] == pytest.approx(table["acoustic"], rel=5e-4)
+    assert thermo["Dt"][0] == pytest.approx(table["all"], rel=5e-4)
+
+
+def test_ideal_gas_under_a_background_pressure(lammps):
+    """The speed of sound has the pressure that heats: c^2 = gamma (gamma - 1) e + (gamma - 1) pb/rho."""
+    particles = lattice(2, 10)
+    particles.esph[:] = 60.0
+    particles.write(lammps.path("box.data"))
+    steps = []
+    for pb in (0.0, 50.0):
+        log = lammps(header(2) + "read_data box.data\npair_style sph/bulk eos ideal\n"
+                     f"pair_coeff * * 1.0 10.0 0.5 2.0 4.0 pb {pb}\nfix 1 all sph/bulk\ntimestep 0.001\nrun 0\n").log
+        steps.append(steps_of(log)["acoustic"])
+        rho = float(re.search(r"^  1 +\d+ +\d+ +\| (\S+)", log, re.MULTILINE)[1])
+        assert steps[-1] == pytest.approx(0.5 / np.sqrt(0.56 * 60.0 + 0.4 * pb / rho), rel=5e-4)
+
+
+def test_warning_in_the_middle_of_a_run(lammps):
+    """fix adapt raises the bulk viscosity beyond what the time step allows: said once, and not if fix sph/dt follows."""
+    disordered(2, 10).write(lammps.path("box.data"))
+    text = (header(2) + "read_data box.data\npair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0\nfix 1 all sph/bulk\n"
+            "variable kappa equal 2.0+5.0*step\nfix A all adapt 1 pair sph/bulk kappa * * v_kappa\n")
+    warned = [line for line in lammps(text + "timestep 0.02\nrun 20\n").warnings if "exceeds the largest stable time step" in line]
+    assert len(warned) == 1
+    limit = float(re.search(r"largest stable time step (\S+)", warned[0])[1])
+    assert 0.017 < limit < 0.02, "at the first step at which it is so"
+    assert not any("exceeds" in line for line in lammps(text + "fix D all sph/dt 1\nrun 20\n").warnings)
+
+
+def test_rate_of_the_noise_is_that_of_the_table(lammps):
+    disordered(2, 10, spread=0.0).write(lammps.path("box.data"))
+    log = lammps(header(2) + "read_data box.data\npair_style sph/bulk shear morris temp 1e-3 1\npair_coeff * * 1.0 10.0 2.0 5.0 3.0\n"
+                 "fix 1 all sph/bulk\ntimestep 0.01\nrun 0\n").log
+    table = steps_of(log)
+    rate = 1.0 / table["shear"] + 1.0 / table["bulk"]
+    for words in (r"largest viscous rate times time step (\S+)", r"times the largest viscous rate is (\S+):"):
+        assert float(re.search(words, log)[1]) == pytest.approx(0.01 * rate, rel=5e-3)
