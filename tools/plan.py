@@ -39,7 +39,7 @@ SAFETY, BULK_RATE = 0.9, 1.6
 SHEAR = {
     "mg": (21, lambda n: 1 + 2 / n),
     "mg/fr": (17, lambda n: 1 + 2 / n),
-    "morris": (7.3, lambda n: 2 / n - 1),
+    "morris": (8, lambda n: 2 / n - 1),
     "espanol": (10, lambda n: (3 - n) * (n + 2) / (n * (n + 3))),
 }
 BOLTZMANN = {"lj": 1.0, "si": 1.380649e-23}

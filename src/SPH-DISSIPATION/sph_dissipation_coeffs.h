@@ -230,7 +230,7 @@ namespace SPHDissipation {
 
   // Largest stable time steps.  The forces see the velocity extrapolated to the end of the step, for which
   // a mode of damping rate g is stable for g dt < 1.  The largest rates of the friction matrix on lattices
-  // of 1, 2, 3 dimensions, for all kernels, in order and in disorder, and next to walls, are
+  // of 1, 2, 3 dimensions, for all kernels, in order and in disorder, and next to walls (Morris), are
   // nu/h^2 (shear), zeta/(rho h^2) (bulk), and zeta2/(rho I) (vortex) times these numbers.  SAFETY is
   // the part of its inverse that each step is.
 
@@ -243,7 +243,7 @@ namespace SPHDissipation {
     return (shear == Shear::MG)     ? 21.0
         : (shear == Shear::MG_FR)   ? 17.0
         : (shear == Shear::ESPANOL) ? 10.0
-                                    : 7.3;
+                                    : 8.0;
   }
 
   // of a mode of this rate

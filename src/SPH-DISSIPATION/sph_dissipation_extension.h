@@ -49,7 +49,7 @@ namespace SPHDissipation {
     // the field is straight.  So it is where the distances are all alike, for <d^6> is raised by the
     // share ALIKE.  A field without a bend is met exactly.
 
-    static constexpr double STIFF = 0.003, ALIKE = 0.003;
+    static constexpr double STIFF = 0.001, ALIKE = 0.01;
 
     SPH_FUNCTION Extension stuck(double f_d3, double f_d4, double depth) const
     {
