@@ -34,12 +34,14 @@ STABILITY = {
     "quintic": (0.20117845, 7 / 36),
     "lucy": (7 / 20, 1 / 3),
 }
-# of each form of the shear term: the factor C of eq. "timestep", and kappa0/mu of eq. "limits"
+# eq. "timestep" of the theory page: the safety factor S, and the factor G of the bulk term
+SAFETY, BULK_RATE = 0.9, 1.6
+# of each form of the shear term: the factor G, and kappa0/mu of eq. "limits"
 SHEAR = {
-    "mg": (0.045, lambda n: 1 + 2 / n),
-    "mg/fr": (0.05, lambda n: 1 + 2 / n),
-    "morris": (0.126, lambda n: 2 / n - 1),
-    "espanol": (0.091, lambda n: (3 - n) * (n + 2) / (n * (n + 3))),
+    "mg": (21, lambda n: 1 + 2 / n),
+    "mg/fr": (17, lambda n: 1 + 2 / n),
+    "morris": (8, lambda n: 2 / n - 1),
+    "espanol": (10, lambda n: (3 - n) * (n + 2) / (n * (n + 3))),
 }
 BOLTZMANN = {"lj": 1.0, "si": 1.380649e-23}
 # lattice constant in particle distances, particles and edges of its cell: area or volume of a particle = 1
@@ -121,8 +123,8 @@ class Plan:
         nu = self.mu / self.rho
         self.limits = {
             "acoustic": 0.25 * math.sqrt(hsq) / (self.c0 + args.velocity),
-            "shear": SHEAR[args.shear][0] * hsq / nu if nu else math.inf,
-            "bulk": 0.4 * self.rho * hsq / abs(self.zeta) if self.zeta else math.inf,
+            "shear": SAFETY / SHEAR[args.shear][0] * hsq / nu if nu else math.inf,
+            "bulk": SAFETY / BULK_RATE * self.rho * hsq / abs(self.zeta) if self.zeta else math.inf,
         }
         self.rate = 1 / self.limits["shear"] + 1 / self.limits["bulk"]    # of the fastest viscous mode
         self.explicit = min(self.limits["acoustic"], 1 / self.rate if self.rate else math.inf)

@@ -362,7 +362,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::compute(int efla
 
   ev_init(eflag, vflag);
   if (stale) {
-    derive_coeffs();
+    adopt_changes();
     copied = false;
   }
   if (neighbor->ago == 0) {

@@ -23,6 +23,7 @@
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_table.h"
 #include "update.h"
 
 #include <algorithm>
@@ -47,8 +48,8 @@ static double part_of(double part, double time)
 /* ---------------------------------------------------------------------- */
 
 FixSPHDt::FixSPHDt(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), pair(nullptr), part{0.25, 1.0, 0.25}, given(), smallest(0.0),
-    largest(UNLIMITED_STEP), limits(), set_up(false)
+    Fix(lmp, narg, arg), pair(nullptr), part{SPHDissipation::ACOUSTIC, 1.0, 0.25}, given(),
+    smallest(0.0), largest(UNLIMITED_STEP), limits(), set_up(false)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix sph/dt", error);
   if (igroup != 0) error->all(FLERR, "Fix {} must use group all", style);
@@ -151,11 +152,10 @@ void FixSPHDt::end_of_step()
 
 double FixSPHDt::allowed_step()
 {
-  double rate;
-  pair->fastest(limits[ACOUSTIC], rate);
-  limits[ACOUSTIC] = part_of(part[ACOUSTIC], limits[ACOUSTIC]);
+  const SPHDissipation::CoeffTable table = pair->coeff_table();
+  limits[ACOUSTIC] = part_of(part[ACOUSTIC] / SPHDissipation::ACOUSTIC, table.acoustic_step());
   const bool limited = given[VISCOUS] || !pair->has_viscous_stage();
-  limits[VISCOUS] = (limited && rate > 0.0) ? part[VISCOUS] / rate : UNLIMITED_STEP;
+  limits[VISCOUS] = limited ? part_of(part[VISCOUS], table.viscous_step()) : UNLIMITED_STEP;
   double step = *std::min_element(limits, limits + NLIMIT);
   if (step >= UNLIMITED_STEP && largest >= UNLIMITED_STEP) step = update->dt;
   return std::max(smallest, std::min(step, largest));

@@ -19,6 +19,7 @@
 #include "force.h"
 #include "math_extra.h"
 #include "memory.h"
+#include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "pair_hybrid.h"
@@ -145,7 +146,7 @@ PairSPHBulk::~PairSPHBulk()
 void PairSPHBulk::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  if (stale) derive_coeffs();
+  if (stale) adopt_changes();
   if (neighbor->ago == 0) check_masses(lmp, fluid_style, *model);
 
   StressTally stress(this, atom->nlocal, force->newton_pair);
@@ -209,12 +210,10 @@ void PairSPHBulk::sum_forces(PairTally *tally)
 
 void PairSPHBulk::find_viscous_velocity()
 {
-  if (neighbor->ago == 0 || viscous->has_old_rates()) {
-    find_smallest_inertia();
-    viscous->set_rate(coeff_table(0.0).fastest_rate());
-  }
   viscous->begin(not_fluid(), extrapolated_spin(), spin_inertia());
   sum_before_forces();
+  if (neighbor->ago == 0 || viscous->has_old_rates())
+    viscous->set_rate(coeff_table().fastest_rate());
   sum_forces(nullptr);
   const bool symmetric = (boundary->empty() || has_noise()) && engine->bulk_form() != Bulk::VOLUME;
   viscous->run(list, (model->choice.limit != Limit::NO) ? limit->bound : nullptr, symmetric);
@@ -576,16 +575,7 @@ Columns PairSPHBulk::viscous_steps(int i, int j, double hsq, double rho) const
 void PairSPHBulk::announce()
 {
   if (!compute_flag) return;    // pair_modify compute no
-  double speed = 0.0, fastest;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const double *const v = atom->v[i];
-    speed = std::max(speed, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  }
-  MPI_Allreduce(&speed, &fastest, 1, MPI_DOUBLE, MPI_MAX, world);
-  fastest = sqrt(fastest);
-
-  find_smallest_inertia();
-  const CoeffTable table = coeff_table(fastest);
+  const CoeffTable table = coeff_table();
   if (!announced) {
     for (int i = 1; i <= atom->ntypes; i++) model->warn_of_ignored(i, intrinsic_kappa_of(i, i));
     warned_step = noise_step = 0.0;
@@ -601,38 +591,77 @@ void PairSPHBulk::announce()
   announced = true;
   if (has_noise() && update->dt != noise_step) announce_noise(table.fastest_rate());
 
-  const double smallest = viscous->active() ? table.acoustic_step() : table.smallest_step();
-  if (update->dt > smallest && update->dt != warned_step) {
-    warned_step = update->dt;
-    if (comm->me == 0)
-      error->warning(FLERR,
-                     "The time step {:g} exceeds the largest stable time step {:g} of pair "
-                     "style {}",
-                     update->dt, smallest, fluid_style);
-  }
-
+  check_time_step(table);
   check_energies(lmp, fluid_style, *model, not_fluid());
   check_neighbors(lmp, fluid_style, *model, *engine, not_fluid(), dim, support);
 }
 
+/* ---------------------------------------------------------------------- */
+
+void PairSPHBulk::check_time_step(const CoeffTable &table)
+{
+  const double smallest = viscous->active() ? table.acoustic_step() : table.smallest_step();
+  if (!(update->dt > smallest) || update->dt == warned_step) return;
+  warned_step = update->dt;
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "The time step {:g} exceeds the largest stable time step {:g} of pair "
+                   "style {}",
+                   update->dt, smallest, fluid_style);
+}
+
 /* ----------------------------------------------------------------------
-   of the pairs of types, for particles of a speed
+   another command, such as fix adapt, has changed coefficients; fix sph/dt follows by itself
 ------------------------------------------------------------------------- */
 
-CoeffTable PairSPHBulk::coeff_table(double speed) const
+void PairSPHBulk::adopt_changes()
 {
+  derive_coeffs();
+  if (!update->setupflag && update->whichflag == 1 && modify->get_fix_by_style("^sph/dt").empty())
+    check_time_step(coeff_table());
+}
+
+/* ----------------------------------------------------------------------
+   of the pairs of types, for the fluid as it is now: by type, the fastest particle, those of walls
+   as well, with the speed of sound at its density and energy, and the thinnest one of the fluid.
+   A type without particles counts with its coefficients.  Whatever has to do with the largest
+   stable time step takes it from here.
+------------------------------------------------------------------------- */
+
+CoeffTable PairSPHBulk::coeff_table()
+{
+  find_smallest_inertia();
+  const int n = atom->ntypes;
+  const Eos eos = model->choice.eos;
+  std::vector<double> mine(2 * (n + 1), 0.0), all(2 * (n + 1));
+  double *const speed = all.data(), *const thinness = speed + n + 1;    // rho0/rho
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int type = atom->type[i];
+    const TypeCoeff &coeff = model->coeffs[type];
+    if (coeff.other) continue;
+    const double rho = atom->rho[i];
+    const double sound = sound_speed(eos, coeff.eos, rho, atom->esph[i] / atom->rmass[i]);
+    mine[type] = std::max(mine[type], sound + MathExtra::len3(atom->v[i]));
+    if (!is_boundary(i)) mine[n + 1 + type] = std::max(mine[n + 1 + type], coeff.eos.rho0 / rho);
+  }
+  MPI_Allreduce(mine.data(), all.data(), 2 * (n + 1), MPI_DOUBLE, MPI_MAX, world);
+  for (int i = 1; i <= n; i++) {
+    if (speed[i] == 0.0 && eos != Eos::IDEAL) speed[i] = model->coeffs[i].eos.c0;
+    if (thinness[i] == 0.0) thinness[i] = 1.0;
+  }
+
   const double h = stability_length(), hsq = h * h;
   CoeffTable table;
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) {
+  for (int i = 1; i <= n; i++)
+    for (int j = i; j <= n; j++) {
       const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
       if (a.other || b.other) continue;
       const double zeta = 0.5 * (a.zeta + b.zeta);
-      const double rho = std::min(a.eos.rho0, b.eos.rho0);
+      const double rho = std::min(a.eos.rho0 / thinness[i], b.eos.rho0 / thinness[j]);
       Columns steps = viscous_steps(i, j, hsq, rho);
       steps.insert(steps.begin() + 1, {"bulk", bulk_step(hsq, zeta / rho)});
       table.add_row(i, j, table_columns(i, j, zeta + intrinsic_kappa_of(i, j), zeta),
-                    acoustic_step(h, std::max(a.eos.c0, b.eos.c0) + speed), steps);
+                    acoustic_step(h, std::max(speed[i], speed[j])), steps);
     }
   return table;
 }
@@ -642,27 +671,6 @@ CoeffTable PairSPHBulk::coeff_table(double speed) const
 double PairSPHBulk::stability_length() const
 {
   return sqrt(stability_length_squared(kernel_slope_integral(model->choice.kernel, dim, support)));
-}
-
-/* ----------------------------------------------------------------------
-   the rates of the table are those of the reference densities
-------------------------------------------------------------------------- */
-
-void PairSPHBulk::fastest(double &crossing_time, double &viscous_rate)
-{
-  double mine[2] = {0.0, 0.0}, all[2];    // speed, thinness
-  for (int i = 0; i < atom->nlocal; i++) {
-    const TypeCoeff &coeff = model->coeffs[atom->type[i]];
-    if (coeff.other || is_boundary(i)) continue;
-    const double speed =
-        sound_speed(model->choice.eos, coeff.eos, atom->rho[i], atom->esph[i] / atom->rmass[i]);
-    mine[0] = std::max(mine[0], speed + MathExtra::len3(atom->v[i]));
-    mine[1] = std::max(mine[1], coeff.eos.rho0 / atom->rho[i]);
-  }
-  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
-  crossing_time = (all[0] > 0.0) ? stability_length() / all[0] : UNLIMITED_STEP;
-  find_smallest_inertia();
-  viscous_rate = all[1] * coeff_table(0.0).fastest_rate();
 }
 
 /* ---------------------------------------------------------------------- */

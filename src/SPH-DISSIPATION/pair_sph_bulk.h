@@ -138,10 +138,10 @@ class PairSPHBulk : public Pair {
 
   virtual void find_volumes();    // before the first step, from the positions alone
 
-  // of the fluid as it is now: time in which a particle with the speed of sound crosses the length
-  // that stability knows, at least; largest viscous rate; time in which one falls as far, at least
+  // of the fluid as it is now: largest stable time steps; time in which a particle falls by the length
+  // that stability knows, at least
 
-  void fastest(double &crossing_time, double &viscous_rate);
+  SPHDissipation::CoeffTable coeff_table();
   double fall_time() const;
 
   bool has_noise() const;               // keyword temp
@@ -209,7 +209,8 @@ class PairSPHBulk : public Pair {
   bigint sum_before_forces();
   void sum_forces(SPHDissipation::PairTally *);
   void find_viscous_velocity();
-  SPHDissipation::CoeffTable coeff_table(double speed) const;
+  void adopt_changes();
+  void check_time_step(const SPHDissipation::CoeffTable &);
   double stability_length() const;
   void announce_noise(double rate);
   void tally_energy();

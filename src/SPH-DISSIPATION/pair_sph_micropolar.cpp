@@ -149,15 +149,10 @@ Columns PairSPHMicropolar::table_columns(int i, int j, double kappa, double zeta
 Columns PairSPHMicropolar::viscous_steps(int i, int j, double hsq, double rho) const
 {
   const PairCoeff coeff = pair_coefficients(i, j);
-  const double central = std::max(coeff.along_r, 0.0) / shear_factor(Shear::MG, dim, 1.0);
-  const double laplacian = coeff.along_u / shear_factor(Shear::MORRIS, dim, 1.0);
-  const double shear = 1.0 /
-      (1.0 / shear_step(Shear::MG, hsq, central / rho) +
-       1.0 / shear_step(Shear::MORRIS, hsq, laplacian / rho));
   const double rho_inertia = rho * smallest_inertia;
-  return {{"shear", shear},
+  return {{"shear", micropolar_step(dim, hsq, rho, coeff.along_r, coeff.along_u)},
           {"vortex", vortex_step(rho_inertia, coeff.along_u)},
-          {"spin", spin_step(dim, hsq, rho_inertia, coeff)}};
+          {"spin", micropolar_step(dim, hsq, rho_inertia, coeff.xi1, coeff.xi2)}};
 }
 
 /* ---------------------------------------------------------------------- */

@@ -37,18 +37,20 @@ namespace SPHDissipation {
   // relative: to the velocity that the rigid body of w has at f; d: distance of f from the surface
 
   struct BoundarySum {
-    double weight;       // 1
-    double r[3];         // x_w - x_f
-    double rho;          // density
-    double pressure;     // p + zeta cdot/c (bulk density), p (otherwise)
-    double zeta_term;    // zeta cdot/c
-    double filled;       // fluid particles only
-    double occupied;     // the same of a smaller support, with thermal noise; fluid particles only
-    double d, d2, d3;    // d, d^2, d^3
-    double u[3];         // relative velocity
-    double ud[3];        // relative velocity times d
-    double w[3];         // relative spin (micropolar)
-    double wd[3];        // relative spin times d (micropolar)
+    double weight;        // 1
+    double r[3];          // x_w - x_f
+    double rho;           // density
+    double pressure;      // p + zeta cdot/c (bulk density), p (otherwise)
+    double zeta_term;     // zeta cdot/c
+    double filled;        // fluid particles only
+    double occupied;      // the same of a smaller support, with thermal noise; fluid particles only
+    double d, d3;         // d, d^3
+    double d4, d5, d6;    // d^4, d^5, d^6
+    double u[3];          // relative velocity
+    double ud3[3];        // relative velocity times d^3
+    double ud4[3];        // relative velocity times d^4
+    double wd3[3];        // relative spin times d^3 (micropolar)
+    double wd4[3];        // relative spin times d^4 (micropolar)
   };
 
   // What a fix does between the two passes of the pair style whose particles are not fluid, but

@@ -114,9 +114,9 @@ void BoundaryStage::run(NeighList *list)
 void BoundaryStage::extend()
 {
   accumulate();
-  const Field sums = field(sum, &sum->weight, offsetof(BoundarySum, w) / sizeof(double));
+  const Field sums = field(sum, &sum->weight, offsetof(BoundarySum, wd3) / sizeof(double));
   if (engine.has_spin())
-    exchange.reverse({sums, field(sum, sum->w, 6)});
+    exchange.reverse({sums, field(sum, sum->wd3, 6)});
   else
     exchange.reverse({sums});
   check();

@@ -42,7 +42,7 @@ namespace SPHDissipation {
     BoundaryStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &,
                   const std::string &style);
     ~BoundaryStage() override;
-    static constexpr int FORWARD = 10, REVERSE = 24;    // values per atom
+    static constexpr int FORWARD = 10, REVERSE = 29;    // values per atom
 
     void add(Boundary *);       // no effect if it is there
     void remove(Boundary *);    // no effect if it is not there

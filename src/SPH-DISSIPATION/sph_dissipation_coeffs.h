@@ -228,50 +228,67 @@ namespace SPHDissipation {
     return 3.5 / slope_integral;
   }
 
-  // Largest recommended time steps.  The forces see the velocity extrapolated to the end of the
-  // step, for which a mode of damping rate g is stable for g dt < 1.  The largest rates on lattices
-  // of 1, 2, 3 dimensions, for all kernels, are 21 nu/h^2 (mg, on a line), 17 nu/h^2 (mg/fr),
-  // 7.2 nu/h^2 (Morris), 10 nu/h^2 (Espanol) and 1.4 zeta/(rho h^2) (bulk); up to 6 percent more in
-  // disorder.
+  // Largest stable time steps.  The forces see the velocity extrapolated to the end of the step, for which
+  // a mode of damping rate g is stable for g dt < 1.  The largest rates of the friction matrix on lattices
+  // of 1, 2, 3 dimensions, for all kernels, in order and in disorder, and next to walls (Morris), are
+  // nu/h^2 (shear), zeta/(rho h^2) (bulk), and zeta2/(rho I) (vortex) times these numbers.  SAFETY is
+  // the part of its inverse that each step is.
 
   constexpr double UNLIMITED_STEP = 1.0e300;
+  constexpr double SAFETY = 0.9;
+  constexpr double BULK_RATE = 1.6, VORTEX_RATE = 1.0;
+
+  inline double shear_rate(Shear shear)
+  {
+    return (shear == Shear::MG)     ? 21.0
+        : (shear == Shear::MG_FR)   ? 17.0
+        : (shear == Shear::ESPANOL) ? 10.0
+                                    : 8.0;
+  }
+
+  // of a mode of this rate
+
+  inline double viscous_step(double rate)
+  {
+    return (rate > 0.0) ? SAFETY / rate : UNLIMITED_STEP;
+  }
+
+  // Sound: linear waves are stable up to several times this step, but the energy of a fluid far from
+  // equilibrium is not right even at it; J. J. Monaghan, Rep. Prog. Phys. 68, 1703 (2005)
+
+  constexpr double ACOUSTIC = 0.25;
 
   inline double acoustic_step(double h, double speed)
   {
-    return 0.25 * h / speed;
+    return (speed > 0.0) ? ACOUSTIC * h / speed : UNLIMITED_STEP;
   }
 
   inline double shear_step(Shear shear, double hsq, double nu)
   {
-    if (shear == Shear::NONE || nu == 0.0) return UNLIMITED_STEP;
-    const double fraction = (shear == Shear::MG) ? 0.045
-        : (shear == Shear::MG_FR)                ? 0.05
-        : (shear == Shear::ESPANOL)              ? 0.091
-                                                 : 0.126;
-    return fraction * hsq / nu;
+    return viscous_step((shear == Shear::NONE) ? 0.0 : shear_rate(shear) * nu / hsq);
   }
 
   inline double bulk_step(double hsq, double zeta_over_rho)
   {
-    if (zeta_over_rho == 0.0) return UNLIMITED_STEP;
-    return 0.4 * hsq / (zeta_over_rho > 0.0 ? zeta_over_rho : -zeta_over_rho);
+    return viscous_step(BULK_RATE * std::fabs(zeta_over_rho) / hsq);
   }
 
-  // relaxation of the spin to the vorticity, rate zeta2/(rho I), and spin diffusion, whose pair terms
-  // are those of Morris (xi2) and mg (xi1) with rho I in place of rho
+  // relaxation of the spin to the vorticity
 
   inline double vortex_step(double rho_inertia, double zeta2)
   {
-    return (zeta2 == 0.0) ? UNLIMITED_STEP : 0.25 * rho_inertia / zeta2;
+    return viscous_step(VORTEX_RATE * zeta2 / rho_inertia);
   }
 
-  inline double spin_step(int n, double hsq, double rho_inertia, const PairCoeff &coeff)
+  // Pair terms of a micropolar fluid: one as of mg (zeta1, xi1) and one as of Morris (zeta2, xi2),
+  // whose rates add; inertia = rho for velocities, rho I for spins
+
+  inline double micropolar_step(int n, double hsq, double inertia, double central, double laplacian)
   {
-    const double laplacian = coeff.xi2 / shear_factor(Shear::MORRIS, n, 1.0);
-    const double central = (coeff.xi1 > 0.0) ? coeff.xi1 / shear_factor(Shear::MG, n, 1.0) : 0.0;
-    return 1.0 /
-        (1.0 / shear_step(Shear::MORRIS, hsq, laplacian / rho_inertia) +
-         1.0 / shear_step(Shear::MG, hsq, central / rho_inertia));
+    const double mg = std::max(central, 0.0) / shear_factor(Shear::MG, n, 1.0);
+    const double morris = laplacian / shear_factor(Shear::MORRIS, n, 1.0);
+    return viscous_step((shear_rate(Shear::MG) * mg + shear_rate(Shear::MORRIS) * morris) /
+                        (inertia * hsq));
   }
 
   // all limits together: the rates of the viscous terms add

@@ -111,7 +111,7 @@ namespace SPHDissipation {
     }
   }
 
-  // speed of sound at density rho, c^2 = dp/drho at constant entropy
+  // speed of sound at density rho, c^2 = dp/drho at constant entropy, de = p/rho^2 drho
 
   inline double sound_speed(Eos eos, const EosParams &par, double rho, double e)
   {
@@ -119,7 +119,7 @@ namespace SPHDissipation {
       case Eos::TAIT:
         return par.c0 * std::sqrt(tait_power(rho / par.rho0, par.gamma) * par.rho0 / rho);
       case Eos::IDEAL:
-        return std::sqrt(par.gamma * (par.gamma - 1.0) * e);
+        return std::sqrt((par.gamma - 1.0) * (par.gamma * e + par.pb / rho));
       default:
         return par.c0;
     }

@@ -11,10 +11,12 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// How a field of the fluid goes on behind a surface.  Known are its means f = <q> and fd = <q d> over
-// fluid particles at distances d from the surface, and those of d, d^2 and d^3.  The distances are
-// bounded from below, for a field divided by a distance next to zero is no slope: each by CLOSEST
-// spacings of the particles, their mean by CLOSEST_MEAN, which on lattices is that of the first layer.
+// How a field of the fluid goes on behind a surface.  Known are its means <q d^3> and <q d^4> over fluid
+// particles at distances d from the surface, and those of d^3 to d^6.  They are what a fit of least squares
+// needs whose weights grow as d^2: next to the surface, q/d is no slope.  The weights decide how fast the
+// friction damps what changes from one layer of particles to the next: with these, not faster than inside of
+// the fluid.  The distances are bounded from below, each by CLOSEST spacings of the particles, their mean by
+// CLOSEST_MEAN, which on lattices is that of the first layer.
 
 #ifndef LMP_SPH_DISSIPATION_EXTENSION_H
 #define LMP_SPH_DISSIPATION_EXTENSION_H
@@ -40,36 +42,41 @@ namespace SPHDissipation {
   // means of the powers of the distance
 
   struct DistanceMeans {
-    double d, d2, d3;
+    double d3, d4, d5, d6;
 
-    // Share by which <d^3> is raised, which draws the bend toward zero: little where the distances
-    // spread over the support, altogether where they are all alike and say nothing about it.  A
-    // field without a bend is met exactly.
+    // q is zero at the surface.  Least of <d^2 (q - slope d - bend d^2)^2> + STIFF depth^2 (bend depth^2)^2:
+    // a bend is worth what it adds at this depth, so that deep in a wall, seen by the first layer only,
+    // the field is straight.  So it is where the distances are all alike, for <d^6> is raised by the
+    // share ALIKE.  A field without a bend is met exactly.
+
+    static constexpr double STIFF = 0.001, ALIKE = 0.01;
+
+    SPH_FUNCTION Extension stuck(double f_d3, double f_d4, double depth) const
+    {
+      const double depth_cubed = depth * depth * depth;
+      const double sixth = (1.0 + ALIKE) * d6 + STIFF * depth_cubed * depth_cubed;
+      const double norm = 1.0 / (d4 * sixth - d5 * d5);
+      return {0.0, norm * (f_d3 * sixth - f_d4 * d5), norm * (f_d4 * d4 - f_d3 * d5)};
+    }
+
+    // The same for what follows, which stays inside of the range of the fluid: the share is larger
 
     static constexpr double DAMPING = 0.1;
 
-    // q is zero at the surface
-
-    SPH_FUNCTION Extension stuck(double f, double fd) const
-    {
-      const double third = (1.0 + DAMPING) * d3;
-      const double norm = 1.0 / (d * third - d2 * d2);
-      return {0.0, norm * (f * third - fd * d2), norm * (fd * d - f * d2)};
-    }
-
     // its derivative is zero there
 
-    SPH_FUNCTION Extension free(double f, double fd) const
+    SPH_FUNCTION Extension free(double f_d3, double f_d4) const
     {
-      const double bend = (fd - d * f) / ((1.0 + DAMPING) * d3 - d * d2);
-      return {f - bend * d2, 0.0, bend};
+      const double sixth = (1.0 + DAMPING) * d6;
+      const double norm = 1.0 / (d3 * sixth - d5 * d4);
+      return {norm * (f_d3 * sixth - f_d4 * d5), 0.0, norm * (f_d4 * d3 - f_d3 * d4)};
     }
 
     // derivative of the straight line through q
 
-    SPH_FUNCTION double straight_slope(double f, double fd) const
+    SPH_FUNCTION double straight_slope(double f_d3, double f_d4) const
     {
-      return (fd - d * f) / ((1.0 + DAMPING) * d2 - d * d);
+      return (f_d4 * d3 - f_d3 * d4) / ((1.0 + DAMPING) * d3 * d5 - d4 * d4);
     }
   };
 

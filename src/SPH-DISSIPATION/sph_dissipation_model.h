@@ -108,8 +108,9 @@ namespace SPHDissipation {
     // coefficient of the bulk term of type i, whose shear term gives the bulk viscosity intrinsic
 
     void set_bulk(int i, double intrinsic);
-    void check_balance(int i, double intrinsic) const;      // of its noise and its friction
-    void warn_of_ignored(int i, double intrinsic) const;    // kappa, if there is no bulk term
+    void check_balance(int i, double intrinsic) const;    // of its noise and its friction
+    void warn_of_ignored(int i,
+                         double intrinsic) const;    // kappa without bulk term, gamma of linear
 
     void write_settings(FILE *) const;
     void read_settings(FILE *, Shear default_shear);

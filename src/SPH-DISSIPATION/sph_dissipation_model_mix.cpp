@@ -86,7 +86,11 @@ double FluidModel::heat_capacity(int type) const
 void FluidModel::warn_of_ignored(int i, double intrinsic) const
 {
   const TypeCoeff &type = coeffs[i];
-  if (choice.bulk != Bulk::NONE || type.other || type.kappa == intrinsic || comm->me) return;
+  if (type.other || comm->me) return;
+  if (choice.eos == Eos::LINEAR && type.gamma > 0.0)
+    error->warning(FLERR, "Pair_coeff gamma {} of type {} is ignored with eos linear", type.gamma,
+                   i);
+  if (choice.bulk != Bulk::NONE || type.kappa == intrinsic) return;
   error->warning(FLERR,
                  "Pair_coeff kappa {} of type {} is ignored with bulk none: the shear "
                  "term gives kappa {}",

@@ -37,12 +37,12 @@ std::string CoeffTable::text(double dt) const
           "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
           "of the largest stable time step\n",
           ONE_PERCENT_STEP, TENTH_PERCENT_STEP);
-  if (fastest > 0.0) {
-    const double stages = RKL2::stages_for(fastest * dt);
+  if (viscous < UNLIMITED_STEP) {
+    const double rate = fastest_rate() * dt, stages = RKL2::stages_for(rate);
     result += fmt::format("  largest stable time step with viscous explicit {:.4g}, with rkl2 or "
                           "implicit {:.4g}; the time step {:g} times the largest viscous rate is "
                           "{:.3g}: rkl2 {}\n",
-                          smallest, acoustic, dt, fastest * dt,
+                          smallest, acoustic, dt, rate,
                           (stages <= RKL2::MOST) ? fmt::format("takes {:.0f} stages", stages)
                                                  : "cannot be used");
   }
@@ -52,18 +52,17 @@ std::string CoeffTable::text(double dt) const
 /* ---------------------------------------------------------------------- */
 
 void CoeffTable::add_row(int i, int j, const Columns &values, double acoustic_of_pair,
-                         const Columns &viscous)
+                         const Columns &viscous_steps)
 {
-  std::vector<double> viscous_steps;
-  for (const auto &step : viscous) viscous_steps.push_back(step.second);
+  std::vector<double> numbers;
+  for (const auto &step : viscous_steps) numbers.push_back(step.second);
 
   Columns steps = {{"acoustic", acoustic_of_pair}};
-  steps.insert(steps.end(), viscous.begin(), viscous.end());
-  steps.emplace_back("all", combined_step(acoustic_of_pair, viscous_steps));
+  steps.insert(steps.end(), viscous_steps.begin(), viscous_steps.end());
+  steps.emplace_back("all", combined_step(acoustic_of_pair, numbers));
   smallest = std::min(smallest, steps.back().second);
   acoustic = std::min(acoustic, acoustic_of_pair);
-  const double viscous_step = combined_step(UNLIMITED_STEP, viscous_steps);
-  if (viscous_step < UNLIMITED_STEP) fastest = std::max(fastest, 1.0 / viscous_step);
+  viscous = std::min(viscous, combined_step(UNLIMITED_STEP, numbers));
 
   if (lines.empty()) {
     lines = "  types   ";

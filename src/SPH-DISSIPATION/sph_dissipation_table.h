@@ -36,20 +36,22 @@ namespace SPHDissipation {
 
   class CoeffTable {
    public:
-    CoeffTable() : smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP), fastest(0.0) {}
+    CoeffTable() : smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP), viscous(UNLIMITED_STEP) {}
 
-    // values = viscosities and coefficients, viscous = time steps of the viscous terms
+    // values = viscosities and coefficients, viscous_steps = time steps of the viscous terms
 
-    void add_row(int i, int j, const Columns &values, double acoustic, const Columns &viscous);
+    void add_row(int i, int j, const Columns &values, double acoustic_of_pair,
+                 const Columns &viscous_steps);
     // with lines on the accuracy of these steps, and on what dt needs
     std::string text(double dt) const;
     double smallest_step() const { return smallest; }    // with all terms together, of all rows
     double acoustic_step() const { return acoustic; }    // without the viscous terms
-    double fastest_rate() const { return fastest; }    // damping by all viscous terms, of all rows
+    double viscous_step() const { return viscous; }      // with the viscous terms alone
+    double fastest_rate() const { return (viscous < UNLIMITED_STEP) ? 1.0 / viscous : 0.0; }
 
    private:
     std::string lines;
-    double smallest, acoustic, fastest;
+    double smallest, acoustic, viscous;
   };
 
 }    // namespace SPHDissipation

@@ -132,19 +132,22 @@ namespace SPHDissipation {
     const double weight = f.vol * kernel_weight;
     const double inside = -s.depth - inner_product(s.normal, r);
     const double height = (inside > CLOSEST * s.spacing) ? inside : CLOSEST * s.spacing;
-    const double weight_d = weight * height;
+    const double weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
     double turn[3];
     cross_product(s.omega, r, turn);
 
     total.weight += weight;
-    total.d += weight_d;
-    total.d2 += weight_d * height;
-    total.d3 += weight_d * height * height;
+    total.d += weight * height;
+    total.d3 += weight_d3;
+    total.d4 += weight_d4;
+    total.d5 += weight_d4 * height;
+    total.d6 += weight_d4 * height * height;
     for (int d = 0; d < 3; d++) {
       const double relative = f.u[d] - w.u[d] + turn[d];
       total.r[d] += weight * r[d];
       total.u[d] += weight * relative;
-      total.ud[d] += weight_d * relative;
+      total.ud3[d] += weight_d3 * relative;
+      total.ud4[d] += weight_d4 * relative;
     }
     total.rho += weight * rho;
     total.pressure += kernel_weight * w_f * w_f * f.g / f.vol;
@@ -158,9 +161,9 @@ namespace SPHDissipation {
                                    const Surface &s, BoundarySum &total)
   {
     for (int d = 0; d < 3; d++) {
-      const double relative = spin[d] - s.omega[d];
-      total.w[d] += weight * relative;
-      total.wd[d] += weight * height * relative;
+      const double weighted = weight * height * height * height * (spin[d] - s.omega[d]);
+      total.wd3[d] += weighted;
+      total.wd4[d] += weighted * height;
     }
   }
 
@@ -196,25 +199,27 @@ namespace SPHDissipation {
     const double norm = 1.0 / sum.weight;
     const double needed = CLOSEST_MEAN * surface.spacing / (norm * sum.d);
     const double stretch = (needed > 1.0) ? needed : 1.0;
-    const double norm_d = norm * stretch;
-    const DistanceMeans distance = {norm_d * sum.d, norm_d * stretch * sum.d2,
-                                    norm_d * stretch * stretch * sum.d3};
+    const double norm_d3 = norm * stretch * stretch * stretch, norm_d4 = norm_d3 * stretch;
+    const double mean_d = norm * stretch * sum.d;
+    const DistanceMeans distance = {norm_d3 * sum.d3, norm_d4 * sum.d4, norm_d4 * stretch * sum.d5,
+                                    norm_d4 * stretch * stretch * sum.d6};
     const double *const normal = surface.normal;
     const double depth = surface.depth;
 
     // across the surface the velocity is zero, with a slope that is zero where the fluid sticks: the
     // image of the mean is enough, and does not ask for a smaller time step
 
-    const double mirrored = (depth < distance.d) ? depth / distance.d : 1.0;
+    const double mirrored = (depth < mean_d) ? depth / mean_d : 1.0;
     const double across = inner_product(sum.u, normal) * norm;
-    const double across_d = inner_product(sum.ud, normal) * norm_d;
+    const double across_d3 = inner_product(sum.ud3, normal) * norm_d3;
+    const double across_d4 = inner_product(sum.ud4, normal) * norm_d4;
     double slope[3];
     for (int d = 0; d < 3; d++) {
-      const double along_f = sum.u[d] * norm - across * normal[d];
-      const double along_fd = sum.ud[d] * norm_d - across_d * normal[d];
-      const Extension along = condition.slip ? distance.free(along_f, along_fd)
-                                             : distance.stuck(along_f, along_fd);
-      slope[d] = condition.slip ? distance.straight_slope(along_f, along_fd) : along.slope;
+      const double along_d3 = sum.ud3[d] * norm_d3 - across_d3 * normal[d];
+      const double along_d4 = sum.ud4[d] * norm_d4 - across_d4 * normal[d];
+      const Extension along = condition.slip ? distance.free(along_d3, along_d4)
+                                             : distance.stuck(along_d3, along_d4, depth);
+      slope[d] = condition.slip ? distance.straight_slope(along_d3, along_d4) : along.slope;
       u[d] += along.behind(depth) - mirrored * across * normal[d];
     }
     if (!spin) return;
@@ -225,10 +230,11 @@ namespace SPHDissipation {
     if (condition.spin == WallSpin::RATE) cross_product(normal, slope, surface_spin);
     for (int d = 0; d < 3; d++) {
       const double at_surface = 0.5 * condition.alpha * surface_spin[d];
-      const double s = sum.w[d] * norm - at_surface;
-      const double sd = sum.wd[d] * norm_d - at_surface * distance.d;
-      const Extension beyond = (condition.spin == WallSpin::FREE) ? distance.free(s, sd)
-                                                                  : distance.stuck(s, sd);
+      const double s_d3 = sum.wd3[d] * norm_d3 - at_surface * distance.d3;
+      const double s_d4 = sum.wd4[d] * norm_d4 - at_surface * distance.d4;
+      const Extension beyond = (condition.spin == WallSpin::FREE)
+          ? distance.free(s_d3, s_d4)
+          : distance.stuck(s_d3, s_d4, depth);
       spin[d] += at_surface + beyond.behind(depth);
     }
   }

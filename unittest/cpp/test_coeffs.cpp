@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -156,15 +157,24 @@ TEST(TimeStep, limits_as_numbers)
     EXPECT_NEAR(stability_length_squared(kernel_slope_integral(Kernel::WENDLAND_C2, n, 0.6)), 0.09,
                 1e-15);
   EXPECT_NEAR(acoustic_step(0.2, 10.0), 0.005, 1e-17);
-  EXPECT_NEAR(shear_step(Shear::MG, 0.04, 0.5), 0.0036, 1e-17);
-  EXPECT_NEAR(shear_step(Shear::MG_FR, 0.04, 0.5), 0.004, 1e-17);
-  EXPECT_NEAR(shear_step(Shear::MORRIS, 0.04, 0.5), 0.01008, 1e-17);
-  EXPECT_NEAR(shear_step(Shear::ESPANOL, 0.04, 0.5), 0.00728, 1e-17);
-  EXPECT_NEAR(bulk_step(0.04, 0.5), 0.032, 1e-17);
-  EXPECT_NEAR(bulk_step(0.04, -0.5), 0.032, 1e-17);
+  EXPECT_EQ(acoustic_step(0.2, 0.0), UNLIMITED_STEP);
+  // all others: 0.9 over the largest rate
+  EXPECT_NEAR(shear_step(Shear::MG, 0.04, 0.5), 0.9 * 0.08 / 21.0, 1e-17);
+  EXPECT_NEAR(shear_step(Shear::MG_FR, 0.04, 0.5), 0.9 * 0.08 / 17.0, 1e-17);
+  EXPECT_NEAR(shear_step(Shear::MORRIS, 0.04, 0.5), 0.9 * 0.08 / 8.0, 1e-17);
+  EXPECT_NEAR(shear_step(Shear::ESPANOL, 0.04, 0.5), 0.9 * 0.08 / 10.0, 1e-17);
+  EXPECT_NEAR(bulk_step(0.04, 0.5), 0.9 * 0.08 / 1.6, 1e-16);
+  EXPECT_NEAR(bulk_step(0.04, -0.5), 0.9 * 0.08 / 1.6, 1e-16);
+  EXPECT_NEAR(vortex_step(0.5, 4.0), 0.9 * 0.125, 1e-16);
+  // zeta1 = 2 (n + 2) for mg with unit viscosity, zeta2 = 2 for Morris
+  EXPECT_NEAR(micropolar_step(2, 0.04, 0.5, 8.0, 0.0), shear_step(Shear::MG, 0.04, 2.0), 1e-17);
+  EXPECT_NEAR(micropolar_step(3, 0.04, 0.5, -1.0, 2.0), shear_step(Shear::MORRIS, 0.04, 2.0),
+              1e-17);
+  EXPECT_NEAR(micropolar_step(2, 0.04, 0.5, 8.0, 2.0), 0.9 * 0.02 / 29.0, 1e-17);
   EXPECT_EQ(shear_step(Shear::NONE, 0.04, 0.5), UNLIMITED_STEP);
   EXPECT_EQ(shear_step(Shear::MG, 0.04, 0.0), UNLIMITED_STEP);
   EXPECT_EQ(bulk_step(0.04, 0.0), UNLIMITED_STEP);
+  EXPECT_EQ(vortex_step(0.5, 0.0), UNLIMITED_STEP);
 }
 
 TEST(TimeStep, rates_of_viscous_terms_add)
@@ -204,6 +214,31 @@ static DenseReference::Particles lattice(int n, int cells, double jitter)
   return particles;
 }
 
+// the blocks of the spins alone, moment of inertia 1: relaxation and diffusion
+
+static std::array<double, 2> products_of_spin(DenseReference::Model model,
+                                              const DenseReference::Box &box,
+                                              DenseReference::Particles particles, double hsq)
+{
+  const int n = model.n;
+  particles.spin = DenseReference::Matrix::Zero(n == 2 ? 1 : 3, particles.size());
+  std::array<double, 2> products = {};
+  for (const bool diffusion : {false, true}) {
+    DenseReference::SpinFluid fluid;
+    fluid.mu_r = diffusion ? 0.0L : 0.25L;
+    fluid.gamma1 = diffusion ? 0.5L : 0.0L;
+    fluid.gamma2 = (n == 2) ? -fluid.gamma1 : 0.0L;
+    model.spins = {fluid};
+    const DenseReference::Matrix R = DenseReference::System(model, box, particles).micropolar().R;
+    const int nspin = static_cast<int>(particles.spin.size());
+    const PairCoeff coeff = micropolar_coefficients(n, 1.0, fluid.mu_r, fluid.gamma1, fluid.gamma2);
+    products[diffusion] = largest_rate(R.bottomRightCorner(nspin, nspin)) *
+        (diffusion ? micropolar_step(n, hsq, 1.0, coeff.xi1, coeff.xi2)
+                   : vortex_step(1.0, coeff.along_u));
+  }
+  return products;
+}
+
 TEST(TimeStep, viscous_limits_against_damping_rates)
 {
   const int cells[3] = {40, 12, 6};
@@ -229,6 +264,10 @@ TEST(TimeStep, viscous_limits_against_damping_rates)
           products.push_back(largest_rate(system.shear(shear_name(shear)).R) *
                              shear_step(shear, hsq, 1.0));
         products.push_back(largest_rate(system.bulk("density", "none").R) * bulk_step(hsq, 1.0));
+        if (n == 2 || (n == 3 && kernel == kernels[0]))
+          for (const double product :
+               products_of_spin(model, {cell, {true, true, true}}, particles, hsq))
+            products.push_back(product);
         for (std::size_t k = 0; k < products.size(); k++) {
           SCOPED_TRACE(model.kernel + " n = " + std::to_string(n) + " term " + std::to_string(k));
           EXPECT_LT(products[k], 1.0);

@@ -122,19 +122,20 @@ TEST(Eos, density_at_a_pressure)
 TEST(Eos, sound_speed_at_any_density)
 {
   const double e = 2.3;
-  for (const double gamma : {1.4, 3.5, 7.0}) {
-    const EosParams par = params(gamma, 0.0);
-    for (const Eos eos : {Eos::LINEAR, Eos::TAIT, Eos::IDEAL})
-      for (const double rho : {0.9, 1.3, 1.7}) {
-        const double step = 1e-5 * rho;
-        const auto p = [&](double d) {
-          return pressure(eos, par, rho + d, e + pressure(eos, par, rho, e) / (rho * rho) * d);
-        };
-        const double c = sound_speed(eos, par, rho, e);
-        EXPECT_NEAR((p(step) - p(-step)) / (2.0 * step), c * c, 1e-7 * c * c)
-            << eos_name(eos) << " gamma = " << gamma << " rho = " << rho;
-      }
-    EXPECT_NEAR(sound_speed(Eos::TAIT, par, par.rho0, e), par.c0, 1e-15);
-    EXPECT_EQ(sound_speed(Eos::LINEAR, par, 2.0, e), par.c0);
-  }
+  for (const double pb : {0.0, 0.7, -0.3})
+    for (const double gamma : {1.4, 3.5, 7.0}) {
+      const EosParams par = params(gamma, pb);
+      for (const Eos eos : {Eos::LINEAR, Eos::TAIT, Eos::IDEAL})
+        for (const double rho : {0.9, 1.3, 1.7}) {
+          const double step = 1e-5 * rho;
+          const auto p = [&](double d) {
+            return pressure(eos, par, rho + d, e + pressure(eos, par, rho, e) / (rho * rho) * d);
+          };
+          const double c = sound_speed(eos, par, rho, e);
+          EXPECT_NEAR((p(step) - p(-step)) / (2.0 * step), c * c, 1e-7 * c * c)
+              << eos_name(eos) << " gamma = " << gamma << " rho = " << rho;
+        }
+      EXPECT_NEAR(sound_speed(Eos::TAIT, par, par.rho0, e), par.c0, 1e-15);
+      EXPECT_EQ(sound_speed(Eos::LINEAR, par, 2.0, e), par.c0);
+    }
 }

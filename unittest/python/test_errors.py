@@ -251,7 +251,7 @@ def test_the_input_all_cases_start_from_is_good(box, ranks):
 
 @pytest.mark.parametrize("arguments", [
     "* * 1.0 10.0 0.5 intrinsic 3.0", "* * 1.0 10.0 0.5 0.0 3.0", "* * 1.0 10.0 0.0 0.0 3.0",
-    "* * 1.0 10.0 0.5 2.0 3.0 pb -1.0 gamma 1.4", "1*2 1*2 1.0 10.0 0.5 2.0 3.0"])
+    "* * 1.0 10.0 0.5 2.0 3.0 pb -1.0", "1*2 1*2 1.0 10.0 0.5 2.0 3.0"])
 def test_limits_of_the_admissible_range_are_accepted(box, arguments):
     result = box(deck(pair_coeff=f"pair_coeff {arguments}"))
     assert not result.warnings, result.warnings
@@ -268,6 +268,13 @@ def test_kappa_without_bulk_term_is_a_warning(box, ranks):
     assert len(result.warnings) == 2, result.warnings
     for line, number in zip(result.warnings, (1, 2)):
         assert re.search(f"kappa 2 of type {number} is ignored with bulk none", line)
+
+
+def test_gamma_of_a_linear_fluid_is_a_warning(box):
+    lines = "pair_coeff * * 1.0 10.0 0.5 2.0 3.0\npair_coeff 2 2 1.0 10.0 0.5 2.0 3.0 gamma 3"
+    (line,) = box(deck(pair_coeff=lines)).warnings
+    assert "gamma 3 of type 2 is ignored with eos linear" in line
+    assert not box(deck(pair_style="pair_style sph/bulk eos tait", pair_coeff=lines)).warnings
 
 
 @pytest.mark.parametrize("ranks", [1, 2])

@@ -148,6 +148,38 @@ def test_taylor_green_vortices(lammps, shift, pressure):
 
 
 # ---------------------------------------------------------------------------------------------
+# sound
+
+
+def long_wave(pressure, support=4.0, steepness=0.05):
+    """Speed of a long wave on a hexagonal lattice of spacing 1 (root of the area of a particle), rho0 = c0 = 1, at a
+    background pressure: from the forces of all neighbors on a particle in the wave, as sums, k rc = steepness."""
+    spacing = np.sqrt(2.0 / np.sqrt(3.0))
+    i, j = np.meshgrid(np.arange(-9, 10), np.arange(-9, 10))
+    x = spacing * np.stack([(i + 0.5 * j).ravel(), (np.sqrt(0.75) * j).ravel()], axis=1)
+    r = np.linalg.norm(x, axis=1)
+    x, r = x[(r > 0.0) & (r < support)], r[(r > 0.0) & (r < support)]
+    q, norm = r / support, 7.0 / np.pi / support ** 2
+    number = norm * (1.0 + ((1 - q) ** 4 * (1 + 4 * q)).sum())
+    slope = -20.0 * norm / support * q * (1 - q) ** 3
+    bend = norm / support ** 2 * (60.0 * q * (1 - q) ** 2 - 20.0 * (1 - q) ** 3)
+    mass, k = 1.0 / number, steepness / support
+    along, wave = x[:, 0] / r, np.exp(-1j * k * x[:, 0])
+    gradient = (slope * along * wave).sum().imag  # times i
+    second = ((bend * along ** 2 + slope / r * (1.0 - along ** 2)) * (1.0 - wave.real)).sum()
+    push, of_number = pressure / number ** 2, mass / number ** 2 - 2.0 * pressure / number ** 3  # p V^2 and its derivative
+    return np.sqrt((of_number * gradient ** 2 + 2.0 * push * second) / mass) / k
+
+
+def test_sound_of_a_lattice_under_pressure():
+    """What the page of the pair style says of pb on a hexagonal lattice: not exact, however long the wave."""
+    speeds = [long_wave(0.0), long_wave(1.0)]
+    print(speeds)
+    assert np.round(speeds, 3) == pytest.approx([0.997, 0.986])
+    assert long_wave(1.0, 6.0, 1.0) == pytest.approx(1.0, abs=5e-3) and long_wave(0.0, 6.0, 1.0) < 0.97
+
+
+# ---------------------------------------------------------------------------------------------
 # the time step
 
 

@@ -438,7 +438,7 @@ def work(lammps, keywords, timestep, steps=10, kappa=500.0):
 
 def test_work_at_a_hundred_times_the_explicit_step(lammps):
     """Evaluations of the force in a step: two of all terms, and the applications of the friction, each less than one."""
-    table, modes = work(lammps, RKL2, timestep=0.32)
+    table, modes = work(lammps, RKL2, timestep=0.42)
     assert 100 <= modes < 110
     assert np.all(table["f_FLUID[1]"][1:] <= 17)
     applications = np.diff(table["f_FLUID[4]"])

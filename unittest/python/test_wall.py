@@ -190,7 +190,7 @@ def expected(dim, style, name, options):
     return model, omega, ref.forces(model, state, [wall_now(**wall) for wall in WALLS[dim][name]])
 
 
-def assert_forces(frame, owner, want, style, bound=1e-12):
+def assert_forces(frame, owner, want, style, bound=8e-12):
     difference = {"force": relative(frame["f"] - want["f"], want["f"])}
     if style == MICRO:
         difference["torque"] = relative(torque_of(frame) - want["torque"], want["torque"])
@@ -209,7 +209,7 @@ def assert_forces(frame, owner, want, style, bound=1e-12):
     assert max(difference.values()) < bound, difference
 
 
-def assert_global(table, owner, want, walls, style, bound=1e-12):
+def assert_global(table, owner, want, walls, style, bound=8e-12):
     for k, wall in enumerate(walls):
         own = owner == k
         point = np.array(wall["rotate"][0]) if wall.get("rotate") else np.zeros(3)

@@ -161,15 +161,15 @@ def surface_of(model, x_from, dist, F, solid, fluid, volume):
 
 def beyond(kind, depth, d, q, weight):
     """What a field q of the fluid at distances d is at the given depth behind the surface, where q ("zero") or its
-    derivative ("flat") vanishes: the other one and the second derivative from the moments of q, the third moment of d
-    a tenth larger."""
-    m1, m2, m3 = (weight @ d ** k for k in (1, 2, 3))
-    moments = np.array([weight @ q, (weight * d) @ q])
+    derivative ("flat") vanishes: the other one and the second derivative from the moments of q with d^3 and d^4. The
+    sixth moment of d is larger by a hundredth and by 0.001 depth^6 ("zero"), or by a tenth."""
+    m3, m4, m5, m6 = (weight @ d ** k for k in (3, 4, 5, 6))
+    moments = np.array([(weight * d ** 3) @ q, (weight * d ** 4) @ q])
     if kind == "zero":
-        slope, bend = np.linalg.solve([[m1, m2], [m2, 1.1 * m3]], moments)
+        slope, bend = np.linalg.solve([[m4, m5], [m5, 1.01 * m6 + 0.001 * depth ** 6]], moments)
         return -slope * depth + bend * depth ** 2, slope
-    level, bend = np.linalg.solve([[1.0, m2], [m1, 1.1 * m3]], moments)
-    return level + bend * depth ** 2, (moments[1] - m1 * moments[0]) / (1.1 * m2 - m1 ** 2)
+    level, bend = np.linalg.solve([[m3, m5], [m4, 1.1 * m6]], moments)
+    return level + bend * depth ** 2, np.linalg.solve([[m3, m4], [m4, 1.1 * m5]], moments)[1]
 
 
 def forces(model, state, walls):
