@@ -212,7 +212,7 @@ def test_data_file_round_trip(lammps):
     write(SYSTEMS[3], lammps.path("box.data"), inertia=np.linspace(0.1, 0.3, len(SYSTEMS[3])))
     pair_style = two_fluids(3).splitlines()[0] + "\n"
     lammps(header(3, style=STYLE) + "read_data box.data\n" + two_fluids(3) + integrate() + "run 20\n"
-           "write_data out.data pair ij\n" + dump("before.dump") + "run 0\n")
+           "velocity all scale 0.3\nwrite_data out.data pair ij\n" + dump("before.dump") + "run 0\n")
     lammps(header(3, style=STYLE) + pair_style + "read_data out.data\n" + integrate() + dump("after.dump") + "run 0\n")
     before, after = lammps.frame("before.dump"), lammps.frame("after.dump")
     for name in ("omegax", "omegay", "omegaz", "c_G[1]"):
