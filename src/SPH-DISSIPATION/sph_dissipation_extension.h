@@ -47,14 +47,15 @@ namespace SPHDissipation {
     // q is zero at the surface.  Least of <d^2 (q - slope d - bend d^2)^2> + STIFF depth^2 (bend depth^2)^2:
     // a bend is worth what it adds at this depth, so that deep in a wall, seen by the first layer only,
     // the field is straight.  So it is where the distances are all alike, for <d^6> is raised by the
-    // share ALIKE.  A field without a bend is met exactly.
+    // share alike.  A field without a bend is met exactly.  The share is less for the spin, for its
+    // diffusion and the vortex viscosity bend it next to the surface.
 
-    static constexpr double STIFF = 0.001, ALIKE = 0.01;
+    static constexpr double STIFF = 0.001, ALIKE = 0.01, ALIKE_SPIN = 0.001;
 
-    SPH_FUNCTION Extension stuck(double f_d3, double f_d4, double depth) const
+    SPH_FUNCTION Extension stuck(double f_d3, double f_d4, double depth, double alike) const
     {
       const double depth_cubed = depth * depth * depth;
-      const double sixth = (1.0 + ALIKE) * d6 + STIFF * depth_cubed * depth_cubed;
+      const double sixth = (1.0 + alike) * d6 + STIFF * depth_cubed * depth_cubed;
       const double norm = 1.0 / (d4 * sixth - d5 * d5);
       return {0.0, norm * (f_d3 * sixth - f_d4 * d5), norm * (f_d4 * d4 - f_d3 * d5)};
     }

@@ -217,8 +217,9 @@ namespace SPHDissipation {
     for (int d = 0; d < 3; d++) {
       const double along_d3 = sum.ud3[d] * norm_d3 - across_d3 * normal[d];
       const double along_d4 = sum.ud4[d] * norm_d4 - across_d4 * normal[d];
-      const Extension along = condition.slip ? distance.free(along_d3, along_d4)
-                                             : distance.stuck(along_d3, along_d4, depth);
+      const Extension along = condition.slip
+          ? distance.free(along_d3, along_d4)
+          : distance.stuck(along_d3, along_d4, depth, DistanceMeans::ALIKE);
       slope[d] = condition.slip ? distance.straight_slope(along_d3, along_d4) : along.slope;
       u[d] += along.behind(depth) - mirrored * across * normal[d];
     }
@@ -234,7 +235,7 @@ namespace SPHDissipation {
       const double s_d4 = sum.wd4[d] * norm_d4 - at_surface * distance.d4;
       const Extension beyond = (condition.spin == WallSpin::FREE)
           ? distance.free(s_d3, s_d4)
-          : distance.stuck(s_d3, s_d4, depth);
+          : distance.stuck(s_d3, s_d4, depth, DistanceMeans::ALIKE_SPIN);
       spin[d] += at_surface + beyond.behind(depth);
     }
   }

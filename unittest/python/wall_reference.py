@@ -159,14 +159,14 @@ def surface_of(model, x_from, dist, F, solid, fluid, volume):
     return normal, depth
 
 
-def beyond(kind, depth, d, q, weight):
+def beyond(kind, depth, d, q, weight, alike=0.01):
     """What a field q of the fluid at distances d is at the given depth behind the surface, where q ("zero") or its
     derivative ("flat") vanishes: the other one and the second derivative from the moments of q with d^3 and d^4. The
-    sixth moment of d is larger by a hundredth and by 0.001 depth^6 ("zero"), or by a tenth."""
+    sixth moment of d is larger by the share alike and by 0.001 depth^6 ("zero"), or by a tenth."""
     m3, m4, m5, m6 = (weight @ d ** k for k in (3, 4, 5, 6))
     moments = np.array([(weight * d ** 3) @ q, (weight * d ** 4) @ q])
     if kind == "zero":
-        slope, bend = np.linalg.solve([[m4, m5], [m5, 1.01 * m6 + 0.001 * depth ** 6]], moments)
+        slope, bend = np.linalg.solve([[m4, m5], [m5, (1 + alike) * m6 + 0.001 * depth ** 6]], moments)
         return -slope * depth + bend * depth ** 2, slope
     level, bend = np.linalg.solve([[m3, m5], [m4, 1.1 * m6]], moments)
     return level + bend * depth ** 2, np.linalg.solve([[m3, m4], [m4, 1.1 * m5]], moments)[1]
@@ -249,7 +249,7 @@ def forces(model, state, walls):
             else:
                 alpha = 0.0 if wall.spin == "zero" else wall.spin
                 edge = 0.5 * alpha * np.cross(normal[i], slope)
-                spin[i] += edge + beyond("zero", depth[i], d, relative - edge, share)[0]
+                spin[i] += edge + beyond("zero", depth[i], d, relative - edge, share, 0.001)[0]
     uu = virtual[:, None] - virtual
 
     # pair forces
