@@ -46,7 +46,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     extrapolation(1.0), balanced(false), exact(false), density_done(0), shift_speed(0.0),
     remap_v_flag(0), integrated_groups(0), first_instance(false),
     viscous(new ViscousKeywords(lmp, style)), pair(nullptr), last(), density_flag(0), set_up(false),
-    energy_extrapolated(false), last_instance(false), not_integrated(0)
+    energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -303,19 +303,23 @@ void FixSPHBulk::setup_pre_exchange()
     atom->esph[i] -= desph_before[i];
   }
   energy_extrapolated = true;
+  last.known = continued;
+  setup_step = update->ntimestep;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixSPHBulk::post_run()
 {
+  const bool extrapolated = last.known || update->ntimestep > setup_step;
   last = find_motion();
-  last.known = (update->whichflag == 1);
+  last.known = (update->whichflag == 1 && extrapolated);
 }
 
 /* ----------------------------------------------------------------------
-   sums of two numbers of 32 bits that follow from the bits of the velocity and the spin, the position, as
-   far as writing a restart file leaves it alone, and the ID
+   Sums of two numbers of 32 bits that follow from the bits of the velocity and the spin, the position, as
+   far as writing a restart file leaves it alone, the type, and the ID.  Walls set their velocity themselves,
+   see PairSPHBulk::note_change().
 ------------------------------------------------------------------------- */
 
 FixSPHBulk::Motion FixSPHBulk::find_motion() const
@@ -325,13 +329,16 @@ FixSPHBulk::Motion FixSPHBulk::find_motion() const
       0.75487766624669276 * 16777216.0 / length;    // no fraction: lattices have those
   Motion motion = {0, {0, 0}, dtv};
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    std::uint64_t number = atom->tag_enable ? atom->tag[i] : 0;
+    const bool of_group = atom->mask[i] & groupbit;
+    if (!of_group && !(pair && pair->is_boundary(i))) continue;
+    std::uint64_t number =
+        (atom->tag_enable ? atom->tag[i] : 0) * (atom->ntypes + 1) + atom->type[i];
     double place[3];
     domain->unmap(atom->x[i], atom->image[i], place);
     for (double &x : place) x = std::floor(x * fine + 0.5);
-    for (const double *values : {static_cast<const double *>(atom->v[i]), spin_of(i),
-                                 static_cast<const double *>(place)}) {
+    for (const double *values :
+         {of_group ? static_cast<const double *>(atom->v[i]) : nullptr,
+          of_group ? spin_of(i) : nullptr, static_cast<const double *>(place)}) {
       if (!values) continue;
       std::uint64_t bits[3];
       memcpy(bits, values, sizeof(bits));

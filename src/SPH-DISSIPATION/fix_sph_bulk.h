@@ -97,8 +97,9 @@ class FixSPHBulk : public Fix {
   // integrates them
   virtual void reset_extrapolation(int, int, int);
 
-  // Numbers that tell positions and velocities of the particles of the group: a run continues the last one, with
-  // the extrapolated quantities of its last step, if nobody has changed them since then
+  // Numbers that tell positions and velocities of the particles of the group, and positions of those of
+  // walls: a run continues the last one, with the extrapolated quantities of its last step, if nobody has
+  // changed them since then
 
   struct Motion {
     bigint known;    // 0: no step was taken
@@ -126,6 +127,7 @@ class FixSPHBulk : public Fix {
   int density_flag;            // set the masses so that the mean density is rho0
   bool set_up;                 // since it was defined
   bool energy_extrapolated;    // for the first forces of a run
+  bigint setup_step;           // of the last setup
   bool last_instance;          // acts when all are set up
   bigint not_integrated;       // # of fluid particles that the last warning was about
 };

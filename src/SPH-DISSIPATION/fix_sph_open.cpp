@@ -247,9 +247,11 @@ void FixSPHOpen::setup_pre_exchange()
   set_up = true;
   check_open_places(lmp, this, *plane, fluidbit);
   values->evaluate(igroup);
-  if (condition->given_velocity() && !samples->any())
+  if (condition->given_velocity() && !samples->any()) {
+    pair->note_change();
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) set_velocity(i);
+  }
   check_open_length(lmp, this, *plane, pair->support_radius(), rows->largest_spacing());
   is_new = rows->are_new();
   if (is_new && integrator->has_set_masses()) check_open_masses(lmp, this, fluidbit);

@@ -19,6 +19,7 @@
 #include "error.h"
 #include "force.h"
 #include "group.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
@@ -180,7 +181,9 @@ void FixSPHWall::setup_pre_exchange()
     motion->rest();
   else
     motion->start();
-  set_velocity();
+  int changed = set_velocity(), any;
+  MPI_Allreduce(&changed, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any) PairSPHBulk::find(force)->note_change();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -225,17 +228,23 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHWall::set_velocity()
+bool FixSPHWall::set_velocity()
 {
+  constexpr double ROUNDOFF = 1.0e-10;
   const WallVelocity now = motion->velocity();
   double r[3];
+  bool changed = false;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     from_point(i, now, r);
-    now.at(r, atom->v[i]);
-    std::copy_n(atom->v[i], 3, atom->vest[i]);
+    double *const v = atom->v[i], before[3] = {v[0], v[1], v[2]};
+    now.at(r, v);
+    std::copy_n(v, 3, atom->vest[i]);
     if (atom->omega) now.angular(atom->omega[i]);
+    changed = changed ||
+        MathExtra::distsq3(v, before) > ROUNDOFF * ROUNDOFF * MathExtra::lensq3(before);
   }
+  return changed;
 }
 
 /* ----------------------------------------------------------------------

@@ -78,7 +78,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
  private:
   void from_point(int, const SPHDissipation::WallVelocity &, double *) const;
-  void set_velocity();
+  bool set_velocity();    // returns whether that of an owned particle is another one than before
 };
 
 }    // namespace LAMMPS_NS

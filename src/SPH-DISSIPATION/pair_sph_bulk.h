@@ -132,6 +132,10 @@ class PairSPHBulk : public Pair {
   void set_continued(bool flag) { continued = flag; }
   bool is_continued() const { return continued; }
 
+  // from all ranks before the first forces of a run: what the fluid touches moves in another way than in the
+  // last step, whose velocities in the friction are not those of this run
+  void note_change() { changed = true; }
+
   // of the last step, on an owned particle, without what other styles add
   const double *own_force(int i) const;
   const double *own_torque(int i) const;
@@ -185,7 +189,7 @@ class PairSPHBulk : public Pair {
   SPHDissipation::ViscousStage *viscous;
   bool crowding_requested;
   bool continued;
-  bool changed;    // other coefficients than those of the last forces
+  bool changed;    // other coefficients, or motions of walls, than those of the last forces
 
   PairSPHBulk(class LAMMPS *, const std::string &, const std::vector<std::string> &);
 

@@ -87,13 +87,22 @@ bool OpenPlane::beside(const double *x, double slack) const
   return true;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   In a box that is not orthogonal, the image that is closest along its edges need not be the one that is
+   least beside the normal
+------------------------------------------------------------------------- */
 
 OpenPlane::Offset OpenPlane::offset(const double *from, const double *to) const
 {
   double image[3], r[3];
   domain->closest_image(from, to, image);
   MathExtra::sub3(image, from, r);
+  for (int k = 0; k < 2; k++) {
+    if (!periodic[k]) continue;
+    const double period = count[k] * step[k];
+    const double beside = period * std::round(MathExtra::dot3(r, tangent[k]) / period);
+    for (int d = 0; d < 3; d++) r[d] -= beside * tangent[k][d];
+  }
   const double ahead = MathExtra::dot3(r, normal);
   return {sqrt(std::max(MathExtra::lensq3(r) - ahead * ahead, 0.0)), ahead};
 }
@@ -170,6 +179,7 @@ void OpenPlane::set_tangents()
   if (known < 2) MathExtra::cross3(normal, tangent[0], tangent[1]);
   for (int k = 0; k < 2; k++) {
     periodic[k] = (period[k] > 0.0);
+    count[k] = 1;
     step[k] = period[k];
   }
 }

@@ -195,18 +195,16 @@ void ViscousStage::find_unknowns(const double *inertia)
 
 /* ----------------------------------------------------------------------
    the forces of other styles, from what vest carries, and the guess of the integrator instead of it;
-   where the particles may have changed places since, it is v-.  Nothing has been carried to the start of a run
+   where the particles may have changed places since, it is v-.  So it is at the start of a run, to which no
+   force is carried: vest may be that of the run before
 ------------------------------------------------------------------------- */
 
 void ViscousStage::set_guess()
 {
-  if (update->setupflag) {
-    std::fill(others.begin(), others.end(), 0.0);
-    return;
-  }
+  const bool starts = update->setupflag;
   const std::size_t nall = atom->nlocal + atom->nghost, nlocal = atom->nlocal;
-  const double rate = (update->dt != 0.0) ? 1.0 / update->dt : 0.0;
-  const bool same = neighbor->ago > 0 && ahead.size() >= 3 * nlocal &&
+  const double rate = (starts || update->dt == 0.0) ? 0.0 : 1.0 / update->dt;
+  const bool same = !starts && neighbor->ago > 0 && ahead.size() >= 3 * nlocal &&
       (!omegaest || ahead_spin.size() >= 3 * nlocal);
   std::vector<double> change[2];    // of vest, and omegaest
   for (int s = 0; s < width / 3; s++) change[s].assign(3 * nall, 0.0);

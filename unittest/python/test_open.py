@@ -20,7 +20,7 @@ CHANNELS = {
     "hexagonal": dict(kind="hex"),
     "rows across": dict(kind="hexrows", zone=9.0),
     "down": dict(kind="hex", direction=(0, -1)),
-    "oblique": dict(kind="sq", direction=(np.cos(0.5), -np.sin(0.5)), box="triclinic"),
+    "oblique": dict(kind="sq", direction=(0.8, -0.6), box="triclinic"),
     "oblique, hexagonal": dict(kind="hex", direction=(np.cos(0.3), -np.sin(0.3)), box="triclinic"),
     "3d": dict(dim=3, direction=(0, 0, 1), support=2.5, zone=7.0, width=6, length=8),
 }

@@ -177,3 +177,35 @@ def test_another_velocity_starts_anew(lammps):
     same, other, read = (lammps.frame(f"{name}.dump") for name in ("same", "other", "read"))
     assert relative(same["vest"] - same["v"], same["v"]) > 1e-4
     assert (other["vest"] == other["v"]).all() and (read["vest"] == read["v"]).all()
+
+
+@pytest.mark.parametrize("keywords", ["viscous rkl2", IMPLICIT + " sdirk2"])
+@pytest.mark.parametrize("change", ["velocity", "displace"])
+def test_another_motion_of_a_wall_starts_anew(lammps, keywords, change):
+    """Stiff friction with a wall that moves otherwise than in the last step: with the velocities of that step it would
+    kick the fluid far beyond the wall."""
+    particles = disordered(2, 12, spread=0.0)
+    particles.write(lammps.path("box.data"))
+    fix = f"fix FLUID fluid sph/bulk {keywords}\n"
+    wall = lambda u: f"fix W wall sph/wall velocity {u} 0 0 move no\n"
+    text = (header(2) + "read_data box.data\n" + fluid(2, mu=2000.0, kappa=4000.0) + "region low block INF INF INF 2.9 INF INF\n"
+            "group wall region low\ngroup fluid subtract all wall\n" + fix + "timestep 0.002\n")
+    if change == "velocity":
+        before, after = wall(0.0), "unfix W\n" + wall(1.0)
+    else:
+        before, after = wall(1.0), "displace_atoms wall move 0.3 0 0 units box\n"
+    lammps(text + before + "run 2\n" + after + "run 1\n" + dump("kept.dump") + "run 0\n")
+    lammps(text + before + "run 2\n" + after + "unfix FLUID\n" + fix + "run 1\n" + dump("anew.dump") + "run 0\n")
+    kept, anew = lammps.frame("kept.dump"), lammps.frame("anew.dump")
+    assert relative(kept["v"] - anew["v"], anew["v"]) < 1e-6
+
+
+def test_run_0_is_no_part_of_a_run(lammps):
+    """Energies, too, which are extrapolated within a step."""
+    text = continued(lammps, "temperatures")
+    last = lambda name: dump(name) + "run 0\n"
+    lammps(text + "run 3\n" + last("one.dump"))
+    lammps(text + "run 0\nrun 0\nrun 3\n" + last("two.dump"))
+    one, two = lammps.frame("one.dump"), lammps.frame("two.dump")
+    for field in ("x", "v", "esph"):
+        assert relative(two[field] - one[field], one[field]) < 1e-14, field
