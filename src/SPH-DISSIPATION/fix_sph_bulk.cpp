@@ -329,16 +329,19 @@ FixSPHBulk::Motion FixSPHBulk::find_motion() const
       0.75487766624669276 * 16777216.0 / length;    // no fraction: lattices have those
   Motion motion = {0, {0, 0}, dtv};
   for (int i = 0; i < atom->nlocal; i++) {
-    const bool of_group = atom->mask[i] & groupbit;
-    if (!of_group && !(pair && pair->is_boundary(i))) continue;
+    const bool wall = pair && pair->is_boundary(i);
+    const bool driven = first_instance && pair && pair->has_type(atom->type[i]) &&
+        !(atom->mask[i] & (integrated_groups | pair->not_fluid()));
+    const bool moves = driven || (atom->mask[i] & groupbit);
+    if (!moves && !wall) continue;
     std::uint64_t number =
         (atom->tag_enable ? atom->tag[i] : 0) * (atom->ntypes + 1) + atom->type[i];
     double place[3];
     domain->unmap(atom->x[i], atom->image[i], place);
     for (double &x : place) x = std::floor(x * fine + 0.5);
     for (const double *values :
-         {of_group ? static_cast<const double *>(atom->v[i]) : nullptr,
-          of_group ? spin_of(i) : nullptr, static_cast<const double *>(place)}) {
+         {moves ? static_cast<const double *>(atom->v[i]) : nullptr, moves ? spin_of(i) : nullptr,
+          static_cast<const double *>(place)}) {
       if (!values) continue;
       std::uint64_t bits[3];
       memcpy(bits, values, sizeof(bits));

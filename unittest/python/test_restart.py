@@ -180,7 +180,7 @@ def test_another_velocity_starts_anew(lammps):
 
 
 @pytest.mark.parametrize("keywords", ["viscous rkl2", IMPLICIT + " sdirk2"])
-@pytest.mark.parametrize("change", ["velocity", "displace"])
+@pytest.mark.parametrize("change", ["velocity", "displace", "driven"])
 def test_another_motion_of_a_wall_starts_anew(lammps, keywords, change):
     """Stiff friction with a wall that moves otherwise than in the last step: with the velocities of that step it would
     kick the fluid far beyond the wall."""
@@ -192,6 +192,8 @@ def test_another_motion_of_a_wall_starts_anew(lammps, keywords, change):
             "group wall region low\ngroup fluid subtract all wall\n" + fix + "timestep 0.002\n")
     if change == "velocity":
         before, after = wall(0.0), "unfix W\n" + wall(1.0)
+    elif change == "driven":
+        before, after = "", "velocity wall set 1 0 NULL units box\n"
     else:
         before, after = wall(1.0), "displace_atoms wall move 0.3 0 0 units box\n"
     lammps(text + before + "run 2\n" + after + "run 1\n" + dump("kept.dump") + "run 0\n")
