@@ -67,8 +67,7 @@ template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::pos
   Base::post_run();
 }
 
-template <class DeviceType, class Base>
-void FixSPHKokkos<DeviceType, Base>::write_restart(FILE *fp)
+template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::write_restart(FILE *fp)
 {
   this->atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
   Base::write_restart(fp);
@@ -91,7 +90,8 @@ void FixSPHKokkos<DeviceType, Base>::setup_pre_force(int vflag)
 template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::setup(int vflag)
 {
   this->atomKK->sync(Host, TYPE_MASK | MASK_MASK | VFRAC_MASK | INERTIA_MASK | ENERGY);
-  this->atomKK->modified(Host, INERTIA_MASK | ESPH_MASK);    // what follows synchronizes the particles
+  this->atomKK->modified(Host,
+                         INERTIA_MASK | ESPH_MASK);    // what follows synchronizes the particles
   Base::setup(vflag);
 }
 

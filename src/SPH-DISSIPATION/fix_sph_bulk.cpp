@@ -19,7 +19,6 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
-#include "input.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
@@ -375,8 +374,7 @@ FixSPHBulk::Motion FixSPHBulk::sum_of(const Motion &mine, MPI_Comm world)
 
 bool FixSPHBulk::is_continued() const
 {
-  if (update->whichflag == 2 || (input->command && strcmp(input->command, "rerun") == 0))
-    return false;
+  if (update->whichflag == 2 || is_rerun(lmp)) return false;
   const Motion before = sum_of(last, world), now = sum_of(find_motion(), world);
   return before.known && (before.dt == now.dt || !has_viscous_stage()) &&
       std::equal(now.sum, now.sum + 2, before.sum);
