@@ -21,7 +21,9 @@
 #include "kokkos.h"
 #include "memory_kokkos.h"
 #include "modify.h"
+#include "pair.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_masks_kokkos.h"
 
 using namespace LAMMPS_NS;
@@ -99,13 +101,13 @@ void AtomVecSPHBulkKokkos::init()
   set_atom_masks();
   if (comm->style == Comm::TILED) lmp->kokkos->forward_comm_legacy = 1;
 
-  const auto *pair = PairSPHBulk::find(force);
-  if (pair && !pair->kokkosable)
+  const Fluid *const fluid = find_fluid(force);
+  if (fluid && !fluid->pair->kokkosable)
     error->all(FLERR, Error::NOLASTLINE,
                "With an atom style sph/bulk/kk or sph/micropolar/kk, the pair style must be one of "
                "them, too, not {}",
                force->pair_style);
-  if (!pair || !pair->compute_flag) clear_heating();
+  if (!fluid || !fluid->pair->compute_flag) clear_heating();
 }
 
 /* ----------------------------------------------------------------------

@@ -16,7 +16,7 @@
 #include "atom_kokkos.h"
 #include "fix_sph_micropolar.h"
 #include "neighbor.h"
-#include "pair_sph_bulk_kokkos.h"
+#include "sph_dissipation_fluid_kokkos.h"
 #include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_particles_kokkos.h"
 #include "sph_dissipation_shift_terms.h"
@@ -146,18 +146,18 @@ template <class DeviceType, class Base> bool FixSPHKokkos<DeviceType, Base>::on_
 {
   if (this->remap_v_flag || this->exact) return true;
   if (this->shift_speed == 0.0) return false;
-  auto *const pairKK = dynamic_cast<PairSPHBulkKokkos<DeviceType> *>(this->pair);
-  return !pairKK || !pairKK->computes_on_device();
+  const auto *const fluidKK = dynamic_cast<FluidKokkos<DeviceType> *>(this->fluid);
+  return !fluidKK || !fluidKK->computes_on_device();
 }
 
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::shift_on_device()
 {
-  auto crowding = dynamic_cast<PairSPHBulkKokkos<DeviceType> *>(this->pair)->crowding_on_device();
+  auto crowding = dynamic_cast<FluidKokkos<DeviceType> *>(this->fluid)->crowding_on_device();
   auto x = this->atomKK->k_x.template view<DeviceType>();
   auto mask = this->atomKK->k_mask.template view<DeviceType>();
-  const double speed = this->shift_speed, support = this->pair->support_radius(), dt = this->dtv;
+  const double speed = this->shift_speed, support = this->fluid->support_radius(), dt = this->dtv;
   const int bit = this->groupbit;
   Kokkos::parallel_for(
       "sph:shift", Kokkos::RangePolicy<DeviceType>(0, this->nlocal_group()), KOKKOS_LAMBDA(int i) {

@@ -20,6 +20,7 @@
 #include "neighbor.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_wall_motion.h"
 
 #include <algorithm>
@@ -226,9 +227,9 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
 
         Particle &p = particle(i);
         rho(i) = sum.rho / sum.weight;
-        vfrac(i) = p.vol = rmass(i) / rho(i);
-        const double c_inv = p.vol / weight(i * each);
-        p.g = wall_pressure(sum, wall.gravity, acceleration) * c_inv * c_inv;
+        set_state(p, rmass(i), rho(i), wall_pressure(sum, wall.gravity, acceleration),
+                  weight(i * each));
+        vfrac(i) = p.vol;
         zeta_term(i) = sum.zeta_term / sum.weight;
         extend_motion(wall, surface(k), sum, p.u, has_spin ? spin(i).w : nullptr);
       });

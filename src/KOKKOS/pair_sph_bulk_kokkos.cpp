@@ -14,32 +14,18 @@
 #include "pair_sph_bulk_kokkos.h"
 
 #include "atom_kokkos.h"
-#include "atom_vec_sph_micropolar_kokkos.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
 #include "force.h"
-#include "kokkos.h"
 #include "modify.h"
-#include "neigh_list_kokkos.h"
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "sph_dissipation_boundary_kokkos.h"
-#include "sph_dissipation_boundary_stage.h"
-#include "sph_dissipation_checks.h"
-#include "sph_dissipation_density.h"
-#include "sph_dissipation_engine.h"
-#include "sph_dissipation_exchange.h"
-#include "sph_dissipation_forces.h"
-#include "sph_dissipation_loops_kokkos.h"
-#include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_fluid_kokkos.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_stage.h"
-#include "sph_dissipation_sums_kokkos.h"
-#include "sph_dissipation_threads_kokkos.h"
 #include "update.h"
-
-#include <algorithm>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -48,41 +34,22 @@ using namespace SPHDissipation;
 
 static constexpr bool HOST_ONLY = std::is_same_v<LMPHostType, LMPDeviceType>;
 
-// the atom style leaves out the bits of fields that it does not have
-
-static constexpr uint64_t READ = X_MASK | F_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK |
-    VEST_MASK | TORQUE_MASK | OMEGAEST_MASK;
-static constexpr uint64_t DERIVED = SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK;
-static constexpr uint64_t MODIFIED = F_MASK | TORQUE_MASK | DESPH_MASK | DERIVED;
-
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
-PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp) :
-    PairSPHBulk(lmp), on_device(true), copied(false), threads(new ThreadsKokkos),
-    kokkos_list(nullptr), host_list(new NeighList(lmp)), nlocal_device(-1), nghost_device(-1),
-    data(new LoopDataKokkos<DeviceType>), types(new Kokkos::View<TypeKokkos *, DeviceType>),
-    boundary_device(new BoundaryStageKokkos<DeviceType>(lmp, this, *boundary))
+PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp) : PairSPHBulkKokkos(lmp, false)
 {
+}
+
+template <class DeviceType>
+PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp, bool spins) :
+    PairSPHBulk(lmp, spins), device(new FluidKokkos<DeviceType>(lmp, this, spins))
+{
+  fluid.reset(device);
   kokkosable = 1;
-  atomKK = (AtomKokkos *) atom;
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
   centroidstressflag = CENTROID_NOTAVAIL;
   no_virial_fdotr_compute = 1;    // a full list leaves no forces on ghosts
-  engine->set_threads(threads);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> PairSPHBulkKokkos<DeviceType>::~PairSPHBulkKokkos()
-{
-  delete data;
-  delete types;
-  delete boundary_device;
-  delete threads;
-  host_list->ilist = host_list->numneigh = nullptr;    // ours
-  host_list->firstneigh = nullptr;
-  delete host_list;
 }
 
 /* ----------------------------------------------------------------------
@@ -104,7 +71,7 @@ template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::runs_on_device()
 
 template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_because() const
 {
-  if (has_noise()) return "keyword temp";
+  if (fluid->model->choice.thermal) return "keyword temp";
   if (update->whichflag == 2) return "a minimization";
   for (const auto &ifix : modify->get_fix_list()) {
     auto *one = dynamic_cast<Boundary *>(ifix);
@@ -126,32 +93,32 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
 {
   if (force->pair != this)
     error->all(FLERR, Error::NOLASTLINE, "Pair style {}/kk cannot be used in pair_style hybrid",
-               fluid_style);
+               fluid->style);
   if (neighbor->includegroup)    // which the neighbor lists of KOKKOS ignore
     error->all(FLERR, Error::NOLASTLINE,
-               "Pair style {}/kk cannot be used with neigh_modify include", fluid_style);
+               "Pair style {}/kk cannot be used with neigh_modify include", fluid->style);
   PairSPHBulk::init_style();
 
-  copied = false;
   const std::string reason = runs_on_device() ? on_host_because() : "";
-  on_device = runs_on_device() && reason.empty();
+  const bool on_device = runs_on_device() && reason.empty();
+  device->choose(on_device);
   auto *request = neighbor->find_request(static_cast<Pair *>(this));
   if (!on_device) {
     if (comm->me == 0 && !reason.empty())
       error->warning(FLERR,
                      "Pair style {}/kk computes on the host, as the style without suffix does, "
                      "because of {}",
-                     fluid_style, reason);
+                     fluid->style, reason);
     execution_space = Host;
     datamask_read = ALL_MASK;
-    datamask_modify = MODIFIED | RMASS_MASK;
+    datamask_modify = FLUID_MODIFIED | RMASS_MASK;
     no_virial_fdotr_compute = 0;
     if (HOST_ONLY) request->set_kokkos_device(1);
     return;
   }
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  datamask_read = READ;
-  datamask_modify = MODIFIED;
+  datamask_read = FLUID_READ;
+  datamask_modify = FLUID_MODIFIED;
   no_virial_fdotr_compute = 1;
 
   request->set_kokkos_device(1);
@@ -163,611 +130,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
 template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_list(int id, NeighList *ptr)
 {
   PairSPHBulk::init_list(id, ptr);
-  kokkos_list = ptr;
-  if (!on_device && HOST_ONLY) list = host_list;
-}
-
-/* ----------------------------------------------------------------------
-   a function of the CPU style while the forces are computed on the device: with the particles, a
-   neighbor list and communication on the host
-------------------------------------------------------------------------- */
-
-template <class DeviceType>
-template <class Function>
-void PairSPHBulkKokkos<DeviceType>::on_host(Function &&function)
-{
-  atomKK->sync(Host, ALL_MASK);
-  if (!on_device) {
-    refer_to_list();
-    function();
-    return atomKK->modified(Host, DERIVED | RMASS_MASK);
-  }
-  build_host_list();
-  NeighList *const device_list = list;
-  list = host_list;
-  execution_space = Host;
-  function();
-  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  list = device_list;
-  atomKK->modified(Host, DERIVED | RMASS_MASK);
-}
-
-/* ----------------------------------------------------------------------
-   the half list of KOKKOS on the host as one of the CPU style
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::refer_to_list()
-{
-  if constexpr (HOST_ONLY) {
-    auto *k_list = static_cast<NeighListKokkos<DeviceType> *>(kokkos_list);
-    host_firstneigh.resize(atom->nlocal);
-    for (int i = 0; i < atom->nlocal; i++) host_firstneigh[i] = &k_list->d_neighbors(i, 0);
-    host_list->inum = k_list->inum;
-    host_list->ilist = k_list->d_ilist.data();
-    host_list->numneigh = k_list->d_numneigh.data();
-    host_list->firstneigh = host_firstneigh.data();
-  }
-}
-
-/* ----------------------------------------------------------------------
-   the half list of the CPU style from the full one of the device; with newton on, IDs tell which of the
-   two owners has a pair of an owned particle and a ghost
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::build_host_list()
-{
-  auto *k_list = static_cast<NeighListKokkos<DeviceType> *>(list);
-  const auto ilist = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), k_list->d_ilist);
-  const auto numneigh =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), k_list->d_numneigh);
-  const auto neighbors =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), k_list->d_neighbors);
-  const int nlocal = atom->nlocal;
-  double **x = atom->x;
-  const tagint *const tag = atom->tag;
-
-  auto above = [=](int i, int j) {
-    for (int d : {2, 1, 0})
-      if (x[i][d] != x[j][d]) return x[i][d] > x[j][d];
-    return false;
-  };
-  auto mine = [=, this](int i, int j) {
-    if (j < nlocal) return i < j;
-    if (!force->newton_pair) return true;
-    if (!atom->tag_enable || tag[i] == tag[j]) return above(j, i);
-    return (tag[i] > tag[j]) == ((tag[i] + tag[j]) % 2 == 1);
-  };
-
-  const int inum = list->inum;
-  host_ilist.resize(inum);
-  host_numneigh.assign(nlocal, 0);
-  host_firstneigh.assign(nlocal, nullptr);
-  host_neighbors.clear();
-  std::vector<std::size_t> first(inum);
-  for (int ii = 0; ii < inum; ii++) {
-    const int i = host_ilist[ii] = ilist(ii);
-    first[ii] = host_neighbors.size();
-    for (int jj = 0; jj < numneigh(i); jj++) {
-      const int j = neighbors(i, jj) & NEIGHMASK;
-      if (mine(i, j)) host_neighbors.push_back(j);
-    }
-    host_numneigh[i] = static_cast<int>(host_neighbors.size() - first[ii]);
-  }
-  for (int ii = 0; ii < inum; ii++)
-    host_firstneigh[host_ilist[ii]] = host_neighbors.data() + first[ii];
-
-  host_list->inum = inum;
-  host_list->ilist = host_ilist.data();
-  host_list->numneigh = host_numneigh.data();
-  host_list->firstneigh = host_firstneigh.data();
-}
-
-/* ----------------------------------------------------------------------
-   the reports need the pairs that pass 1 leaves; the densities stay as they are, those of walls are no
-   sums over their neighbors
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::announce()
-{
-  if (!compute_flag) return;
-  on_host([&]() {
-    if (on_device) {
-      const int n = atom->nlocal + atom->nghost;
-      const std::vector<double> rho(atom->rho, atom->rho + n), drho(atom->drho, atom->drho + n),
-          vfrac(atom->vfrac, atom->vfrac + n);
-      density->run(list, atom->vest, nullptr);
-      std::copy(rho.begin(), rho.end(), atom->rho);
-      std::copy(drho.begin(), drho.end(), atom->drho);
-      std::copy(vfrac.begin(), vfrac.end(), atom->vfrac);
-    }
-    PairSPHBulk::announce();
-  });
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_mean_density(int groupbit)
-{
-  on_host([&]() {
-    PairSPHBulk::set_mean_density(groupbit);
-  });
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::find_volumes()
-{
-  on_host([&]() {
-    PairSPHBulk::find_volumes();
-  });
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> double PairSPHBulkKokkos<DeviceType>::elastic_energy(Moment moment)
-{
-  double energy = 0.0;
-  if (moment == NOW)
-    on_host([&]() {
-      energy = PairSPHBulk::elastic_energy(moment);
-    });
-  else {
-    atomKK->sync(Host, SPH_RHO_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
-    energy = PairSPHBulk::elastic_energy(moment);
-  }
-  return energy;
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::has_forces() const
-{
-  if (!on_device) return PairSPHBulk::has_forces();
-  return nlocal_device == atom->nlocal && nghost_device == atom->nghost;
-}
-
-/* ----------------------------------------------------------------------
-   with a full list, no heat is left with ghost atoms
-------------------------------------------------------------------------- */
-
-template <class DeviceType>
-void PairSPHBulkKokkos<DeviceType>::heating(double *heat, double *power) const
-{
-  if (!on_device) return PairSPHBulk::heating(heat, power);
-  std::fill(power, power + NCHANNEL, 0.0);
-  if (heat) std::fill(heat, heat + atom->nlocal + atom->nghost, 0.0);
-  const int nchannel = engine->has_spin() ? NCHANNEL : VORTEX;    // its own come last
-  for (int k = 0; k < nchannel; k++) {
-    const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
-    for (int i = 0; i < atom->nlocal; i++) {
-      if (atom->mask[i] & not_fluid()) continue;
-      power[k] += from(i);
-      if (heat) heat[i] += from(i);
-    }
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::compute(int eflag, int vflag)
-{
-  if (!on_device) {
-    refer_to_list();
-    std::fill_n(atom->desph, atom->nlocal + atom->nghost, 0.0);
-    PairSPHBulk::compute(eflag, vflag);
-    exchange->reverse({{atom->desph, 1, 1}});    // the atom style does not
-    if (extrapolated_spin()) exchange->reverse({{atom->torque[0], 3, 3}});
-    return;
-  }
-
-  ev_init(eflag, vflag);
-  if (stale) {
-    adopt_changes();
-    copied = false;
-  }
-  if (neighbor->ago == 0) {
-    atomKK->sync(Host, RMASS_MASK | TAG_MASK | TYPE_MASK);
-    check_masses(lmp, fluid_style, *model);
-  }
-  if (!copied) copy_coeffs();
-  grow();
-
-  atomKK->sync(execution_space, READ);
-  set_particles();
-  run_density();
-  send_density();
-  const bool limited = (model->choice.limit != Limit::NO);
-  if (limited) find_bound();
-  set_state();
-  if (!boundary->empty()) {
-    boundary_device->run(*data, model->choice.kernel, dim, list->inum);
-    send_boundary();
-  }
-  if (crowding_requested) find_crowding();
-  run_forces(vflag_either);
-  atomKK->modified(execution_space, MODIFIED);
-
-  pvector[0] = limited ? beyond_bound_of_limit() : 0.0;
-  if (eflag_either) {
-    atomKK->sync(Host, SPH_RHO_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
-    tally_energy();
-  }
-  nlocal_device = atom->nlocal;
-  nghost_device = atom->nghost;
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::grow()
-{
-  auto reach = [](auto &view, const char *name, int n) {
-    if ((int) view.extent(0) >= n) return;
-    view = std::decay_t<decltype(view)>();    // frees the old one first
-    view = std::decay_t<decltype(view)>(Kokkos::NoInit(name), n);
-  };
-  const int n = atom->nmax;
-  const bool spins = engine->has_spin();
-  reach(data->particle, "sph:particle", n);
-  reach(data->density, "sph:density", n);
-  reach(data->zeta_term, "sph:zeta_term", n);
-  if (spins) reach(data->spin, "sph:spin", n);
-  for (int k = 0; k < (spins ? NCHANNEL : VORTEX); k++) reach(data->heat[k], "sph:heat", n);
-  reach(data->weight, "sph:weight", data->each ? n : 1);
-}
-
-/* ----------------------------------------------------------------------
-   coefficients of types and type pairs, and what the loops need of the model
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::copy_coeffs()
-{
-  const LoopData &engine_data = engine->pairs();
-  const int n = engine_data.ntypes_1;
-  if (!types->extent(0)) {
-    *types = Kokkos::View<TypeKokkos *, DeviceType>("sph:types", n);
-    data->coeff = Kokkos::View<PairCoeff *, DeviceType>("sph:coeff", n * n);
-  }
-  auto h_types = Kokkos::create_mirror_view(*types);
-  auto h_coeff = Kokkos::create_mirror_view(data->coeff);
-  for (int i = 1; i < n; i++) h_types(i) = {model->coeffs[i].eos, model->coeffs[i].zeta};
-  for (int k = 0; k < n * n; k++) h_coeff(k) = engine_data.coeff[k];
-  Kokkos::deep_copy(*types, h_types);
-  Kokkos::deep_copy(data->coeff, h_coeff);
-
-  data->ntypes_1 = n;
-  data->typed = engine_data.uniform ? 0 : 1;
-  data->bulk = model->choice.bulk;
-  data->support = engine_data.support;
-  data->weight_norm = engine_data.weight_norm;
-  data->slope_norm = engine_data.slope_norm;
-  data->self_weight = kernel_weight(model->choice.kernel, dim, 0.0, support);
-
-  data->each = (model->choice.volume == Volume::MASS) ? 1 : 0;
-  data->weight = decltype(data->weight)("sph:weight", 1);    // by mass it is set in each step
-  Kokkos::deep_copy(data->weight, 1.0);
-  copied = true;
-}
-
-/* ----------------------------------------------------------------------
-   what pass 1 reads of owned and ghost atoms
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_particles()
-{
-  auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
-  auto x = atomKK->k_x.template view<DeviceType>();
-  auto vest = avec->k_vest.template view<DeviceType>();
-  auto type = atomKK->k_type.template view<DeviceType>();
-  auto rmass = atomKK->k_rmass.template view<DeviceType>();
-  auto particle = data->particle;
-  auto weight = data->weight;
-  auto coeffs = *types;
-  const bool weighted = data->each;
-
-  Kokkos::parallel_for(
-      "sph:particles", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
-        for (int d = 0; d < 3; d++) {
-          particle(i).x[d] = x(i, d);
-          particle(i).u[d] = vest(i, d);
-        }
-        if (weighted) weight(i) = rmass(i) / coeffs(type(i)).eos.rho0;
-      });
-
-  auto *k_list = static_cast<NeighListKokkos<DeviceType> *>(list);
-  data->ilist = k_list->d_ilist;
-  data->numneigh = k_list->d_numneigh;
-  data->neighbors = k_list->d_neighbors;
-  data->type = type;
-  data->f = atomKK->k_f.template view<DeviceType>();
-  data->desph = avec->k_desph.template view<DeviceType>();
-  if (engine->has_spin()) set_spins();
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_spins()
-{
-  auto *avec = dynamic_cast<AtomVecSPHMicropolarKokkos *>(atom->avec);
-  auto omegaest = avec->k_omegaest.template view<DeviceType>();
-  auto spin = data->spin;
-  data->torque = atomKK->k_torque.template view<DeviceType>();
-
-  Kokkos::parallel_for(
-      "sph:spins", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
-        for (int d = 0; d < 3; d++) spin(i).w[d] = omegaest(i, d);
-      });
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::run_density()
-{
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    typedef decltype(kernel) K;
-    Kokkos::parallel_for("sph:density", Kokkos::RangePolicy<DeviceType>(0, list->inum),
-                         DensityLoopKokkos<DeviceType, K>{*data});
-  });
-}
-
-/* ----------------------------------------------------------------------
-   to the ghosts; LAMMPS has some kinds of communication on the host, whatever the pair style is
-------------------------------------------------------------------------- */
-
-template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::communicates_on_device() const
-{
-  return execution_space == Device && !lmp->kokkos->forward_pair_comm_legacy &&
-      comm->style != Comm::TILED;
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::send_density()
-{
-  const bool ideal = (model->choice.eos == Eos::IDEAL);    // which needs the energy of ghost atoms
-
-  if (communicates_on_device()) {
-    auto *const rows = reinterpret_cast<double *>(data->density.data());
-    sent = ColumnsKokkos();
-    for (int k : {0, 1}) sent.add(rows + k, 2);
-    if (ideal) {
-      auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
-      sent.add(avec->k_esph.template view<DeviceType>());
-    }
-    comm->forward_comm(this, sent.n);
-    return;
-  }
-
-  auto copy = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->density);
-  const Field sums = field(copy.data(), &copy.data()->c, 2);
-  if (ideal) {
-    atomKK->sync(Host, ESPH_MASK);
-    exchange->forward({sums, {atom->esph, 1, 1}});
-    atomKK->modified(Host, ESPH_MASK);
-    atomKK->sync(execution_space, ESPH_MASK);
-  } else
-    exchange->forward({sums});
-  Kokkos::deep_copy(data->density, copy);
-}
-
-/* ----------------------------------------------------------------------
-   of the limit, from the volumes of the densities, for owned and ghost atoms
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::find_bound()
-{
-  auto particle = data->particle;
-  auto density_of = data->density;
-  auto weight = data->weight;
-  const int each = data->each;
-  Kokkos::parallel_for(
-      "sph:volume", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) { particle(i).vol = weight(i * each) / density_of(i).c; });
-
-  if ((int) bound.extent(0) < atom->nmax) {
-    bound = {};
-    bound = decltype(bound)(Kokkos::NoInit("sph:bound"), atom->nmax);
-  }
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    Kokkos::parallel_for(
-        "sph:bound", Kokkos::RangePolicy<DeviceType>(0, list->inum),
-        BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, engine->shear_form(), bound});
-  });
-
-  if (communicates_on_device()) {
-    sent = ColumnsKokkos();
-    sent.add(bound);
-    comm->forward_comm(this, sent.n);
-    return;
-  }
-  auto copy = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), bound);
-  exchange->forward({{copy.data(), 1, 1}});
-  Kokkos::deep_copy(bound, copy);
-}
-
-/* ----------------------------------------------------------------------
-   # of particles of the fluid that are beyond it
-------------------------------------------------------------------------- */
-
-template <class DeviceType> int PairSPHBulkKokkos<DeviceType>::beyond_bound_of_limit() const
-{
-  auto bounds = bound;
-  auto coeffs = *types;
-  auto type = data->type;
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  const int except = not_fluid();
-  int count = 0;
-  Kokkos::parallel_reduce(
-      "sph:beyond", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
-      KOKKOS_LAMBDA(int i, int &sum) {
-        if (!(mask(i) & except) && beyond_bound(coeffs(type(i)).zeta, bounds(i))) sum++;
-      },
-      count);
-  return count;
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::find_crowding()
-{
-  if ((int) crowding_of.extent(0) < atom->nmax) {
-    crowding_of = {};
-    crowding_of = decltype(crowding_of)(Kokkos::NoInit("sph:crowding"), atom->nmax);
-  }
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    Kokkos::parallel_for("sph:crowding", Kokkos::RangePolicy<DeviceType>(0, list->inum),
-                         CrowdingLoopKokkos<DeviceType, decltype(kernel)>{*data, dim, crowding_of});
-  });
-}
-
-/* ----------------------------------------------------------------------
-   what the boundary has set of owned particles; ghosts of the fluid get what they have already
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::send_boundary()
-{
-  static constexpr int FIRST = 3, WIDTH = 5;    // u, vol and g of Particle
-  static constexpr int ROW = sizeof(Particle) / sizeof(double);
-
-  if (communicates_on_device()) {
-    auto *const rows = reinterpret_cast<double *>(data->particle.data());
-    sent = ColumnsKokkos();
-    for (int k = FIRST; k < FIRST + WIDTH; k++) sent.add(rows + k, ROW);
-    sent.add(data->zeta_term);
-    if (engine->has_spin()) {
-      auto *const spins = reinterpret_cast<double *>(data->spin.data());
-      for (int k : {0, 1, 2}) sent.add(spins + k, sizeof(Spin) / sizeof(double));
-    }
-    comm->forward_comm(this, sent.n);
-    return;
-  }
-
-  auto particle = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->particle);
-  auto zeta_term = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->zeta_term);
-  const Field state = field(particle.data(), particle.data()->u, WIDTH);
-  const Field bulk_term = {zeta_term.data(), 1, 1};
-  if (engine->has_spin()) {
-    auto spin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->spin);
-    exchange->forward({state, bulk_term, field(spin.data(), spin.data()->w, 3)});
-    Kokkos::deep_copy(data->spin, spin);
-  } else
-    exchange->forward({state, bulk_term});
-  Kokkos::deep_copy(data->particle, particle);
-  Kokkos::deep_copy(data->zeta_term, zeta_term);
-}
-
-/* ----------------------------------------------------------------------
-   volume, density, pressure and bulk term of owned and ghost atoms; boundary particles, most of whose
-   neighbors are not there, have the reference density of their type
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_state()
-{
-  auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
-  auto rmass = atomKK->k_rmass.template view<DeviceType>();
-  auto rho = avec->k_rho.template view<DeviceType>();
-  auto drho = avec->k_drho.template view<DeviceType>();
-  auto vfrac = avec->k_vfrac.template view<DeviceType>();
-  auto esph = avec->k_esph.template view<DeviceType>();
-  auto desph = data->desph;
-  auto type = data->type;
-  auto particle = data->particle;
-  auto density_of = data->density;
-  auto weight_of = data->weight;
-  auto zeta_term = data->zeta_term;
-  auto coeffs = *types;
-  const int each = data->each;
-  const Eos eos = model->choice.eos;
-  const Bulk bulk = model->choice.bulk;
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  const int boundary_bits = boundary->bits();
-  const bool limited = (model->choice.limit == Limit::YES);
-  auto bounds = bound;
-
-  Kokkos::parallel_for(
-      "sph:state", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
-        if (mask(i) & boundary_bits) {
-          rho(i) = coeffs(type(i)).eos.rho0;
-          vfrac(i) = particle(i).vol = rmass(i) / rho(i);
-          drho(i) = particle(i).g = zeta_term(i) = desph(i) = 0.0;
-          return;
-        }
-        const double weight = weight_of(i * each);
-        const double mass = rmass(i) / weight;
-        const double vol = weight / density_of(i).c;
-        rho(i) = mass * density_of(i).c;
-        drho(i) = mass * density_of(i).cdot;
-        vfrac(i) = vol;
-        const TypeKokkos &coeff = coeffs(type(i));
-        const double zeta = (limited && beyond_bound(coeff.zeta, bounds(i)))
-            ? zeta_at_bound(bounds(i))
-            : coeff.zeta;
-        const ParticleTerms terms = particle_terms(eos, coeff.eos, bulk, zeta, vol, weight,
-                                                   density_of(i).cdot, rho(i), esph(i) / rmass(i));
-        particle(i).vol = vol;
-        particle(i).g = terms.g;
-        zeta_term(i) = terms.zeta_term;
-        desph(i) = terms.work;
-      });
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::run_forces(bool virial)
-{
-  data->vatom = {};
-  if (vflag_atom) data->vatom = decltype(data->vatom)("sph:vatom", atom->nlocal);
-
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    typedef decltype(kernel) K;
-    switch (model->choice.shear) {
-      case Shear::MG:
-        return run_force_loop<K, Shear::MG>(virial);
-      case Shear::MG_FR:
-        return run_force_loop<K, Shear::MG_FR>(virial);
-      case Shear::MORRIS:
-        return run_force_loop<K, Shear::MORRIS>(virial);
-      case Shear::ESPANOL:
-        return run_force_loop<K, Shear::ESPANOL>(virial);
-      case Shear::MICROPOLAR:
-        return run_force_loop<K, Shear::MICROPOLAR>(virial);
-      default:
-        return run_force_loop<K, Shear::NONE>(virial);
-    }
-  });
-
-  if (!vflag_atom) return;
-  const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->vatom);
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int k = 0; k < 6; k++) vatom[i][k] += from(i, k);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType>
-template <class K, Shear SHEAR>
-void PairSPHBulkKokkos<DeviceType>::run_force_loop(bool virial)
-{
-  if (model->choice.bulk == Bulk::VOLUME)
-    run_loop(ForceLoopKokkos<DeviceType, K, SHEAR, true>{*data}, virial);
-  else
-    run_loop(ForceLoopKokkos<DeviceType, K, SHEAR, false>{*data}, virial);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType>
-template <class Loop>
-void PairSPHBulkKokkos<DeviceType>::run_loop(const Loop &loop, bool tally)
-{
-  const auto range = Kokkos::RangePolicy<DeviceType>(0, list->inum);
-  if (!tally) return Kokkos::parallel_for("sph:forces", range, loop);
-  EV_FLOAT ev;
-  Kokkos::parallel_reduce("sph:forces", range, loop, ev);
-  if (vflag_global)
-    for (int k = 0; k < 6; k++) virial[k] += ev.v[k];
+  device->init_list(ptr);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -776,6 +139,7 @@ template <class DeviceType>
 int PairSPHBulkKokkos<DeviceType>::pack_forward_comm_kokkos(int n, DAT::tdual_int_1d to,
                                                             DAT::tdual_double_1d &buf, int, int *)
 {
+  const ColumnsKokkos &sent = device->sent;
   pack_columns<DeviceType>(sent, {buf.template view<DeviceType>().data(), sent.n}, n,
                            to.template view<DeviceType>());
   return n * sent.n;
@@ -785,19 +149,8 @@ template <class DeviceType>
 void PairSPHBulkKokkos<DeviceType>::unpack_forward_comm_kokkos(int n, int nfirst,
                                                                DAT::tdual_double_1d &buf)
 {
+  const ColumnsKokkos &sent = device->sent;
   unpack_columns<DeviceType>(sent, {buf.template view<DeviceType>().data(), sent.n}, n, nfirst);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> double PairSPHBulkKokkos<DeviceType>::memory_usage()
-{
-  double bytes = PairSPHBulk::memory_usage();
-  bytes += (double) data->particle.extent(0) *
-      (sizeof(Particle) + sizeof(DensitySum) + 3 * sizeof(double));
-  return bytes + (double) data->weight.extent(0) * sizeof(double) +
-      boundary_device->memory_usage() +
-      (double) (bound.size() + crowding_of.size()) * sizeof(double);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -23,16 +23,14 @@ PairStyle(sph/micropolar/kk/host,PairSPHMicropolarKokkos<LMPHostType>);
 #define LMP_PAIR_SPH_MICROPOLAR_KOKKOS_H
 
 #include "pair_sph_bulk_kokkos.h"
-#include "pair_sph_micropolar.h"
 
 namespace LAMMPS_NS {
 
-// The loops of sph/bulk/kk with the coefficients of sph/micropolar.
+// sph/bulk/kk with particles that spin
 
-template <class DeviceType>
-class PairSPHMicropolarKokkos : public PairSPHBulkKokkos<DeviceType>, public PairSPHMicropolar {
+template <class DeviceType> class PairSPHMicropolarKokkos : public PairSPHBulkKokkos<DeviceType> {
  public:
-  PairSPHMicropolarKokkos(class LAMMPS *);
+  PairSPHMicropolarKokkos(class LAMMPS *lmp) : PairSPHBulkKokkos<DeviceType>(lmp, true) {}
 };
 
 }    // namespace LAMMPS_NS

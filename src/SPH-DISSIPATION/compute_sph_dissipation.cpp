@@ -19,6 +19,7 @@
 #include "force.h"
 #include "memory.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_forces.h"
 #include "update.h"
 
@@ -53,18 +54,18 @@ ComputeSPHDissipation::~ComputeSPHDissipation()
 
 void ComputeSPHDissipation::init()
 {
-  find_pair();
+  find_own_fluid();
 }
 
 /* ----------------------------------------------------------------------
    looked up at every use, for the pair style may have been replaced since
 ------------------------------------------------------------------------- */
 
-PairSPHBulk *ComputeSPHDissipation::find_pair() const
+Fluid *ComputeSPHDissipation::find_own_fluid() const
 {
-  auto *pair = PairSPHBulk::find(force);
-  if (!pair) error->all(FLERR, "Compute {} requires pair style sph/bulk or sph/micropolar", style);
-  return pair;
+  Fluid *const fluid = find_fluid(force);
+  if (!fluid) error->all(FLERR, "Compute {} requires pair style sph/bulk or sph/micropolar", style);
+  return fluid;
 }
 
 /* ----------------------------------------------------------------------
@@ -73,8 +74,8 @@ PairSPHBulk *ComputeSPHDissipation::find_pair() const
 
 void ComputeSPHDissipation::collect(double *heat_of_each, double *power)
 {
-  const auto *pair = find_pair();
-  const int missing = pair->has_forces() ? 0 : 1;
+  const Fluid *const fluid = find_own_fluid();
+  const int missing = fluid->has_forces() ? 0 : 1;
   int any_missing;
   MPI_Allreduce(&missing, &any_missing, 1, MPI_INT, MPI_MAX, world);
   if (any_missing)
@@ -83,7 +84,7 @@ void ComputeSPHDissipation::collect(double *heat_of_each, double *power)
                style);
 
   double own[NCHANNEL];
-  pair->heating(heat_of_each, own);
+  fluid->heating(heat_of_each, own);
   MPI_Allreduce(own, power, NCHANNEL, MPI_DOUBLE, MPI_SUM, world);
 }
 

@@ -23,6 +23,9 @@ ComputeStyle(sph/dissipation,ComputeSPHDissipation);
 #include "compute.h"
 
 namespace LAMMPS_NS {
+namespace SPHDissipation {
+  class Fluid;
+}
 
 // Power that the dissipative forces of the last force computation turn into heat: total, by
 // channel, and by particle.
@@ -43,7 +46,7 @@ class ComputeSPHDissipation : public Compute {
   int nmax;
   double *heat;
 
-  class PairSPHBulk *find_pair() const;
+  SPHDissipation::Fluid *find_own_fluid() const;
   void collect(double *, double *);
 };
 

@@ -19,8 +19,8 @@
 #include "error.h"
 #include "group.h"
 #include "memory.h"
-#include "pair_sph_bulk.h"
 #include "sph_dissipation_fft.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_grid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_spectrum.h"
@@ -222,8 +222,8 @@ void ComputeSPHSpectrum::transform_fields()
 void ComputeSPHSpectrum::set_raise()
 {
   const double *const prd = domain->prd;
-  const double support = find_pair()->support_radius();
-  const Kernel kernel = find_pair()->fluid().choice.kernel;
+  const double support = find_own_fluid()->support_radius();
+  const Kernel kernel = find_own_fluid()->model->choice.kernel;
   const std::vector<double> made_for = {prd[0], prd[1], prd[2], support,
                                         static_cast<double>(kernel)};
   if (!raise.empty() && made_for == raised_for) return;
@@ -309,12 +309,12 @@ void ComputeSPHSpectrum::set_dissipation()
 {
   // largest and smallest values, of all particles of all processors
 
-  const auto *pair = find_pair();
+  const Fluid *const fluid = find_own_fluid();
   double own[4] = {-1.0, -1.0, -HUGE_VAL, -HUGE_VAL}, most[4];
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_mapped(pair, i)) continue;
-    const double mu = pair->fluid().viscosity(0, atom->type[i], atom->type[i]);
-    const double kappa = pair->bulk_viscosity(atom->type[i]);
+    if (!is_mapped(fluid, i)) continue;
+    const double mu = fluid->model->viscosity(0, atom->type[i], atom->type[i]);
+    const double kappa = fluid->bulk_viscosity(atom->type[i]);
     own[0] = std::max(own[0], mu);
     own[1] = std::max(own[1], kappa);
     own[2] = std::max(own[2], -mu);

@@ -19,6 +19,9 @@
 #include "error.h"
 #include "force.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_fluid.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_noise.h"
 #include "update.h"
 
 #include <algorithm>
@@ -116,17 +119,17 @@ double ComputeSPHTemp::rotational() const
 
 double ComputeSPHTemp::internal() const
 {
-  const auto *const pair = PairSPHBulk::find(force);
-  if (!pair || !pair->has_own_temperatures()) return 0.0;
-  if (!pair->is_set_up())
+  const auto *const fluid = SPHDissipation::find_fluid(force);
+  if (!fluid || !fluid->model->choice.own_temperatures) return 0.0;
+  if (!fluid->is_set_up())
     error->all(FLERR,
                "Compute {} needs the coefficients of the pair style that is there now: use run 0 "
                "first",
                style);
   double own[2] = {}, all[2];    // particles with heat, and their 1/T_i
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit) || !pair->has_type(atom->type[i])) continue;
-    const double temperature = pair->internal_temperature(i);
+    if (!(atom->mask[i] & groupbit) || !fluid->has_type(atom->type[i])) continue;
+    const double temperature = fluid->noise->internal_temperature(i);
     if (!(temperature > 0.0)) continue;
     own[0] += 1.0;
     own[1] += 1.0 / temperature;

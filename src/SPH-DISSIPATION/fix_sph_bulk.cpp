@@ -22,7 +22,10 @@
 #include "modify.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_crowding.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_integrate.h"
+#include "sph_dissipation_model.h"
 #include "sph_dissipation_shift_terms.h"
 #include "sph_dissipation_suffix.h"
 #include "sph_dissipation_viscous.h"
@@ -44,8 +47,9 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), fluid_style(without_suffix(style)), dtv(0.0), dtf(0.0), dt_of_forces(0.0),
     extrapolation(1.0), balanced(false), exact(false), density_done(0), shift_speed(0.0),
     remap_v_flag(0), integrated_groups(0), first_instance(false),
-    viscous(new ViscousKeywords(lmp, style)), pair(nullptr), last(), density_flag(0), set_up(false),
-    energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0)
+    viscous(new ViscousKeywords(lmp, style)), fluid(nullptr), last(), density_flag(0),
+    set_up(false), energy_extrapolated(false), setup_step(0), last_instance(false),
+    not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -121,26 +125,26 @@ void FixSPHBulk::init()
 
   if (first_instance) check_integrated_once();
 
-  pair = find_pair();
-  const bool noise = pair && pair->has_noise();
+  fluid = find_own_fluid();
+  const bool noise = fluid && fluid->model->choice.thermal;
   extrapolation = viscous->settings().extrapolation(noise);
-  balanced = pair && pair->has_own_temperatures() && pair->compute_flag;
+  balanced = fluid && fluid->model->choice.own_temperatures && fluid->pair->compute_flag;
   exact = balanced || has_viscous_stage();
   if (noise && shift_speed > 0.0)
     error->all(FLERR,
                "Fix {} shift cannot be used with temp of pair style {}: a shifted fluid has no "
                "thermal equilibrium",
                style, style);
-  if (density_flag && !pair)
+  if (density_flag && !fluid)
     error->all(FLERR, "Fix {} density requires pair style {}", style, style);
   if (shift_speed > 0.0 && update->whichflag != 2) {
-    if (!pair) error->all(FLERR, "Fix {} shift requires pair style {}", style, style);
-    if (!pair->compute_flag)
+    if (!fluid) error->all(FLERR, "Fix {} shift requires pair style {}", style, style);
+    if (!fluid->pair->compute_flag)
       error->all(FLERR,
                  "Fix {} shift needs the forces of pair style {}, which pair_modify compute no "
                  "leaves out",
                  style, style);
-    pair->request_crowding();
+    fluid->crowding->wanted = true;
   }
 
   init_viscous();
@@ -153,9 +157,10 @@ void FixSPHBulk::init()
 
 /* ---------------------------------------------------------------------- */
 
-PairSPHBulk *FixSPHBulk::find_pair() const
+Fluid *FixSPHBulk::find_own_fluid() const
 {
-  return dynamic_cast<PairSPHBulk *>(force->pair_match("^" + fluid_style, 0));
+  Fluid *const found = find_fluid(force);
+  return (found && found->style == fluid_style) ? found : nullptr;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -178,7 +183,7 @@ void FixSPHBulk::init_viscous()
                "Fix {} viscous rkl2 or implicit cannot be used in a minimization, which has no "
                "velocities",
                style);
-  if (!pair || !pair->compute_flag)
+  if (!fluid || !fluid->pair->compute_flag)
     error->all(FLERR, "Fix {} viscous rkl2 or implicit requires the forces of pair style {}", style,
                style);
   if (settings.force_is_a_mean() && !modify->get_fix_by_style("^dt/reset").empty())
@@ -187,17 +192,17 @@ void FixSPHBulk::init_viscous()
         "Fix {} viscous rkl2, or implicit with scheme sdirk2 or euler, cannot be used with fix "
         "dt/reset, whose time step may jump, which creates kinetic energy; use fix sph/dt",
         style);
-  if (pair->has_noise() && !settings.trapezoidal())
+  if (fluid->model->choice.thermal && !settings.trapezoidal())
     error->all(FLERR,
                "Pair style {} with temp needs fix {} viscous explicit or implicit with scheme "
                "trapezoidal: others damp the fast motions more than the noise excites them",
                style, style);
-  if (pair->has_own_temperatures())
+  if (fluid->model->choice.own_temperatures)
     error->all(FLERR,
                "Pair style {} with temp energy needs fix {} viscous explicit: its friction depends "
                "on the temperatures",
                style, style);
-  pair->set_viscous(settings, integrated_groups);
+  fluid->viscous->configure(settings, integrated_groups, fluid_style);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -213,8 +218,8 @@ bool FixSPHBulk::has_viscous_stage() const
 
 double FixSPHBulk::compute_vector(int n)
 {
-  const auto *now = PairSPHBulk::find(force);    // it may have been replaced since
-  return now ? now->viscous_statistics()[n] : 0.0;
+  const auto *now = find_fluid(force);    // it may have been replaced since
+  return now ? now->viscous->statistics[n] : 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -249,8 +254,8 @@ void FixSPHBulk::setup(int /*vflag*/)
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) atom->esph[i] += avec()->desph_before[i];
   energy_extrapolated = false;
-  if (!pair || !last_instance) return;
-  pair->announce();
+  if (!fluid || !last_instance) return;
+  fluid->announce();
   warn_not_integrated();
 }
 
@@ -267,7 +272,7 @@ void FixSPHBulk::warn_not_integrated()
   bigint count = 0, all;
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
-    if (!(atom->mask[i] & integrated) && pair->has_type(type) && !pair->is_boundary(i)) count++;
+    if (!(atom->mask[i] & integrated) && fluid->has_type(type) && !fluid->is_boundary(i)) count++;
   }
   MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
 
@@ -290,7 +295,7 @@ void FixSPHBulk::setup_pre_exchange()
   if (update->whichflag == 0) return;    // from a command that moves particles between processors
   const bool continued = is_continued();
   if (first_instance) reset_extrapolation(0, atom->nlocal, integrated_groups);
-  if (pair) pair->set_continued(continued && (first_instance || pair->is_continued()));
+  if (fluid) fluid->continued = continued && (first_instance || fluid->continued);
   double *const desph_before = avec()->desph_before;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
@@ -318,7 +323,7 @@ void FixSPHBulk::post_run()
 /* ----------------------------------------------------------------------
    Sums of two numbers of 32 bits that follow from the bits of the velocity and the spin, the position, as
    far as writing a restart file leaves it alone, the type, and the ID.  Walls set their velocity themselves,
-   see PairSPHBulk::note_change().
+   see Fluid::note_change().
 ------------------------------------------------------------------------- */
 
 FixSPHBulk::Motion FixSPHBulk::find_motion() const
@@ -328,9 +333,9 @@ FixSPHBulk::Motion FixSPHBulk::find_motion() const
       0.75487766624669276 * 16777216.0 / length;    // no fraction: lattices have those
   Motion motion = {0, {0, 0}, dtv};
   for (int i = 0; i < atom->nlocal; i++) {
-    const bool wall = pair && pair->is_boundary(i);
-    const bool driven = first_instance && pair && pair->has_type(atom->type[i]) &&
-        !(atom->mask[i] & (integrated_groups | pair->not_fluid()));
+    const bool wall = fluid && fluid->is_boundary(i);
+    const bool driven = first_instance && fluid && fluid->has_type(atom->type[i]) &&
+        !(atom->mask[i] & (integrated_groups | fluid->not_fluid()));
     const bool moves = driven || (atom->mask[i] & groupbit);
     if (!moves && !wall) continue;
     std::uint64_t number =
@@ -410,7 +415,7 @@ void FixSPHBulk::set_arrays(int i)
 void FixSPHBulk::arrive(int i)
 {
   avec()->desph_before[i] = 0.0;
-  if (has_viscous_stage()) pair->carry_other_force(i, time_step().keep);
+  if (has_viscous_stage()) fluid->viscous->carry_force(i, time_step().keep);
 }
 
 /* ----------------------------------------------------------------------
@@ -438,7 +443,7 @@ void FixSPHBulk::setup_pre_force(int /*vflag*/)
 void FixSPHBulk::set_masses()
 {
   if (!density_flag || density_done) return;
-  pair->set_mean_density(groupbit);
+  fluid->set_mean_density(groupbit);
   density_done = 1;
 }
 
@@ -472,9 +477,9 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
     if (!(mask[i] & groupbit)) continue;
     const double dtfm = dtf / rmass[i];
     step.begin_energy(desph[i], esph[i], desph_before[i]);
-    if (exact) esph[i] += rest_of_heat(v[i], vest[i], f[i], pair->own_force(i), 1.0 / rmass[i]);
+    if (exact) esph[i] += rest_of_heat(v[i], vest[i], f[i], fluid->own_force(i), 1.0 / rmass[i]);
     for (int d = 0; d < 3; d++) step.begin(dtfm, f[i][d], x[i][d], v[i][d], vest[i][d]);
-    if (stage) pair->carry_other_force(i, step.keep);
+    if (stage) fluid->viscous->carry_force(i, step.keep);
   }
   if (shift_speed > 0.0) shift_particles();
 }
@@ -486,8 +491,8 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
 void FixSPHBulk::check_set_up()
 {
   SPHDissipation::check_set_up(lmp, this, set_up);
-  const PairSPHBulk *const now = find_pair();
-  if (now != pair || (now && !now->is_set_up()))
+  const Fluid *const now = find_own_fluid();
+  if (now != fluid || (now && !now->is_set_up()))
     error->all(FLERR, Error::NOLASTLINE,
                "Fix {} {}: the pair style or its coefficients were changed after the last run was "
                "set up: the next one cannot be a run with pre no",
@@ -529,11 +534,11 @@ double FixSPHBulk::rest_of_heat(const double *v, const double *acting, const dou
 
 void FixSPHBulk::shift_particles()
 {
-  const double support = pair->support_radius();
+  const double support = fluid->support_radius();
   const int nlocal = nlocal_group();
   for (int i = 0; i < nlocal; i++)
     if (atom->mask[i] & groupbit)
-      shift_particle(shift_speed, support, dtv, pair->crowding(i), atom->x[i]);
+      shift_particle(shift_speed, support, dtv, fluid->crowding->crowding[i], atom->x[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -591,7 +596,7 @@ void FixSPHBulk::final_integrate()
     const double dtfm = dtf / rmass[i];
     step.end_energy(desph[i], desph_before[i], esph[i]);
     if (exact) {
-      const double rest = rest_of_heat(v[i], vest[i], f[i], pair->own_force(i), 1.0 / rmass[i]);
+      const double rest = rest_of_heat(v[i], vest[i], f[i], fluid->own_force(i), 1.0 / rmass[i]);
       esph[i] += rest;
       desph_before[i] += rest;
     }

@@ -24,6 +24,7 @@ FixStyle(sph/bulk,FixSPHBulk);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class Fluid;
   class ViscousKeywords;
   struct TimeStep;
 }    // namespace SPHDissipation
@@ -90,7 +91,7 @@ class FixSPHBulk : public Fix {
   double rest_of_heat(const double *v, const double *acting, const double *f, const double *own,
                       double mass_inv) const;
   SPHDissipation::ViscousKeywords *viscous;
-  class PairSPHBulk *pair;    // of the same name, if there is one
+  SPHDissipation::Fluid *fluid;    // of the same name, if there is one
 
   // extrapolated quantities of particles from the first number to before the second, but those with
   // a bit of the third in their mask: at the start of a run, when they arrive, or if no such fix
@@ -119,7 +120,7 @@ class FixSPHBulk : public Fix {
   void check_integrated_once();
   void warn_of_jump() const;
   void init_viscous();
-  class PairSPHBulk *find_pair() const;
+  SPHDissipation::Fluid *find_own_fluid() const;
   void warn_not_integrated();
   void add_remapped_velocity();
   void shift_particles();

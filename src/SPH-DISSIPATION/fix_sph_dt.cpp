@@ -23,7 +23,8 @@
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_coeffs.h"
-#include "sph_dissipation_table.h"
+#include "sph_dissipation_fluid.h"
+#include "sph_dissipation_viscous.h"
 #include "update.h"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ static double part_of(double part, double time)
 /* ---------------------------------------------------------------------- */
 
 FixSPHDt::FixSPHDt(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), pair(nullptr), part{SPHDissipation::ACOUSTIC, 1.0, 0.25}, given(),
+    Fix(lmp, narg, arg), fluid(nullptr), part{SPHDissipation::ACOUSTIC, 1.0, 0.25}, given(),
     smallest(0.0), largest(UNLIMITED_STEP), limits(), set_up(false)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix sph/dt", error);
@@ -100,8 +101,8 @@ void FixSPHDt::init()
     error->all(FLERR, "Fix {} does not support run_style respa", style);
   if (modify->get_fix_by_style("^sph/dt").size() + modify->get_fix_by_style("^dt/reset").size() > 1)
     error->all(FLERR, "Fix {}: only one fix can set the time step", style);
-  pair = PairSPHBulk::find(force);
-  if (!pair || !pair->compute_flag)
+  fluid = find_fluid(force);
+  if (!fluid || !fluid->pair->compute_flag)
     error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
 }
 
@@ -116,7 +117,7 @@ void FixSPHDt::setup_pre_force(int /*vflag*/)
   for (const auto &ifix : modify->get_fix_list())
     if (auto *integrator = dynamic_cast<FixSPHBulk *>(ifix)) integrators.push_back(integrator);
   for (const auto &integrator : integrators) integrator->set_masses();
-  pair->find_volumes();
+  fluid->find_volumes();
   for (const auto &integrator : integrators) integrator->set_inertia();
 
   limits[FORCE] = UNLIMITED_STEP;
@@ -131,9 +132,9 @@ void FixSPHDt::setup_pre_force(int /*vflag*/)
 void FixSPHDt::setup(int /*vflag*/)
 {
   set_up = true;
-  limits[FORCE] = part_of(part[FORCE], pair->fall_time());
+  limits[FORCE] = part_of(part[FORCE], fluid->fall_time());
   const double step = allowed_step();
-  reset_step(pair->has_viscous_stage() ? std::min(step, update->dt) : step);
+  reset_step(fluid->viscous->active() ? std::min(step, update->dt) : step);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -141,7 +142,7 @@ void FixSPHDt::setup(int /*vflag*/)
 void FixSPHDt::end_of_step()
 {
   check_set_up(lmp, this, set_up);
-  limits[FORCE] = part_of(part[FORCE], pair->fall_time());
+  limits[FORCE] = part_of(part[FORCE], fluid->fall_time());
   reset_step(std::min(allowed_step(), GROWTH * update->dt));
 }
 
@@ -152,9 +153,9 @@ void FixSPHDt::end_of_step()
 
 double FixSPHDt::allowed_step()
 {
-  const SPHDissipation::CoeffTable table = pair->coeff_table();
+  const SPHDissipation::CoeffTable table = fluid->coeff_table();
   limits[ACOUSTIC] = part_of(part[ACOUSTIC] / SPHDissipation::ACOUSTIC, table.acoustic_step());
-  const bool limited = given[VISCOUS] || !pair->has_viscous_stage();
+  const bool limited = given[VISCOUS] || !fluid->viscous->active();
   limits[VISCOUS] = limited ? part_of(part[VISCOUS], table.viscous_step()) : UNLIMITED_STEP;
   double step = *std::min_element(limits, limits + NLIMIT);
   if (step >= UNLIMITED_STEP && largest >= UNLIMITED_STEP) step = update->dt;

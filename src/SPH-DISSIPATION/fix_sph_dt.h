@@ -23,6 +23,9 @@ FixStyle(sph/dt,FixSPHDt);
 #include "fix.h"
 
 namespace LAMMPS_NS {
+namespace SPHDissipation {
+  class Fluid;
+}
 
 // The time step follows the limits that sound, viscosity, and forces set to a particle fluid.
 
@@ -39,7 +42,7 @@ class FixSPHDt : public Fix {
 
  private:
   enum { ACOUSTIC, VISCOUS, FORCE, NLIMIT };
-  class PairSPHBulk *pair;
+  SPHDissipation::Fluid *fluid;
   double part[NLIMIT];         // of the limits
   bool given[NLIMIT];          // by the keyword
   double smallest, largest;    // time steps

@@ -20,8 +20,11 @@
 #include "error.h"
 #include "force.h"
 #include "neighbor.h"
-#include "pair_sph_micropolar.h"
+#include "pair_sph_bulk.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_integrate.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_viscous.h"
 
 #include <cmath>
 #include <cstring>
@@ -59,7 +62,7 @@ FixSPHMicropolar::FixSPHMicropolar(LAMMPS *lmp, int narg, char **arg) :
 void FixSPHMicropolar::init()
 {
   FixSPHBulk::init();
-  if (inertia_flag && !pair)
+  if (inertia_flag && !fluid)
     error->all(FLERR, "Fix {} inertia requires pair style {}, which gives the volumes", style,
                style);
 }
@@ -70,7 +73,7 @@ void FixSPHMicropolar::setup_pre_force(int vflag)
 {
   FixSPHBulk::setup_pre_force(vflag);
   if (!has_viscous_stage()) return;    // which needs the inertia for the first forces
-  pair->find_volumes();
+  fluid->find_volumes();
   set_inertia();
 }
 
@@ -125,7 +128,8 @@ void FixSPHMicropolar::arrive(int i)
 {
   FixSPHBulk::arrive(i);
   if (inertia_flag) set_inertia_of(i);
-  if (has_viscous_stage()) pair->carry_other_torque(i);
+  if (has_viscous_stage())
+    fluid->viscous->carry_torque(i, spinning()->inertia, spinning()->omegaest);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -144,8 +148,8 @@ void FixSPHMicropolar::set_inertia_of(int i)
 {
   double &inertia = spinning()->inertia[i];
   if (inertia > 0.0) return;
-  const auto *pair = PairSPHBulk::find(force);
-  const double volume = atom->rmass[i] / pair->reference_density(atom->type[i]);
+  const FluidModel &model = *find_fluid(force)->model;
+  const double volume = atom->rmass[i] / model.coeffs[atom->type[i]].eos.rho0;
   inertia = factor * pow(volume, 2.0 / domain->dimension) + offset;
 }
 
@@ -153,8 +157,7 @@ void FixSPHMicropolar::set_inertia_of(int i)
 
 bool FixSPHMicropolar::has_torques() const
 {
-  const auto *micropolar = dynamic_cast<PairSPHMicropolar *>(pair);
-  return micropolar && micropolar->has_torques();
+  return fluid && fluid->has_torques();
 }
 
 /* ----------------------------------------------------------------------
@@ -232,7 +235,7 @@ void FixSPHMicropolar::integrate_spin(bool begin)
     const double dti = dtf * inverse;
     if (exact) {
       const double rest =
-          rest_of_heat(omega[i], omegaest[i], torque[i], pair->own_torque(i), inverse);
+          rest_of_heat(omega[i], omegaest[i], torque[i], fluid->own_torque(i), inverse);
       atom->esph[i] += rest;
       if (!begin) avec()->desph_before[i] += rest;
     }
@@ -242,7 +245,8 @@ void FixSPHMicropolar::integrate_spin(bool begin)
       else
         step.end(dti, torque[i][d], omega[i][d]);
     }
-    if (begin && has_viscous_stage()) pair->carry_other_torque(i);
+    if (begin && has_viscous_stage())
+      fluid->viscous->carry_torque(i, spinning()->inertia, spinning()->omegaest);
   }
 }
 

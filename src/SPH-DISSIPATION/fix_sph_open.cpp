@@ -25,7 +25,7 @@
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_engine.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_checks.h"
 #include "sph_dissipation_open_condition.h"
@@ -68,7 +68,7 @@ enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), condition(nullptr),
-    rows(nullptr), ledger(nullptr), pair(nullptr), integrator(nullptr), avec(nullptr),
+    rows(nullptr), ledger(nullptr), fluid(nullptr), integrator(nullptr), avec(nullptr),
     spinning(nullptr), fluidbit(0), radius(0.0), area(0.0), is_new(false), supersonic(false),
     gap(false), set_up(false), totals_known(false), totals(new double[NVECTOR])
 {
@@ -140,7 +140,7 @@ int FixSPHOpen::keyword_argument(int iarg, int narg, char **arg)
 
 FixSPHOpen::~FixSPHOpen()
 {
-  if (auto *fluid = PairSPHBulk::find(force)) fluid->remove_open_zone(this);
+  if (auto *fluid = find_fluid(force)) fluid->open->remove(this);
   delete ledger;
   delete rows;
   delete condition;
@@ -161,8 +161,8 @@ int FixSPHOpen::setmask()
 
 void FixSPHOpen::init()
 {
-  pair = PairSPHBulk::find(force);
-  if (!pair) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
+  fluid = find_fluid(force);
+  if (!fluid) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix {} does not support run_style respa", style);
   if (update->whichflag == 2)
@@ -173,33 +173,33 @@ void FixSPHOpen::init()
                "Fix {} cannot be used with rerun: snapshots have neither the groups of the "
                "particles nor the waves in the zone",
                style);
-  if (pair->has_noise())
+  if (fluid->model->choice.thermal)
     error->all(FLERR,
                "Fix {} cannot be used with temp of the pair style: its particles do not fluctuate",
                style);
   if (update->dt < 0.0)
     error->all(FLERR, "Fix {}: the time step must not be negative: what has left is gone", style);
-  pair->add_open_zone(this);
+  fluid->open->add(this);
   spinning = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
   avec = spinning ? spinning : dynamic_cast<AtomVecSPHBulk *>(atom->style_match("sph/bulk"));
 
   const int fluid_group = group->find(fluid_name);
   if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, fluid_name);
   fluidbit = group->bitmask[fluid_group];
-  check_open_groups(lmp, this, pair, fluid_group);
+  check_open_groups(lmp, this, fluid, fluid_group);
   check_open_lists(lmp, this, fluidbit);
   integrator = find_open_integrator(lmp, this, fluid_group);
 
-  const double support = pair->support_radius();
+  const double support = fluid->support_radius();
   plane->init();
-  values->init(pair->fluid().choice.eos == Eos::IDEAL);
-  condition->init(pair->fluid());
+  values->init(fluid->model->choice.eos == Eos::IDEAL);
+  condition->init(*fluid->model);
   if (area > 0.0)
     rows->set_distance([this](int i) {
       return atom->rmass[i] / (area * (*values)(OpenValues::RHO, i));
     });
   rows->init(support, fluidbit);
-  if (rows->are_new()) check_open_styles(lmp, this, pair, fluidbit);
+  if (rows->are_new()) check_open_styles(lmp, this, fluid, fluidbit);
 
   // a small radius, for it smooths the profile, but with a few particles
 
@@ -218,10 +218,10 @@ void FixSPHOpen::init()
 
 void FixSPHOpen::set_times()
 {
-  const double support = pair->support_radius();
+  const double support = fluid->support_radius();
   double slowest = 1.0e300;
   for (int type = 1; type <= atom->ntypes; type++)
-    if (pair->has_type(type)) slowest = std::min(slowest, pair->fluid().coeffs[type].eos.c0);
+    if (fluid->has_type(type)) slowest = std::min(slowest, fluid->model->coeffs[type].eos.c0);
   const double crossing = support / slowest;
   const double averaging = condition->averaging_time;
   samples->set_times(averaging > 0.0 ? averaging : AVERAGING * crossing,
@@ -248,11 +248,11 @@ void FixSPHOpen::setup_pre_exchange()
   check_open_places(lmp, this, *plane, fluidbit);
   values->evaluate(igroup);
   if (condition->given_velocity() && !samples->any()) {
-    pair->note_change();
+    fluid->note_change();
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) set_velocity(i);
   }
-  check_open_length(lmp, this, *plane, pair->support_radius(), rows->largest_spacing());
+  check_open_length(lmp, this, *plane, fluid->support_radius(), rows->largest_spacing());
   is_new = rows->are_new();
   if (is_new && integrator->has_set_masses()) check_open_masses(lmp, this, fluidbit);
   pre_exchange();
@@ -271,7 +271,7 @@ void FixSPHOpen::setup_pre_force(int /*vflag*/)
 
 void FixSPHOpen::find_members()
 {
-  const double reach = pair->support_radius() + neighbor->skin;
+  const double reach = fluid->support_radius() + neighbor->skin;
   members.clear();
   for (int i = 0; i < atom->nlocal; i++)
     if ((atom->mask[i] & groupbit) || ((atom->mask[i] & fluidbit) && zone_near(atom->x[i], reach)))
@@ -430,14 +430,14 @@ void FixSPHOpen::set_impact(const OpenImpact &impact)
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHOpen::set_state(Engine &engine)
+void FixSPHOpen::set_states(OpenStage &stage)
 {
   set_times();
-  sample(engine);
+  sample(stage);
   if (is_new) check_density();
   is_new = false;
   for (const int i : members)
-    if (atom->mask[i] & groupbit) set_pressure(engine, i);
+    if (atom->mask[i] & groupbit) set_state(stage, i);
   totals_known = false;
 }
 
@@ -450,7 +450,7 @@ void FixSPHOpen::check_density() const
   std::vector<double> ratios;
   for (const int i : members)
     if ((atom->mask[i] & groupbit) &&
-        plane->height(atom->x[i]) > pair->support_radius() - plane->length)
+        plane->height(atom->x[i]) > fluid->support_radius() - plane->length)
       ratios.push_back(atom->rho[i] / condition->prescribed_density(i));
   check_open_density(lmp, this, ratios);
 }
@@ -460,7 +460,7 @@ void FixSPHOpen::check_density() const
    moment
 ------------------------------------------------------------------------- */
 
-void FixSPHOpen::sample(Engine &engine)
+void FixSPHOpen::sample(const OpenStage &stage)
 {
   std::vector<int> near;
   for (const int i : members) {
@@ -474,18 +474,18 @@ void FixSPHOpen::sample(Engine &engine)
 
   samples->begin(condition->clock);
   for (const int i : near) {
-    const Particle &particle = engine.particle[i];
+    const Particle &particle = stage.particle(i);
     samples->add(particle.x, plane->height(particle.x), particle.vol,
-                 condition->sample(i, particle), engine.kernel_form(), radius);
+                 condition->sample(i, particle), fluid->model->choice.kernel, radius);
   }
   samples->finish(condition->clock);
 
   if (neighbor->ago > 0) return;
-  if (!gap) gap = warn_of_gap(lmp, this, *plane, pair, fluidbit, radius, rows->largest_spacing());
+  if (!gap) gap = warn_of_gap(lmp, this, *plane, fluid, fluidbit, radius, rows->largest_spacing());
   if (supersonic) return;
   if (!condition->given_velocity() && !condition->given_state()) return;
   supersonic = warn_of_supersonic(lmp, this, std::count_if(near.begin(), near.end(), [&](int i) {
-                                    return condition->is_supersonic(i, engine.particle[i]);
+                                    return condition->is_supersonic(i, stage.particle(i));
                                   }));
 }
 
@@ -493,13 +493,13 @@ void FixSPHOpen::sample(Engine &engine)
    the bulk term of a particle of the zone is its own: it has a full support where it counts
 ------------------------------------------------------------------------- */
 
-void FixSPHOpen::set_pressure(Engine &engine, int i)
+void FixSPHOpen::set_state(OpenStage &stage, int i)
 {
   double p, rho;
   condition->state(i, p, rho);
   if (!(rho > 0.0)) {
     const double energy = condition->energy(i);
-    if (pair->fluid().choice.eos == Eos::IDEAL && !(energy > 0.0))
+    if (fluid->model->choice.eos == Eos::IDEAL && !(energy > 0.0))
       error->one(FLERR,
                  "Fix {} {}: particle {} has an internal energy of {:g} per mass at step {}, from "
                  "which eos ideal makes no pressure: give the zone one by keyword energy or set",
@@ -507,13 +507,7 @@ void FixSPHOpen::set_pressure(Engine &engine, int i)
     error->one(FLERR, "Fix {} {}: particle {} would have density {:g} and pressure {:g} at step {}",
                style, id, atom->tag[i], rho, p, update->ntimestep);
   }
-
-  Particle &particle = engine.particle[i];
-  atom->rho[i] = rho;
-  atom->vfrac[i] = particle.vol = atom->rmass[i] / rho;
-  const double c_inv = particle.vol / engine.weight(i);
-  if (engine.bulk_form() == Bulk::DENSITY) p += engine.zeta_term[i];
-  particle.g = p * c_inv * c_inv;
+  stage.set_state(i, rho, p);
 }
 
 /* ----------------------------------------------------------------------

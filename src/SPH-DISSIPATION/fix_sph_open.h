@@ -29,6 +29,7 @@ FixStyle(sph/open,FixSPHOpen);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class Fluid;
   class OpenCondition;
   class OpenLedger;
   class OpenPlane;
@@ -62,7 +63,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   int zone_bit() const override { return groupbit; }
   int fluid_bit() const override { return fluidbit; }
   bool zone_near(const double *, double) const override;
-  void set_state(SPHDissipation::Engine &) override;
+  void set_states(SPHDissipation::OpenStage &) override;
   void set_impact(const SPHDissipation::OpenImpact &) override;
 
  private:
@@ -72,7 +73,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   SPHDissipation::OpenCondition *condition;
   SPHDissipation::OpenRows *rows;
   SPHDissipation::OpenLedger *ledger;
-  class PairSPHBulk *pair;
+  SPHDissipation::Fluid *fluid;
   class FixSPHBulk *integrator;    // of the fluid
   class AtomVecSPHBulk *avec;
   class AtomVecSPHMicropolar *spinning;    // the same, or nullptr
@@ -98,8 +99,8 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void set_velocity(int i);
   void set_spin(int i);
   void check_density() const;
-  void sample(SPHDissipation::Engine &);
-  void set_pressure(SPHDissipation::Engine &, int i);
+  void sample(const SPHDissipation::OpenStage &);
+  void set_state(SPHDissipation::OpenStage &, int i);
 };
 
 }    // namespace LAMMPS_NS

@@ -27,6 +27,7 @@
 #include "npair.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_refine_event.h"
 #include "sph_dissipation_refine_ledger.h"
@@ -58,7 +59,7 @@ enum { LEDGER = 1, HIGHEST = LEDGER + RefineLedger::NVALUE, NSTATE };
 /* ---------------------------------------------------------------------- */
 
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), target(nullptr), ledger(nullptr), event(nullptr), pair(nullptr),
+    Fix(lmp, narg, arg), target(nullptr), ledger(nullptr), event(nullptr), fluid(nullptr),
     list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr),
     not_fluid(0), last_step(-1), event_step(-1), postponed(false), totals_known(false),
     set_up(false), totals(new double[RefineLedger::NVALUE])
@@ -172,16 +173,16 @@ int FixSPHRefine::setmask()
 
 void FixSPHRefine::init()
 {
-  pair = PairSPHBulk::find(force);
-  if (!pair) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
+  fluid = find_fluid(force);
+  if (!fluid) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
   check_setup();
-  if (pair->fluid().choice.volume != Volume::MASS)
+  if (fluid->model->choice.volume != Volume::MASS)
     error->all(FLERR,
                "Fix {} requires pair_style {} volume mass: with volume number, particles of "
                "unequal size next to each other have volumes that are wrong by half, whatever "
                "their distance",
-               style, force->pair_match("^sph/bulk", 0) ? "sph/bulk" : "sph/micropolar");
-  if (pair->dimension() != domain->dimension)
+               style, fluid->style);
+  if (fluid->dimension() != domain->dimension)
     error->all(FLERR, "Fix {} requires a kernel of the dimension of the simulation", style);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix {} does not support run_style respa", style);
@@ -195,7 +196,7 @@ void FixSPHRefine::init()
                style);
   check_overlap();
 
-  const double support = pair->support_radius();
+  const double support = fluid->support_radius();
   target->init(support, domain->dimension);
   event->init(support, merge_below);
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
@@ -211,8 +212,8 @@ void FixSPHRefine::find_waiting()
   constexpr double ROUNDOFF = 1.0e-6;
   waiting.assign(atom->ntypes + 1, 0.0);
   for (int type = 1; type <= atom->ntypes; type++)
-    if (pair->has_type(type)) {
-      const double crossing = pair->support_radius() / pair->fluid().coeffs[type].eos.c0;
+    if (fluid->has_type(type)) {
+      const double crossing = fluid->support_radius() / fluid->model->coeffs[type].eos.c0;
       waiting[type] = ceil((wait < 0.0 ? crossing : wait) / update->dt - ROUNDOFF);
     }
 }
@@ -246,7 +247,7 @@ void FixSPHRefine::init_list(int /*id*/, NeighList *ptr)
 
 bool FixSPHRefine::is_fluid(int i) const
 {
-  return !(atom->mask[i] & not_fluid) && pair->has_type(atom->type[i]);
+  return !(atom->mask[i] & not_fluid) && fluid->has_type(atom->type[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -293,7 +294,7 @@ void FixSPHRefine::post_integrate()
   if (postponed) return;
 
   target->evaluate(igroup);
-  not_fluid = pair->not_fluid();
+  not_fluid = fluid->not_fluid();
   find_waiting();
   bigint nfluid;
   if (!wanted(nfluid)) return;
@@ -306,7 +307,7 @@ void FixSPHRefine::post_integrate()
   if (!event->plan(list, std::max(most, static_cast<bigint>(1)))) return;
 
   totals_known = false;
-  ledger->add(RefineLedger::ELASTIC, -pair->elastic_energy(PairSPHBulk::NOW));
+  ledger->add(RefineLedger::ELASTIC, -fluid->elastic_energy(Fluid::NOW));
   event->carry_out(list, [this](int i, double family) {
     past[i][STEP] = static_cast<double>(update->ntimestep);
     past[i][FAMILY] = family;
@@ -387,7 +388,7 @@ void FixSPHRefine::set_items()
 void FixSPHRefine::post_force(int /*vflag*/)
 {
   if (event_step != update->ntimestep) return;
-  ledger->add(RefineLedger::ELASTIC, pair->elastic_energy(PairSPHBulk::LAST_FORCES));
+  ledger->add(RefineLedger::ELASTIC, fluid->elastic_energy(Fluid::LAST_FORCES));
   totals_known = false;
 }
 

@@ -24,6 +24,7 @@ FixStyle(sph/refine,FixSPHRefine);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class Fluid;
   class RefineEvent;
   class RefineLedger;
   class RefineTarget;
@@ -61,7 +62,7 @@ class FixSPHRefine : public Fix {
   SPHDissipation::RefineTarget *target;
   SPHDissipation::RefineLedger *ledger;
   SPHDissipation::RefineEvent *event;
-  class PairSPHBulk *pair;
+  SPHDissipation::Fluid *fluid;
   class NeighList *list;
   double split_above, merge_below;    // volume over target
   double wait;                        // time between two events of a particle; < 0: R/c0

@@ -23,9 +23,10 @@
 #include "memory.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_engine.h"
 #include "sph_dissipation_exclusions.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_wall_checks.h"
 #include "sph_dissipation_wall_motion.h"
@@ -125,7 +126,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
 
 FixSPHWall::~FixSPHWall()
 {
-  if (auto *fluid = PairSPHBulk::find(force)) fluid->remove_boundary(this);
+  if (auto *fluid = find_fluid(force)) fluid->boundary->remove(this);
   atom->delete_callback(id, Atom::GROW);
   memory->destroy(array_atom);
   delete exclusions;
@@ -144,12 +145,12 @@ int FixSPHWall::setmask()
 
 void FixSPHWall::init()
 {
-  PairSPHBulk *pair = PairSPHBulk::find(force);
-  if (!pair) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
+  Fluid *const fluid = find_fluid(force);
+  if (!fluid) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
   if (domain->deform_vremap)
     error->all(FLERR, "Fix {} cannot be used when fix deform remaps velocities", style);
 
-  noise = pair->has_noise();
+  noise = fluid->model->choice.thermal;
   if (noise && (condition->slip || condition->spin != WallSpin::ZERO))
     error->all(FLERR,
                "Fix {}: only slip no and spin zero can be used with temp of the pair style: what "
@@ -157,7 +158,7 @@ void FixSPHWall::init()
                style);
 
   motion->init();
-  pair->add_boundary(this);
+  fluid->boundary->add(this);
 
   // no pairs of wall particles in the neighbor lists
 
@@ -167,7 +168,7 @@ void FixSPHWall::init()
   exclusions->set(walls);
 
   check_wall_particles(lmp, this);
-  check_wall_interacts(lmp, this, pair, !checked);
+  check_wall_interacts(lmp, this, fluid, !checked);
 }
 
 /* ----------------------------------------------------------------------
@@ -183,14 +184,14 @@ void FixSPHWall::setup_pre_exchange()
     motion->start();
   int changed = set_velocity(), any;
   MPI_Allreduce(&changed, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any) PairSPHBulk::find(force)->note_change();
+  if (any) find_fluid(force)->note_change();
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixSPHWall::setup(int vflag)
 {
-  if (!checked) check_wall_thickness(lmp, this, PairSPHBulk::find(force));
+  if (!checked) check_wall_thickness(lmp, this, find_fluid(force));
   checked = true;
   post_force(vflag);
 }
@@ -278,17 +279,17 @@ void FixSPHWall::move_surface(Surface *surface, bool before)
    energy: in a minimization, they have none, and the forces are the gradient of that of the fluid.
 ------------------------------------------------------------------------- */
 
-void FixSPHWall::set_boundary(Engine &engine, const Surface *surfaces, const BoundarySum *sums)
+void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
+                              const BoundarySum *sums)
 {
   if (update->whichflag == 2) return;
 
-  const FluidModel &fluid = PairSPHBulk::find(force)->fluid();
+  const FluidModel &model = *find_fluid(force)->model;
   const WallVelocity now = motion->velocity();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const BoundarySum &sum = sums[i];
-    Particle &particle = engine.particle[i];
-    double *const spin = engine.spin ? engine.spin[i].w : nullptr;
+    double *const spin = stage.spin(i);
     if (spin) now.angular(spin);
     if (!(sum.weight > 0.0)) continue;
     const double norm = 1.0 / sum.weight;
@@ -300,19 +301,16 @@ void FixSPHWall::set_boundary(Engine &engine, const Surface *surfaces, const Bou
     // with thermal noise: motion, volume, and friction of the wall itself, for which the friction
     // matrix is symmetric, and a pressure that does not depend on the fluid, whose force has an energy
 
-    double pressure;
     if (noise) {
-      const EosParams &eos = fluid.coeffs[atom->type[i]].eos;
-      pressure = surface_pressure(surfaces[i], eos.rho0, eos.pb, condition->gravity, acceleration);
+      const EosParams &eos = model.coeffs[atom->type[i]].eos;
+      stage.set_state(
+          i, eos.rho0,
+          surface_pressure(surfaces[i], eos.rho0, eos.pb, condition->gravity, acceleration), 0.0);
     } else {
-      pressure = wall_pressure(sum, condition->gravity, acceleration);
-      atom->rho[i] = sum.rho * norm;
-      atom->vfrac[i] = particle.vol = atom->rmass[i] / atom->rho[i];
+      stage.set_state(i, sum.rho * norm, wall_pressure(sum, condition->gravity, acceleration),
+                      sum.zeta_term * norm);
+      extend_motion(*condition, surfaces[i], sum, stage.velocity(i), spin);
     }
-    const double c_inv = particle.vol / engine.weight(i);
-    particle.g = pressure * c_inv * c_inv;
-    engine.zeta_term[i] = noise ? 0.0 : sum.zeta_term * norm;
-    if (!noise) extend_motion(*condition, surfaces[i], sum, particle.u, spin);
   }
 }
 

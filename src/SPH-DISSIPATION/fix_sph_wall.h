@@ -60,7 +60,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
   int boundary_bit() const override { return groupbit; }
   void move_surface(SPHDissipation::Surface *, bool) override;
-  void set_boundary(SPHDissipation::Engine &, const SPHDissipation::Surface *,
+  void set_boundary(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *,
                     const SPHDissipation::BoundarySum *) override;
 
  protected:

@@ -17,9 +17,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  class Engine;
-  struct Particle;
-  struct Spin;
+  class BoundaryStage;
 
   // Where the surface is, seen from a boundary particle w
 
@@ -54,8 +52,8 @@ namespace SPHDissipation {
   };
 
   // What a fix does between the two passes of the pair style whose particles are not fluid, but
-  // stand for what lies beyond the edge of the fluid.  The fix hands itself to
-  // PairSPHBulk::add_boundary() in its init() and takes itself back when it is deleted.
+  // stand for what lies beyond the edge of the fluid.  The fix hands itself to BoundaryStage::add() in
+  // its init() and takes itself back when it is deleted.
 
   class Boundary {
    public:
@@ -67,9 +65,9 @@ namespace SPHDissipation {
     virtual void move_surface(Surface *, bool before) = 0;
 
     // set what its owned particles bring into the pair forces, from the sums over the fluid around
-    // them: u, vol and g of Engine::particle, Engine::zeta_term and, if there are spins, Engine::spin
+    // them: BoundaryStage::set_state(), velocity() and, if there are spins, spin()
 
-    virtual void set_boundary(Engine &, const Surface *, const BoundarySum *) = 0;
+    virtual void set_boundary(BoundaryStage &, const Surface *, const BoundarySum *) = 0;
 
    protected:
     ~Boundary() = default;    // nobody deletes a fix through this

@@ -23,6 +23,7 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_surface.h"
 #include "update.h"
 
@@ -84,10 +85,29 @@ void BoundaryStage::set_reference_volume()
 {
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     if (!(atom->mask[i] & group_bits)) continue;
-    atom->rho[i] = model.coeffs[atom->type[i]].eos.rho0;
+    set_state(i, model.coeffs[atom->type[i]].eos.rho0, 0.0, 0.0);
     atom->drho[i] = 0.0;
-    atom->vfrac[i] = engine.particle[i].vol = atom->rmass[i] / atom->rho[i];
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::set_state(int i, double rho, double pressure, double zeta_term)
+{
+  SPHDissipation::set_state(engine.particle[i], atom->rmass[i], rho, pressure, engine.weight(i));
+  engine.zeta_term[i] = zeta_term;
+  atom->rho[i] = rho;
+  atom->vfrac[i] = engine.particle[i].vol;
+}
+
+double *BoundaryStage::velocity(int i)
+{
+  return engine.particle[i].u;
+}
+
+double *BoundaryStage::spin(int i)
+{
+  return engine.has_spin() ? engine.spin[i].w : nullptr;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -120,7 +140,7 @@ void BoundaryStage::extend()
   else
     exchange.reverse({sums});
   check();
-  for (auto boundary : boundaries) boundary->set_boundary(engine, surface->surface, sum);
+  for (auto boundary : boundaries) boundary->set_boundary(*this, surface->surface, sum);
 
   // ghost atoms of the fluid get what they have already
 

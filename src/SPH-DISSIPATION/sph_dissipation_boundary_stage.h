@@ -42,7 +42,6 @@ namespace SPHDissipation {
     BoundaryStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &,
                   const std::string &style);
     ~BoundaryStage() override;
-    static constexpr int FORWARD = 10, REVERSE = 29;    // values per atom
 
     void add(Boundary *);       // no effect if it is there
     void remove(Boundary *);    // no effect if it is not there
@@ -68,6 +67,14 @@ namespace SPHDissipation {
     // add that energy to those of the particles (nullptr: to none); return its sum on this processor
 
     double energy(double *each_atom) const;
+
+    // From Boundary::set_boundary(), of one of its owned particles: density, pressure with the bulk
+    // term (bulk density) or without (otherwise), and bulk term, from which volume and P/c^2 follow;
+    // velocity and spin in the pair forces, to be set, where spin is nullptr without spins
+
+    void set_state(int i, double rho, double pressure, double zeta_term);
+    double *velocity(int i);
+    double *spin(int i);
 
     // what run() consists of, for another one that does the sums elsewhere: the surfaces of the
     // owned and ghost atoms, when the neighbor list is new, from the vectors toward the fluid of the

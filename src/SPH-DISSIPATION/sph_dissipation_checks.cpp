@@ -232,6 +232,22 @@ void SPHDissipation::check_support(LAMMPS *lmp, const std::string &style, const 
 
 /* ---------------------------------------------------------------------- */
 
+void SPHDissipation::check_spins(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+{
+  if (lmp->domain->dimension != 2) return;
+  const Atom *const atom = lmp->atom;
+  const auto tilted = first_particle(lmp, [&](int i) {
+    const double *const omega = atom->omega[i];
+    return !model.coeffs[atom->type[i]].other && (omega[0] != 0.0 || omega[1] != 0.0);
+  });
+  if (!tilted.empty())
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "Pair style {}: spin must be along z in 2d, which that of {} is not", style,
+                    tilted);
+}
+
+/* ---------------------------------------------------------------------- */
+
 void SPHDissipation::check_masses(LAMMPS *lmp, const std::string &style, const FluidModel &model)
 {
   Atom *atom = lmp->atom;

@@ -59,6 +59,10 @@ namespace SPHDissipation {
   void check_support(LAMMPS *, const std::string &style, const FluidModel &, int dim,
                      double support);
 
+  // spins of the fluid's particles are along z in 2d
+
+  void check_spins(LAMMPS *, const std::string &style, const FluidModel &);
+
   // all masses of fluid and of integrated particles are positive; also during a run, for fixes that
   // insert particles, whose mass is zero at first
 

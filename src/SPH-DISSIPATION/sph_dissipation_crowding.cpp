@@ -28,7 +28,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 CrowdingStage::CrowdingStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
-    Stage(lmp, engine, exchange), crowding(nullptr), nmax(0)
+    Stage(lmp, engine, exchange), wanted(false), crowding(nullptr), nmax(0)
 {
 }
 

@@ -30,7 +30,8 @@ namespace SPHDissipation {
    public:
     CrowdingStage(class LAMMPS *, Engine &, Exchange &);
     ~CrowdingStage() override;
-    static constexpr int REVERSE = 3;    // values per atom
+
+    bool wanted;    // by a fix that shifts particles, from its init(), in every run
 
     void run();    // with the volumes of particles set
     double memory_usage() const override;

@@ -27,7 +27,6 @@ namespace SPHDissipation {
   class DensityStage : public Stage {
    public:
     DensityStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
-    static constexpr int FORWARD = 3, REVERSE = 2;    // values per atom
 
     // extrapolated velocity and spin, each nullptr where it is zero
 

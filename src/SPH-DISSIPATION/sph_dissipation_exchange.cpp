@@ -14,49 +14,58 @@
 #include "sph_dissipation_exchange.h"
 
 #include "comm.h"
-#include "error.h"
 #include "force.h"
 #include "pair.h"
+
+#include <algorithm>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-Exchange::Exchange(LAMMPS *lmp, Pair *pair, int forward, int reverse) : Pointers(lmp), pair(pair)
-{
-  pair->comm_forward = forward;
-  pair->comm_reverse = reverse;
-}
+Exchange::Exchange(LAMMPS *lmp, Pair *pair) : Pointers(lmp), pair(pair) {}
 
 /* ----------------------------------------------------------------------
-   return # of values per atom, for which LAMMPS has made room at the start of the run
+   call send(# of values per atom) for each message, with the fields that are in it
 ------------------------------------------------------------------------- */
 
-int Exchange::set_fields(std::initializer_list<Field> next, int most)
+template <class Send> void Exchange::in_parts(std::initializer_list<Field> next, const Send &send)
 {
-  fields = next;
-  int nvalues = 0;
-  for (const auto &one : fields) nvalues += one.width;
-  if (nvalues > most)
-    error->all(FLERR,
-               "Pair style {} communicates {} values per atom, more than the {} it announced",
-               force->pair_style, nvalues, most);
-  return nvalues;
+  int room = ROOM;
+  fields.clear();
+  for (Field rest : next)
+    while (rest.width > 0) {
+      const int width = std::min(rest.width, room);
+      fields.push_back({rest.first, rest.stride, width});
+      rest.first += width;
+      rest.width -= width;
+      room -= width;
+      if (room > 0) continue;
+      send(ROOM);
+      room = ROOM;
+      fields.clear();
+    }
+  if (room < ROOM) send(ROOM - room);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void Exchange::forward(std::initializer_list<Field> next)
 {
-  comm->forward_comm(pair, set_fields(next, pair->comm_forward));
+  in_parts(next, [this](int nvalues) {
+    comm->forward_comm(pair, nvalues);
+  });
 }
 
 /* ---------------------------------------------------------------------- */
 
 void Exchange::reverse(std::initializer_list<Field> next)
 {
-  if (force->newton_pair) comm->reverse_comm(pair, set_fields(next, pair->comm_reverse));
+  if (!force->newton_pair) return;
+  in_parts(next, [this](int nvalues) {
+    comm->reverse_comm(pair, nvalues);
+  });
 }
 
 /* ---------------------------------------------------------------------- */

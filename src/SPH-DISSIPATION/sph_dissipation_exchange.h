@@ -42,12 +42,14 @@ namespace SPHDissipation {
   }
 
   // The communication of a pair style between owned and ghost atoms: a stage of the step names the
-  // fields that are to go, the pair style hands on the packing that LAMMPS asks for.
+  // fields that are to go, the pair style hands on the packing that LAMMPS asks for.  Fields that are
+  // wider than one message go in several.
 
   class Exchange : protected Pointers {
    public:
-    // forward, reverse = most values per atom of any stage
-    Exchange(class LAMMPS *, Pair *, int forward, int reverse);
+    Exchange(class LAMMPS *, Pair *);
+    static constexpr int ROOM =
+        24;    // values per atom of a message, for which the pair style asks LAMMPS
 
     void forward(std::initializer_list<Field>);    // owned atoms to their ghosts
     void reverse(std::initializer_list<Field>);    // ghosts, summed, to their owners; newton on
@@ -61,7 +63,7 @@ namespace SPHDissipation {
     Pair *pair;
     std::vector<Field> fields;
 
-    int set_fields(std::initializer_list<Field>, int most);
+    template <class Send> void in_parts(std::initializer_list<Field>, const Send &);
   };
 
 }    // namespace SPHDissipation

@@ -29,7 +29,6 @@ namespace SPHDissipation {
    public:
     using Stage::Stage;
 
-    static constexpr int REVERSE = 6;      // values per atom
     void run(NeighList *, PairTally *);    // tally of each pair, or nullptr
 
     // what ghosts have got onto the force and torque of their owners in the engine, too

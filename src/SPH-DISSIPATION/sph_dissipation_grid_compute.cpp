@@ -20,6 +20,7 @@
 #include "force.h"
 #include "memory.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_grid.h"
 #include "sph_dissipation_model.h"
 
@@ -72,20 +73,20 @@ void GridCompute::init()
 
   if (domain->triclinic)
     error->all(FLERR, "Compute {} needs an orthogonal box, not a triclinic one", style);
-  if (find_pair()->dimension() != domain->dimension)
+  if (find_own_fluid()->dimension() != domain->dimension)
     error->all(FLERR, "Compute {} needs a kernel of the dimension of the simulation, not dim {}",
-               style, find_pair()->dimension());
+               style, find_own_fluid()->dimension());
 }
 
 /* ----------------------------------------------------------------------
    looked up at every use, for the pair style may have been replaced since
 ------------------------------------------------------------------------- */
 
-PairSPHBulk *GridCompute::find_pair() const
+Fluid *GridCompute::find_own_fluid() const
 {
-  auto *pair = PairSPHBulk::find(force);
-  if (!pair) error->all(FLERR, "Compute {} requires pair style sph/bulk or sph/micropolar", style);
-  return pair;
+  Fluid *const fluid = find_fluid(force);
+  if (!fluid) error->all(FLERR, "Compute {} requires pair style sph/bulk or sph/micropolar", style);
+  return fluid;
 }
 
 /* ----------------------------------------------------------------------
@@ -162,17 +163,17 @@ double GridCompute::energy(int i) const
 
 /* ---------------------------------------------------------------------- */
 
-bool GridCompute::is_mapped(const PairSPHBulk *pair, int i) const
+bool GridCompute::is_mapped(const Fluid *fluid, int i) const
 {
-  return (atom->mask[i] & groupbit) && pair->has_type(atom->type[i]) && !pair->is_boundary(i);
+  return (atom->mask[i] & groupbit) && fluid->has_type(atom->type[i]) && !fluid->is_boundary(i);
 }
 
 /* ---------------------------------------------------------------------- */
 
 bigint GridCompute::map()
 {
-  const auto *pair = find_pair();
-  const int missing = pair->has_forces() ? 0 : 1;
+  const Fluid *const fluid = find_own_fluid();
+  const int missing = fluid->has_forces() ? 0 : 1;
   int any_missing;
   MPI_Allreduce(&missing, &any_missing, 1, MPI_INT, MPI_MAX, world);
   if (any_missing)
@@ -186,7 +187,7 @@ bigint GridCompute::map()
     memory->create(values, nmax, comm_forward, "sph/grid:values");
   }
   for (int i = 0; i < atom->nlocal; i++) {
-    values[i][0] = is_mapped(pair, i) ? atom->vfrac[i] : 0.0;
+    values[i][0] = is_mapped(fluid, i) ? atom->vfrac[i] : 0.0;
     for (int k = 0; k < nvalue(); k++) values[i][1 + k] = (this->*getters[k])(i);
   }
 
@@ -195,7 +196,8 @@ bigint GridCompute::map()
   if (domain->box_change) comm->forward_comm();
   comm->forward_comm(this);
 
-  return grid->map({pair->fluid().choice.kernel, pair->support_radius(), linear}, values, nvalue());
+  return grid->map({fluid->model->choice.kernel, fluid->support_radius(), linear}, values,
+                   nvalue());
 }
 
 /* ---------------------------------------------------------------------- */

@@ -20,9 +20,8 @@
 #include <vector>
 
 namespace LAMMPS_NS {
-class PairSPHBulk;
-
 namespace SPHDissipation {
+  class Fluid;
   class ParticleGrid;
 
   // A compute of the fluid on a grid: compute ID group style Nx Ny Nz ... order 0|1.  It makes the grid
@@ -47,8 +46,8 @@ namespace SPHDissipation {
     int nvalue() const { return static_cast<int>(names.size()); }
     bool order_keyword(int &iarg, int narg, char **arg);
 
-    PairSPHBulk *find_pair() const;
-    bool is_mapped(const PairSPHBulk *, int) const;    // owned particle
+    Fluid *find_own_fluid() const;
+    bool is_mapped(const Fluid *, int) const;    // owned particle
     bigint map();    // all values, to ParticleGrid::field(); points without particles, of all ranks
 
    private:

@@ -28,7 +28,6 @@ namespace SPHDissipation {
    public:
     LimitStage(class LAMMPS *, Engine &, Exchange &);
     ~LimitStage() override;
-    static constexpr int FORWARD = 1, REVERSE = 1;    // values per atom
 
     void run();    // with the volumes of particles set
     double memory_usage() const override;

@@ -42,7 +42,6 @@ namespace SPHDissipation {
   class NoiseStage : public Stage {
    public:
     NoiseStage(class LAMMPS *, Engine &, Exchange &, FluidModel &);
-    static constexpr int FORWARD = 2, REVERSE = 1;    // values per atom
 
     // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and has it add the rest.
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure

@@ -24,8 +24,8 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_hybrid.h"
-#include "pair_sph_bulk.h"
 #include "sph_dissipation_eos.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_plane.h"
 #include "sph_dissipation_wall_checks.h"
@@ -63,7 +63,7 @@ static void check_moved_once(LAMMPS *lmp, const Fix *fix, const char *fluid_name
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_open_groups(LAMMPS *lmp, const Fix *fix, const PairSPHBulk *pair,
+void SPHDissipation::check_open_groups(LAMMPS *lmp, const Fix *fix, const Fluid *fluid,
                                        int fluid_group)
 {
   const Atom *const atom = lmp->atom;
@@ -83,7 +83,7 @@ void SPHDissipation::check_open_groups(LAMMPS *lmp, const Fix *fix, const PairSP
     if (!(atom->mask[i] & fix->groupbit)) continue;
     number[0]++;
     if (atom->mask[i] & group->bitmask[fluid_group]) number[1]++;
-    if (!pair->has_type(atom->type[i]))
+    if (!fluid->has_type(atom->type[i]))
       lmp->error->one(FLERR, "Fix {}: particle {} of type {} is not of the fluid", fix->style,
                       atom->tag[i], atom->type[i]);
   }
@@ -223,15 +223,15 @@ void SPHDissipation::check_open_lists(LAMMPS *lmp, const Fix *fix, int fluid_bit
    styles of hybrid/overlay, apart from one without forces
 ------------------------------------------------------------------------- */
 
-void SPHDissipation::check_open_styles(LAMMPS *lmp, const Fix *fix, const PairSPHBulk *pair,
+void SPHDissipation::check_open_styles(LAMMPS *lmp, const Fix *fix, const Fluid *fluid,
                                        int fluid_bit)
 {
   auto *const hybrid = dynamic_cast<PairHybrid *>(lmp->force->pair);
   if (!hybrid) return;
-  std::set<int> zone, fluid;    // types
+  std::set<int> zone, both;    // types
   for (const Kind &kind : all_kinds(lmp)) {
     if (kind.second & fix->groupbit) zone.insert(kind.first);
-    if (kind.second & (fix->groupbit | fluid_bit)) fluid.insert(kind.first);
+    if (kind.second & (fix->groupbit | fluid_bit)) both.insert(kind.first);
   }
 
   std::string found;
@@ -244,9 +244,9 @@ void SPHDissipation::check_open_styles(LAMMPS *lmp, const Fix *fix, const PairSP
       char *const name = lmp->force->pair_match_ptr(other);
       bool acts = false;
       for (const int a : zone)
-        for (const int b : fluid)
+        for (const int b : both)
           if (hybrid->check_ijtype(std::min(a, b), std::max(a, b), name)) acts = true;
-      if (acts && other != pair && strcmp(name, "zero") != 0)
+      if (acts && other != fluid->pair && strcmp(name, "zero") != 0)
         found += (found.empty() ? "" : ", ") + std::string(name);
     }
   }
@@ -323,15 +323,14 @@ void SPHDissipation::check_open_density(LAMMPS *lmp, const Fix *fix,
 ------------------------------------------------------------------------- */
 
 bool SPHDissipation::warn_of_gap(LAMMPS *lmp, const Fix *fix, const OpenPlane &plane,
-                                 const PairSPHBulk *pair, int fluid_bit, double radius,
-                                 double spacing)
+                                 const Fluid *fluid, int fluid_bit, double radius, double spacing)
 {
   constexpr int PARTS = 58;
   constexpr double GAP = 2.0;    // sizes of a particle; layers of lattices are one apart
-  if (pair->fluid().choice.eos == Eos::IDEAL) return false;
+  if (fluid->model->choice.eos == Eos::IDEAL) return false;
   const Atom *const atom = lmp->atom;
   const int sides = 2 * (lmp->domain->dimension - 1);
-  const double depth = 2.0 * pair->support_radius();
+  const double depth = 2.0 * fluid->support_radius();
   const double part = depth / PARTS;
   const bigint one = 1;
   const bigint enters = ((one << sides) - 1) << PARTS;
@@ -353,11 +352,11 @@ bool SPHDissipation::warn_of_gap(LAMMPS *lmp, const Fix *fix, const OpenPlane &p
       });
     else
       continue;
-    size = std::max(size, atom->rmass[i] / pair->reference_density(atom->type[i]));
+    size = std::max(size, atom->rmass[i] / fluid->model->coeffs[atom->type[i]].eos.rho0);
   }
   MPI_Allreduce(mine.data(), all.data(), plane.nnodes(), MPI_LMP_BIGINT, MPI_BOR, lmp->world);
   MPI_Allreduce(&size, &largest, 1, MPI_DOUBLE, MPI_MAX, lmp->world);
-  const double least = GAP * std::max(spacing, pow(largest, 1.0 / pair->dimension()));
+  const double least = GAP * std::max(spacing, pow(largest, 1.0 / fluid->dimension()));
 
   double widest = 0.0;
   for (const bigint bits : all) {

@@ -22,9 +22,9 @@ namespace LAMMPS_NS {
 class Fix;
 class FixSPHBulk;
 class LAMMPS;
-class PairSPHBulk;
 
 namespace SPHDissipation {
+  class Fluid;
   class OpenPlane;
 
   // What an open zone and the fluid in front of it must be like.  Called by all ranks; errors name the
@@ -33,7 +33,7 @@ namespace SPHDissipation {
   // the groups are static, no particle is in both, those of the zone are of the fluid and moved by no
   // other fix
 
-  void check_open_groups(LAMMPS *, const Fix *, const PairSPHBulk *, int fluid_group);
+  void check_open_groups(LAMMPS *, const Fix *, const Fluid *, int fluid_group);
 
   // the fix that moves what enters
 
@@ -54,7 +54,7 @@ namespace SPHDissipation {
 
   // a warning if other pair styles, whose forces no ledger has, act between zone and fluid
 
-  void check_open_styles(LAMMPS *, const Fix *, const PairSPHBulk *, int fluid_bit);
+  void check_open_styles(LAMMPS *, const Fix *, const Fluid *, int fluid_bit);
 
   // A warning if the masses of the zone are not quite those of the fluid, as when density rho0 has set
   // the latter before the zone was there
@@ -70,7 +70,7 @@ namespace SPHDissipation {
   // radii from the plane, as wide as particles of this size never leave it; radius: of fluid that is
   // next to a place on the plane.  True if there is one.
 
-  bool warn_of_gap(LAMMPS *, const Fix *, const OpenPlane &, const PairSPHBulk *, int fluid_bit,
+  bool warn_of_gap(LAMMPS *, const Fix *, const OpenPlane &, const Fluid *, int fluid_bit,
                    double radius, double spacing);
 
   // A particle of the zone has a full support as long as the fluid sees it, and rows may be shorter by

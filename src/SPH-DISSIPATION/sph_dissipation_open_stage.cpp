@@ -19,6 +19,7 @@
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_particle_terms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,11 +74,21 @@ void OpenStage::remove(OpenZone *zone)
 
 void OpenStage::run()
 {
-  for (auto zone : zones) zone->set_state(engine);
+  for (auto zone : zones) zone->set_states(*this);
   set_places();
   Particle *const particle = engine.particle;
   exchange.forward({field(particle, &particle->vol, 2), {place.data(), 1, 1}});
   update_ghosts();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenStage::set_state(int i, double rho, double pressure)
+{
+  if (engine.bulk_form() == Bulk::DENSITY) pressure += engine.zeta_term[i];
+  SPHDissipation::set_state(engine.particle[i], atom->rmass[i], rho, pressure, engine.weight(i));
+  atom->rho[i] = rho;
+  atom->vfrac[i] = engine.particle[i].vol;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -34,8 +34,10 @@ namespace SPHDissipation {
   };
 
   // What a fix does between the two passes whose particles are fluid with a prescribed state, as it
-  // enters or leaves.  The fix hands itself to PairSPHBulk::add_open_zone() in its init() and takes
-  // itself back when it is deleted.
+  // enters or leaves.  The fix hands itself to OpenStage::add() in its init() and takes itself back when
+  // it is deleted.
+
+  class OpenStage;
 
   class OpenZone {
    public:
@@ -44,8 +46,8 @@ namespace SPHDissipation {
     // whether a particle at x may have pairs across the border of zone and fluid, of this length
     virtual bool zone_near(const double *x, double reach) const = 0;
 
-    // set density and pressure of its owned particles: vol and g of Engine::particle
-    virtual void set_state(Engine &) = 0;
+    // set density and pressure of its owned particles by OpenStage::set_state()
+    virtual void set_states(OpenStage &) = 0;
 
     // sums of this processor, for each force computation
     virtual void set_impact(const OpenImpact &) = 0;
@@ -60,12 +62,15 @@ namespace SPHDissipation {
   class OpenStage : public Stage {
    public:
     using Stage::Stage;
-    static constexpr int FORWARD = 3;    // values per atom
 
     void add(OpenZone *);       // no effect if it is there
     void remove(OpenZone *);    // no effect if it is not there
     bool empty() const { return zones.empty(); }
     int bits() const { return zone_bits; }    // of the groups of all zones
+
+    // from OpenZone::set_states(): density and pressure of a particle, which keeps its bulk term
+    void set_state(int i, double rho, double pressure);
+    const Particle &particle(int i) const { return engine.particle[i]; }
 
     void run();                       // after the pressures, before those of boundaries
     void sum_impacts(NeighList *);    // after pass 2

@@ -18,9 +18,29 @@
 
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_eos.h"
+#include "sph_dissipation_rows.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+
+  // P/c^2 of pass 2, of the pressure P with the bulk term (bulk density) or without (otherwise), the
+  // volume V = w/c, and the reference volume w
+
+  SPH_FUNCTION double pressure_term(double total, double vol, double weight)
+  {
+    const double c_inv = vol / weight;
+    return total * c_inv * c_inv;
+  }
+
+  // a particle whose mass density rho and pressure P are prescribed, where density and volume do not
+  // follow from pass 1
+
+  SPH_FUNCTION void set_state(Particle &particle, double mass, double rho, double total,
+                              double weight)
+  {
+    particle.vol = mass / rho;
+    particle.g = pressure_term(total, particle.vol, weight);
+  }
 
   struct ParticleTerms {
     double zeta_term;    // zeta cdot/c
@@ -40,7 +60,7 @@ namespace SPHDissipation {
     const double p = pressure(eos, par, rho, e);
     const double zeta_term = zeta * rate;
     const double total = (bulk == Bulk::DENSITY) ? p + zeta_term : p;
-    return {zeta_term, total * c_inv * c_inv, p * vol * rate};
+    return {zeta_term, pressure_term(total, vol, weight), p * vol * rate};
   }
 
   // heat of the bulk term: zeta V (cdot/c)^2 (density), zeta V cdot/c D with the divergence D summed by

@@ -92,9 +92,8 @@ void PressureStage::set_bulk_term(const double *bound, int not_fluid) const
     Particle &particle = engine.particle[i];
     engine.zeta_term[i] = particle.g = 0.0;
     if (model.coeffs[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
-    const double c_inv = particle.vol / engine.weight(i);
     engine.zeta_term[i] = bulk_coefficient(i, bound) * engine.density[i].cdot / engine.density[i].c;
-    if (by_density) particle.g = engine.zeta_term[i] * c_inv * c_inv;
+    if (by_density) particle.g = pressure_term(engine.zeta_term[i], particle.vol, engine.weight(i));
   }
 }
 

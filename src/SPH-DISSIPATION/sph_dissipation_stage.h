@@ -25,8 +25,8 @@ namespace SPHDissipation {
   class Exchange;
 
   // A stage of the force computation: sums of its own over the pairs that pass 1 of the engine has
-  // found, and what it sends to ghost atoms or gets back from them.  PairSPHBulk::compute() lists
-  // the stages in their order.
+  // found, and what it sends to ghost atoms or gets back from them.  Fluid::compute() lists the stages
+  // in their order.
 
   class Stage : protected Pointers {
    public:

@@ -31,7 +31,6 @@ namespace SPHDissipation {
   class FluidState : public Stage {
    public:
     FluidState(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
-    static constexpr int FORWARD = 1, REVERSE = 3;    // values per atom
 
     // with the densities of pass 1; of particles with the bit of group, without one of not_fluid
 

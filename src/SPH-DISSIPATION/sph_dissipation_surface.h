@@ -32,7 +32,6 @@ namespace SPHDissipation {
    public:
     SurfaceStage(class LAMMPS *, Engine &, Exchange &);
     ~SurfaceStage() override;
-    static constexpr int FORWARD = 4, REVERSE = 3;    // values per atom
 
     // when the neighbor list is new: normal, depth and spacing of the owned and ghost atoms with one
     // of these bits, from their volumes; omega is for the boundary to set

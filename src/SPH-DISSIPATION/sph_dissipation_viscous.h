@@ -48,7 +48,6 @@ namespace SPHDissipation {
    public:
     ViscousStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &, const PressureStage &,
                  BoundaryStage &);
-    static constexpr int FORWARD = 6, REVERSE = 6;    // values per atom
 
     // of all integrators of the fluid, and bits of their groups; style = of the fluid, for messages
 

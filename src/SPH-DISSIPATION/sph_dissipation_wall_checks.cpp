@@ -24,10 +24,11 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_hybrid.h"
-#include "pair_sph_bulk.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_fluid.h"
 #include "sph_dissipation_gather.h"
+#include "sph_dissipation_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,26 +107,26 @@ bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b
    and what pair style hybrid does
 ------------------------------------------------------------------------- */
 
-static bool have_pairs(LAMMPS *lmp, const PairSPHBulk *pair, const Kind &a, const Kind &b)
+static bool have_pairs(LAMMPS *lmp, const Fluid *fluid, const Kind &a, const Kind &b)
 {
   if (!in_neighbor_lists(lmp, a, b)) return false;
   auto *const hybrid = dynamic_cast<PairHybrid *>(lmp->force->pair);
   if (!hybrid) return true;
-  char *const name = lmp->force->pair_match_ptr(const_cast<PairSPHBulk *>(pair));
+  char *const name = lmp->force->pair_match_ptr(fluid->pair);
   return hybrid->check_ijtype(std::min(a.first, b.first), std::max(a.first, b.first), name);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const PairSPHBulk *pair,
+void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Fluid *fluid,
                                           bool warn)
 {
   int walls = 0;
   for (const auto &wall : lmp->modify->get_fix_by_style("^sph/wall")) walls |= wall->groupbit;
 
-  std::vector<Kind> solid, fluid;
+  std::vector<Kind> solid, liquid;
   for (const Kind &kind : all_kinds(lmp)) {
-    const bool has_coefficients = pair->has_type(kind.first);
+    const bool has_coefficients = fluid->has_type(kind.first);
     if (kind.second & fix->groupbit) {
       if (!has_coefficients)
         lmp->error->all(FLERR,
@@ -134,13 +135,13 @@ void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Pai
                         fix->id, fix->style, kind.first);
       solid.push_back(kind);
     } else if (has_coefficients && !(kind.second & walls))
-      fluid.push_back(kind);
+      liquid.push_back(kind);
   }
 
   std::set<int> felt, ignored;    // types of the fluid
-  for (const Kind &f : fluid) {
+  for (const Kind &f : liquid) {
     const bool feels = std::any_of(solid.begin(), solid.end(), [&](const Kind &wall) {
-      return have_pairs(lmp, pair, f, wall);
+      return have_pairs(lmp, fluid, f, wall);
     });
     (feels ? felt : ignored).insert(f.first);
   }
@@ -166,13 +167,13 @@ void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Pai
    warn if the masses do not fit the distances, for the spacing is that of the masses
 ------------------------------------------------------------------------- */
 
-void SPHDissipation::check_wall_thickness(LAMMPS *lmp, const Fix *fix, const PairSPHBulk *pair)
+void SPHDissipation::check_wall_thickness(LAMMPS *lmp, const Fix *fix, const Fluid *fluid)
 {
   const Atom *const atom = lmp->atom;
   double **x = atom->x;
   const int nall = atom->nlocal + atom->nghost;
-  const double support = pair->support_radius();
-  const int dim = pair->dimension();
+  const double support = fluid->support_radius();
+  const int dim = fluid->dimension();
 
   std::vector<int> everything(nall);
   std::iota(everything.begin(), everything.end(), 0);
@@ -190,12 +191,13 @@ void SPHDissipation::check_wall_thickness(LAMMPS *lmp, const Fix *fix, const Pai
   double sum[2] = {0.0, 0.0}, sum_all[2];        // of particles, of nearest particle over spacing
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & fix->groupbit)) continue;
-    const double spacing = pow(atom->rmass[i] / pair->reference_density(atom->type[i]), 1.0 / dim);
+    const double rho0 = fluid->model->coeffs[atom->type[i]].eos.rho0;
+    const double spacing = pow(atom->rmass[i] / rho0, 1.0 / dim);
 
     double nearest = support, normal[3] = {0.0, 0.0, 0.0}, closest = support;
     for_neighbors(i, [&](int j, const double *r, double distance) {
       closest = std::min(closest, distance);
-      if (pair->is_boundary(j)) return;
+      if (fluid->is_boundary(j)) return;
       nearest = std::min(nearest, distance);
       const double weight = (support - distance) * (support - distance) / distance;
       for (int d = 0; d < 3; d++) normal[d] += weight * r[d];
@@ -207,7 +209,7 @@ void SPHDissipation::check_wall_thickness(LAMMPS *lmp, const Fix *fix, const Pai
 
     double depth = 0.0;
     for_neighbors(i, [&](int j, const double *r, double) {
-      if (pair->is_boundary(j)) depth = std::max(depth, -MathExtra::dot3(normal, r));
+      if (fluid->is_boundary(j)) depth = std::max(depth, -MathExtra::dot3(normal, r));
     });
     const double missing = support - (depth + spacing);
     if (missing > 0.5 * spacing) {

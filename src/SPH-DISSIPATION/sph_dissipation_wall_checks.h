@@ -20,9 +20,9 @@
 namespace LAMMPS_NS {
 class Fix;
 class LAMMPS;
-class PairSPHBulk;
 
 namespace SPHDissipation {
+  class Fluid;
 
   // Particles alike in all that decides whether they have pairs: type and bits of groups
 
@@ -39,11 +39,11 @@ namespace SPHDissipation {
   // pair coefficients, exclusions and neigh_modify include let the fluid feel the wall; if
   // only a part of the fluid does, a warning if wanted
 
-  void check_wall_interacts(LAMMPS *, const Fix *, const PairSPHBulk *, bool warn);
+  void check_wall_interacts(LAMMPS *, const Fix *, const Fluid *, bool warn);
 
   // the wall fills the support of the fluid at its surface; a warning if not.  Needs ghost atoms.
 
-  void check_wall_thickness(LAMMPS *, const Fix *, const PairSPHBulk *);
+  void check_wall_thickness(LAMMPS *, const Fix *, const Fluid *);
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

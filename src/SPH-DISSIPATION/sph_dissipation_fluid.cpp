@@ -1,0 +1,529 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_fluid.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "math_extra.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "pair_hybrid.h"
+#include "sph_dissipation_boundary_stage.h"
+#include "sph_dissipation_checks.h"
+#include "sph_dissipation_crowding.h"
+#include "sph_dissipation_density.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_eos.h"
+#include "sph_dissipation_exchange.h"
+#include "sph_dissipation_forces.h"
+#include "sph_dissipation_kernel.h"
+#include "sph_dissipation_limit.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_noise.h"
+#include "sph_dissipation_open_stage.h"
+#include "sph_dissipation_pressure.h"
+#include "sph_dissipation_state.h"
+#include "sph_dissipation_viscous.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+// the mode of that rate then has 1/(1 - 0.1/2) times the temperature between the steps
+
+static constexpr double ACCURATE_NOISE = 0.1;
+
+/* ---------------------------------------------------------------------- */
+
+Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
+    Pointers(lmp), pair(pair), spins(spins), style(spins ? "sph/micropolar" : "sph/bulk"),
+    model(new FluidModel(lmp, style, viscosity_names(spins))), engine(new Engine(lmp)),
+    exchange(new Exchange(lmp, pair)), density(new DensityStage(lmp, *engine, *exchange, *model)),
+    limit(new LimitStage(lmp, *engine, *exchange)),
+    pressure(new PressureStage(lmp, *engine, *exchange, *model)),
+    forces(new ForceStage(lmp, *engine, *exchange)), open(new OpenStage(lmp, *engine, *exchange)),
+    boundary(new BoundaryStage(lmp, *engine, *exchange, *model, style)),
+    crowding(new CrowdingStage(lmp, *engine, *exchange)),
+    noise(new NoiseStage(lmp, *engine, *exchange, *model)),
+    viscous(new ViscousStage(lmp, *engine, *exchange, *model, *pressure, *boundary)),
+    continued(false), dim(0), support(0.0), stale(false), set_up(false), announced(false),
+    changed(false), warned_step(0.0), noise_step(0.0), smallest_inertia(0.0)
+{
+}
+
+Fluid::~Fluid() = default;
+
+/* ----------------------------------------------------------------------
+   global settings
+------------------------------------------------------------------------- */
+
+void Fluid::settings(int narg, char **arg)
+{
+  model->settings(narg, arg, default_shear());
+
+  int found = engine->choose_loops(model->simd), found_all;
+  MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MIN, world);
+  if (!found_all)
+    error->all(FLERR,
+               "Pair_style {} simd {}: not in this processor, or not in this executable of LAMMPS",
+               style, model->simd);
+  announced = set_up = false;
+  changed = true;
+}
+
+/* ----------------------------------------------------------------------
+   set coeffs for one or more type pairs
+------------------------------------------------------------------------- */
+
+void Fluid::coeff(int narg, char **arg)
+{
+  model->adopt();    // what others have set comes first
+  model->coeff(narg, arg, pair->setflag);
+  announced = set_up = false;
+  changed = true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::init()
+{
+  crowding->wanted = continued = false;
+  viscous->configure(ViscousSettings(), 0, style);
+  check_setup();
+  derive_coeffs();
+  set_up = true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool Fluid::is_set_up() const
+{
+  return pair->list && set_up;
+}
+
+/* ----------------------------------------------------------------------
+   what the fluid needs from the rest of the simulation
+------------------------------------------------------------------------- */
+
+void Fluid::check_setup()
+{
+  if (spins && model->dimension() == 1)
+    error->all(FLERR, Error::NOLASTLINE, "Pair_style {} needs dim 2 or 3: no spin in dim 1", style);
+  check_styles(lmp, style);
+  check_rerun(lmp, style, *model);
+  if (update->whichflag == 2 && model->choice.eos == Eos::IDEAL)
+    error->all(FLERR,
+               "Pair style {} with eos ideal cannot be used in a minimization: its energy depends "
+               "on the heat of the particles, not on their positions alone",
+               style);
+  if (model->choice.thermal) check_noise(lmp, style);
+  dim = model->dimension();
+  support = model->common_support(pair->setflag);
+  find_own_types();
+  check_support(lmp, style, *model, dim, support);
+  if (spins) check_spins(lmp, style, *model);
+}
+
+/* ----------------------------------------------------------------------
+   types whose particles are ours: pair_style hybrid may have others, also ones that it
+   gave to another style after their coefficients were set here
+------------------------------------------------------------------------- */
+
+void Fluid::find_own_types()
+{
+  auto *hybrid = dynamic_cast<PairHybrid *>(force->pair);
+  std::string name = style;
+  auto ours = [&](int i, int j) {
+    return pair->setflag[i][j] && (!hybrid || hybrid->check_ijtype(i, j, &name[0]));
+  };
+
+  model->shared = false;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    model->coeffs[i].other = !ours(i, i);
+    if (model->coeffs[i].other) model->shared = true;
+  }
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i + 1; j <= atom->ntypes; j++)
+      if (ours(i, j) && (model->coeffs[i].other || model->coeffs[j].other))
+        error->all(
+            FLERR, Error::NOLASTLINE,
+            "Pair style {} acts between types {} and {}, but type {} has no coefficients of it",
+            style, i, j, model->coeffs[i].other ? i : j);
+}
+
+/* ----------------------------------------------------------------------
+   viscosities of unlike types and coefficients of the bulk term
+------------------------------------------------------------------------- */
+
+void Fluid::derive_coeffs()
+{
+  stale = false;
+  if (model->adopt()) {
+    announced = false;
+    changed = true;
+  }
+  viscous->forget_rates();
+  const int n = atom->ntypes;
+  std::vector<PairCoeff> pair_coeffs((n + 1) * (n + 1));
+  std::vector<double> rho0(n + 1);
+
+  for (int i = 1; i <= n; i++) {
+    model->mix(i);
+    for (int j = 1; j <= i; j++) {
+      if (has_type(i) && has_type(j)) check_pair(i, j);
+      pair_coeffs[i * (n + 1) + j] = pair_coeffs[j * (n + 1) + i] = pair_coefficients(i, j);
+    }
+    rho0[i] = model->coeffs[i].eos.rho0;
+    model->set_bulk(i, intrinsic_kappa_of(i, i));
+    if (model->choice.thermal) model->check_balance(i, intrinsic_kappa_of(i, i));
+  }
+
+  const Settings &choice = model->choice;
+  engine->setup(choice.kernel, dim, support, choice.shear, choice.bulk, choice.volume, pair_coeffs,
+                rho0);
+}
+
+/* ----------------------------------------------------------------------
+   another command, such as fix adapt, has changed coefficients; fix sph/dt follows by itself
+------------------------------------------------------------------------- */
+
+void Fluid::adopt_changes()
+{
+  derive_coeffs();
+  if (!update->setupflag && update->whichflag == 1 && modify->get_fix_by_style("^sph/dt").empty())
+    check_time_step(coeff_table());
+}
+
+/* ----------------------------------------------------------------------
+   torques that begin during a run would meet particles whose inertia nobody has checked
+------------------------------------------------------------------------- */
+
+void *Fluid::extract(const char *name, int &ndim)
+{
+  if (model->is_viscosity(name) > 0 && !has_torques()) return nullptr;
+  return model->extract(name, ndim);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bigint Fluid::compute(PairTally *tally)
+{
+  if (stale) adopt_changes();
+  if (neighbor->ago == 0) check_masses(lmp, style, *model);
+
+  if (continued && !changed && update->setupflag)
+    viscous->begin_run();
+  else if (viscous->active())
+    find_viscous_velocity();
+  const bigint nbeyond = sum_before_forces();
+  if (crowding->wanted) crowding->run();
+  sum_forces(tally);
+  if (!open->empty()) open->sum_impacts(pair->list);
+  if (viscous->active() || model->choice.own_temperatures) forces->collect();
+  changed = false;
+  return nbeyond;
+}
+
+/* ----------------------------------------------------------------------
+   all that pass 2 needs; returns the number of particles beyond the bound of the limit
+------------------------------------------------------------------------- */
+
+bigint Fluid::sum_before_forces()
+{
+  // a minimization has no velocities: what is minimized is the energy of the equation of state
+
+  const bool at_rest = (update->whichflag == 2);
+  density->run(pair->list, at_rest ? nullptr : atom->vest, at_rest ? nullptr : extrapolated_spin());
+
+  // noise needs the bound of the limit for the volumes that act in its pairs, those of walls as well
+
+  const bool limited = (model->choice.limit != Limit::NO);
+  const bool walls = !boundary->empty();
+  if (walls && model->choice.thermal) boundary->set_reference_volume();
+  if (limited) limit->run();
+  if (walls && !model->choice.thermal) boundary->set_reference_volume();
+  const double *const bound = limited ? limit->bound : nullptr;
+  const bigint nbeyond = pressure->run(bound, boundary->bits());
+  if (!open->empty()) open->run();
+  if (walls) boundary->run(pair->list);
+  if (model->choice.thermal) noise->run(bound, boundary->bits(), continued);
+  return nbeyond;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::sum_forces(PairTally *tally)
+{
+  forces->run(pair->list, tally);
+  if (!boundary->empty()) boundary->repel(tally);
+}
+
+/* ----------------------------------------------------------------------
+   friction that is extended behind walls, and the form P1 (64), have no symmetric matrix
+------------------------------------------------------------------------- */
+
+void Fluid::find_viscous_velocity()
+{
+  viscous->begin(not_fluid(), extrapolated_spin(), spin_inertia());
+  sum_before_forces();
+  if (neighbor->ago == 0 || viscous->has_old_rates())
+    viscous->set_rate(coeff_table().fastest_rate());
+  sum_forces(nullptr);
+  const bool symmetric =
+      (boundary->empty() || model->choice.thermal) && engine->bulk_form() != Bulk::VOLUME;
+  viscous->run(pair->list, (model->choice.limit != Limit::NO) ? limit->bound : nullptr, symmetric);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double Fluid::energy(double *each_atom) const
+{
+  const double energy = pressure->elastic_energy(each_atom, not_fluid());
+  return boundary->empty() ? energy : energy + boundary->energy(each_atom);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double Fluid::elastic_energy(Moment moment)
+{
+  if (moment == NOW) find_volumes();
+  return pressure->elastic_energy(nullptr, not_fluid());
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool Fluid::has_forces() const
+{
+  return engine->has_forces();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::heating(double *heat, double *power) const
+{
+  forces->heating(heat, power, not_fluid());
+}
+
+/* ---------------------------------------------------------------------- */
+
+const double *Fluid::own_force(int i) const
+{
+  return engine->force[i].f;
+}
+
+const double *Fluid::own_torque(int i) const
+{
+  return engine->torque[i].t;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::find_volumes()
+{
+  on_host([this]() {
+    density->run(pair->list, nullptr, nullptr);
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::set_mean_density(int groupbit)
+{
+  constexpr int MOST = 100;
+  constexpr double CLOSE = 1.0e-12;
+
+  // with volume mass, the volumes depend on the masses of the neighbors of other types
+
+  on_host([&]() {
+    check_masses(lmp, style, *model);
+    FluidState state(lmp, *engine, *exchange, *model);
+    std::vector<double> factor(atom->ntypes + 1, 1.0);
+    for (int k = 0; k < MOST; k++) {
+      density->run(pair->list, nullptr, nullptr);
+      state.run(groupbit, not_fluid());
+      if (state.scale_masses(factor, open->bits()) < CLOSE) break;
+    }
+    state.report_masses(factor, style);
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::announce()
+{
+  if (pair->compute_flag) report();    // pair_modify compute yes
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::report()
+{
+  const CoeffTable table = coeff_table();
+  if (!announced) {
+    for (int i = 1; i <= atom->ntypes; i++) model->warn_of_ignored(i, intrinsic_kappa_of(i, i));
+    warned_step = noise_step = 0.0;
+    FluidState state(lmp, *engine, *exchange, *model);
+    state.run(1, not_fluid());
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", style, model->summary(dim, support),
+                     engine->instruction_set(), table.text(update->dt), state.table());
+    check_sizes(lmp, style, *model, not_fluid());
+    state.warn(style, crowding->wanted);
+  }
+  announced = true;
+  if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
+
+  check_time_step(table);
+  check_energies(lmp, style, *model, not_fluid());
+  check_neighbors(lmp, style, *model, *engine, not_fluid(), dim, support);
+}
+
+/* ----------------------------------------------------------------------
+   with rate, of the fastest viscous mode, times the time step: what the noise asks for
+------------------------------------------------------------------------- */
+
+void Fluid::announce_noise(double rate)
+{
+  noise_step = update->dt;
+  const std::string temperature = model->choice.own_temperatures
+      ? "the temperatures of the particles"
+      : fmt::format("temperature {:g}", model->choice.temperature);
+  if (comm->me == 0)
+    utils::logmesg(lmp,
+                   "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
+                   "step {:.3g}\n",
+                   style, temperature, model->choice.seed, rate * update->dt);
+  if (rate == 0.0 && (model->choice.own_temperatures || model->choice.temperature > 0.0) &&
+      comm->me == 0)
+    error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", style);
+  if (rate * update->dt > ACCURATE_NOISE && !viscous->active() && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Pair style {}: the largest viscous rate times the time step is {:.3g}, above {:g}; "
+        "velocities between steps, and with them the structure of the fluid, are hotter "
+        "than the temperature of the noise",
+        style, rate * update->dt, ACCURATE_NOISE);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::check_time_step(const CoeffTable &table)
+{
+  const double smallest = viscous->active() ? table.acoustic_step() : table.smallest_step();
+  if (!(update->dt > smallest) || update->dt == warned_step) return;
+  warned_step = update->dt;
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "The time step {:g} exceeds the largest stable time step {:g} of pair "
+                   "style {}",
+                   update->dt, smallest, style);
+}
+
+/* ----------------------------------------------------------------------
+   of the pairs of types, for the fluid as it is now: by type, the fastest particle, those of walls
+   as well, with the speed of sound at its density and energy, and the thinnest one of the fluid.
+   A type without particles counts with its coefficients.  Whatever has to do with the largest
+   stable time step takes it from here.
+------------------------------------------------------------------------- */
+
+CoeffTable Fluid::coeff_table()
+{
+  find_smallest_inertia();
+  const int n = atom->ntypes;
+  const Eos eos = model->choice.eos;
+  std::vector<double> mine(2 * (n + 1), 0.0), all(2 * (n + 1));
+  double *const speed = all.data(), *const thinness = speed + n + 1;    // rho0/rho
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int type = atom->type[i];
+    const TypeCoeff &coeff = model->coeffs[type];
+    if (coeff.other) continue;
+    const double rho = atom->rho[i];
+    const double sound = sound_speed(eos, coeff.eos, rho, atom->esph[i] / atom->rmass[i]);
+    mine[type] = std::max(mine[type], sound + MathExtra::len3(atom->v[i]));
+    if (!is_boundary(i)) mine[n + 1 + type] = std::max(mine[n + 1 + type], coeff.eos.rho0 / rho);
+  }
+  MPI_Allreduce(mine.data(), all.data(), 2 * (n + 1), MPI_DOUBLE, MPI_MAX, world);
+  for (int i = 1; i <= n; i++) {
+    if (speed[i] == 0.0 && eos != Eos::IDEAL) speed[i] = model->coeffs[i].eos.c0;
+    if (thinness[i] == 0.0) thinness[i] = 1.0;
+  }
+
+  const double h = stability_length(), hsq = h * h;
+  CoeffTable table;
+  for (int i = 1; i <= n; i++)
+    for (int j = i; j <= n; j++) {
+      const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
+      if (a.other || b.other) continue;
+      const double zeta = 0.5 * (a.zeta + b.zeta);
+      const double rho = std::min(a.eos.rho0 / thinness[i], b.eos.rho0 / thinness[j]);
+      Columns steps = viscous_steps(i, j, hsq, rho);
+      steps.insert(steps.begin() + 1, {"bulk", bulk_step(hsq, zeta / rho)});
+      table.add_row(i, j, table_columns(i, j, zeta + intrinsic_kappa_of(i, j), zeta),
+                    acoustic_step(h, std::max(speed[i], speed[j])), steps);
+    }
+  return table;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double Fluid::stability_length() const
+{
+  return sqrt(stability_length_squared(kernel_slope_integral(model->choice.kernel, dim, support)));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double Fluid::fall_time() const
+{
+  double mine = 0.0, largest;    // acceleration
+  for (int i = 0; i < atom->nlocal; i++)
+    if (has_type(atom->type[i]) && !is_boundary(i))
+      mine = std::max(mine, MathExtra::len3(atom->f[i]) / atom->rmass[i]);
+  MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
+  return (largest > 0.0) ? sqrt(stability_length() / largest) : UNLIMITED_STEP;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int Fluid::not_fluid() const
+{
+  return boundary->bits() | open->bits();
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool Fluid::is_boundary(int i) const
+{
+  return atom->mask[i] & boundary->bits();
+}
+
+bool Fluid::has_type(int type) const
+{
+  return !model->coeffs[type].other;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double Fluid::memory_usage() const
+{
+  return engine->memory_usage() + limit->memory_usage() + open->memory_usage() +
+      boundary->memory_usage() + crowding->memory_usage() + noise->memory_usage() +
+      viscous->memory_usage();
+}

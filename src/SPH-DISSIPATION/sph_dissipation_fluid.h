@@ -1,0 +1,198 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_FLUID_H
+#define LMP_SPH_DISSIPATION_FLUID_H
+
+#include "pointers.h"
+#include "sph_dissipation_table.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class AtomVecSPHMicropolar;
+class Pair;
+
+namespace SPHDissipation {
+
+  class BoundaryStage;
+  class CrowdingStage;
+  class DensityStage;
+  class Engine;
+  class Exchange;
+  class FluidModel;
+  class ForceStage;
+  class LimitStage;
+  class NoiseStage;
+  class OpenStage;
+  class PairTally;
+  class PressureStage;
+  class ViscousStage;
+
+  // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
+  // friction by pairs, bulk force through the rate of change of the particle volume.  It owns what the
+  // commands set, the pair loops, and the stages around them, and runs them in their order.  The pair
+  // style is LAMMPS's interface to it; fixes and computes get it from find_fluid().
+
+  class Fluid : protected Pointers {
+   public:
+    // pair = of LAMMPS, which has the neighbor list and the communication; spins: particles rotate
+    Fluid(class LAMMPS *, Pair *, bool spins);
+    ~Fluid() override;
+
+    Pair *const pair;
+    const bool spins;
+    const std::string style;    // of pair, atoms, and integrator, without suffix
+
+    const std::unique_ptr<FluidModel> model;    // what the pair style's commands set
+
+   protected:
+    const std::unique_ptr<Engine> engine;
+    const std::unique_ptr<Exchange> exchange;
+    const std::unique_ptr<DensityStage> density;
+    const std::unique_ptr<LimitStage> limit;
+    const std::unique_ptr<PressureStage> pressure;
+    const std::unique_ptr<ForceStage> forces;
+
+   public:
+    // stages that fixes ask themselves.  A boundary or an open zone stays one until it is removed, when
+    // its fix is deleted; the fluid may be another one then.
+
+    const std::unique_ptr<OpenStage> open;
+    const std::unique_ptr<BoundaryStage> boundary;
+    const std::unique_ptr<CrowdingStage> crowding;
+    const std::unique_ptr<NoiseStage> noise;
+    const std::unique_ptr<ViscousStage> viscous;
+
+    // From the pair style: its commands; init() at the start of every run; derive_anew() after another
+    // command has changed coefficients
+
+    void settings(int narg, char **arg);
+    void coeff(int narg, char **arg);
+    void init();
+    void derive_anew() { stale = true; }
+    void *extract(const char *name, int &ndim);
+    Shear default_shear() const;
+    Exchange &messages() const { return *exchange; }    // whose packing the pair style hands on
+    virtual double memory_usage() const;                // bytes
+
+    // Forces: add them to those of LAMMPS, with a tally of each pair or nullptr; return the number of
+    // particles on this processor that are beyond the bound of the limit
+
+    virtual bigint compute(PairTally *);
+
+    // Potential energy of the last forces, on this processor, added to those of the particles (nullptr: to none)
+
+    double energy(double *each_atom) const;
+
+    // energy of the equation of state alone, on this processor: of the last forces, or where particles,
+    // with their ghosts, are now
+
+    enum Moment { LAST_FORCES, NOW };
+    virtual double elastic_energy(Moment);
+
+    // of the last forces: see ForceStage::heating(); force and torque on an owned particle, without
+    // what other styles add
+
+    virtual bool has_forces() const;    // for the particles that are there now
+    virtual void heating(double *heat, double *power) const;
+    const double *own_force(int i) const;
+    const double *own_torque(int i) const;
+
+    // Start of a run, from the integrator.  Masses of the particles of a group, times a factor of each
+    // type, for which their mean density is rho0; volumes, from the positions alone; then the table of
+    // viscosities, coefficients, and time steps if the coefficients are new, checks, and warnings, with
+    // the particles and their properties as they enter the first step
+
+    void set_mean_density(int groupbit);
+    void find_volumes();
+    virtual void announce();
+
+    // the run continues the last one, and the velocities in the friction are those of its last step; but
+    // not if any rank notes, before the first forces, that what the fluid touches moves otherwise
+
+    bool continued;
+    void note_change() { changed = true; }
+
+    bool is_set_up() const;    // what the commands say is in effect
+
+    // particles and types
+
+    int not_fluid() const;                   // bits of the groups of all boundaries and open zones
+    bool is_boundary(int i) const;           // owned or ghost particle
+    bool has_type(int type) const;           // its particles are of this fluid
+    int dimension() const { return dim; }    // of the kernel
+    double support_radius() const { return support; }
+    double bulk_viscosity(int type) const;    // in effect in the last force computation
+    bool has_torques() const;                 // any vortex or spin viscosity
+
+    // of the fluid as it is now: largest stable time steps; time in which a particle falls by the length
+    // that stability knows, at least
+
+    CoeffTable coeff_table();
+    double fall_time() const;
+
+   protected:
+    int dim;           // dimension of the kernel
+    double support;    // support radius rc
+    bool stale;        // what follows from the coefficients is to be derived anew
+
+    // run a task on the particles and the half neighbor list of the host; it may set densities and masses
+
+    virtual void on_host(const std::function<void()> &task) { task(); }
+
+    void report();
+    void adopt_changes();
+    double **extrapolated_spin() const;    // nullptr without spins
+
+   private:
+    bool set_up;           // since pair_style and pair_coeff
+    bool announced;        // the table of coefficients is up to date
+    bool changed;          // other coefficients, or motions of walls, than those of the last forces
+    double warned_step;    // the time step that the last warning was about
+    double noise_step;     // the time step that was announced with the noise
+    double smallest_inertia;    // per mass, of all particles that have one; limits the time step
+
+    void check_setup();
+    void find_own_types();
+    void derive_coeffs();
+    bigint sum_before_forces();
+    void sum_forces(PairTally *);
+    void find_viscous_velocity();
+    void check_time_step(const CoeffTable &);
+    double stability_length() const;
+    void announce_noise(double rate);
+
+    // what depends on the viscosities that a fluid has
+
+    static std::vector<std::string> viscosity_names(bool spins);
+    PairCoeff pair_coefficients(int i, int j) const;
+    double intrinsic_kappa_of(int i, int j) const;
+    void check_pair(int i, int j) const;
+    Columns table_columns(int i, int j, double kappa, double zeta) const;
+    Columns viscous_steps(int i, int j, double hsq, double rho) const;
+
+    // fields of particles that rotate; nullptr without spins
+
+    AtomVecSPHMicropolar *spinning() const;
+    const double *spin_inertia() const;    // per mass
+    void find_smallest_inertia();
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
