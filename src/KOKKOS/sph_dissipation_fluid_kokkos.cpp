@@ -206,9 +206,9 @@ template <class DeviceType> double FluidKokkos<DeviceType>::elastic_energy(Momen
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> bool FluidKokkos<DeviceType>::has_forces() const
+template <class DeviceType> bool FluidKokkos<DeviceType>::has_own_forces() const
 {
-  if (!on_device) return Fluid::has_forces();
+  if (!on_device) return Fluid::has_own_forces();
   return nlocal_device == atom->nlocal && nghost_device == atom->nghost;
 }
 

@@ -55,7 +55,6 @@ namespace SPHDissipation {
 
     bigint compute(PairTally *) override;
     double elastic_energy(Moment) override;
-    bool has_forces() const override;
     void heating(double *, double *) const override;
     void announce() override;
     double memory_usage() const override;
@@ -92,6 +91,7 @@ namespace SPHDissipation {
     Crowding crowding_of;
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
 
+    bool has_own_forces() const override;
     void on_host(const std::function<void()> &) override;
     void build_host_list();
     void refer_to_list();

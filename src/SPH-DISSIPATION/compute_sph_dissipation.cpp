@@ -54,31 +54,18 @@ ComputeSPHDissipation::~ComputeSPHDissipation()
 
 void ComputeSPHDissipation::init()
 {
-  find_own_fluid();
+  find_fluid(lmp, fmt::format("Compute {}", style));
 }
 
 /* ----------------------------------------------------------------------
-   looked up at every use, for the pair style may have been replaced since
-------------------------------------------------------------------------- */
-
-Fluid *ComputeSPHDissipation::find_own_fluid() const
-{
-  Fluid *const fluid = find_fluid(force);
-  if (!fluid) error->all(FLERR, "Compute {} requires pair style sph/bulk or sph/micropolar", style);
-  return fluid;
-}
-
-/* ----------------------------------------------------------------------
-   heat of each particle (not if nullptr), and total power by channel
+   heat of each particle (not if nullptr), and total power by channel; the fluid is looked up at every use,
+   for the pair style may have been replaced since
 ------------------------------------------------------------------------- */
 
 void ComputeSPHDissipation::collect(double *heat_of_each, double *power)
 {
-  const Fluid *const fluid = find_own_fluid();
-  const int missing = fluid->has_forces() ? 0 : 1;
-  int any_missing;
-  MPI_Allreduce(&missing, &any_missing, 1, MPI_INT, MPI_MAX, world);
-  if (any_missing)
+  const Fluid *const fluid = find_fluid(lmp, fmt::format("Compute {}", style));
+  if (!fluid->has_forces())
     error->all(FLERR,
                "Compute {} needs the forces of the particles that are there now: use run 0 first",
                style);

@@ -23,9 +23,6 @@ ComputeStyle(sph/dissipation,ComputeSPHDissipation);
 #include "compute.h"
 
 namespace LAMMPS_NS {
-namespace SPHDissipation {
-  class Fluid;
-}
 
 // Power that the dissipative forces of the last force computation turn into heat: total, by
 // channel, and by particle.
@@ -46,7 +43,6 @@ class ComputeSPHDissipation : public Compute {
   int nmax;
   double *heat;
 
-  SPHDissipation::Fluid *find_own_fluid() const;
   void collect(double *, double *);
 };
 

@@ -222,8 +222,8 @@ void ComputeSPHSpectrum::transform_fields()
 void ComputeSPHSpectrum::set_raise()
 {
   const double *const prd = domain->prd;
-  const double support = find_own_fluid()->support_radius();
-  const Kernel kernel = find_own_fluid()->model->choice.kernel;
+  const double support = fluid()->support_radius();
+  const Kernel kernel = fluid()->model->choice.kernel;
   const std::vector<double> made_for = {prd[0], prd[1], prd[2], support,
                                         static_cast<double>(kernel)};
   if (!raise.empty() && made_for == raised_for) return;
@@ -309,12 +309,12 @@ void ComputeSPHSpectrum::set_dissipation()
 {
   // largest and smallest values, of all particles of all processors
 
-  const Fluid *const fluid = find_own_fluid();
+  const Fluid *const mapped = fluid();
   double own[4] = {-1.0, -1.0, -HUGE_VAL, -HUGE_VAL}, most[4];
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_mapped(fluid, i)) continue;
-    const double mu = fluid->model->viscosity(0, atom->type[i], atom->type[i]);
-    const double kappa = fluid->bulk_viscosity(atom->type[i]);
+    if (!is_mapped(mapped, i)) continue;
+    const double mu = mapped->model->viscosity(0, atom->type[i], atom->type[i]);
+    const double kappa = mapped->bulk_viscosity(atom->type[i]);
     own[0] = std::max(own[0], mu);
     own[1] = std::max(own[1], kappa);
     own[2] = std::max(own[2], -mu);

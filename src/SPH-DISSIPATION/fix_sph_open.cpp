@@ -161,8 +161,7 @@ int FixSPHOpen::setmask()
 
 void FixSPHOpen::init()
 {
-  fluid = find_fluid(force);
-  if (!fluid) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
+  fluid = find_fluid(lmp, fmt::format("Fix {}", style));
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix {} does not support run_style respa", style);
   if (update->whichflag == 2)

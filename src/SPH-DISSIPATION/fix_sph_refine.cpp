@@ -173,8 +173,7 @@ int FixSPHRefine::setmask()
 
 void FixSPHRefine::init()
 {
-  fluid = find_fluid(force);
-  if (!fluid) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
+  fluid = find_fluid(lmp, fmt::format("Fix {}", style));
   check_setup();
   if (fluid->model->choice.volume != Volume::MASS)
     error->all(FLERR,

@@ -145,8 +145,7 @@ int FixSPHWall::setmask()
 
 void FixSPHWall::init()
 {
-  Fluid *const fluid = find_fluid(force);
-  if (!fluid) error->all(FLERR, "Fix {} requires pair style sph/bulk or sph/micropolar", style);
+  Fluid *const fluid = find_fluid(lmp, fmt::format("Fix {}", style));
   if (domain->deform_vremap)
     error->all(FLERR, "Fix {} cannot be used when fix deform remaps velocities", style);
 

@@ -14,7 +14,9 @@
 #include "pair_sph_bulk.h"
 
 #include "atom.h"
+#include "error.h"
 #include "force.h"
+#include "lammps.h"
 #include "memory.h"
 #include "neighbor.h"
 #include "sph_dissipation_engine.h"
@@ -84,6 +86,13 @@ Fluid *SPHDissipation::find_fluid(Force *force)
     if (auto *pair = dynamic_cast<PairSPHBulk *>(force->pair_match(name, 0)))
       return pair->fluid.get();
   return nullptr;
+}
+
+Fluid *SPHDissipation::find_fluid(LAMMPS *lmp, const std::string &user)
+{
+  Fluid *const fluid = find_fluid(lmp->force);
+  if (!fluid) lmp->error->all(FLERR, "{} requires pair style sph/bulk or sph/micropolar", user);
+  return fluid;
 }
 
 /* ---------------------------------------------------------------------- */

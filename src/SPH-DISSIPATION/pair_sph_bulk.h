@@ -23,14 +23,17 @@ PairStyle(sph/bulk,PairSPHBulk);
 #include "pair.h"
 
 #include <memory>
+#include <string>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Fluid;
 
-  // the fluid of the pair style, of whatever name, alone or in hybrid/overlay; nullptr if there is none
+  // The fluid of the pair style, of whatever name, alone or in hybrid/overlay.  If there is none: nullptr,
+  // or an error that names the user, "Fix sph/wall".  Another pair style has another one.
 
   Fluid *find_fluid(class Force *);
+  Fluid *find_fluid(class LAMMPS *, const std::string &user);
 }    // namespace SPHDissipation
 
 // LAMMPS's interface to a Fluid

@@ -24,7 +24,6 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
-#include "sph_dissipation_surface.h"
 #include "update.h"
 
 #include <algorithm>
@@ -49,7 +48,7 @@ BoundaryStage::BoundaryStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
                              const FluidModel &model, const std::string &style) :
     Stage(lmp, engine, exchange),
     sum(nullptr), model(model), style(style), group_bits(0), rows_bits(0), nmax(0),
-    surface(new SurfaceStage(lmp, engine, exchange)), surface_step(-1)
+    surface(lmp, engine, exchange), surface_step(-1)
 {
 }
 
@@ -58,7 +57,6 @@ BoundaryStage::BoundaryStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
 BoundaryStage::~BoundaryStage()
 {
   memory->sfree(sum);
-  delete surface;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -122,10 +120,10 @@ void BoundaryStage::run(NeighList *list)
   const bool found = (neighbor->ago == 0 || group_bits != rows_bits);
   if (found) find_rows(list);
   find_pairs();
-  if (found) surface->run(group_bits, pairs);
+  if (found) surface.run(group_bits, pairs);
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
-  for (auto boundary : boundaries) boundary->move_surface(surface->surface, before);
+  for (auto boundary : boundaries) boundary->move_surface(surface.surface, before);
   extend();
 }
 
@@ -140,7 +138,7 @@ void BoundaryStage::extend()
   else
     exchange.reverse({sums});
   check();
-  for (auto boundary : boundaries) boundary->set_boundary(*this, surface->surface, sum);
+  for (auto boundary : boundaries) boundary->set_boundary(*this, surface.surface, sum);
 
   // ghost atoms of the fluid get what they have already
 
@@ -312,7 +310,7 @@ void BoundaryStage::accumulate()
     for (const auto &pair : pairs) {
       const Particle &f = engine.particle[pair.fluid];
       const Particle &w = engine.particle[pair.wall];
-      const Surface &s = surface->surface[pair.wall];
+      const Surface &s = surface.surface[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
       const double distance = sqrt(inner_product(r, r));
@@ -356,8 +354,8 @@ void BoundaryStage::stop_for(int i) const
 
 const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 {
-  surface->run(group_bits, sides);
-  return surface->surface;
+  surface.run(group_bits, sides);
+  return surface.surface;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -366,6 +364,5 @@ double BoundaryStage::memory_usage() const
 {
   return (double) nmax * sizeof(BoundarySum) + (double) pairs.capacity() * sizeof(BoundaryPair) +
       (double) rows.capacity() * sizeof(int) +
-      (double) (near.capacity() + contact.capacity()) * sizeof(NearKernel) +
-      surface->memory_usage();
+      (double) (near.capacity() + contact.capacity()) * sizeof(NearKernel) + surface.memory_usage();
 }

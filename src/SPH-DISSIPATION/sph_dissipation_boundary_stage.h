@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_BOUNDARY_STAGE_H
 #define LMP_SPH_DISSIPATION_BOUNDARY_STAGE_H
 
-#include "sph_dissipation_stage.h"
+#include "sph_dissipation_surface.h"
 #include "sph_dissipation_wall_terms.h"
 
 #include <string>
@@ -26,14 +26,6 @@ namespace SPHDissipation {
   class Boundary;
   class FluidModel;
   class PairTally;
-  class SurfaceStage;
-
-  // a pair of a fluid and a boundary particle inside the support
-
-  struct BoundaryPair {
-    int fluid, wall;
-    bigint entry;    // of the pairs of the engine
-  };
 
   // Boundary particles get the velocity, volume, pressure and spin that act in the pair forces
 
@@ -106,7 +98,7 @@ namespace SPHDissipation {
     std::vector<NearKernel> contact;    // for BoundarySum::occupied
 
     int nmax;
-    SurfaceStage *surface;
+    SurfaceStage surface;
     bigint surface_step;    // that the normals of the surface are for
 
     bool has_energy() const;    // with thermal noise

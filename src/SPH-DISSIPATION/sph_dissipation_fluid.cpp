@@ -311,6 +311,14 @@ double Fluid::elastic_energy(Moment moment)
 
 bool Fluid::has_forces() const
 {
+  const int mine = has_own_forces() ? 1 : 0;
+  int all;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
+  return all;
+}
+
+bool Fluid::has_own_forces() const
+{
   return engine->has_forces();
 }
 

@@ -107,7 +107,8 @@ namespace SPHDissipation {
     // of the last forces: see ForceStage::heating(); force and torque on an owned particle, without
     // what other styles add
 
-    virtual bool has_forces() const;    // for the particles that are there now
+    bool
+    has_forces() const;    // on all processors, for the particles that are there now; asked by all
     virtual void heating(double *heat, double *power) const;
     const double *own_force(int i) const;
     const double *own_torque(int i) const;
@@ -154,6 +155,7 @@ namespace SPHDissipation {
 
     virtual void on_host(const std::function<void()> &task) { task(); }
 
+    virtual bool has_own_forces() const;    // on this processor
     void report();
     void adopt_changes();
     double **extrapolated_spin() const;    // nullptr without spins

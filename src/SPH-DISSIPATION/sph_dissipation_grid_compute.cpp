@@ -73,20 +73,18 @@ void GridCompute::init()
 
   if (domain->triclinic)
     error->all(FLERR, "Compute {} needs an orthogonal box, not a triclinic one", style);
-  if (find_own_fluid()->dimension() != domain->dimension)
+  if (fluid()->dimension() != domain->dimension)
     error->all(FLERR, "Compute {} needs a kernel of the dimension of the simulation, not dim {}",
-               style, find_own_fluid()->dimension());
+               style, fluid()->dimension());
 }
 
 /* ----------------------------------------------------------------------
    looked up at every use, for the pair style may have been replaced since
 ------------------------------------------------------------------------- */
 
-Fluid *GridCompute::find_own_fluid() const
+Fluid *GridCompute::fluid() const
 {
-  Fluid *const fluid = find_fluid(force);
-  if (!fluid) error->all(FLERR, "Compute {} requires pair style sph/bulk or sph/micropolar", style);
-  return fluid;
+  return find_fluid(lmp, fmt::format("Compute {}", style));
 }
 
 /* ----------------------------------------------------------------------
@@ -163,20 +161,17 @@ double GridCompute::energy(int i) const
 
 /* ---------------------------------------------------------------------- */
 
-bool GridCompute::is_mapped(const Fluid *fluid, int i) const
+bool GridCompute::is_mapped(const Fluid *mapped, int i) const
 {
-  return (atom->mask[i] & groupbit) && fluid->has_type(atom->type[i]) && !fluid->is_boundary(i);
+  return (atom->mask[i] & groupbit) && mapped->has_type(atom->type[i]) && !mapped->is_boundary(i);
 }
 
 /* ---------------------------------------------------------------------- */
 
 bigint GridCompute::map()
 {
-  const Fluid *const fluid = find_own_fluid();
-  const int missing = fluid->has_forces() ? 0 : 1;
-  int any_missing;
-  MPI_Allreduce(&missing, &any_missing, 1, MPI_INT, MPI_MAX, world);
-  if (any_missing)
+  const Fluid *const mapped = fluid();
+  if (!mapped->has_forces())
     error->all(FLERR,
                "Compute {} needs the volumes of the particles that are there now: use run 0 first",
                style);
@@ -187,7 +182,7 @@ bigint GridCompute::map()
     memory->create(values, nmax, comm_forward, "sph/grid:values");
   }
   for (int i = 0; i < atom->nlocal; i++) {
-    values[i][0] = is_mapped(fluid, i) ? atom->vfrac[i] : 0.0;
+    values[i][0] = is_mapped(mapped, i) ? atom->vfrac[i] : 0.0;
     for (int k = 0; k < nvalue(); k++) values[i][1 + k] = (this->*getters[k])(i);
   }
 
@@ -196,7 +191,7 @@ bigint GridCompute::map()
   if (domain->box_change) comm->forward_comm();
   comm->forward_comm(this);
 
-  return grid->map({fluid->model->choice.kernel, fluid->support_radius(), linear}, values,
+  return grid->map({mapped->model->choice.kernel, mapped->support_radius(), linear}, values,
                    nvalue());
 }
 

@@ -46,7 +46,7 @@ namespace SPHDissipation {
     int nvalue() const { return static_cast<int>(names.size()); }
     bool order_keyword(int &iarg, int narg, char **arg);
 
-    Fluid *find_own_fluid() const;
+    Fluid *fluid() const;
     bool is_mapped(const Fluid *, int) const;    // owned particle
     bigint map();    // all values, to ParticleGrid::field(); points without particles, of all ranks
 

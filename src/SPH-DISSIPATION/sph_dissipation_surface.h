@@ -21,9 +21,15 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  struct BoundaryPair;
   struct Surface;
   class Cells;
+
+  // a pair of a fluid and a boundary particle inside the support
+
+  struct BoundaryPair {
+    int fluid, wall;
+    bigint entry;    // of the pairs of the engine
+  };
 
   // Where the surface of the boundary is, seen from each of its particles: from the arrangement of
   // the boundary particles alone, on those sides where there is fluid
