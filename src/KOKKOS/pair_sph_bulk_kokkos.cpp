@@ -14,7 +14,7 @@
 #include "pair_sph_bulk_kokkos.h"
 
 #include "atom_kokkos.h"
-#include "atom_vec_sph_micropolar_kokkos.h"
+#include "atom_vec_sph_bulk_kokkos.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
@@ -454,9 +454,9 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::copy_coeffs()
 
 template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_particles()
 {
-  auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
   auto x = atomKK->k_x.template view<DeviceType>();
-  auto vest = avec->k_vest.template view<DeviceType>();
+  auto vest = avec.k_vest.template view<DeviceType>();
   auto type = atomKK->k_type.template view<DeviceType>();
   auto rmass = atomKK->k_rmass.template view<DeviceType>();
   auto particle = data->particle;
@@ -480,7 +480,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_particles()
   data->neighbors = k_list->d_neighbors;
   data->type = type;
   data->f = atomKK->k_f.template view<DeviceType>();
-  data->desph = avec->k_desph.template view<DeviceType>();
+  data->desph = avec.k_desph.template view<DeviceType>();
   if (engine->has_spin()) set_spins();
 }
 
@@ -488,8 +488,8 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_particles()
 
 template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_spins()
 {
-  auto *avec = dynamic_cast<AtomVecSPHMicropolarKokkos *>(atom->avec);
-  auto omegaest = avec->k_omegaest.template view<DeviceType>();
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+  auto omegaest = avec.k_omegaest.template view<DeviceType>();
   auto spin = data->spin;
   data->torque = atomKK->k_torque.template view<DeviceType>();
 
@@ -532,8 +532,8 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::send_density()
     sent = ColumnsKokkos();
     for (int k : {0, 1}) sent.add(rows + k, 2);
     if (ideal) {
-      auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
-      sent.add(avec->k_esph.template view<DeviceType>());
+      const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+      sent.add(avec.k_esph.template view<DeviceType>());
     }
     comm->forward_comm(this, sent.n);
     return;
@@ -664,12 +664,12 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::send_boundary()
 
 template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_state()
 {
-  auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
   auto rmass = atomKK->k_rmass.template view<DeviceType>();
-  auto rho = avec->k_rho.template view<DeviceType>();
-  auto drho = avec->k_drho.template view<DeviceType>();
-  auto vfrac = avec->k_vfrac.template view<DeviceType>();
-  auto esph = avec->k_esph.template view<DeviceType>();
+  auto rho = avec.k_rho.template view<DeviceType>();
+  auto drho = avec.k_drho.template view<DeviceType>();
+  auto vfrac = avec.k_vfrac.template view<DeviceType>();
+  auto esph = avec.k_esph.template view<DeviceType>();
   auto desph = data->desph;
   auto type = data->type;
   auto particle = data->particle;

@@ -15,14 +15,12 @@
 #define LMP_SPH_DISSIPATION_PARTICLES_KOKKOS_H
 
 #include "atom_kokkos.h"
-#include "atom_vec_sph_micropolar_kokkos.h"
-#include "sph_dissipation_integrate.h"
+#include "atom_vec_sph_bulk_kokkos.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // What the integrator does to particles on the device; the views of fields that there are not are
-  // empty.
+  // Arrays on the device, see TimeStep.
 
   template <class DeviceType> struct ParticlesKokkos {
     typedef Kokkos::View<double *, Kokkos::LayoutRight, DeviceType> t_field;
@@ -36,7 +34,7 @@ namespace SPHDissipation {
     typename AT::t_kkfloat_1d rmass;
     t_field esph, desph, desph_before, inertia;
     t_field_3 vest, omegaest;
-    bool spinning;
+    bool has_spins;
 
     ParticlesKokkos(AtomKokkos *atoms)
     {
@@ -45,45 +43,17 @@ namespace SPHDissipation {
       f = atoms->k_f.template view<DeviceType>();
       mask = atoms->k_mask.template view<DeviceType>();
       rmass = atoms->k_rmass.template view<DeviceType>();
-      auto *bulk = dynamic_cast<AtomVecSPHBulkKokkos *>(atoms->avec);
-      esph = bulk->k_esph.template view<DeviceType>();
-      desph = bulk->k_desph.template view<DeviceType>();
-      desph_before = bulk->k_desph_before.template view<DeviceType>();
-      vest = bulk->k_vest.template view<DeviceType>();
-      auto *micropolar = dynamic_cast<AtomVecSPHMicropolarKokkos *>(atoms->avec);
-      spinning = (micropolar != nullptr);
-      if (!spinning) return;
+      const auto &avec = AtomVecSPHBulkKokkos::of(atoms);
+      esph = avec.k_esph.template view<DeviceType>();
+      desph = avec.k_desph.template view<DeviceType>();
+      desph_before = avec.k_desph_before.template view<DeviceType>();
+      vest = avec.k_vest.template view<DeviceType>();
+      has_spins = avec.has_spins;
+      if (!has_spins) return;
       omega = atoms->k_omega.template view<DeviceType>();
       torque = atoms->k_torque.template view<DeviceType>();
-      inertia = micropolar->k_inertia.template view<DeviceType>();
-      omegaest = micropolar->k_omegaest.template view<DeviceType>();
-    }
-
-    KOKKOS_INLINE_FUNCTION void begin(const TimeStep &step, int i) const
-    {
-      const double dtfm = step.dtf / rmass(i);
-      step.begin_energy(desph(i), esph(i), desph_before(i));
-      for (int d = 0; d < 3; d++) step.begin(dtfm, f(i, d), x(i, d), v(i, d), vest(i, d));
-      if (!spinning) return;
-      const double dti = step.dtf * TimeStep::inverse_inertia(rmass(i), inertia(i));
-      for (int d = 0; d < 3; d++) step.begin_spin(dti, torque(i, d), omega(i, d), omegaest(i, d));
-    }
-
-    KOKKOS_INLINE_FUNCTION void end(const TimeStep &step, int i) const
-    {
-      const double dtfm = step.dtf / rmass(i);
-      step.end_energy(desph(i), desph_before(i), esph(i));
-      for (int d = 0; d < 3; d++) step.end(dtfm, f(i, d), v(i, d));
-      if (!spinning) return;
-      const double dti = step.dtf * TimeStep::inverse_inertia(rmass(i), inertia(i));
-      for (int d = 0; d < 3; d++) step.end(dti, torque(i, d), omega(i, d));
-    }
-
-    KOKKOS_INLINE_FUNCTION void follow(const TimeStep &step, int i) const
-    {
-      for (int d = 0; d < 3; d++) vest(i, d) = step.keep * v(i, d);
-      if (!spinning) return;
-      for (int d = 0; d < 3; d++) omegaest(i, d) = omega(i, d);
+      inertia = avec.k_inertia.template view<DeviceType>();
+      omegaest = avec.k_omegaest.template view<DeviceType>();
     }
   };
 

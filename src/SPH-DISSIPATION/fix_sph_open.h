@@ -29,6 +29,7 @@ FixStyle(sph/open,FixSPHOpen);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class Fields;
   class OpenCondition;
   class OpenLedger;
   class OpenPlane;
@@ -74,9 +75,8 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   SPHDissipation::OpenLedger *ledger;
   class PairSPHBulk *pair;
   class FixSPHBulk *integrator;    // of the fluid
-  class AtomVecSPHBulk *avec;
-  class AtomVecSPHMicropolar *spinning;    // the same, or nullptr
-  std::string fluid_name;                  // of its group
+  SPHDissipation::Fields *fields;
+  std::string fluid_name;    // of its group
   int fluidbit;
   double radius;               // of the fluid that is measured at the plane
   double area;                 // of the cross section of a row; 0: rows have a spacing

@@ -14,12 +14,12 @@
 #include "pair_sph_micropolar.h"
 
 #include "atom.h"
-#include "atom_vec_sph_micropolar.h"
 #include "domain.h"
 #include "error.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_table.h"
 
@@ -157,17 +157,12 @@ Columns PairSPHMicropolar::viscous_steps(int i, int j, double hsq, double rho) c
 
 /* ---------------------------------------------------------------------- */
 
-AtomVecSPHMicropolar *PairSPHMicropolar::spinning() const
-{
-  return dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(fluid_style.c_str()));
-}
-
 double **PairSPHMicropolar::extrapolated_spin()
 {
-  return spinning()->omegaest;
+  return Fields::of(atom)->omegaest;
 }
 
 const double *PairSPHMicropolar::spin_inertia()
 {
-  return spinning()->inertia;
+  return Fields::of(atom)->inertia;
 }

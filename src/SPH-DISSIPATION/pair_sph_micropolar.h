@@ -50,7 +50,6 @@ class PairSPHMicropolar : virtual public PairSPHBulk {
   void find_smallest_inertia() override;
 
  private:
-  class AtomVecSPHMicropolar *spinning() const;
   double smallest_inertia;    // per mass, of all particles that have one; limits the time step
 };
 
