@@ -465,12 +465,11 @@ void FixSPHBulk::arrive(int i)
 
 void FixSPHBulk::depart(int i)
 {
-  const double dtfm = dtf / atom->rmass[i];
-  for (int d = 0; d < 3; d++) atom->vest[i][d] = atom->v[i][d] += dtfm * atom->f[i][d];
-  if (!spins) return;
-  const double dti = dtf * TimeStep::inverse_inertia(atom->rmass[i], fields().inertia[i]);
-  double *const omegaest = fields().omegaest[i];
-  for (int d = 0; d < 3; d++) omegaest[d] = atom->omega[i][d] += dti * atom->torque[i][d];
+  const Particles particles(atom, fields());
+  TimeStep step = time_step();
+  step.keep = 1.0;
+  step.kick(particles, i);
+  step.follow(particles, i);
 }
 
 /* ----------------------------------------------------------------------

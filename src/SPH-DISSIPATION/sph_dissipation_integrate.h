@@ -27,8 +27,8 @@ namespace SPHDissipation {
     double extrapolation;    // of the velocity over half a step
     bool balanced;           // the forces are random
 
-    // Begin and end the step of particle i, and set its extrapolated quantities as without forces.  Particles:
-    // arrays, on host or device, as functions of i and the direction; without spins some are empty.
+    // Begin or end the step of particle i, kick it only, or set its extrapolated quantities as without forces.
+    // Particles: arrays, on host or device, as functions of i and the direction; without spins some are empty.
 
     template <class Particles> SPH_FUNCTION void begin(const Particles &p, int i) const
     {
@@ -51,8 +51,13 @@ namespace SPHDissipation {
 
     template <class Particles> SPH_FUNCTION void end(const Particles &p, int i) const
     {
-      const double dtfm = dtf / p.rmass(i);
       end_energy(p.desph(i), p.desph_before(i), p.esph(i));
+      kick(p, i);
+    }
+
+    template <class Particles> SPH_FUNCTION void kick(const Particles &p, int i) const
+    {
+      const double dtfm = dtf / p.rmass(i);
       for (int d = 0; d < 3; d++) p.v(i, d) += dtfm * p.f(i, d);
       if (!p.has_spins) return;
       const double dti = dtf * inverse_inertia(p.rmass(i), p.inertia(i));
