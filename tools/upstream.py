@@ -190,8 +190,8 @@ def styles():
 
 def letters(kind, name):
     """how the tables of commands mark accelerated variants: k = KOKKOS"""
-    has_kokkos = (KOKKOS / f"{'atom_vec' if kind == 'atom' else kind}_{name.replace('/', '_')}_kokkos.h").exists()
-    return " (k)" if has_kokkos else ""
+    declared = f"{kind.capitalize()}Style({name}/kk,"
+    return " (k)" if any(declared in header.read_text() for header in KOKKOS.glob("*.h")) else ""
 
 
 KOKKOS_SOURCES = """if(PKG_{package})

@@ -31,14 +31,14 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp) : AtomVecSPHBulkKokkos(lmp, COMPLETE) {}
+AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp) : AtomVecSPHBulkKokkos(lmp, false) {}
 
 /* ----------------------------------------------------------------------
    the views are those of the object that atomKK is now, also when replicate has made another one
 ------------------------------------------------------------------------- */
 
-AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, Complete complete) :
-    AtomVec(lmp), AtomVecSPHBulk(lmp, IN_VIEWS), AtomVecKokkos(lmp)
+AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
+    AtomVec(lmp), AtomVecSPHBulk(lmp, spins, true), AtomVecKokkos(lmp)
 {
   AtomKokkos &atoms = *atomKK;
   add_field(TAG_MASK, atoms.k_tag, atoms.tag);
@@ -56,13 +56,12 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, Complete complete) :
   add_own_field(DESPH_MASK, k_desph, atoms.desph, {});
   add_own_field(VEST_MASK, k_vest, atoms.vest, {COMM, BORDER, EXCHANGE});
   add_own_field(DESPH_BEFORE_MASK, k_desph_before, desph_before, {EXCHANGE});
-  if (complete == COMPLETE) setup_views();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void AtomVecSPHBulkKokkos::setup_views()
-{
+  if (has_spins) {
+    add_field(OMEGA_MASK, atoms.k_omega, atoms.omega);
+    add_field(TORQUE_MASK, atoms.k_torque, atoms.torque);
+    add_own_field(INERTIA_MASK, k_inertia, inertia, {EXCHANGE});
+    add_own_field(OMEGAEST_MASK, k_omegaest, omegaest, {COMM, BORDER, EXCHANGE});
+  }
   if (atomKK->k_dvector.extent(0))    // which fix property/atom would grow without our vectors
     error->all(FLERR, "This atom style must come before fixes property/atom with d_ names");
   bonus_flag = 1;        // for the functions of that name
@@ -76,16 +75,15 @@ void AtomVecSPHBulkKokkos::setup_views()
 
 AtomVecSPHBulkKokkos::~AtomVecSPHBulkKokkos()
 {
-  free_views();
+  for (const auto &field : fields)
+    if (field->own) field->destroy(memoryKK);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void AtomVecSPHBulkKokkos::free_views()
+AtomVecSPHBulkKokkos &AtomVecSPHBulkKokkos::of(Atom *atom)
 {
-  for (const auto &field : fields)
-    if (field->own) field->destroy(memoryKK);
-  fields.clear();
+  return *dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
 }
 
 /* ----------------------------------------------------------------------

@@ -16,6 +16,9 @@
 AtomStyle(sph/bulk/kk,AtomVecSPHBulkKokkos);
 AtomStyle(sph/bulk/kk/device,AtomVecSPHBulkKokkos);
 AtomStyle(sph/bulk/kk/host,AtomVecSPHBulkKokkos);
+AtomStyle(sph/micropolar/kk,AtomVecSPHMicropolarKokkos);
+AtomStyle(sph/micropolar/kk/device,AtomVecSPHMicropolarKokkos);
+AtomStyle(sph/micropolar/kk/host,AtomVecSPHMicropolarKokkos);
 // clang-format on
 #else
 
@@ -33,10 +36,13 @@ namespace LAMMPS_NS {
 // particles by the functions that LAMMPS has for "bonus" data, and have bits of their own in the masks
 // of sync() and modified().  The pair style sums what it leaves with ghost atoms itself.
 
-class AtomVecSPHBulkKokkos : public AtomVecKokkos, virtual public AtomVecSPHBulk {
+class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
  public:
   AtomVecSPHBulkKokkos(class LAMMPS *);
   ~AtomVecSPHBulkKokkos() override;
+
+  // the atom style, where the pair style or a fix is one with /kk
+  static AtomVecSPHBulkKokkos &of(class Atom *);
 
   void init() override;
   void grow(int) override;
@@ -69,10 +75,13 @@ class AtomVecSPHBulkKokkos : public AtomVecKokkos, virtual public AtomVecSPHBulk
 
   tdual_field k_rho, k_drho, k_vfrac, k_esph, k_desph, k_desph_before;
   tdual_field_3 k_vest;
+  tdual_field k_inertia;    // empty without spins, as the next one
+  tdual_field_3 k_omegaest;
 
  protected:
-  AtomVecSPHBulkKokkos(class LAMMPS *, Complete);    // of AtomVecSPHBulk, by a derived class
+  AtomVecSPHBulkKokkos(class LAMMPS *, bool spins);
 
+ private:
   enum Occasion { COMM, BORDER, EXCHANGE, NOCCASION };
 
   // in the constructor: a field of class AtomKokkos, or one of ours with the messages that it is in
@@ -80,10 +89,7 @@ class AtomVecSPHBulkKokkos : public AtomVecKokkos, virtual public AtomVecSPHBulk
   template <class View, class Pointer> void add_field(uint64_t, View &, Pointer &);
   template <class View, class Pointer>
   void add_own_field(uint64_t, View &, Pointer &, const std::vector<Occasion> &);
-  void setup_views();    // at the end of it
-  void free_views();     // in the destructor of the class that has them
 
- private:
   std::vector<std::unique_ptr<SPHDissipation::FieldKokkos>> fields;
 
   // own fields of each kind of message, in the order of the strings of the CPU style, so that a
@@ -97,6 +103,13 @@ class AtomVecSPHBulkKokkos : public AtomVecKokkos, virtual public AtomVecSPHBulk
 
   template <class Function> void with_fields(uint64_t, Function &&);
   void clear_heating();
+};
+
+// The same with spins.
+
+class AtomVecSPHMicropolarKokkos : public AtomVecSPHBulkKokkos {
+ public:
+  AtomVecSPHMicropolarKokkos(class LAMMPS *lmp) : AtomVec(lmp), AtomVecSPHBulkKokkos(lmp, true) {}
 };
 
 /* ---------------------------------------------------------------------- */

@@ -14,15 +14,58 @@
 #include "fix_sph_bulk_kokkos.h"
 
 #include "atom_kokkos.h"
-#include "fix_sph_micropolar.h"
+#include "atom_vec_sph_bulk_kokkos.h"
 #include "neighbor.h"
 #include "sph_dissipation_fluid_kokkos.h"
+#include "sph_dissipation_integrate.h"
 #include "sph_dissipation_masks_kokkos.h"
-#include "sph_dissipation_particles_kokkos.h"
 #include "sph_dissipation_shift_terms.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // arrays on the device as functions, see TimeStep
+
+  template <class DeviceType> struct ParticlesKokkos {
+    typedef Kokkos::View<double *, Kokkos::LayoutRight, DeviceType> t_field;
+    typedef Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> t_field_3;
+    typedef ArrayTypes<DeviceType> AT;
+
+    typename AT::t_kkfloat_1d_3_lr x;
+    typename AT::t_kkfloat_1d_3 v, omega;
+    typename AT::t_kkacc_1d_3 f, torque;
+    typename AT::t_int_1d mask;
+    typename AT::t_kkfloat_1d rmass;
+    t_field esph, desph, desph_before, inertia;
+    t_field_3 vest, omegaest;
+    bool has_spins;
+
+    ParticlesKokkos(AtomKokkos *atoms)
+    {
+      x = atoms->k_x.template view<DeviceType>();
+      v = atoms->k_v.template view<DeviceType>();
+      f = atoms->k_f.template view<DeviceType>();
+      mask = atoms->k_mask.template view<DeviceType>();
+      rmass = atoms->k_rmass.template view<DeviceType>();
+      const auto &avec = AtomVecSPHBulkKokkos::of(atoms);
+      esph = avec.k_esph.template view<DeviceType>();
+      desph = avec.k_desph.template view<DeviceType>();
+      desph_before = avec.k_desph_before.template view<DeviceType>();
+      vest = avec.k_vest.template view<DeviceType>();
+      has_spins = avec.has_spins;
+      if (!has_spins) return;
+      omega = atoms->k_omega.template view<DeviceType>();
+      torque = atoms->k_torque.template view<DeviceType>();
+      inertia = avec.k_inertia.template view<DeviceType>();
+      omegaest = avec.k_omegaest.template view<DeviceType>();
+    }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
 
 // The atom style leaves out the bits of fields that it does not have.
 
@@ -39,128 +82,125 @@ static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK;
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType, class Base>
-FixSPHKokkos<DeviceType, Base>::FixSPHKokkos(LAMMPS *lmp, int narg, char **arg) :
-    Base(lmp, narg, arg)
+template <class DeviceType>
+FixSPHBulkKokkos<DeviceType>::FixSPHBulkKokkos(LAMMPS *lmp, int narg, char **arg) :
+    FixSPHBulk(lmp, narg, arg)
 {
-  this->kokkosable = 1;
-  this->atomKK = (AtomKokkos *) this->atom;
-  this->execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  this->datamask_read = EMPTY_MASK;    // each function says itself what it reads and modifies
-  this->datamask_modify = EMPTY_MASK;
+  kokkosable = 1;
+  atomKK = (AtomKokkos *) atom;
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  datamask_read = EMPTY_MASK;    // each function says itself what it reads and modifies
+  datamask_modify = EMPTY_MASK;
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::setup_pre_exchange()
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_exchange()
 {
-  this->atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
-  Base::setup_pre_exchange();
-  this->atomKK->modified(Host, EXTRAPOLATION | ENERGY);
+  atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
+  FixSPHBulk::setup_pre_exchange();
+  atomKK->modified(Host, EXTRAPOLATION | ENERGY);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::post_run()
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::post_run()
 {
-  this->atomKK->sync(Host, MOTION | IDENTITY);
-  Base::post_run();
+  atomKK->sync(Host, MOTION | IDENTITY);
+  FixSPHBulk::post_run();
 }
 
-template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::write_restart(FILE *fp)
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::write_restart(FILE *fp)
 {
-  this->atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
-  Base::write_restart(fp);
+  atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
+  FixSPHBulk::write_restart(fp);
 }
 
 /* ----------------------------------------------------------------------
    the pair style says itself what it does to masses and densities
 ------------------------------------------------------------------------- */
 
-template <class DeviceType, class Base>
-void FixSPHKokkos<DeviceType, Base>::setup_pre_force(int vflag)
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_force(int vflag)
 {
-  this->atomKK->sync(Host, on_host() ? ALL_MASK : MOTION | EXTRAPOLATION);
-  Base::setup_pre_force(vflag);
-  if (on_host()) this->atomKK->modified(Host, VEST_MASK | INERTIA_MASK);
+  atomKK->sync(Host, on_host() ? ALL_MASK : MOTION | EXTRAPOLATION);
+  FixSPHBulk::setup_pre_force(vflag);
+  if (on_host()) atomKK->modified(Host, VEST_MASK | INERTIA_MASK);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::setup(int vflag)
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup(int vflag)
 {
-  this->atomKK->sync(Host, TYPE_MASK | MASK_MASK | VFRAC_MASK | INERTIA_MASK | ENERGY);
-  this->atomKK->modified(Host,
-                         INERTIA_MASK | ESPH_MASK);    // what follows synchronizes the particles
-  Base::setup(vflag);
+  atomKK->sync(Host, TYPE_MASK | MASK_MASK | VFRAC_MASK | INERTIA_MASK | ENERGY);
+  atomKK->modified(Host,
+                   INERTIA_MASK | ESPH_MASK);    // what follows synchronizes the particles
+  FixSPHBulk::setup(vflag);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType, class Base>
-void FixSPHKokkos<DeviceType, Base>::initial_integrate(int vflag)
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::initial_integrate(int vflag)
 {
-  this->check_set_up();
-  if (!on_host()) return integrate(BEGIN);
-  this->atomKK->sync(Host, ALL_MASK);
-  Base::initial_integrate(vflag);
-  this->atomKK->modified(Host, MODIFIED[BEGIN]);
+  check_set_up();
+  if (!on_host()) return integrate_on_device(BEGIN);
+  atomKK->sync(Host, ALL_MASK);
+  FixSPHBulk::initial_integrate(vflag);
+  atomKK->modified(Host, MODIFIED[BEGIN]);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::final_integrate()
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::final_integrate()
 {
-  if (!on_host()) return integrate(END);
-  this->atomKK->sync(Host, ALL_MASK);
-  Base::final_integrate();
-  this->atomKK->modified(Host, MODIFIED[END]);
+  if (!on_host()) return integrate_on_device(END);
+  atomKK->sync(Host, ALL_MASK);
+  FixSPHBulk::final_integrate();
+  atomKK->modified(Host, MODIFIED[END]);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::integrate(Half half)
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_device(Half half)
 {
-  const auto space = this->execution_space;
-  this->atomKK->sync(space, READ);
-  const ParticlesKokkos<DeviceType> particles(this->atomKK);
-  const TimeStep step = this->time_step();
-  const int bit = this->groupbit;
+  const auto space = execution_space;
+  atomKK->sync(space, READ);
+  const ParticlesKokkos<DeviceType> particles(atomKK);
+  const TimeStep step = time_step();
+  const int bit = groupbit;
 
   Kokkos::parallel_for(
-      "sph:integrate", Kokkos::RangePolicy<DeviceType>(0, this->nlocal_group()),
-      KOKKOS_LAMBDA(int i) {
+      "sph:integrate", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
         if (!(particles.mask(i) & bit)) return;
         if (half == BEGIN)
-          particles.begin(step, i);
+          step.begin(particles, i);
         else
-          particles.end(step, i);
+          step.end(particles, i);
       });
-  if (half == BEGIN && this->shift_speed > 0.0) shift_on_device();
-  this->atomKK->modified(space, MODIFIED[half]);
+  if (half == BEGIN && shift_speed > 0.0) shift_on_device();
+  atomKK->modified(space, MODIFIED[half]);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType, class Base> bool FixSPHKokkos<DeviceType, Base>::on_host() const
+template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
 {
-  if (this->remap_v_flag || this->exact) return true;
-  if (this->shift_speed == 0.0) return false;
-  const auto *const fluidKK = dynamic_cast<FluidKokkos<DeviceType> *>(this->fluid);
+  if (remap_v_flag || exact) return true;
+  if (shift_speed == 0.0) return false;
+  const auto *const fluidKK = dynamic_cast<FluidKokkos<DeviceType> *>(fluid);
   return !fluidKK || !fluidKK->computes_on_device();
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::shift_on_device()
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::shift_on_device()
 {
-  auto crowding = dynamic_cast<FluidKokkos<DeviceType> *>(this->fluid)->crowding_on_device();
-  auto x = this->atomKK->k_x.template view<DeviceType>();
-  auto mask = this->atomKK->k_mask.template view<DeviceType>();
-  const double speed = this->shift_speed, support = this->fluid->support_radius(), dt = this->dtv;
-  const int bit = this->groupbit;
+  auto crowding = dynamic_cast<FluidKokkos<DeviceType> *>(fluid)->crowding_on_device();
+  auto x = atomKK->k_x.template view<DeviceType>();
+  auto mask = atomKK->k_mask.template view<DeviceType>();
+  const double speed = shift_speed, support = fluid->support_radius(), dt = dtv;
+  const int bit = groupbit;
   Kokkos::parallel_for(
-      "sph:shift", Kokkos::RangePolicy<DeviceType>(0, this->nlocal_group()), KOKKOS_LAMBDA(int i) {
+      "sph:shift", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
         if (mask(i) & bit) shift_particle(speed, support, dt, &crowding(i, 0), &x(i, 0));
       });
 }
@@ -169,64 +209,59 @@ template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::shi
    as reset_extrapolation() of the CPU style
 ------------------------------------------------------------------------- */
 
-template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::post_integrate()
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::post_integrate()
 {
-  if (!this->first_instance || (this->integrated_groups & 1)) return;
-  const auto space = this->execution_space;
-  this->atomKK->sync(space, MOTION | EXTRAPOLATION | MASK_MASK);
-  const ParticlesKokkos<DeviceType> particles(this->atomKK);
-  const TimeStep step = this->time_step();
-  const int except = this->integrated_groups;
+  if (!first_instance || (integrated_groups & 1)) return;
+  const auto space = execution_space;
+  atomKK->sync(space, MOTION | EXTRAPOLATION | MASK_MASK);
+  const ParticlesKokkos<DeviceType> particles(atomKK);
+  const TimeStep step = time_step();
+  const int except = integrated_groups;
 
   Kokkos::parallel_for(
-      "sph:follow", Kokkos::RangePolicy<DeviceType>(0, this->atom->nlocal), KOKKOS_LAMBDA(int i) {
-        if (!(particles.mask(i) & except)) particles.follow(step, i);
+      "sph:follow", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+        if (!(particles.mask(i) & except)) step.follow(particles, i);
       });
-  this->atomKK->modified(space, EXTRAPOLATION);
+  atomKK->modified(space, EXTRAPOLATION);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType, class Base> void FixSPHKokkos<DeviceType, Base>::pre_force(int vflag)
+template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::pre_force(int vflag)
 {
-  if (!this->remap_v_flag && !anybody_without_inertia()) return;
-  this->atomKK->sync(Host, V_MASK | VEST_MASK | MASK_MASK | TYPE_MASK | RMASS_MASK | INERTIA_MASK);
-  Base::pre_force(vflag);
-  this->atomKK->modified(Host, VEST_MASK | INERTIA_MASK);
+  if (!remap_v_flag && !anybody_without_inertia()) return;
+  atomKK->sync(Host, V_MASK | VEST_MASK | MASK_MASK | TYPE_MASK | RMASS_MASK | INERTIA_MASK);
+  FixSPHBulk::pre_force(vflag);
+  atomKK->modified(Host, VEST_MASK | INERTIA_MASK);
 }
 
 /* ----------------------------------------------------------------------
    among the particles of a new neighbor list, where they need inertia
 ------------------------------------------------------------------------- */
 
-template <class DeviceType, class Base>
-bool FixSPHKokkos<DeviceType, Base>::anybody_without_inertia() const
+template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::anybody_without_inertia() const
 {
-  bool asked = false;
-  if constexpr (std::is_base_of_v<FixSPHMicropolar, Base>) asked = this->needs_inertia();
-  if (!asked || this->neighbor->ago != 0) return false;
+  if (!needs_inertia() || neighbor->ago != 0) return false;
 
-  this->atomKK->sync(this->execution_space, MASK_MASK | INERTIA_MASK);
-  const ParticlesKokkos<DeviceType> particles(this->atomKK);
-  const int bit = this->groupbit;
+  atomKK->sync(execution_space, MASK_MASK | INERTIA_MASK);
+  const ParticlesKokkos<DeviceType> particles(atomKK);
+  const int bit = groupbit;
   int count = 0, all;
   Kokkos::parallel_reduce(
-      "sph:inertia", Kokkos::RangePolicy<DeviceType>(0, this->atom->nlocal),
+      "sph:inertia", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
       KOKKOS_LAMBDA(int i, int &sum) {
         if ((particles.mask(i) & bit) && !(particles.inertia(i) > 0.0)) sum++;
       },
       count);
-  MPI_Allreduce(&count, &all, 1, MPI_INT, MPI_MAX, this->world);
+  MPI_Allreduce(&count, &all, 1, MPI_INT, MPI_MAX, world);
   return all;
 }
 
 /* ---------------------------------------------------------------------- */
 
 namespace LAMMPS_NS {
-template class FixSPHKokkos<LMPDeviceType, FixSPHBulk>;
-template class FixSPHKokkos<LMPDeviceType, FixSPHMicropolar>;
+template class FixSPHBulkKokkos<LMPDeviceType>;
 #ifdef LMP_KOKKOS_GPU
-template class FixSPHKokkos<LMPHostType, FixSPHBulk>;
-template class FixSPHKokkos<LMPHostType, FixSPHMicropolar>;
+template class FixSPHBulkKokkos<LMPHostType>;
 #endif
 }    // namespace LAMMPS_NS

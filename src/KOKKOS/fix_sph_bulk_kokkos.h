@@ -16,6 +16,9 @@
 FixStyle(sph/bulk/kk,FixSPHBulkKokkos<LMPDeviceType>);
 FixStyle(sph/bulk/kk/device,FixSPHBulkKokkos<LMPDeviceType>);
 FixStyle(sph/bulk/kk/host,FixSPHBulkKokkos<LMPHostType>);
+FixStyle(sph/micropolar/kk,FixSPHBulkKokkos<LMPDeviceType>);
+FixStyle(sph/micropolar/kk/device,FixSPHBulkKokkos<LMPDeviceType>);
+FixStyle(sph/micropolar/kk/host,FixSPHBulkKokkos<LMPHostType>);
 // clang-format on
 #else
 
@@ -28,12 +31,12 @@ FixStyle(sph/bulk/kk/host,FixSPHBulkKokkos<LMPHostType>);
 namespace LAMMPS_NS {
 
 // What is done in every step is done on the device, but for the exchange of energy of thermal noise,
-// large viscosities, and the velocities that fix deform remaps: those, and the start of a run, by Base,
-// the CPU style, on the host.
+// large viscosities, and the velocities that fix deform remaps: those, and the start of a run, by the CPU
+// style, on the host.
 
-template <class DeviceType, class Base> class FixSPHKokkos : public Base {
+template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
  public:
-  FixSPHKokkos(class LAMMPS *, int, char **);
+  FixSPHBulkKokkos(class LAMMPS *, int, char **);
   void setup_pre_exchange() override;
   void setup_pre_force(int) override;
   void setup(int) override;
@@ -46,16 +49,13 @@ template <class DeviceType, class Base> class FixSPHKokkos : public Base {
 
   // of these; public because CUDA asks for it of functions with lambdas
 
-  enum Half { BEGIN, END };
-  void integrate(Half);
+  void integrate_on_device(Half);
   void shift_on_device();
   bool anybody_without_inertia() const;
 
  private:
   bool on_host() const;
 };
-
-template <class DeviceType> using FixSPHBulkKokkos = FixSPHKokkos<DeviceType, FixSPHBulk>;
 
 }    // namespace LAMMPS_NS
 

@@ -133,7 +133,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate
   auto x = atomKK->k_x.template view<DeviceType>();
   auto v = atomKK->k_v.template view<DeviceType>();
   auto mask = atomKK->k_mask.template view<DeviceType>();
-  auto vest = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec)->k_vest.template view<DeviceType>();
+  auto vest = AtomVecSPHBulkKokkos::of(atom).k_vest.template view<DeviceType>();
   const FromPoint<DeviceType> from_point(atomKK, domain);
   const bool moves = move;
   const int bit = groupbit;
@@ -197,9 +197,9 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
   const WallVelocity now = motion->velocity();
   const WallCondition wall = *condition;
   const FromPoint<DeviceType> from_point(atomKK, domain);
-  auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
-  auto rho = avec->k_rho.template view<DeviceType>();
-  auto vfrac = avec->k_vfrac.template view<DeviceType>();
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+  auto rho = avec.k_rho.template view<DeviceType>();
+  auto vfrac = avec.k_vfrac.template view<DeviceType>();
   auto mask = atomKK->k_mask.template view<DeviceType>();
   auto rmass = atomKK->k_rmass.template view<DeviceType>();
   auto all = boundary.particles;

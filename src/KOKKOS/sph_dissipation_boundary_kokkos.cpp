@@ -204,7 +204,7 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
   auto sum = boundary.sum;
   auto loop = data;
   const bool has_spin = data.spin.extent(0);
-  auto rho = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec)->k_rho.template view<DeviceType>();
+  auto rho = AtomVecSPHBulkKokkos::of(atom).k_rho.template view<DeviceType>();
   Kokkos::parallel_for(
       "sph:boundary_sum", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
         const int i = particles(k);

@@ -14,7 +14,7 @@
 #include "sph_dissipation_fluid_kokkos.h"
 
 #include "atom_kokkos.h"
-#include "atom_vec_sph_micropolar_kokkos.h"
+#include "atom_vec_sph_bulk_kokkos.h"
 #include "comm.h"
 #include "force.h"
 #include "kokkos.h"
@@ -335,9 +335,9 @@ template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
 {
-  auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
   auto x = atomKK->k_x.template view<DeviceType>();
-  auto vest = avec->k_vest.template view<DeviceType>();
+  auto vest = avec.k_vest.template view<DeviceType>();
   auto type = atomKK->k_type.template view<DeviceType>();
   auto rmass = atomKK->k_rmass.template view<DeviceType>();
   auto particle = data->particle;
@@ -361,7 +361,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
   data->neighbors = k_list->d_neighbors;
   data->type = type;
   data->f = atomKK->k_f.template view<DeviceType>();
-  data->desph = avec->k_desph.template view<DeviceType>();
+  data->desph = avec.k_desph.template view<DeviceType>();
   if (engine->has_spin()) set_spins();
 }
 
@@ -369,8 +369,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_spins()
 {
-  auto *avec = dynamic_cast<AtomVecSPHMicropolarKokkos *>(atom->avec);
-  auto omegaest = avec->k_omegaest.template view<DeviceType>();
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+  auto omegaest = avec.k_omegaest.template view<DeviceType>();
   auto spin = data->spin;
   data->torque = atomKK->k_torque.template view<DeviceType>();
 
@@ -413,8 +413,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::send_density()
     sent = ColumnsKokkos();
     for (int k : {0, 1}) sent.add(rows + k, 2);
     if (ideal) {
-      auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
-      sent.add(avec->k_esph.template view<DeviceType>());
+      const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+      sent.add(avec.k_esph.template view<DeviceType>());
     }
     comm->forward_comm(pair, sent.n);
     return;
@@ -545,12 +545,12 @@ template <class DeviceType> void FluidKokkos<DeviceType>::send_boundary()
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_state()
 {
-  auto *avec = dynamic_cast<AtomVecSPHBulkKokkos *>(atom->avec);
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
   auto rmass = atomKK->k_rmass.template view<DeviceType>();
-  auto rho = avec->k_rho.template view<DeviceType>();
-  auto drho = avec->k_drho.template view<DeviceType>();
-  auto vfrac = avec->k_vfrac.template view<DeviceType>();
-  auto esph = avec->k_esph.template view<DeviceType>();
+  auto rho = avec.k_rho.template view<DeviceType>();
+  auto drho = avec.k_drho.template view<DeviceType>();
+  auto vfrac = avec.k_vfrac.template view<DeviceType>();
+  auto esph = avec.k_esph.template view<DeviceType>();
   auto desph = data->desph;
   auto type = data->type;
   auto particle = data->particle;

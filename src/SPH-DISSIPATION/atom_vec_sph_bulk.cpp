@@ -22,24 +22,25 @@
 
 using namespace LAMMPS_NS;
 
-// names known to compute property/atom, in the order of their index
+// names known to compute property/atom, in the order of their index, those of spins last
 
-static constexpr const char *PROPERTY[] = {"numden", "dnumden", "vol",   "rho",  "esph",
-                                           "desph",  "vestx",   "vesty", "vestz"};
-enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, VESTX, VESTY, VESTZ, NPROPERTY };
+static constexpr const char *PROPERTY[] = {"numden",    "dnumden",   "vol",      "rho",   "esph",
+                                           "desph",     "vestx",     "vesty",    "vestz", "inertia",
+                                           "omegaestx", "omegaesty", "omegaestz"};
+enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, VESTX };
+enum { INERTIA = VESTX + 3, OMEGAESTX, NPROPERTY = OMEGAESTX + 3 };
 
 static constexpr int CUSTOM_DOUBLE = 1;    // data type of Atom::add_custom()
 
 /* ---------------------------------------------------------------------- */
 
-AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) : AtomVecSPHBulk(lmp, COMPLETE) {}
+AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) : AtomVecSPHBulk(lmp, false) {}
 
 /* ---------------------------------------------------------------------- */
 
-AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
-    AtomVec(lmp), desph_before(nullptr), owner(atom), in_views(complete == IN_VIEWS), nmax_own(0),
-    rmass(nullptr), rho(nullptr), drho(nullptr), vfrac(nullptr), esph(nullptr), desph(nullptr),
-    vest(nullptr)
+AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
+    AtomVec(lmp), Fields(spins), owner(atom), in_views(in_views), nmax_own(0), rmass(nullptr),
+    rho(nullptr), drho(nullptr), vfrac(nullptr), esph(nullptr), desph(nullptr), vest(nullptr)
 {
   molecular = Atom::ATOMIC;
   mass_type = PER_ATOM;
@@ -76,7 +77,30 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, Complete complete) :
   fields_data_atom = {"id", "type", "rmass", "esph", "x"};
   fields_data_vel = {"id", "v"};
 
-  if (complete == COMPLETE) setup_fields();
+  if (has_spins) add_spins();
+  if (!in_views) setup_fields();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void AtomVecSPHBulk::add_spins()
+{
+  add_array("inertia", &inertia);
+  add_array("omegaest", &omegaest, 3);
+
+  atom->omega_flag = 1;
+  atom->torque_flag = 1;
+
+  fields_grow.insert(fields_grow.end(), {"omega", "torque"});
+  for (auto *fields : {&fields_copy, &fields_create})
+    fields->insert(fields->end(), {"omega", "torque", "inertia", "omegaest"});
+  fields_exchange.insert(fields_exchange.end(), {"omega", "inertia", "omegaest"});
+  for (auto *fields : {&fields_comm, &fields_comm_vel, &fields_border, &fields_border_vel})
+    fields->push_back("omegaest");
+  fields_reverse.push_back("torque");
+  fields_restart.insert(fields_restart.end(), {"omega", "inertia", "omegaest"});
+  fields_data_atom = {"id", "type", "rmass", "inertia", "esph", "x"};
+  fields_data_vel = {"id", "v", "omega"};
 }
 
 /* ----------------------------------------------------------------------
@@ -173,26 +197,24 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
   if (!(rmass[ilocal] > 0.0))
     error->one(FLERR, "Invalid mass {} in Atoms section of data file: mass must be > 0",
                rmass[ilocal]);
-  clear_derived(ilocal);
+  unpack_restart_init(ilocal);
   desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
+  if (!has_spins) return;
+  if (!(inertia[ilocal] >= 0.0))
+    error->one(FLERR, "Invalid inertia {} in Atoms section of data file: must be >= 0",
+               inertia[ilocal]);
+  for (int d = 0; d < 3; d++) omegaest[ilocal][d] = atom->omega[ilocal][d] = 0.0;
 }
 
 /* ----------------------------------------------------------------------
-   initialize what AtomVec::unpack_restart() did not unpack
+   zero what AtomVec::unpack_restart() did not unpack, and only a force computation can set
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::unpack_restart_init(int ilocal)
 {
-  clear_derived(ilocal);
-}
-
-/* ----------------------------------------------------------------------
-   zero the quantities that only a force computation can set
-------------------------------------------------------------------------- */
-
-void AtomVecSPHBulk::clear_derived(int ilocal)
-{
   rho[ilocal] = drho[ilocal] = vfrac[ilocal] = desph[ilocal] = 0.0;
+  if (!has_spins) return;
+  for (int d = 0; d < 3; d++) atom->torque[ilocal][d] = 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -202,7 +224,8 @@ void AtomVecSPHBulk::clear_derived(int ilocal)
 
 int AtomVecSPHBulk::property_atom(const std::string &name)
 {
-  for (int index = 0; index < NPROPERTY; index++)
+  const int n = has_spins ? NPROPERTY : INERTIA;
+  for (int index = 0; index < n; index++)
     if (name == PROPERTY[index]) return index;
   return -1;
 }
@@ -239,8 +262,11 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
       case DESPH:
         buf[n] = desph[i];
         break;
+      case INERTIA:
+        buf[n] = inertia[i];
+        break;
       default:
-        buf[n] = vest[i][index - VESTX];
+        buf[n] = (index < INERTIA) ? vest[i][index - VESTX] : omegaest[i][index - OMEGAESTX];
     }
   }
 }

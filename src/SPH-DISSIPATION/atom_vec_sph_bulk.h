@@ -14,6 +14,7 @@
 #ifdef ATOM_CLASS
 // clang-format off
 AtomStyle(sph/bulk,AtomVecSPHBulk);
+AtomStyle(sph/micropolar,AtomVecSPHMicropolar);
 // clang-format on
 #else
 
@@ -21,21 +22,18 @@ AtomStyle(sph/bulk,AtomVecSPHBulk);
 #define LMP_ATOM_VEC_SPH_BULK_H
 
 #include "atom_vec.h"
+#include "sph_dissipation_fields.h"
 
 namespace LAMMPS_NS {
 
 // Per-atom arrays of a particle fluid: mass (rmass), internal energy (esph) and its rate (desph),
 // velocity extrapolated to the end of the step (vest); from the last force computation, density
-// rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.
+// rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.  Where particles spin, also spin (omega,
+// angular velocity) and torque.  Class Fields has the others.
 
-class AtomVecSPHBulk : virtual public AtomVec {
+class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
  public:
   AtomVecSPHBulk(class LAMMPS *);
-
-  // by a derived class, which calls setup_fields(); IN_VIEWS: which also allocates all arrays
-
-  enum Complete { COMPLETE, TO_BE_EXTENDED, IN_VIEWS };
-  AtomVecSPHBulk(class LAMMPS *, Complete);
   ~AtomVecSPHBulk() override;
 
   void grow_pointers() override;
@@ -46,10 +44,8 @@ class AtomVecSPHBulk : virtual public AtomVec {
   void pack_property_atom(int, double *, int, int) override;
   double memory_usage() override;
 
-  double *desph_before;    // of the integrator, see TimeStep
-
  protected:
-  virtual void clear_derived(int);
+  AtomVecSPHBulk(class LAMMPS *, bool spins, bool in_views = false);
 
   // arrays that class Atom has no member for: name as a field, pointer to be kept up to date
 
@@ -60,10 +56,12 @@ class AtomVecSPHBulk : virtual public AtomVec {
   }
 
   class Atom *const owner;       // of the arrays
-  const bool in_views;           // which a derived class allocates
+  const bool in_views;           // all arrays, by a derived class, which calls setup_fields()
   void show_custom_vectors();    // as custom properties, where they are now
 
  private:
+  void add_spins();
+
   struct OwnArray {
     std::string name;
     int index;          // of the custom property
@@ -77,6 +75,13 @@ class AtomVecSPHBulk : virtual public AtomVec {
 
   double *rmass, *rho, *drho, *vfrac, *esph, *desph;
   double **vest;
+};
+
+// The same with spins.
+
+class AtomVecSPHMicropolar : public AtomVecSPHBulk {
+ public:
+  AtomVecSPHMicropolar(class LAMMPS *lmp) : AtomVec(lmp), AtomVecSPHBulk(lmp, true) {}
 };
 
 }    // namespace LAMMPS_NS

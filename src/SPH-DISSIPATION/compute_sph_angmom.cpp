@@ -14,15 +14,16 @@
 #include "compute_sph_angmom.h"
 
 #include "atom.h"
-#include "atom_vec_sph_micropolar.h"
 #include "domain.h"
 #include "error.h"
 #include "group.h"
+#include "sph_dissipation_fields.h"
 #include "update.h"
 
 #include <cstring>
 
 using namespace LAMMPS_NS;
+using namespace SPHDissipation;
 
 enum { TOTAL = 0, ORBITAL = 3, SPIN = 6, NVALUE = 9 };
 
@@ -31,7 +32,7 @@ enum { TOTAL = 0, ORBITAL = 3, SPIN = 6, NVALUE = 9 };
 ComputeSPHAngmom::ComputeSPHAngmom(LAMMPS *lmp, int narg, char **arg) :
     Compute(lmp, narg, arg), fixed_point(0), point{0.0, 0.0, 0.0}
 {
-  if (!atom->style_match("sph/micropolar"))
+  if (!Fields::with_spins(atom))
     error->all(FLERR, "Compute {} requires atom style sph/micropolar", style);
 
   if (narg > 3) {
@@ -63,7 +64,7 @@ void ComputeSPHAngmom::compute_vector()
   invoked_vector = update->ntimestep;
   if (!fixed_point) group->xcm(igroup, group->mass(igroup), point);
 
-  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  const double *const inertia = Fields::of(atom)->inertia;
   double **v = atom->v;
   double **omega = atom->omega;
   const double *const rmass = atom->rmass;
@@ -78,7 +79,7 @@ void ComputeSPHAngmom::compute_vector()
     sum[ORBITAL] += rmass[i] * (x[1] * v[i][2] - x[2] * v[i][1]);
     sum[ORBITAL + 1] += rmass[i] * (x[2] * v[i][0] - x[0] * v[i][2]);
     sum[ORBITAL + 2] += rmass[i] * (x[0] * v[i][1] - x[1] * v[i][0]);
-    for (int d = 0; d < 3; d++) sum[SPIN + d] += rmass[i] * avec->inertia[i] * omega[i][d];
+    for (int d = 0; d < 3; d++) sum[SPIN + d] += rmass[i] * inertia[i] * omega[i][d];
   }
   for (int d = 0; d < 3; d++) sum[TOTAL + d] = sum[ORBITAL + d] + sum[SPIN + d];
   MPI_Allreduce(sum, vector, NVALUE, MPI_DOUBLE, MPI_SUM, world);

@@ -14,12 +14,13 @@
 #include "compute_sph_energy.h"
 
 #include "atom.h"
-#include "atom_vec_sph_micropolar.h"
 #include "error.h"
 #include "force.h"
+#include "sph_dissipation_fields.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
+using namespace SPHDissipation;
 
 enum { KINETIC, INTERNAL, ROTATIONAL, NENERGY };
 
@@ -72,12 +73,13 @@ void ComputeSPHEnergy::compute_vector()
   }
   energy[KINETIC] *= 0.5 * force->mvv2e;
 
-  if (auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"))) {
+  if (const Fields *fields = Fields::with_spins(atom)) {
     double **omega = atom->omega;
     for (int i = 0; i < atom->nlocal; i++) {
       if (!(mask[i] & groupbit)) continue;
       const double *const w = omega[i];
-      energy[ROTATIONAL] += rmass[i] * avec->inertia[i] * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+      energy[ROTATIONAL] +=
+          rmass[i] * fields->inertia[i] * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
     }
     energy[ROTATIONAL] *= 0.5 * force->mvv2e;
   }

@@ -20,6 +20,7 @@
 #include "group.h"
 #include "memory.h"
 #include "sph_dissipation_fft.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_grid.h"
 #include "sph_dissipation_model.h"
@@ -56,8 +57,8 @@ enum { U = 0, RHO = 3, ROOT = 4, OMEGA = 7, NFIELD = 10 };
 /* ---------------------------------------------------------------------- */
 
 ComputeSPHSpectrum::ComputeSPHSpectrum(LAMMPS *lmp, int narg, char **arg) :
-    GridCompute(lmp, narg, arg), deconvolve(false), nshell(0),
-    micropolar(atom->style_match("sph/micropolar") != nullptr), checked(false)
+    GridCompute(lmp, narg, arg), deconvolve(false), nshell(0), micropolar(Fields::with_spins(atom)),
+    checked(false)
 {
   if (!FourierGrid::available())
     error->all(FLERR,

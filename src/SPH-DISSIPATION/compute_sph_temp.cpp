@@ -14,11 +14,11 @@
 #include "compute_sph_temp.h"
 
 #include "atom.h"
-#include "atom_vec_sph_micropolar.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_noise.h"
@@ -27,6 +27,7 @@
 #include <algorithm>
 
 using namespace LAMMPS_NS;
+using namespace SPHDissipation;
 
 enum { SPIN = 3, INTERNAL, NVALUE };    // after those of the three directions
 
@@ -53,7 +54,7 @@ ComputeSPHTemp::~ComputeSPHTemp()
 
 void ComputeSPHTemp::init()
 {
-  if (!atom->style_match("sph/bulk") && !atom->style_match("sph/micropolar"))
+  if (!Fields::of(atom))
     error->all(FLERR, "Compute {} requires atom style sph/bulk or sph/micropolar", style);
 }
 
@@ -97,11 +98,11 @@ void ComputeSPHTemp::translational(double *temperature) const
 
 double ComputeSPHTemp::rotational() const
 {
-  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
-  if (!avec) return 0.0;
+  const Fields *const fields = Fields::with_spins(atom);
+  if (!fields) return 0.0;
   double own[2] = {}, all[2];    // particles with inertia, and their J omega^2
   for (int i = 0; i < atom->nlocal; i++) {
-    const double inertia = atom->rmass[i] * avec->inertia[i];
+    const double inertia = atom->rmass[i] * fields->inertia[i];
     if (!(atom->mask[i] & groupbit) || !(inertia > 0.0)) continue;
     const double *const omega = atom->omega[i];
     own[0] += 1.0;

@@ -14,15 +14,16 @@
 #include "fix_sph_bulk.h"
 
 #include "atom.h"
-#include "atom_vec_sph_bulk.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_crowding.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_integrate.h"
 #include "sph_dissipation_model.h"
@@ -36,28 +37,63 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
 
+namespace {
+
+// arrays of class Atom and class Fields as functions, see TimeStep
+
+struct Scalars {
+  double *array;
+  SPH_FUNCTION double &operator()(int i) const { return array[i]; }
+};
+
+struct Vectors {
+  double **array;
+  SPH_FUNCTION double &operator()(int i, int d) const { return array[i][d]; }
+};
+
+struct Particles {
+  Vectors x, v, f, vest, omega, torque, omegaest;
+  Scalars rmass, esph, desph, desph_before, inertia;
+  bool has_spins;
+
+  Particles(const Atom *atom, const Fields &fields) :
+      x{atom->x}, v{atom->v}, f{atom->f}, vest{atom->vest}, omega{atom->omega},
+      torque{atom->torque}, omegaest{fields.omegaest}, rmass{atom->rmass}, esph{atom->esph},
+      desph{atom->desph}, desph_before{fields.desph_before}, inertia{fields.inertia},
+      has_spins(fields.has_spins)
+  {
+  }
+};
+
+}    // namespace
+
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), fluid_style(without_suffix(style)), dtv(0.0), dtf(0.0), dt_of_forces(0.0),
-    extrapolation(1.0), balanced(false), exact(false), density_done(0), shift_speed(0.0),
-    remap_v_flag(0), integrated_groups(0), first_instance(false),
-    viscous(new ViscousKeywords(lmp, style)), fluid(nullptr), last(), density_flag(0),
-    set_up(false), energy_extrapolated(false), setup_step(0), last_instance(false),
-    not_integrated(0)
+    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), exact(false), shift_speed(0.0), remap_v_flag(0),
+    integrated_groups(0), first_instance(false), fluid(nullptr), fluid_style(without_suffix(style)),
+    spins(Fields::with_spins(atom)), dt_of_forces(0.0), extrapolation(1.0), balanced(false),
+    viscous(new ViscousKeywords(lmp, style)), last(), inertia_flag(0), factor(0.0), offset(0.0),
+    inertia_done(false), density_done(0), density_flag(0), set_up(false),
+    energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
-  finish_keywords();
 
   time_integrate = 1;
   create_attribute = 1;
   restart_global = 1;
+  if (!has_viscous_stage()) return;
+  vector_flag = 1;
+  size_vector = ViscousStage::NSTATISTICS;
+  extvector = 0;
+  global_freq = 1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -65,17 +101,6 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
 FixSPHBulk::~FixSPHBulk()
 {
   delete viscous;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixSPHBulk::finish_keywords()
-{
-  if (viscous->settings().mode == Viscous::EXPLICIT) return;
-  vector_flag = 1;
-  size_vector = ViscousStage::NSTATISTICS;
-  extvector = 0;
-  global_freq = 1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -89,6 +114,17 @@ int FixSPHBulk::keyword_argument(int iarg, int narg, char **arg)
       error->all(FLERR, "Fix {} density must be rho0 or keep, not {}", style, arg[iarg + 1]);
     density_flag = (strcmp(arg[iarg + 1], "rho0") == 0);
     return 2;
+  }
+  if (spins && strcmp(arg[iarg], "inertia") == 0) {
+    if (iarg + 3 > narg)
+      utils::missing_cmd_args(FLERR, fmt::format("fix {} inertia", style), error);
+    inertia_flag = 1;
+    factor = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    offset = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+    if (!(factor >= 0.0) || !(offset >= 0.0) || !(factor + offset > 0.0))
+      error->all(FLERR, "Fix {} inertia needs two numbers >= 0, one of them > 0, not {} {}", style,
+                 arg[iarg + 1], arg[iarg + 2]);
+    return 3;
   }
   if (const int nwords = viscous->argument(iarg, narg, arg)) return nwords;
   if (strcmp(arg[iarg], "shift") != 0)
@@ -152,6 +188,9 @@ void FixSPHBulk::init()
   remap_v_flag = domain->deform_vremap;
   if (remap_v_flag && !comm->ghost_velocity)
     error->all(FLERR, "Fix {} requires comm_modify vel yes when fix deform remaps velocities",
+               style);
+  if (inertia_flag && !fluid)
+    error->all(FLERR, "Fix {} inertia requires pair style {}, which gives the volumes", style,
                style);
 }
 
@@ -248,11 +287,14 @@ void FixSPHBulk::check_integrated_once()
 
 void FixSPHBulk::setup(int /*vflag*/)
 {
+  set_inertia();
+  check_inertia();
   set_up = true;
   dt_of_forces = dtv;
+  const double *const desph_before = fields().desph_before;
   if (energy_extrapolated)
     for (int i = 0; i < atom->nlocal; i++)
-      if (atom->mask[i] & groupbit) atom->esph[i] += avec()->desph_before[i];
+      if (atom->mask[i] & groupbit) atom->esph[i] += desph_before[i];
   energy_extrapolated = false;
   if (!fluid || !last_instance) return;
   fluid->announce();
@@ -294,13 +336,15 @@ void FixSPHBulk::setup_pre_exchange()
 {
   if (update->whichflag == 0) return;    // from a command that moves particles between processors
   const bool continued = is_continued();
-  if (first_instance) reset_extrapolation(0, atom->nlocal, integrated_groups);
+  if (first_instance) reset_extrapolation();
   if (fluid) fluid->continued = continued && (first_instance || fluid->continued);
-  double *const desph_before = avec()->desph_before;
+  double *const desph_before = fields().desph_before;
+  const Particles particles(atom, fields());
+  const TimeStep step = time_step();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     if (!continued) {
-      reset_extrapolation(i, i + 1, 0);
+      step.follow(particles, i);
       desph_before[i] = 0.0;
     } else if (remap_v_flag)
       for (int d = 0; d < 3; d++) atom->vest[i][d] -= atom->v[i][d];
@@ -344,7 +388,8 @@ FixSPHBulk::Motion FixSPHBulk::find_motion() const
     domain->unmap(atom->x[i], atom->image[i], place);
     for (double &x : place) x = std::floor(x * fine + 0.5);
     for (const double *values :
-         {moves ? static_cast<const double *>(atom->v[i]) : nullptr, moves ? spin_of(i) : nullptr,
+         {moves ? static_cast<const double *>(atom->v[i]) : nullptr,
+          moves && spins ? static_cast<const double *>(atom->omega[i]) : nullptr,
           static_cast<const double *>(place)}) {
       if (!values) continue;
       std::uint64_t bits[3];
@@ -387,15 +432,12 @@ bool FixSPHBulk::is_continued() const
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHBulk::reset_extrapolation(int from, int to, int except)
+void FixSPHBulk::reset_extrapolation()
 {
-  double **v = atom->v;
-  double **vest = atom->vest;
-  const double keep = remap_v_flag ? 0.0 : 1.0;
-  for (int i = from; i < to; i++) {
-    if (atom->mask[i] & except) continue;
-    for (int d = 0; d < 3; d++) vest[i][d] = keep * v[i][d];
-  }
+  const Particles particles(atom, fields());
+  const TimeStep step = time_step();
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!(atom->mask[i] & integrated_groups)) step.follow(particles, i);
 }
 
 /* ----------------------------------------------------------------------
@@ -405,7 +447,7 @@ void FixSPHBulk::reset_extrapolation(int from, int to, int except)
 
 void FixSPHBulk::set_arrays(int i)
 {
-  if (first_instance) reset_extrapolation(i, i + 1, 0);
+  if (first_instance) time_step().follow(Particles(atom, fields()), i);
 }
 
 /* ----------------------------------------------------------------------
@@ -414,18 +456,24 @@ void FixSPHBulk::set_arrays(int i)
 
 void FixSPHBulk::arrive(int i)
 {
-  avec()->desph_before[i] = 0.0;
-  if (has_viscous_stage()) fluid->viscous->carry_force(i, time_step().keep);
+  fields().desph_before[i] = 0.0;
+  if (inertia_flag) set_inertia_of(i, fields().inertia[i]);
+  if (!has_viscous_stage()) return;
+  fluid->viscous->carry_force(i, time_step().keep);
+  if (spins) fluid->viscous->carry_torque(i, fields().inertia, fields().omegaest);
 }
 
 /* ----------------------------------------------------------------------
-   with its velocity at the end of the step, extrapolated, which vest need not be
+   with its velocity and spin at the end of the step, extrapolated, which vest and omegaest need not be
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::depart(int i)
 {
-  const double dtfm = dtf / atom->rmass[i];
-  for (int d = 0; d < 3; d++) atom->vest[i][d] = atom->v[i][d] += dtfm * atom->f[i][d];
+  const Particles particles(atom, fields());
+  TimeStep step = time_step();
+  step.keep = 1.0;
+  step.kick(particles, i);
+  step.follow(particles, i);
 }
 
 /* ----------------------------------------------------------------------
@@ -436,6 +484,9 @@ void FixSPHBulk::setup_pre_force(int /*vflag*/)
 {
   set_masses();
   if (update->whichflag == 1) add_remapped_velocity();
+  if (!spins || !has_viscous_stage()) return;    // which needs the inertia for the first forces
+  fluid->find_volumes();
+  set_inertia();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -445,6 +496,61 @@ void FixSPHBulk::set_masses()
   if (!density_flag || density_done) return;
   fluid->set_mean_density(groupbit);
   density_done = 1;
+}
+
+/* ----------------------------------------------------------------------
+   from the volumes of the force computation before; particles that have got their
+   inertia keep it, so that angular momentum is conserved
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::set_inertia()
+{
+  double *const inertia = fields().inertia;
+  const double power = 2.0 / domain->dimension;
+  if (inertia_flag)
+    for (int i = 0; i < atom->nlocal; i++)
+      if ((atom->mask[i] & groupbit) && !(inertia_done && inertia[i] > 0.0))
+        inertia[i] = factor * pow(atom->vfrac[i], power) + offset;
+  inertia_done = true;
+}
+
+/* ----------------------------------------------------------------------
+   a particle that arrives in a run gets the inertia of its reference volume: its volume is not known before
+   the forces
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::set_inertia_of(int i, double &inertia) const
+{
+  if (inertia > 0.0) return;
+  const FluidModel &model = *find_fluid(force)->model;
+  const double volume = atom->rmass[i] / model.coeffs[atom->type[i]].eos.rho0;
+  inertia = factor * pow(volume, 2.0 / domain->dimension) + offset;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixSPHBulk::has_torques() const
+{
+  return fluid && fluid->has_torques();
+}
+
+/* ----------------------------------------------------------------------
+   a torque on a particle without inertia would be lost, and angular momentum with it
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::check_inertia() const
+{
+  if (!has_torques()) return;
+  const double *const inertia = fields().inertia;
+  bigint count = 0, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit) && !(inertia[i] > 0.0)) count++;
+  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all)
+    error->all(FLERR,
+               "Fix {}: inertia must be > 0 where the fluid exerts torques, which that of {} "
+               "particles is not; use {}a data file, or set d_inertia",
+               style, all, inertia_flag ? "" : "the inertia keyword, ");
 }
 
 /* ---------------------------------------------------------------------- */
@@ -460,28 +566,58 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
 {
   check_set_up();
   warn_of_jump();
-  double **x = atom->x;
-  double **v = atom->v;
-  double **f = atom->f;
-  double **vest = atom->vest;
-  double *rmass = atom->rmass;
-  double *esph = atom->esph;
-  double *desph = atom->desph;
-  double *desph_before = avec()->desph_before;
-  int *mask = atom->mask;
+  integrate(BEGIN);
+  if (shift_speed > 0.0) shift_particles();
+}
+
+/* ----------------------------------------------------------------------
+   The heat that the pair style books is the work of its forces against the velocity that acts in the
+   friction, acting.  Over half a kick, before it, they do their work at the mean velocity of the kick: the
+   difference, with which kinetic and internal energy are conserved exactly.  The same of spins.
+------------------------------------------------------------------------- */
+
+double FixSPHBulk::rest_of_heat(const double *v, const double *acting, const double *f,
+                                const double *own, double mass_inv) const
+{
+  double power = 0.0;
+  for (int d = 0; d < 3; d++) power += own[d] * (acting[d] - v[d] - 0.5 * dtf * mass_inv * f[d]);
+  return 0.5 * dtv * power;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHBulk::integrate(Half half)
+{
+  const Fields &kept = fields();
+  const Particles particles(atom, kept);
   const int nlocal = nlocal_group();
   const TimeStep step = time_step();
-  const bool stage = has_viscous_stage();
+  const bool carries = half == BEGIN && has_viscous_stage();
 
   for (int i = 0; i < nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    const double dtfm = dtf / rmass[i];
-    step.begin_energy(desph[i], esph[i], desph_before[i]);
-    if (exact) esph[i] += rest_of_heat(v[i], vest[i], f[i], fluid->own_force(i), 1.0 / rmass[i]);
-    for (int d = 0; d < 3; d++) step.begin(dtfm, f[i][d], x[i][d], v[i][d], vest[i][d]);
-    if (stage) fluid->viscous->carry_force(i, step.keep);
+    if (!(atom->mask[i] & groupbit)) continue;
+    double rest[2] = {0.0, 0.0};
+    if (exact) {
+      const double mass = atom->rmass[i];
+      rest[0] = rest_of_heat(atom->v[i], atom->vest[i], atom->f[i], fluid->own_force(i), 1.0 / mass);
+      if (spins)
+        rest[1] =
+            rest_of_heat(atom->omega[i], kept.omegaest[i], atom->torque[i], fluid->own_torque(i),
+                         TimeStep::inverse_inertia(mass, kept.inertia[i]));
+    }
+    if (half == BEGIN)
+      step.begin(particles, i);
+    else
+      step.end(particles, i);
+    if (exact)
+      for (const double heat : rest) {
+        atom->esph[i] += heat;
+        if (half == END) kept.desph_before[i] += heat;
+      }
+    if (!carries) continue;
+    fluid->viscous->carry_force(i, step.keep);
+    if (spins) fluid->viscous->carry_torque(i, fields().inertia, fields().omegaest);
   }
-  if (shift_speed > 0.0) shift_particles();
 }
 
 /* ----------------------------------------------------------------------
@@ -516,20 +652,6 @@ void FixSPHBulk::warn_of_jump() const
         style, dtv, dt_of_forces);
 }
 
-/* ----------------------------------------------------------------------
-   The heat that the pair style books is the work of its forces against the velocity that acts in the
-   friction, acting.  Over half a kick, before it, they do their work at the mean velocity of the kick: the
-   difference, with which kinetic and internal energy are conserved exactly.  The same of spins.
-------------------------------------------------------------------------- */
-
-double FixSPHBulk::rest_of_heat(const double *v, const double *acting, const double *f,
-                                const double *own, double mass_inv) const
-{
-  double power = 0.0;
-  for (int d = 0; d < 3; d++) power += own[d] * (acting[d] - v[d] - 0.5 * dtf * mass_inv * f[d]);
-  return 0.5 * dtv * power;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void FixSPHBulk::shift_particles()
@@ -549,7 +671,7 @@ void FixSPHBulk::shift_particles()
 void FixSPHBulk::post_integrate()
 {
   if (!first_instance || (integrated_groups & 1)) return;
-  reset_extrapolation(0, atom->nlocal, integrated_groups);
+  reset_extrapolation();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -557,6 +679,12 @@ void FixSPHBulk::post_integrate()
 void FixSPHBulk::pre_force(int /*vflag*/)
 {
   add_remapped_velocity();
+  if (neighbor->ago != 0) return;    // particles arrive with a new neighbor list
+  double *const inertia = fields().inertia;
+  if (inertia_flag)
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) set_inertia_of(i, inertia[i]);
+  check_inertia();
 }
 
 /* ----------------------------------------------------------------------
@@ -580,28 +708,7 @@ void FixSPHBulk::add_remapped_velocity()
 void FixSPHBulk::final_integrate()
 {
   dt_of_forces = dtv;
-  double **v = atom->v;
-  double **f = atom->f;
-  double *rmass = atom->rmass;
-  double *esph = atom->esph;
-  double *desph = atom->desph;
-  double *desph_before = avec()->desph_before;
-  int *mask = atom->mask;
-  double **vest = atom->vest;
-  const int nlocal = nlocal_group();
-  const TimeStep step = time_step();
-
-  for (int i = 0; i < nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    const double dtfm = dtf / rmass[i];
-    step.end_energy(desph[i], desph_before[i], esph[i]);
-    if (exact) {
-      const double rest = rest_of_heat(v[i], vest[i], f[i], fluid->own_force(i), 1.0 / rmass[i]);
-      esph[i] += rest;
-      desph_before[i] += rest;
-    }
-    for (int d = 0; d < 3; d++) step.end(dtfm, f[i][d], v[i][d]);
-  }
+  integrate(END);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -623,26 +730,28 @@ int FixSPHBulk::nlocal_group() const
    not kept, for replicate makes a new one
 ------------------------------------------------------------------------- */
 
-AtomVecSPHBulk *FixSPHBulk::avec() const
+Fields &FixSPHBulk::fields() const
 {
-  return dynamic_cast<AtomVecSPHBulk *>(atom->style_match(fluid_style.c_str()));
+  return *Fields::of(atom);
 }
 
 /* ----------------------------------------------------------------------
-   the masses are set once; a continued run keeps those of its restart file
+   the masses are set once; a continued run keeps those of its restart file, and the inertia that its
+   particles have, unless its input gives other numbers for it than those by which it was set
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::write_restart(FILE *fp)
 {
   const Motion motion = restart_motion();
-  if (comm->me == 0) {
-    const double state[1 + NMOTION] = {
-        static_cast<double>(density_done), static_cast<double>(motion.known),
-        static_cast<double>(motion.sum[0]), static_cast<double>(motion.sum[1]), motion.dt};
-    const int size = sizeof(state);
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(state, sizeof(double), 1 + NMOTION, fp);
-  }
+  if (comm->me != 0) return;
+  std::vector<double> state;
+  if (spins) state = {static_cast<double>(inertia_done), factor, offset};
+  for (const bigint number : {bigint(density_done), motion.known, motion.sum[0], motion.sum[1]})
+    state.push_back(static_cast<double>(number));
+  state.push_back(motion.dt);
+  const int size = static_cast<int>(state.size() * sizeof(double));
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(state.data(), sizeof(double), state.size(), fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -650,8 +759,14 @@ void FixSPHBulk::write_restart(FILE *fp)
 void FixSPHBulk::restart(char *buf)
 {
   const auto *state = reinterpret_cast<double *>(buf);
+  if (spins) {
+    inertia_done = state[0] != 0.0 && state[1] == factor && state[2] == offset;
+    state += 3;
+  }
   density_done = static_cast<int>(state[0]);
-  restart_motion(state + 1);
+  last = {static_cast<bigint>(state[1]), {0, 0}, state[4]};
+  if (comm->me == 0)
+    for (int k = 0; k < 2; k++) last.sum[k] = static_cast<bigint>(state[2 + k]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -663,11 +778,4 @@ FixSPHBulk::Motion FixSPHBulk::restart_motion() const
   motion.known = known;
   if (update->whichflag == 0) motion.dt = last.dt;
   return motion;
-}
-
-void FixSPHBulk::restart_motion(const double *state)
-{
-  last = {static_cast<bigint>(state[0]), {0, 0}, state[3]};
-  if (comm->me == 0)
-    for (int k = 0; k < 2; k++) last.sum[k] = static_cast<bigint>(state[1 + k]);
 }

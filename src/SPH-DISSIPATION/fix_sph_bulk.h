@@ -14,6 +14,7 @@
 #ifdef FIX_CLASS
 // clang-format off
 FixStyle(sph/bulk,FixSPHBulk);
+FixStyle(sph/micropolar,FixSPHBulk);
 // clang-format on
 #else
 
@@ -24,6 +25,7 @@ FixStyle(sph/bulk,FixSPHBulk);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class Fields;
   class Fluid;
   class ViscousKeywords;
   struct TimeStep;
@@ -33,10 +35,13 @@ namespace SPHDissipation {
 // velocity extrapolated to the end of the step for the forces: vest = v + dt f/m.  With thermal
 // noise, it is the velocity in the middle of the step: then those at its ends have the temperature of
 // the noise exactly in the linear regime, whatever the time step.  With large viscosities, it carries
-// to ViscousStage what other styles add to the forces.
+// to ViscousStage what other styles add to the forces.  As sph/micropolar, also for spins: m I d(omega)/dt =
+// torque with a moment of inertia that stays constant, so that angular momentum is conserved exactly.
 
 class FixSPHBulk : public Fix {
  public:
+  enum Half { BEGIN, END };    // of a step
+
   FixSPHBulk(class LAMMPS *, int, char **);
   ~FixSPHBulk() override;
   int setmask() override;
@@ -58,45 +63,46 @@ class FixSPHBulk : public Fix {
   // before the first forces; masses first, of all integrators, then with the volumes the inertia: also of a
   // fix that needs them before the integrator is set up.  Each is set once
   void set_masses();
-  virtual void set_inertia() {}
+  void set_inertia();
   bool has_set_masses() const { return density_flag && density_done; }
 
   // a particle joins the group, or leaves it, within a step, after the first half of the kick
-  virtual void arrive(int i);
-  virtual void depart(int i);
+  void arrive(int i);
+  void depart(int i);
 
   bool shifts_particles() const { return shift_speed > 0.0; }
   bool has_viscous_stage() const;
 
  protected:
-  const std::string fluid_style;    // also of the atom style and the pair style, without suffix
   double dtv, dtf;
-  double dt_of_forces;      // time step that the forces are of
-  double extrapolation;     // of velocities over half a step: 1, with thermal noise 0
-  bool balanced;            // heat gets half of its rate at each end of a step, temp energy
-  bool exact;               // motion and heat exchange energy exactly, see rest_of_heat()
-  int density_done;         // the masses were set, in this run or before a restart
-  double shift_speed;       // scale and twice the limit of the velocity of particle shifting
-  int remap_v_flag;         // fix deform remaps velocities at periodic boundaries
-  int integrated_groups;    // bits of all groups with an integrator of this kind
-  bool first_instance;      // acts for the particles outside all these groups
+  bool exact;                 // motion and heat exchange energy exactly, see integrate()
+  double shift_speed;         // scale and twice the limit of the velocity of particle shifting
+  int remap_v_flag;           // fix deform remaps velocities at periodic boundaries
+  int integrated_groups;      // bits of all groups with an integrator of this kind
+  bool first_instance;        // acts for the particles outside all these groups
+  SPHDissipation::Fluid *fluid;    // of the same name, if there is one
   void check_set_up();
   int nlocal_group() const;
   SPHDissipation::TimeStep time_step() const;
-  class AtomVecSPHBulk *avec() const;
 
-  // # of words of the keyword at arg[iarg] that all integrators of this kind have
-  int keyword_argument(int iarg, int narg, char **arg);
-  void finish_keywords();
+  // a particle without inertia gets one, or is an error, when the neighbor list is new
+  bool needs_inertia() const { return inertia_flag || has_torques(); }
+
+ private:
+  const std::string fluid_style;    // also of the atom style and the pair style, without suffix
+  const bool spins;                 // the particles have them
+  double dt_of_forces;              // time step that the forces are of
+  double extrapolation;             // of velocities over half a step: 1, with thermal noise 0
+  bool balanced;                    // heat gets half of its rate at each end of a step, temp energy
+  SPHDissipation::ViscousKeywords *viscous;
+
+  SPHDissipation::Fields &fields() const;
+  int keyword_argument(int iarg, int narg, char **arg);    // # of words of the keyword at arg[iarg]
+  void integrate(Half);
   double rest_of_heat(const double *v, const double *acting, const double *f, const double *own,
                       double mass_inv) const;
-  SPHDissipation::ViscousKeywords *viscous;
-  SPHDissipation::Fluid *fluid;    // of the same name, if there is one
 
-  // extrapolated quantities of particles from the first number to before the second, but those with
-  // a bit of the third in their mask: at the start of a run, when they arrive, or if no such fix
-  // integrates them
-  virtual void reset_extrapolation(int, int, int);
+  void reset_extrapolation();    // of particles that no such fix integrates
 
   // Numbers that tell positions and velocities of the particles of the group, and positions of those of
   // walls: a run continues the last one, with the extrapolated quantities of its last step, if nobody has
@@ -107,13 +113,8 @@ class FixSPHBulk : public Fix {
     bigint sum[2];
     double dt;    // time step
   };
-  Motion restart_motion() const;          // on all processors; of the particles as they are written
-  void restart_motion(const double *);    // those of the file
-  static constexpr int NMOTION = 4;
-  virtual const double *spin_of(int) const { return nullptr; }
-
- private:
-  Motion last;    // at the end of the last step, of this processor
+  Motion last;                      // at the end of the last step, of this processor
+  Motion restart_motion() const;    // on all processors; of the particles as they are written
   Motion find_motion() const;
   static Motion sum_of(const Motion &, MPI_Comm);
   bool is_continued() const;
@@ -124,7 +125,14 @@ class FixSPHBulk : public Fix {
   void warn_not_integrated();
   void add_remapped_velocity();
   void shift_particles();
+  bool has_torques() const;
+  void set_inertia_of(int i, double &inertia) const;    // unless it has one
+  void check_inertia() const;
 
+  int inertia_flag;    // 1: the keyword is there, I = factor V^(2/n) + offset
+  double factor, offset;
+  bool inertia_done;           // the particles have the inertia of these numbers, but for new ones
+  int density_done;            // the masses were set, in this run or before a restart
   int density_flag;            // set the masses so that the mean density is rho0
   bool set_up;                 // since it was defined
   bool energy_extrapolated;    // for the first forces of a run

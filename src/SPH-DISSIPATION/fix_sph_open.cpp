@@ -14,7 +14,6 @@
 #include "fix_sph_open.h"
 
 #include "atom.h"
-#include "atom_vec_sph_micropolar.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
@@ -25,6 +24,8 @@
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_checks.h"
@@ -68,9 +69,9 @@ enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), condition(nullptr),
-    rows(nullptr), ledger(nullptr), fluid(nullptr), integrator(nullptr), avec(nullptr),
-    spinning(nullptr), fluidbit(0), radius(0.0), area(0.0), is_new(false), supersonic(false),
-    gap(false), set_up(false), totals_known(false), totals(new double[NVECTOR])
+    rows(nullptr), ledger(nullptr), fluid(nullptr), integrator(nullptr), fields(nullptr),
+    fluidbit(0), radius(0.0), area(0.0), is_new(false), supersonic(false), gap(false),
+    set_up(false), totals_known(false), totals(new double[NVECTOR])
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -179,8 +180,7 @@ void FixSPHOpen::init()
   if (update->dt < 0.0)
     error->all(FLERR, "Fix {}: the time step must not be negative: what has left is gone", style);
   fluid->open->add(this);
-  spinning = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
-  avec = spinning ? spinning : dynamic_cast<AtomVecSPHBulk *>(atom->style_match("sph/bulk"));
+  fields = Fields::of(atom);
 
   const int fluid_group = group->find(fluid_name);
   if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, fluid_name);
@@ -357,7 +357,7 @@ void FixSPHOpen::enter(int i, const double *v)
   atom->mask[i] = (atom->mask[i] & ~groupbit) | fluidbit;
   std::copy_n(v, 3, atom->v[i]);
   integrator->arrive(i);
-  ledger->carry(OpenLedger::IN, i, v, atom->esph[i]);
+  ledger->carry(OpenLedger::IN, i, v, atom->esph[i], *fields);
 }
 
 /* ----------------------------------------------------------------------
@@ -367,8 +367,8 @@ void FixSPHOpen::enter(int i, const double *v)
 void FixSPHOpen::leave(int i)
 {
   atom->mask[i] = (atom->mask[i] & ~fluidbit) | groupbit;
-  atom->esph[i] -= 0.5 * update->dt * avec->desph_before[i];
-  ledger->carry(OpenLedger::OUT, i, atom->v[i], atom->esph[i]);
+  atom->esph[i] -= 0.5 * update->dt * fields->desph_before[i];
+  ledger->carry(OpenLedger::OUT, i, atom->v[i], atom->esph[i], *fields);
   integrator->depart(i);
 }
 
@@ -392,12 +392,12 @@ void FixSPHOpen::set_spin(int i)
 {
   if (values->given(OpenValues::ENERGY) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
     atom->esph[i] = atom->rmass[i] * (*values)(OpenValues::ENERGY, i);
-  if (!spinning) return;
+  if (!fields->has_spins) return;
   double *const omega = atom->omega[i];
   if (values->given(OpenValues::WX) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
     for (int d = 0; d < 3; d++)
       omega[d] = (*values)(static_cast<OpenValues::Quantity>(OpenValues::WX + d), i);
-  std::copy_n(omega, 3, spinning->omegaest[i]);
+  std::copy_n(omega, 3, fields->omegaest[i]);
 }
 
 /* ---------------------------------------------------------------------- */

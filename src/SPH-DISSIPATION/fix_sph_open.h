@@ -29,6 +29,7 @@ FixStyle(sph/open,FixSPHOpen);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class Fields;
   class Fluid;
   class OpenCondition;
   class OpenLedger;
@@ -75,9 +76,8 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   SPHDissipation::OpenLedger *ledger;
   SPHDissipation::Fluid *fluid;
   class FixSPHBulk *integrator;    // of the fluid
-  class AtomVecSPHBulk *avec;
-  class AtomVecSPHMicropolar *spinning;    // the same, or nullptr
-  std::string fluid_name;                  // of its group
+  SPHDissipation::Fields *fields;
+  std::string fluid_name;    // of its group
   int fluidbit;
   double radius;               // of the fluid that is measured at the plane
   double area;                 // of the cross section of a row; 0: rows have a spacing

@@ -27,6 +27,7 @@
 #include "npair.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_refine_event.h"
@@ -139,7 +140,7 @@ int FixSPHRefine::keyword_argument(int iarg, int narg, char **arg)
 
 void FixSPHRefine::check_setup()
 {
-  if (!atom->style_match("sph/bulk") && !atom->style_match("sph/micropolar"))
+  if (!Fields::of(atom))
     error->all(FLERR, "Fix {} requires atom style sph/bulk or sph/micropolar", style);
   if (atom->tag_enable == 0) error->all(FLERR, "Fix {} requires atom IDs", style);
   if (atom->molecular != Atom::ATOMIC)

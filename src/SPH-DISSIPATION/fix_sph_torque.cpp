@@ -14,15 +14,15 @@
 #include "fix_sph_torque.h"
 
 #include "atom.h"
-#include "atom_vec_sph_micropolar.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "fix_sph_micropolar.h"
+#include "fix_sph_bulk.h"
 #include "input.h"
 #include "memory.h"
 #include "modify.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_fields.h"
 #include "update.h"
 #include "variable.h"
 
@@ -40,7 +40,7 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
     field(nullptr), total{0.0, 0.0, 0.0}, power(0.0), work(0.0), receiving_groups(0),
     not_receiving(0), set_up(false)
 {
-  if (!atom->style_match("sph/micropolar"))
+  if (!Fields::with_spins(atom))
     error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   if (narg > 6) error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[6]);
@@ -113,14 +113,14 @@ void FixSPHTorque::setup(int vflag)
 void FixSPHTorque::check_receivers()
 {
   for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar"))
-    dynamic_cast<FixSPHMicropolar *>(ifix)->set_inertia();
+    dynamic_cast<FixSPHBulk *>(ifix)->set_inertia();
 
-  const auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  const double *const inertia = Fields::of(atom)->inertia;
   bigint count[2] = {0, 0}, all[2];    // of the group; of them, without integrator or inertia
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     count[0]++;
-    if (!(atom->mask[i] & receiving_groups) || !(avec->inertia[i] > 0.0)) count[1]++;
+    if (!(atom->mask[i] & receiving_groups) || !(inertia[i] > 0.0)) count[1]++;
   }
   MPI_Allreduce(count, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all[1] && all[1] == all[0])
@@ -164,18 +164,18 @@ void FixSPHTorque::post_force(int /*vflag*/)
   }
   if (any_variable) modify->addstep_compute(update->ntimestep + 1);
 
-  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
+  const Fields &fields = *Fields::of(atom);
   const int *const mask = atom->mask;
   const double power_before = power;
   power = total[0] = total[1] = total[2] = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(mask[i] & groupbit) || !(mask[i] & receiving_groups) || !(avec->inertia[i] > 0.0))
+    if (!(mask[i] & groupbit) || !(mask[i] & receiving_groups) || !(fields.inertia[i] > 0.0))
       continue;
     for (int d = 0; d < 3; d++) {
       const double torque = per_atom[d] ? field[i][d] : value[d];
       atom->torque[i][d] += torque;
       total[d] += torque;
-      power += torque * avec->omegaest[i][d];
+      power += torque * fields.omegaest[i][d];
     }
   }
   work += 0.5 * update->dt * (power_before + power);

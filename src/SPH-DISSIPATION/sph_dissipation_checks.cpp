@@ -23,6 +23,7 @@
 #include "lammps.h"
 #include "modify.h"
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_model.h"
 #include "update.h"
 
@@ -80,7 +81,7 @@ void SPHDissipation::check_rerun(LAMMPS *lmp, const std::string &style, const Fl
                     "Pair style {} {} cannot be used with rerun: snapshots have no internal "
                     "energies of the particles",
                     style, gas ? "eos ideal" : "temp energy");
-  if (lmp->atom->style_match("sph/micropolar") && lmp->comm->me == 0)
+  if (Fields::with_spins(lmp->atom) && lmp->comm->me == 0)
     lmp->error->warning(FLERR,
                         "Pair style {} with rerun: snapshots have no spins, forces are those of "
                         "the spins that the particles have now",

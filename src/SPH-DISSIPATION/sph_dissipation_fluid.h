@@ -23,7 +23,6 @@
 #include <vector>
 
 namespace LAMMPS_NS {
-class AtomVecSPHMicropolar;
 class Pair;
 
 namespace SPHDissipation {
@@ -189,7 +188,6 @@ namespace SPHDissipation {
 
     // fields of particles that rotate; nullptr without spins
 
-    AtomVecSPHMicropolar *spinning() const;
     const double *spin_inertia() const;    // per mass
     void find_smallest_inertia();
   };

@@ -14,8 +14,8 @@
 #include "sph_dissipation_fluid.h"
 
 #include "atom.h"
-#include "atom_vec_sph_micropolar.h"
 #include "error.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_model.h"
 
 #include <algorithm>
@@ -151,17 +151,12 @@ void Fluid::find_smallest_inertia()
 
 /* ---------------------------------------------------------------------- */
 
-AtomVecSPHMicropolar *Fluid::spinning() const
-{
-  return dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match(style.c_str()));
-}
-
 double **Fluid::extrapolated_spin() const
 {
-  return spins ? spinning()->omegaest : nullptr;
+  return spins ? Fields::of(atom)->omegaest : nullptr;
 }
 
 const double *Fluid::spin_inertia() const
 {
-  return spins ? spinning()->inertia : nullptr;
+  return spins ? Fields::of(atom)->inertia : nullptr;
 }

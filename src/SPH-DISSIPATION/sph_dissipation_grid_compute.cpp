@@ -20,6 +20,7 @@
 #include "force.h"
 #include "memory.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_grid.h"
 #include "sph_dissipation_model.h"
@@ -44,7 +45,7 @@ GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) :
   }
   if (domain->dimension == 2 && count[2] != 1)
     error->all(FLERR, "Compute {}: Nz must be 1 in 2d", style);
-  if (!atom->style_match("sph/bulk") && !atom->style_match("sph/micropolar"))
+  if (!Fields::of(atom))
     error->all(FLERR, "Compute {} requires atom style sph/bulk or sph/micropolar", style);
 
   pergrid_flag = 1;    // asks for reset_grid() when sub-domains change in a run
@@ -113,7 +114,7 @@ bool GridCompute::add_value(const std::string &name)
   };
   for (const auto &value : KNOWN) {
     if (name != value.name) continue;
-    if (value.spin && !atom->style_match("sph/micropolar"))
+    if (value.spin && !Fields::with_spins(atom))
       error->all(FLERR, "Compute {} {} requires atom style sph/micropolar", style, name);
     names.push_back(name);
     getters.push_back(value.getter);

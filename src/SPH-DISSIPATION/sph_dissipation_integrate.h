@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_INTEGRATE_H
 #define LMP_SPH_DISSIPATION_INTEGRATE_H
 
-// Velocity Verlet of package SPH-DISSIPATION, for the numbers of one particle.  No LAMMPS include.
+// Velocity Verlet of package SPH-DISSIPATION, for one particle.  No LAMMPS include.
 
 #include "sph_dissipation_function.h"
 
@@ -27,24 +27,48 @@ namespace SPHDissipation {
     double extrapolation;    // of the velocity over half a step
     bool balanced;           // the forces are random
 
-    // each component; dtfm = dtf/m
+    // Begin or end the step of particle i, kick it only, or set its extrapolated quantities as without forces.
+    // Particles: arrays, on host or device, as functions of i and the direction; without spins some are empty.
 
-    SPH_FUNCTION void begin(double dtfm, double f, double &x, double &v, double &vest) const
+    template <class Particles> SPH_FUNCTION void begin(const Particles &p, int i) const
     {
-      const double dv = dtfm * f;
-      v += dv;
-      vest = keep * v + extrapolation * dv;
-      x += dtv * v;
+      const double dtfm = dtf / p.rmass(i);
+      begin_energy(p.desph(i), p.esph(i), p.desph_before(i));
+      for (int d = 0; d < 3; d++) {
+        const double dv = dtfm * p.f(i, d);
+        p.v(i, d) += dv;
+        p.vest(i, d) = keep * p.v(i, d) + extrapolation * dv;
+        p.x(i, d) += dtv * p.v(i, d);
+      }
+      if (!p.has_spins) return;
+      const double dti = dtf * inverse_inertia(p.rmass(i), p.inertia(i));
+      for (int d = 0; d < 3; d++) {
+        const double domega = dti * p.torque(i, d);
+        p.omega(i, d) += domega;
+        p.omegaest(i, d) = p.omega(i, d) + extrapolation * domega;
+      }
     }
-    SPH_FUNCTION void end(double dtfm, double f, double &v) const { v += dtfm * f; }
 
-    // the same of a spin; dti = dtf/(m I)
-
-    SPH_FUNCTION void begin_spin(double dti, double torque, double &omega, double &omegaest) const
+    template <class Particles> SPH_FUNCTION void end(const Particles &p, int i) const
     {
-      const double domega = dti * torque;
-      omega += domega;
-      omegaest = omega + extrapolation * domega;
+      end_energy(p.desph(i), p.desph_before(i), p.esph(i));
+      kick(p, i);
+    }
+
+    template <class Particles> SPH_FUNCTION void kick(const Particles &p, int i) const
+    {
+      const double dtfm = dtf / p.rmass(i);
+      for (int d = 0; d < 3; d++) p.v(i, d) += dtfm * p.f(i, d);
+      if (!p.has_spins) return;
+      const double dti = dtf * inverse_inertia(p.rmass(i), p.inertia(i));
+      for (int d = 0; d < 3; d++) p.omega(i, d) += dti * p.torque(i, d);
+    }
+
+    template <class Particles> SPH_FUNCTION void follow(const Particles &p, int i) const
+    {
+      for (int d = 0; d < 3; d++) p.vest(i, d) = keep * p.v(i, d);
+      if (!p.has_spins) return;
+      for (int d = 0; d < 3; d++) p.omegaest(i, d) = p.omega(i, d);
     }
 
     // without inertia a particle keeps its spin, and must have no torque

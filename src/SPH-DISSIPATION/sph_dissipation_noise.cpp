@@ -14,7 +14,6 @@
 #include "sph_dissipation_noise.h"
 
 #include "atom.h"
-#include "atom_vec_sph_micropolar.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
@@ -23,6 +22,7 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_model.h"
 #include "update.h"
 
@@ -144,8 +144,8 @@ void NoiseStage::set_temperatures(bool continued)
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
   const double missing = (update->setupflag && !continued) ? 0.0 : 0.5 * update->dt;
-  auto *avec = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
-  const bool spins = engine.has_spin() && avec;
+  const bool spins = engine.has_spin();
+  const double *const inertia = Fields::of(atom)->inertia;
   row.assign(nall + BLOCK, NoiseRow());
   if (spins) spin_mobility.assign(nall + BLOCK, 0.0);
   int without = 0, without_all;
@@ -156,7 +156,7 @@ void NoiseStage::set_temperatures(bool continued)
     row[i].softness = force->boltz / capacity;
     row[i].mobility = update->dt * force->ftm2v / atom->rmass[i];
     if (i >= nlocal) continue;
-    if (spins && avec->inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / avec->inertia[i];
+    if (spins && inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / inertia[i];
     const Particle &particle = engine.particle[i];
     const double c_inv = particle.vol / engine.weight(i);
     const double p = particle.g / (c_inv * c_inv) - engine.zeta_term[i];

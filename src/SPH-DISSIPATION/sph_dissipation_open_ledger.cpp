@@ -14,11 +14,11 @@
 #include "sph_dissipation_open_ledger.h"
 
 #include "atom.h"
-#include "atom_vec_sph_micropolar.h"
 #include "comm.h"
 #include "domain.h"
 #include "force.h"
 #include "math_extra.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_open_stage.h"
 
 #include <algorithm>
@@ -32,7 +32,8 @@ OpenLedger::OpenLedger(LAMMPS *lmp) : Pointers(lmp), sum(), rate() {}
 
 /* ---------------------------------------------------------------------- */
 
-void OpenLedger::carry(Direction direction, int i, const double *v, double esph)
+void OpenLedger::carry(Direction direction, int i, const double *v, double esph,
+                       const Fields &fields)
 {
   double *const to = sum + (direction == IN ? 0 : NCARRIED);
   const double mass = atom->rmass[i];
@@ -48,9 +49,8 @@ void OpenLedger::carry(Direction direction, int i, const double *v, double esph)
   to[KINETIC] += 0.5 * force->mvv2e * mass * MathExtra::lensq3(v);
   to[INTERNAL] += esph;
 
-  auto *spinning = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
-  if (!spinning) return;
-  const double inertia = mass * spinning->inertia[i];
+  if (!fields.has_spins) return;
+  const double inertia = mass * fields.inertia[i];
   const double *const omega = atom->omega[i];
   for (int d = 0; d < 3; d++) to[ANGMOM + d] += inertia * omega[d];
   to[KINETIC] += 0.5 * force->mvv2e * inertia * MathExtra::lensq3(omega);

@@ -19,6 +19,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
+  class Fields;
   struct OpenImpact;
 
   // What particles have carried into the fluid and out of it through an open zone, and what the forces
@@ -41,7 +42,7 @@ namespace SPHDissipation {
     OpenLedger(class LAMMPS *);
 
     // an owned particle changes sides with this velocity and internal energy
-    void carry(Direction, int i, const double *v, double esph);
+    void carry(Direction, int i, const double *v, double esph, const Fields &);
 
     void set_impact(const OpenImpact &);    // of the present forces
     void advance(double time);              // those act for this time

@@ -14,13 +14,14 @@
 #include "sph_dissipation_refine_event.h"
 
 #include "atom.h"
-#include "atom_vec_sph_micropolar.h"
+#include "atom_vec.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
 #include "neigh_list.h"
 #include "sph_dissipation_attributes.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_gather.h"
 #include "sph_dissipation_refine_ledger.h"
 
@@ -40,7 +41,7 @@ static constexpr double NEXT = 1.6;         // distance of neighbors that split 
 
 RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineLedger &ledger) :
     Pointers(lmp), items(lmp, fix), highest(0), ledger(ledger), pairs(lmp, items),
-    rest(lmp, items, pairs), support(0.0), smallest(0.0), spinning(false)
+    rest(lmp, items, pairs), support(0.0), smallest(0.0), fields(nullptr)
 {
 }
 
@@ -50,7 +51,7 @@ void RefineEvent::init(double support_in, double smallest_share)
 {
   support = support_in;
   smallest = smallest_share;
-  spinning = (atom->style_match("sph/micropolar") != nullptr);
+  fields = Fields::of(atom);
   rest.init(REST_RADIUS * support);
 }
 
@@ -83,20 +84,17 @@ void RefineEvent::set(int i, RefineState state, double volume, double most, doub
 
 Lump RefineEvent::lump(int i) const
 {
-  auto *avec =
-      dynamic_cast<AtomVecSPHBulk *>(atom->style_match(spinning ? "sph/micropolar" : "sph/bulk"));
   Lump one;
   one.mass = atom->rmass[i];
   one.energy = atom->esph[i];
-  one.energy_rate = avec->desph_before[i];
+  one.energy_rate = fields->desph_before[i];
   std::copy_n(atom->x[i], 3, one.x);
   std::copy_n(atom->v[i], 3, one.u);
   std::copy_n(atom->vest[i], 3, one.u_end);
-  if (!spinning) return one;
-  auto *spin = dynamic_cast<AtomVecSPHMicropolar *>(avec);
-  one.inertia = spin->inertia[i];
+  if (!fields->has_spins) return one;
+  one.inertia = fields->inertia[i];
   std::copy_n(atom->omega[i], 3, one.spin);
-  std::copy_n(spin->omegaest[i], 3, one.spin_end);
+  std::copy_n(fields->omegaest[i], 3, one.spin_end);
   return one;
 }
 
@@ -104,20 +102,17 @@ Lump RefineEvent::lump(int i) const
 
 void RefineEvent::set_lump(int i, const Lump &one)
 {
-  auto *avec =
-      dynamic_cast<AtomVecSPHBulk *>(atom->style_match(spinning ? "sph/micropolar" : "sph/bulk"));
   atom->vfrac[i] *= one.mass / atom->rmass[i];
   atom->rmass[i] = one.mass;
   atom->esph[i] = one.energy;
-  avec->desph_before[i] = one.energy_rate;
+  fields->desph_before[i] = one.energy_rate;
   std::copy_n(one.x, 3, atom->x[i]);
   std::copy_n(one.u, 3, atom->v[i]);
   std::copy_n(one.u_end, 3, atom->vest[i]);
-  if (!spinning) return;
-  auto *spin = dynamic_cast<AtomVecSPHMicropolar *>(avec);
-  spin->inertia[i] = one.inertia;
+  if (!fields->has_spins) return;
+  fields->inertia[i] = one.inertia;
   std::copy_n(one.spin, 3, atom->omega[i]);
-  std::copy_n(one.spin_end, 3, spin->omegaest[i]);
+  std::copy_n(one.spin_end, 3, fields->omegaest[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -134,7 +129,7 @@ bool RefineEvent::merging(int i) const
 
 bool RefineEvent::families() const
 {
-  return spinning && domain->dimension == 3;
+  return fields->has_spins && domain->dimension == 3;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -276,12 +271,12 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
     Merge one;
     one.i = i;
     for (int j : pairs.members(i)) one.parts.push_back(items[j].lump);
-    one.heat =
-        merge(one.parts.data(), one.parts.size(), domain->dimension, spinning, one.whole, one.rest);
+    one.heat = merge(one.parts.data(), one.parts.size(), domain->dimension, fields->has_spins,
+                     one.whole, one.rest);
     merges.push_back(one);
   }
   rest.clear();
-  if (!spinning) give_rest(full);
+  if (!fields->has_spins) give_rest(full);
 
   // particles are changed first, then created, then removed; from here on ghosts are of the past
 

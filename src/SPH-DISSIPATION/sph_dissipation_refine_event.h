@@ -27,6 +27,7 @@ class NeighList;
 
 namespace SPHDissipation {
 
+  class Fields;
   class RefineLedger;
 
   // All splits and merges of one time step, on all processors at once.  What happens is found out with
@@ -59,7 +60,7 @@ namespace SPHDissipation {
     RefineRest rest;
     double support;
     double smallest;    // volume of a daughter over the target
-    bool spinning;
+    Fields *fields;
 
     struct Split {
       int i;

@@ -11,31 +11,25 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "atom_vec_sph_micropolar_kokkos.h"
+#include "sph_dissipation_fields.h"
 
-#include "atom_kokkos.h"
-#include "sph_dissipation_masks_kokkos.h"
+#include "atom.h"
+#include "atom_vec.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-AtomVecSPHMicropolarKokkos::AtomVecSPHMicropolarKokkos(LAMMPS *lmp) :
-    AtomVec(lmp), AtomVecSPHBulk(lmp, IN_VIEWS), AtomVecSPHBulkKokkos(lmp, TO_BE_EXTENDED),
-    AtomVecSPHMicropolar(lmp, TO_BE_EXTENDED)
+Fields *Fields::of(Atom *atom)
 {
-  AtomKokkos &atoms = *atomKK;
-  add_field(OMEGA_MASK, atoms.k_omega, atoms.omega);
-  add_field(TORQUE_MASK, atoms.k_torque, atoms.torque);
-  add_own_field(INERTIA_MASK, k_inertia, inertia, {EXCHANGE});
-  add_own_field(OMEGAEST_MASK, k_omegaest, omegaest, {COMM, BORDER, EXCHANGE});
-  setup_views();
+  return dynamic_cast<Fields *>(atom->style_match("sph/"));
 }
 
 /* ---------------------------------------------------------------------- */
 
-AtomVecSPHMicropolarKokkos::~AtomVecSPHMicropolarKokkos()
+Fields *Fields::with_spins(Atom *atom)
 {
-  free_views();
+  Fields *const fields = of(atom);
+  return fields && fields->has_spins ? fields : nullptr;
 }

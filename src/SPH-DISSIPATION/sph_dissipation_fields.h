@@ -1,0 +1,52 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_FIELDS_H
+#define LMP_SPH_DISSIPATION_FIELDS_H
+
+namespace LAMMPS_NS {
+class Atom;
+
+namespace SPHDissipation {
+
+  // What the fluid keeps of a particle beyond class Atom, per atom.  The atom style is such an object and
+  // keeps the pointers up to date; class Atom owns the arrays, as custom properties of the same names.
+
+  class Fields {
+   public:
+    // Return the fields of the atom style, also of a sub-style of hybrid, or nullptr where no particle is of the
+    // fluid.  Command replicate makes another atom style: not to be kept longer than a run.
+
+    static Fields *of(Atom *);
+
+    // Return the same, or nullptr where the particles do not spin
+
+    static Fields *with_spins(Atom *);
+
+    const bool has_spins;
+    double *desph_before;    // rate of the internal energy when the step began, see TimeStep
+    double *inertia;         // moment of inertia per mass, length^2; nullptr without spins
+    double **omegaest;       // spin at the end of the step, extrapolated; nullptr without spins
+
+   protected:
+    explicit Fields(bool spins) :
+        has_spins(spins), desph_before(nullptr), inertia(nullptr), omegaest(nullptr)
+    {
+    }
+    ~Fields() = default;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
