@@ -24,16 +24,14 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_balance.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_checks.h"
 #include "sph_dissipation_open_condition.h"
-#include "sph_dissipation_open_ledger.h"
 #include "sph_dissipation_open_plane.h"
 #include "sph_dissipation_open_rows.h"
-#include "sph_dissipation_open_samples.h"
-#include "sph_dissipation_open_values.h"
 #include "update.h"
 
 #include <algorithm>

@@ -26,10 +26,10 @@
 #include "neighbor.h"
 #include "npair.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_balance.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_refine_event.h"
-#include "sph_dissipation_refine_ledger.h"
 #include "sph_dissipation_refine_target.h"
 #include "update.h"
 

@@ -21,10 +21,41 @@
 #include <vector>
 
 namespace LAMMPS_NS {
+
 namespace SPHDissipation {
 
-  class OpenBand;
   class OpenPlane;
+
+  // Particles near the far end of an open zone, of all processors, and not only those of the zone
+
+  class OpenBand : protected Pointers {
+   public:
+    // those between two heights
+    OpenBand(class LAMMPS *, const OpenPlane &, int groupbit, double lo, double hi);
+
+    // one of the zone behind x, not farther beside it than this
+    bool has_behind(const double *x, double beside) const;
+
+    // distance of the nearest one of the zone behind x, or in front of it, not farther beside it than
+    // this; infinite if there is none
+    double next(const double *x, double beside, bool behind) const;
+
+    // any one behind x, not farther beside it than this
+    bool has_any_behind(const double *x, double beside) const;
+
+    // any one, or one that is not of the zone, closer to x than this
+    bool has_near(const double *x, double distance) const;
+    bool has_other_near(const double *x, double distance) const;
+
+   private:
+    const OpenPlane &plane;
+    std::vector<double> place;    // 3 each
+    std::vector<char> of_zone;
+    std::vector<std::vector<int>> at_node;    // of the plane
+
+    int nearest_node(const double *x) const;
+    template <class Function> bool any(const double *x, double reach, Function &&function) const;
+  };
 
   // The far end of an open zone.  Its particles stand in rows along the normal of the plane.  Behind
   // the last one of a row that moves on comes a copy of it, those beyond the end are deleted: before

@@ -21,8 +21,8 @@
 #include "force.h"
 #include "neigh_list.h"
 #include "sph_dissipation_attributes.h"
+#include "sph_dissipation_balance.h"
 #include "sph_dissipation_gather.h"
-#include "sph_dissipation_refine_ledger.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,9 +15,7 @@
 #define LMP_SPH_DISSIPATION_REFINE_EVENT_H
 
 #include "pointers.h"
-#include "sph_dissipation_refine_items.h"
 #include "sph_dissipation_refine_pairs.h"
-#include "sph_dissipation_refine_rest.h"
 
 #include <functional>
 #include <vector>

@@ -15,16 +15,80 @@
 #define LMP_SPH_DISSIPATION_REFINE_PAIRS_H
 
 #include "pointers.h"
+#include "sph_dissipation_split.h"
 
 #include <map>
 #include <vector>
 
 namespace LAMMPS_NS {
+class Fix;
 class NeighList;
 
 namespace SPHDissipation {
 
-  class RefineItems;
+  // what a particle does in an event
+
+  enum RefineState { APART, KEEPS, SPLITS, MERGES };    // APART: no fluid
+
+  // A particle and what its neighbors are to know of it in an event; all doubles, to be sent as rows
+
+  struct RefineItem {
+    double state;     // RefineState, see is()
+    double mask;      // bits of its groups
+    double volume;    // now
+    double most;      // volume that a merge may give it
+    double family;    // of the daughters of one split, the lowest of their new IDs; 0: none
+    Lump lump;
+
+    // partner of a merge: ID of the particle that it would merge with, or the family that does as a
+    // whole; nonzero once that is settled
+
+    double choice, settled;
+    double withheld;    // of the lowest ID of those that merge, or of one that splits: not now
+
+    // The particle as its neighbors will meet it: a pair that merges is a point in its centre of
+    // mass, whose mass the lower ID has, the other none
+
+    double mass, center[3], u[3];    // center: from the particle
+
+    double gives;    // its neighbors take over its rest of angular momentum
+    Rotation rotation;
+
+    bool is(RefineState one) const { return state == static_cast<double>(one); }
+  };
+
+  // Items of all owned and ghost particles during one event
+
+  class RefineItems : protected Pointers {
+   public:
+    RefineItems(class LAMMPS *lmp, Fix *fix) : Pointers(lmp), fix(fix), first(0), count(0) {}
+
+    void resize();    // for the particles that there are; zero
+    RefineItem &operator[](int i) { return items[i]; }
+    const RefineItem &operator[](int i) const { return items[i]; }
+
+    // sends members of the items to the ghosts; all but the places of the particles themselves, which
+    // ghosts have in frames of their own
+
+    static constexpr int SIZE = sizeof(RefineItem) / sizeof(double);
+    void forward_all();
+    void forward_choice();
+    void forward_settled();
+    void forward_withheld();
+    void forward_point();
+    void forward_rotation();
+
+    int pack(int n, const int *list, double *buf) const;
+    void unpack(int n, int from, const double *buf);
+    double memory_usage() const { return items.capacity() * sizeof(RefineItem); }
+
+   private:
+    Fix *fix;
+    std::vector<RefineItem> items;
+    int first, count;    // of the doubles of an item that are sent
+
+    void forward(int first, int count);
+  };
 
   // Partners of merges: each particle that is to merge chooses the nearest one that may be its
   // partner, two that have chosen each other are settled, the others choose again.  Which of two
@@ -58,6 +122,36 @@ namespace SPHDissipation {
     bool nearer(int i, int j, int other) const;    // to i, j than the other one
     std::vector<int> family(int i, const int *neighbors, int n, double farthest_sq) const;
     int nearest(int i, const int *neighbors, int n, double farthest_sq) const;
+  };
+
+  // Angular momentum that merged particles without spin leave over: their neighbors take it as a
+  // rotation.  A pair that merges counts as one point, whether it then does or not.
+
+  class RefineRest : protected Pointers {
+   public:
+    RefineRest(class LAMMPS *lmp, RefineItems &items, const RefinePairs &pairs) :
+        Pointers(lmp), items(items), pairs(pairs), radius(0.0)
+    {
+    }
+
+    void init(double radius_in) { radius = radius_in; }
+
+    // the neighbors of owned particle i are to rotate; false if there is no such rotation
+    bool give(NeighList *full, int i, const double *angmom);
+
+    // velocity that each owned particle gets, and the energy that takes, of a pair that of its lower ID
+    void take(NeighList *full);
+    const double *velocity(int i) const { return &du[3 * i]; }
+    double work(int i) const { return works[i]; }
+    void clear();
+
+   private:
+    RefineItems &items;
+    const RefinePairs &pairs;
+    double radius;
+    std::vector<double> du, works;
+
+    void offset(int from, int to, double *r) const;
   };
 
 }    // namespace SPHDissipation

@@ -11,12 +11,14 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_SPH_DISSIPATION_OPEN_LEDGER_H
-#define LMP_SPH_DISSIPATION_OPEN_LEDGER_H
+#ifndef LMP_SPH_DISSIPATION_BALANCE_H
+#define LMP_SPH_DISSIPATION_BALANCE_H
 
 #include "pointers.h"
+#include "sph_dissipation_split.h"
 
 namespace LAMMPS_NS {
+
 namespace SPHDissipation {
 
   struct OpenImpact;
@@ -52,6 +54,41 @@ namespace SPHDissipation {
    private:
     double sum[NVALUE];
     double rate[NVALUE - IMPULSE];
+  };
+
+  // What splits and merges have changed.  Sums of this processor; total() of all.
+
+  class RefineLedger : protected Pointers {
+   public:
+    enum {
+      SPLITS,    // particles that have split
+      MERGES,    // pairs that have merged
+      NUMBER,    // of the particles, and so on: afterwards - before
+      MASS,
+      MOMENTUM,
+      ANGMOM = MOMENTUM + 3,
+      KINETIC = ANGMOM + 3,    // with that of the spin
+      ELASTIC,                 // of the equation of state
+      INTERNAL,
+      HEAT,        // of merges, in the internal energy
+      ROTATION,    // energy that the rotation of neighbors took, out of the internal one
+      COLDEST,     // smallest heat of a merge
+      NVALUE
+    };
+
+    RefineLedger(class LAMMPS *);
+
+    void add(int k, double value) { sum[k] += value; }
+    void merged(double heat);
+
+    // a particle that is there afterwards, factor 1, or was there before, factor -1
+    void count(double factor, const Lump &);
+
+    void total(double *all) const;    // NVALUE
+    void restart(const double *all);
+
+   private:
+    double sum[NVALUE];
   };
 
 }    // namespace SPHDissipation
