@@ -45,28 +45,28 @@ using namespace SPHDissipation;
 static constexpr double NODES = 3.0;          // of the plane, per radius of what is measured there
 static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
-// in restart files: -format, size, ledger, rows, clock, point and normal of the plane; then the waves;
+// in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves;
 // files without a format begin with the size
 
 static constexpr int FORMAT = 1003;
 enum {
   SIZE = 1,
-  LEDGER,
-  ROWS = LEDGER + OpenLedger::NVALUE,
+  BALANCE,
+  ROWS = BALANCE + OpenBalance::NVALUE,
   CLOCK = ROWS + OpenRows::NSTATE,
   PLANE,
   NHEAD = PLANE + 6
 };
 
-// the vector of the fix, after the ledger
+// the vector of the fix, after the balance
 
-enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
+enum { COUNT = OpenBalance::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
 /* ---------------------------------------------------------------------- */
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), condition(nullptr),
-    rows(nullptr), ledger(nullptr), pair(nullptr), integrator(nullptr), avec(nullptr),
+    rows(nullptr), balance(nullptr), pair(nullptr), integrator(nullptr), avec(nullptr),
     spinning(nullptr), fluidbit(0), radius(0.0), area(0.0), is_new(false), supersonic(false),
     gap(false), set_up(false), totals_known(false), totals(new double[NVECTOR])
 {
@@ -77,7 +77,7 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   samples = new OpenSamples(lmp, *plane);
   condition = new OpenCondition(lmp, owner, *plane, *values, *samples);
   rows = new OpenRows(lmp, owner, *plane, groupbit);
-  ledger = new OpenLedger(lmp);
+  balance = new OpenBalance(lmp);
 
   fluid_name = arg[3];
   const int fluid_group = group->find(fluid_name);
@@ -139,7 +139,7 @@ int FixSPHOpen::keyword_argument(int iarg, int narg, char **arg)
 FixSPHOpen::~FixSPHOpen()
 {
   if (auto *fluid = PairSPHBulk::find(force)) fluid->remove_open_zone(this);
-  delete ledger;
+  delete balance;
   delete rows;
   delete condition;
   delete samples;
@@ -303,7 +303,7 @@ bool FixSPHOpen::has_lost_members() const
 void FixSPHOpen::initial_integrate(int /*vflag*/)
 {
   check_set_up(lmp, this, set_up);
-  ledger->advance(0.5 * update->dt);
+  balance->advance(0.5 * update->dt);
   condition->clock += update->dt;
   totals_known = false;
   for (const int i : members)
@@ -356,7 +356,7 @@ void FixSPHOpen::enter(int i, const double *v)
   atom->mask[i] = (atom->mask[i] & ~groupbit) | fluidbit;
   std::copy_n(v, 3, atom->v[i]);
   integrator->arrive(i);
-  ledger->carry(OpenLedger::IN, i, v, atom->esph[i]);
+  balance->carry(OpenBalance::IN, i, v, atom->esph[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -367,7 +367,7 @@ void FixSPHOpen::leave(int i)
 {
   atom->mask[i] = (atom->mask[i] & ~fluidbit) | groupbit;
   atom->esph[i] -= 0.5 * update->dt * avec->desph_before[i];
-  ledger->carry(OpenLedger::OUT, i, atom->v[i], atom->esph[i]);
+  balance->carry(OpenBalance::OUT, i, atom->v[i], atom->esph[i]);
   integrator->depart(i);
 }
 
@@ -415,7 +415,7 @@ void FixSPHOpen::pre_exchange()
 
 void FixSPHOpen::final_integrate()
 {
-  ledger->advance(0.5 * update->dt);
+  balance->advance(0.5 * update->dt);
   totals_known = false;
 }
 
@@ -423,7 +423,7 @@ void FixSPHOpen::final_integrate()
 
 void FixSPHOpen::set_impact(const OpenImpact &impact)
 {
-  ledger->set_impact(impact);
+  balance->set_impact(impact);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -515,14 +515,14 @@ void FixSPHOpen::set_pressure(Engine &engine, int i)
 }
 
 /* ----------------------------------------------------------------------
-   the ledger, see OpenLedger; number of particles of the zone; mean pressure and velocity of the fluid
+   the balance, see OpenBalance; number of particles of the zone; mean pressure and velocity of the fluid
    at the plane
 ------------------------------------------------------------------------- */
 
 double FixSPHOpen::compute_vector(int n)
 {
   if (!totals_known) {
-    ledger->total(totals);
+    balance->total(totals);
     double count = 0.0;
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) count += 1.0;
@@ -538,7 +538,7 @@ double FixSPHOpen::compute_vector(int n)
 void FixSPHOpen::write_restart(FILE *fp)
 {
   std::vector<double> state(NHEAD);
-  ledger->total(&state[LEDGER]);
+  balance->total(&state[BALANCE]);
   rows->pack(&state[ROWS]);
   state[CLOCK] = condition->clock;
   std::copy_n(plane->point, 3, &state[PLANE]);
@@ -564,7 +564,7 @@ void FixSPHOpen::restart(char *buf)
   if (state[0] != -FORMAT)
     error->all(FLERR, "Fix {} {}: the restart file was written by {} version of this fix", style,
                id, (state[0] < -FORMAT) ? "a newer" : "an older");
-  ledger->restart(state + LEDGER);
+  balance->restart(state + BALANCE);
   condition->clock = state[CLOCK];
   if (plane->is_at(state + PLANE)) {
     rows->unpack(state + ROWS);

@@ -30,7 +30,7 @@ FixStyle(sph/open,FixSPHOpen);
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class OpenCondition;
-  class OpenLedger;
+  class OpenBalance;
   class OpenPlane;
   class OpenRows;
   class OpenSamples;
@@ -71,7 +71,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   SPHDissipation::OpenSamples *samples;
   SPHDissipation::OpenCondition *condition;
   SPHDissipation::OpenRows *rows;
-  SPHDissipation::OpenLedger *ledger;
+  SPHDissipation::OpenBalance *balance;
   class PairSPHBulk *pair;
   class FixSPHBulk *integrator;    // of the fluid
   class AtomVecSPHBulk *avec;

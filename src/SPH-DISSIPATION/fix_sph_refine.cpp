@@ -30,7 +30,6 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_refine_event.h"
-#include "sph_dissipation_refine_target.h"
 #include "update.h"
 
 #include <algorithm>
@@ -42,6 +41,7 @@ using namespace FixConst;
 using namespace SPHDissipation;
 
 static constexpr double SPLIT = 1.6, MERGE = 0.6;    // defaults: volume over target
+static constexpr double WIDEST = 1.0 / 1.5;          // target spacing over the support radius
 static constexpr double NEVER = -INFINITY;           // step of the last event
 
 // of each particle: step of its last event; if that was a split, which its daughters can undo as a
@@ -49,29 +49,30 @@ static constexpr double NEVER = -INFINITY;           // step of the last event
 
 enum { STEP, FAMILY, NPAST };
 
-// in restart files: -format, ledger, highest ID that was ever given; files without a format begin with
+// in restart files: -format, balance, highest ID that was ever given; files without a format begin with
 // the number of splits; this number also stands for what is written of each particle
 
 static constexpr int FORMAT = 1003;
-enum { LEDGER = 1, HIGHEST = LEDGER + RefineLedger::NVALUE, NSTATE };
+enum { BALANCE = 1, HIGHEST = BALANCE + RefineBalance::NVALUE, NSTATE };
 
 /* ---------------------------------------------------------------------- */
 
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), target(nullptr), ledger(nullptr), event(nullptr), pair(nullptr),
-    list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr),
-    not_fluid(0), last_step(-1), event_step(-1), postponed(false), totals_known(false),
-    set_up(false), totals(new double[RefineLedger::NVALUE])
+    Fix(lmp, narg, arg), by_spacing(false), largest_volume(0.0), balance(nullptr), event(nullptr),
+    pair(nullptr), list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0),
+    past(nullptr), not_fluid(0), last_step(-1), event_step(-1), postponed(false),
+    totals_known(false), set_up(false), totals(new double[RefineBalance::NVALUE])
 {
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
   if (nevery <= 0) error->all(FLERR, "Fix {} N must be > 0, not {}", style, arg[3]);
   if (strcmp(arg[4], "volume") != 0 && strcmp(arg[4], "spacing") != 0)
     error->all(FLERR, "Fix {}: the target must be volume or spacing, not {}", style, arg[4]);
-  target = new RefineTarget(lmp, fmt::format("Fix {}", style));
-  ledger = new RefineLedger(lmp);
-  event = new RefineEvent(lmp, this, *ledger);
-  target->set(strcmp(arg[4], "spacing") == 0, arg[5]);
+  balance = new RefineBalance(lmp);
+  event = new RefineEvent(lmp, this, *balance);
+  by_spacing = (strcmp(arg[4], "spacing") == 0);
+  target_word = arg[5];
+  target.set(lmp, target_word);
   for (int iarg = 6; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
   if (split_above < 2.0 * merge_below)
     error->all(FLERR,
@@ -86,7 +87,7 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
   restart_peratom = 1;
   create_attribute = 1;
   vector_flag = 1;
-  size_vector = RefineLedger::NVALUE;
+  size_vector = RefineBalance::NVALUE;
   global_freq = 1;
   extvector = 0;
   comm_forward = RefineItems::SIZE;
@@ -156,8 +157,7 @@ FixSPHRefine::~FixSPHRefine()
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(past);
   delete event;
-  delete ledger;
-  delete target;
+  delete balance;
   delete[] totals;
 }
 
@@ -196,10 +196,58 @@ void FixSPHRefine::init()
   check_overlap();
 
   const double support = pair->support_radius();
-  target->init(support, domain->dimension);
+  largest_volume = pow(WIDEST * support, domain->dimension);
+  target.init(lmp, fmt::format("Fix {}", style), true,
+              "is neither of equal style nor of atom style");
+  if (!target.varies()) check_target(target.now(), 0);
   event->init(support, merge_below);
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
   set_up = true;
+}
+
+/* ----------------------------------------------------------------------
+   volume of a particle for which the target has this value
+------------------------------------------------------------------------- */
+
+double FixSPHRefine::target_volume(double value) const
+{
+  return by_spacing ? pow(value, domain->dimension) : value;
+}
+
+/* ----------------------------------------------------------------------
+   an error if a value cannot be a target; tag 0: that of all particles
+------------------------------------------------------------------------- */
+
+void FixSPHRefine::check_target(double value, tagint tag) const
+{
+  const double volume = target_volume(value);
+  const bool positive = std::isfinite(value) && value > 0.0;
+  if (positive && volume <= largest_volume) return;
+  const std::string where = tag ? fmt::format(" for particle {}", tag) : "";
+  std::string message;
+  if (!positive)
+    message =
+        fmt::format("Fix {}: the target {} is {}{}, must be > 0", style, target_word, value, where);
+  else
+    message = fmt::format(
+        "Fix {}: the target {}{} is a volume of {:g}, larger than {:g}: particles would "
+        "have hardly any neighbors within the support radius",
+        style, target_word, where, volume, largest_volume);
+  if (tag) error->one(FLERR, message);
+  error->all(FLERR, message);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHRefine::evaluate_target()
+{
+  if (!target.varies()) return;
+  modify->clearstep_compute();
+  target.evaluate(lmp, igroup);
+  if (!target.is_by_atom()) check_target(target.now(), 0);
+  for (int i = 0; i < atom->nlocal && target.is_by_atom(); i++)
+    if (atom->mask[i] & groupbit) check_target(target(i), atom->tag[i]);
+  modify->addstep_compute(update->ntimestep + 1);
 }
 
 /* ----------------------------------------------------------------------
@@ -292,7 +340,7 @@ void FixSPHRefine::post_integrate()
     if (dynamic_cast<FixSPHRefine *>(other)->event_step == update->ntimestep) postponed = true;
   if (postponed) return;
 
-  target->evaluate(igroup);
+  evaluate_target();
   not_fluid = pair->not_fluid();
   find_waiting();
   bigint nfluid;
@@ -306,7 +354,7 @@ void FixSPHRefine::post_integrate()
   if (!event->plan(list, std::max(most, static_cast<bigint>(1)))) return;
 
   totals_known = false;
-  ledger->add(RefineLedger::ELASTIC, -pair->elastic_energy(PairSPHBulk::NOW));
+  balance->add(RefineBalance::ELASTIC, -pair->elastic_energy(PairSPHBulk::NOW));
   event->carry_out(list, [this](int i, double family) {
     past[i][STEP] = static_cast<double>(update->ntimestep);
     past[i][FAMILY] = family;
@@ -337,10 +385,10 @@ bool FixSPHRefine::wanted(bigint &nfluid)
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !is_fluid(i)) continue;
     sum[FLUID] += 1.0;
-    const double ratio = atom->vfrac[i] / target->volume(i);
+    const double ratio = atom->vfrac[i] / target_volume(target(i));
     if (ratio > split_above) {
       sum[DAUGHTERS] += ratio;
-      if (target->volume(i) < smallest) sum[CROWDED] += 1.0;
+      if (target_volume(target(i)) < smallest) sum[CROWDED] += 1.0;
     }
     if ((ratio > split_above || ratio < merge_below) && may_change(i)) sum[EVENTS] += 1.0;
   }
@@ -371,7 +419,7 @@ void FixSPHRefine::set_items()
     RefineState state = is_fluid(i) ? KEEPS : APART;
     double goal = 0.0;
     if (state == KEEPS && (atom->mask[i] & groupbit)) {
-      goal = target->volume(i);
+      goal = target_volume(target(i));
       const double ratio = atom->vfrac[i] / goal;
       if (may_change(i)) {
         if (ratio > split_above) state = SPLITS;
@@ -387,7 +435,7 @@ void FixSPHRefine::set_items()
 void FixSPHRefine::post_force(int /*vflag*/)
 {
   if (event_step != update->ntimestep) return;
-  ledger->add(RefineLedger::ELASTIC, pair->elastic_energy(PairSPHBulk::LAST_FORCES));
+  balance->add(RefineBalance::ELASTIC, pair->elastic_energy(PairSPHBulk::LAST_FORCES));
   totals_known = false;
 }
 
@@ -396,7 +444,7 @@ void FixSPHRefine::post_force(int /*vflag*/)
 double FixSPHRefine::compute_vector(int n)
 {
   if (!totals_known) {
-    ledger->total(totals);
+    balance->total(totals);
     totals_known = true;
   }
   return totals[n];
@@ -476,7 +524,7 @@ void FixSPHRefine::write_restart(FILE *fp)
   count_anew(update->ntimestep);    // before the particles are written
   double state[NSTATE];
   state[0] = -FORMAT;
-  ledger->total(state + LEDGER);
+  balance->total(state + BALANCE);
   state[HIGHEST] = static_cast<double>(event->highest);
   if (comm->me != 0) return;
   const int size = sizeof(state);
@@ -490,7 +538,7 @@ void FixSPHRefine::restart(char *buf)
   if (state[0] != -FORMAT)
     error->all(FLERR, "Fix {} {}: the restart file was written by {} version of this fix", style,
                id, (state[0] < -FORMAT) ? "a newer" : "an older");
-  ledger->restart(state + LEDGER);
+  balance->restart(state + BALANCE);
   event->highest = static_cast<tagint>(state[HIGHEST]);
 }
 

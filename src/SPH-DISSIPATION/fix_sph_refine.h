@@ -22,11 +22,15 @@ FixStyle(sph/refine,FixSPHRefine);
 
 #include "fix.h"
 
+#include "sph_dissipation_value.h"
+
+#include <string>
+#include <vector>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class RefineEvent;
-  class RefineLedger;
-  class RefineTarget;
+  class RefineBalance;
 }    // namespace SPHDissipation
 
 // Splits particles of the fluids sph/bulk and sph/micropolar that are larger than a target and merges
@@ -58,8 +62,11 @@ class FixSPHRefine : public Fix {
   double memory_usage() override;
 
  private:
-  SPHDissipation::RefineTarget *target;
-  SPHDissipation::RefineLedger *ledger;
+  bool by_spacing;            // the target is a spacing, else a volume
+  std::string target_word;    // as it was given
+  SPHDissipation::Value target;
+  double largest_volume;    // target that leaves enough neighbors
+  SPHDissipation::RefineBalance *balance;
   SPHDissipation::RefineEvent *event;
   class PairSPHBulk *pair;
   class NeighList *list;
@@ -79,6 +86,9 @@ class FixSPHRefine : public Fix {
   int keyword_argument(int, int, char **);
   void check_setup();
   void check_overlap();
+  double target_volume(double value) const;
+  void check_target(double value, tagint tag) const;
+  void evaluate_target();
   void find_waiting();
   bool is_fluid(int i) const;
   bool may_change(int i) const;

@@ -18,7 +18,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "force.h"
-#include "math_extra.h"
 #include "sph_dissipation_open_stage.h"
 
 #include <algorithm>
@@ -26,39 +25,62 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-/* ---------------------------------------------------------------------- */
-
-OpenLedger::OpenLedger(LAMMPS *lmp) : Pointers(lmp), sum(), rate() {}
+static constexpr double NONE = 1.0e300;    // coldest merge, if there was none
 
 /* ---------------------------------------------------------------------- */
 
-void OpenLedger::carry(Direction direction, int i, const double *v, double esph)
+void Balance::count(int first, double factor, const Lump &one)
 {
-  double *const to = sum + (direction == IN ? 0 : NCARRIED);
-  const double mass = atom->rmass[i];
-  double x[3], moment[3];
-  domain->unmap(atom->x[i], atom->image[i], x);
-  MathExtra::cross3(x, v, moment);
-  to[NUMBER] += 1.0;
+  double *const to = sum.data() + first;
+  const double mass = factor * one.mass;
+  to[0] += factor;
   to[MASS] += mass;
   for (int d = 0; d < 3; d++) {
-    to[MOMENTUM + d] += mass * v[d];
-    to[ANGMOM + d] += mass * moment[d];
+    to[MOMENTUM + d] += mass * one.u[d];
+    to[ANGMOM + d] += mass * one.inertia * one.spin[d];
   }
-  to[KINETIC] += 0.5 * force->mvv2e * mass * MathExtra::lensq3(v);
-  to[INTERNAL] += esph;
-
-  auto *spinning = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"));
-  if (!spinning) return;
-  const double inertia = mass * spinning->inertia[i];
-  const double *const omega = atom->omega[i];
-  for (int d = 0; d < 3; d++) to[ANGMOM + d] += inertia * omega[d];
-  to[KINETIC] += 0.5 * force->mvv2e * inertia * MathExtra::lensq3(omega);
+  add_cross(mass, one.x, one.u, to + ANGMOM);
+  to[KINETIC] +=
+      0.5 * force->mvv2e * mass * (dot(one.u, one.u) + one.inertia * dot(one.spin, one.spin));
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenLedger::set_impact(const OpenImpact &impact)
+void Balance::total(double *all) const
+{
+  MPI_Allreduce(sum.data(), all, static_cast<int>(sum.size()), MPI_DOUBLE, MPI_SUM, world);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Balance::restart(const double *all)
+{
+  if (comm->me == 0)
+    std::copy_n(all, sum.size(), sum.data());
+  else
+    std::fill(sum.begin(), sum.end(), 0.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenBalance::carry(Direction direction, int i, const double *v, double esph)
+{
+  const int first = (direction == IN ? 0 : NCARRIED);
+  Lump one;
+  one.mass = atom->rmass[i];
+  domain->unmap(atom->x[i], atom->image[i], one.x);
+  std::copy_n(v, 3, one.u);
+  if (auto *spinning = dynamic_cast<AtomVecSPHMicropolar *>(atom->style_match("sph/micropolar"))) {
+    one.inertia = spinning->inertia[i];
+    std::copy_n(atom->omega[i], 3, one.spin);
+  }
+  count(first, 1.0, one);
+  sum[first + INTERNAL] += esph;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenBalance::set_impact(const OpenImpact &impact)
 {
   for (int d = 0; d < 3; d++) {
     rate[d] = force->ftm2v * impact.force[d];
@@ -69,40 +91,21 @@ void OpenLedger::set_impact(const OpenImpact &impact)
 
 /* ---------------------------------------------------------------------- */
 
-void OpenLedger::advance(double time)
+void OpenBalance::advance(double time)
 {
   for (int k = IMPULSE; k < NVALUE; k++) sum[k] += time * rate[k - IMPULSE];
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenLedger::total(double *all) const
-{
-  MPI_Allreduce(sum, all, NVALUE, MPI_DOUBLE, MPI_SUM, world);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void OpenLedger::restart(const double *all)
-{
-  if (comm->me == 0)
-    std::copy_n(all, static_cast<int>(NVALUE), sum);
-  else
-    std::fill_n(sum, static_cast<int>(NVALUE), 0.0);
-}
-
-static constexpr double NONE = 1.0e300;    // coldest merge, if there was none
-
-/* ---------------------------------------------------------------------- */
-
-RefineLedger::RefineLedger(LAMMPS *lmp) : Pointers(lmp), sum()
+RefineBalance::RefineBalance(LAMMPS *lmp) : Balance(lmp, NVALUE)
 {
   sum[COLDEST] = NONE;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void RefineLedger::merged(double heat)
+void RefineBalance::merged(double heat)
 {
   sum[MERGES] += 1.0;
   sum[HEAT] += heat;
@@ -111,35 +114,25 @@ void RefineLedger::merged(double heat)
 
 /* ---------------------------------------------------------------------- */
 
-void RefineLedger::count(double factor, const Lump &one)
+void RefineBalance::count(double factor, const Lump &one)
 {
-  const double mass = factor * one.mass;
-  sum[NUMBER] += factor;
-  sum[MASS] += mass;
-  for (int d = 0; d < 3; d++) {
-    sum[MOMENTUM + d] += mass * one.u[d];
-    sum[ANGMOM + d] += mass * one.inertia * one.spin[d];
-  }
-  add_cross(mass, one.x, one.u, sum + ANGMOM);
-  sum[KINETIC] +=
-      0.5 * force->mvv2e * mass * (dot(one.u, one.u) + one.inertia * dot(one.spin, one.spin));
+  Balance::count(NUMBER, factor, one);
   sum[INTERNAL] += factor * one.energy;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void RefineLedger::total(double *all) const
+void RefineBalance::total(double *all) const
 {
-  MPI_Allreduce(sum, all, COLDEST, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(sum + COLDEST, all + COLDEST, 1, MPI_DOUBLE, MPI_MIN, world);
+  Balance::total(all);
+  MPI_Allreduce(&sum[COLDEST], all + COLDEST, 1, MPI_DOUBLE, MPI_MIN, world);
   if (all[COLDEST] == NONE) all[COLDEST] = 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void RefineLedger::restart(const double *all)
+void RefineBalance::restart(const double *all)
 {
-  std::fill_n(sum, static_cast<int>(NVALUE), 0.0);
-  if (comm->me == 0) std::copy_n(all, static_cast<int>(NVALUE), sum);
+  Balance::restart(all);
   if (comm->me != 0 || sum[MERGES] == 0.0) sum[COLDEST] = NONE;
 }

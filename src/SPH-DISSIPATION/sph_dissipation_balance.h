@@ -17,30 +17,43 @@
 #include "pointers.h"
 #include "sph_dissipation_split.h"
 
-namespace LAMMPS_NS {
+#include <vector>
 
+namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   struct OpenImpact;
 
-  // What particles have carried into the fluid and out of it through an open zone, and what the forces
-  // of the zone have done to the fluid.  Sums of this processor; total() of all.
+  // What a fix has brought to the fluid and taken from it since it was defined: sums of this
+  // processor; total() gives those of all.
 
-  class OpenLedger : protected Pointers {
+  class Balance : protected Pointers {
+   public:
+    void add(int k, double value) { sum[k] += value; }
+    void total(double *all) const;
+    void restart(const double *all);
+
+   protected:
+    std::vector<double> sum;
+
+    Balance(LAMMPS *lmp, int n) : Pointers(lmp), sum(n, 0.0) {}
+
+    // Add a particle, times a factor, at these places of the sums, all but its internal energy:
+    // number, mass, momentum, angular momentum about the origin, kinetic energy with that of the spin.
+    void count(int first, double factor, const Lump &);
+    enum { MASS = 1, MOMENTUM = 2, ANGMOM = 5, KINETIC = 8, NCOUNTED };    // after the first
+  };
+
+  // Particles that have come through the plane of a buffer zone, and what the forces of the zone have
+  // done to the fluid
+
+  class OpenBalance : public Balance {
    public:
     enum Direction { IN, OUT };
-    enum {
-      NUMBER,
-      MASS,
-      MOMENTUM,
-      ANGMOM = 5,
-      KINETIC = 8,
-      INTERNAL,
-      NCARRIED
-    };    // each direction
+    enum { INTERNAL = NCOUNTED, NCARRIED };    // after number ... kinetic energy, each direction
     enum { IMPULSE = 2 * NCARRIED, ANGULAR_IMPULSE = IMPULSE + 3, WORK = IMPULSE + 6, NVALUE };
 
-    OpenLedger(class LAMMPS *);
+    OpenBalance(LAMMPS *lmp) : Balance(lmp, NVALUE), rate() {}
 
     // an owned particle changes sides with this velocity and internal energy
     void carry(Direction, int i, const double *v, double esph);
@@ -48,27 +61,19 @@ namespace SPHDissipation {
     void set_impact(const OpenImpact &);    // of the present forces
     void advance(double time);              // those act for this time
 
-    void total(double *all) const;    // NVALUE
-    void restart(const double *all);
-
    private:
-    double sum[NVALUE];
     double rate[NVALUE - IMPULSE];
   };
 
-  // What splits and merges have changed.  Sums of this processor; total() of all.
+  // What splits and merges have changed: afterwards - before
 
-  class RefineLedger : protected Pointers {
+  class RefineBalance : public Balance {
    public:
     enum {
       SPLITS,    // particles that have split
       MERGES,    // pairs that have merged
-      NUMBER,    // of the particles, and so on: afterwards - before
-      MASS,
-      MOMENTUM,
-      ANGMOM = MOMENTUM + 3,
-      KINETIC = ANGMOM + 3,    // with that of the spin
-      ELASTIC,                 // of the equation of state
+      NUMBER,
+      ELASTIC = NUMBER + NCOUNTED,    // energy of the equation of state
       INTERNAL,
       HEAT,        // of merges, in the internal energy
       ROTATION,    // energy that the rotation of neighbors took, out of the internal one
@@ -76,19 +81,15 @@ namespace SPHDissipation {
       NVALUE
     };
 
-    RefineLedger(class LAMMPS *);
+    RefineBalance(LAMMPS *);
 
-    void add(int k, double value) { sum[k] += value; }
     void merged(double heat);
 
     // a particle that is there afterwards, factor 1, or was there before, factor -1
     void count(double factor, const Lump &);
 
-    void total(double *all) const;    // NVALUE
+    void total(double *all) const;
     void restart(const double *all);
-
-   private:
-    double sum[NVALUE];
   };
 
 }    // namespace SPHDissipation

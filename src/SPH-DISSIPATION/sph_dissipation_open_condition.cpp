@@ -17,7 +17,6 @@
 #include "domain.h"
 #include "error.h"
 #include "group.h"
-#include "input.h"
 #include "math_extra.h"
 #include "modify.h"
 #include "sph_dissipation_characteristics.h"
@@ -25,7 +24,6 @@
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_model.h"
 #include "update.h"
-#include "variable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +35,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 OpenValues::OpenValues(LAMMPS *lmp, const std::string &owner) :
-    Pointers(lmp), owner(owner), number(), any_variable(false), needs_energy(false)
+    Pointers(lmp), owner(owner), is_given(), any_variable(false), needs_energy(false)
 {
 }
 
@@ -64,25 +62,16 @@ int OpenValues::keyword_argument(int iarg, int narg, char **arg)
                                 error);
     };
     needs(1);
-    for (int k = 0; k < keyword.n; k++) value[keyword.first + k] = Value();
+    for (int k = 0; k < keyword.n; k++) is_given[keyword.first + k] = false;
     if (keyword.or_inside && strcmp(arg[iarg + 1], "inside") == 0) return 2;
     needs(keyword.n);
-    for (int k = 0; k < keyword.n; k++)
-      set(static_cast<Quantity>(keyword.first + k), arg[iarg + 1 + k]);
+    for (int k = 0; k < keyword.n; k++) {
+      value[keyword.first + k].set(lmp, arg[iarg + 1 + k]);
+      is_given[keyword.first + k] = true;
+    }
     return keyword.n + 1;
   }
   return 0;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void OpenValues::set(Quantity k, const char *word)
-{
-  value[k].given = true;
-  if (utils::strmatch(word, "^v_"))
-    value[k].name = word + 2;
-  else
-    number[k] = utils::numeric(FLERR, word, false, lmp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -98,7 +87,7 @@ void OpenValues::check() const
 
 /* ---------------------------------------------------------------------- */
 
-const char *OpenValues::fault(Quantity k, double x) const
+const char *OpenValues::fault(int k, double x) const
 {
   if (!std::isfinite(x)) return "values must be finite";
   if (domain->dimension == 2 && x != 0.0) {
@@ -116,21 +105,12 @@ void OpenValues::init(bool needs_energy_in)
   any_variable = false;
   needs_energy = needs_energy_in;
   for (int k = 0; k < NQUANTITY; k++) {
+    if (!is_given[k]) continue;
     Value &one = value[k];
-    column[k].clear();
-    if (one.name.empty()) {
-      const char *const wrong = fault(static_cast<Quantity>(k), number[k]);
-      if (one.given && wrong)
-        error->all(FLERR, "{}: {:g} cannot be used: {}", owner, number[k], wrong);
-      continue;
-    }
-    any_variable = true;
-    one.variable = input->variable->find(one.name.c_str());
-    if (one.variable < 0) error->all(FLERR, "Variable {} for {} does not exist", one.name, owner);
-    one.by_atom = input->variable->atomstyle(one.variable);
-    if (!one.by_atom && !input->variable->equalstyle(one.variable))
-      error->all(FLERR, "Variable {} for {} is neither of equal style nor of atom style", one.name,
-                 owner);
+    one.init(lmp, owner, true, "is neither of equal style nor of atom style");
+    any_variable = any_variable || one.varies();
+    const char *const wrong = one.varies() ? nullptr : fault(k, one.now());
+    if (wrong) error->all(FLERR, "{}: {:g} cannot be used: {}", owner, one.now(), wrong);
   }
 }
 
@@ -143,22 +123,20 @@ void OpenValues::evaluate(int igroup)
   const int nlocal = atom->nlocal;
   modify->clearstep_compute();
   for (int k = 0; k < NQUANTITY; k++) {
-    const Value &one = value[k];
-    if (one.name.empty()) continue;
-    if (!one.by_atom) {
-      number[k] = input->variable->compute_equal(one.variable);
-      if (const char *const wrong = fault(static_cast<Quantity>(k), number[k]))
-        error->all(FLERR, "{}: variable {} is {} at step {}: {}", owner, one.name, number[k],
+    Value &one = value[k];
+    if (!is_given[k] || !one.varies()) continue;
+    one.evaluate(lmp, igroup);
+    if (!one.is_by_atom()) {
+      if (const char *const wrong = fault(k, one.now()))
+        error->all(FLERR, "{}: variable {} is {} at step {}: {}", owner, one.name(), one.now(),
                    update->ntimestep, wrong);
       continue;
     }
-    column[k].resize(atom->nmax);
-    input->variable->compute_atom(one.variable, igroup, column[k].data(), 1, 0);
     for (int i = 0; i < nlocal; i++) {
       if (!(atom->mask[i] & groupbit)) continue;
-      if (const char *const wrong = fault(static_cast<Quantity>(k), column[k][i]))
-        error->one(FLERR, "{}: variable {} is {} for particle {} at step {}: {}", owner, one.name,
-                   column[k][i], atom->tag[i], update->ntimestep, wrong);
+      if (const char *const wrong = fault(k, one(i)))
+        error->one(FLERR, "{}: variable {} is {} for particle {} at step {}: {}", owner, one.name(),
+                   one(i), atom->tag[i], update->ntimestep, wrong);
     }
   }
   modify->addstep_compute(update->ntimestep + 1);
@@ -169,7 +147,7 @@ void OpenValues::evaluate(int igroup)
 double OpenValues::memory_usage() const
 {
   double bytes = 0.0;
-  for (const auto &one : column) bytes += static_cast<double>(one.capacity() * sizeof(double));
+  for (const auto &one : value) bytes += one.memory_usage();
   return bytes;
 }
 

@@ -16,6 +16,7 @@
 
 #include "pointers.h"
 #include "sph_dissipation_open_plane.h"
+#include "sph_dissipation_value.h"
 
 #include <string>
 #include <vector>
@@ -37,7 +38,7 @@ namespace SPHDissipation {
     void check() const;
     void init(bool needs_energy);    // finds the variables; the energies must then be > 0
 
-    bool given(Quantity k) const { return value[k].given; }
+    bool given(Quantity k) const { return is_given[k]; }
     bool vary() const { return any_variable; }
 
     // values at the current time of the owned particles with a group bit; igroup: for messages only
@@ -46,27 +47,15 @@ namespace SPHDissipation {
 
     double memory_usage() const;    // bytes
 
-    double operator()(Quantity k, int i) const
-    {
-      return column[k].empty() ? number[k] : column[k][i];
-    }
+    double operator()(Quantity k, int i) const { return value[k](i); }
 
    private:
-    struct Value {
-      bool given = false;
-      std::string name;    // of a variable
-      int variable = -1;
-      bool by_atom = false;
-    };
-
     const std::string owner;
     Value value[NQUANTITY];
-    double number[NQUANTITY];                 // now, where it is the same for all particles
-    std::vector<double> column[NQUANTITY];    // now, by owned particle, where it is not
+    bool is_given[NQUANTITY];
     bool any_variable, needs_energy;
 
-    const char *fault(Quantity, double) const;    // what a value must not be; nullptr: nothing
-    void set(Quantity, const char *word);         // a number or v_name
+    const char *fault(int k, double) const;    // what a value must not be; nullptr: nothing
   };
 
   class FluidModel;

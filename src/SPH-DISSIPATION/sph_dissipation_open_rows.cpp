@@ -14,14 +14,12 @@
 #include "sph_dissipation_open_rows.h"
 
 #include "atom.h"
-#include "atom_vec.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "math_extra.h"
-#include "sph_dissipation_attributes.h"
-#include "sph_dissipation_gather.h"
 #include "sph_dissipation_open_plane.h"
+#include "sph_dissipation_particles.h"
 #include "update.h"
 
 #include <algorithm>
@@ -163,15 +161,10 @@ void OpenRows::interrupt_ids()
   MPI_Allreduce(&mine, &last, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   const auto next = static_cast<tagint>(atom->natoms) + 1;
 
-  const bool mapped = (atom->map_style != Atom::MAP_NONE);
-  if (mapped) atom->map_clear();
-  atom->nghost = 0;
+  begin_change(lmp);
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->tag[i] == last) atom->tag[i] = next;
-  if (mapped) {
-    atom->map_init();
-    atom->map_set();
-  }
+  end_change(lmp, atom->nlocal);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -263,11 +256,8 @@ double OpenRows::largest_spacing() const
 
 void OpenRows::renew(const Refresh &refresh)
 {
-  const bigint nblocal = atom->nlocal;
-  bigint natoms;
-  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
-  atom->nghost = 0;
-  atom->avec->clear_bonus();
+  const int nbefore = atom->nlocal;
+  begin_change(lmp);
   remove_beyond();
   if (by_distance()) refresh({});    // particles have changed sides, and places in memory
 
@@ -292,14 +282,7 @@ void OpenRows::renew(const Refresh &refresh)
 
   std::vector<int> last = last_ones(band);
   while (fill(last, band, refresh)) {}
-
-  bigint change = atom->nlocal - nblocal;
-  MPI_Allreduce(&change, &natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  atom->natoms += natoms;
-  if (atom->map_style != Atom::MAP_NONE) {
-    atom->map_init();
-    atom->map_set();
-  }
+  end_change(lmp, nbefore);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -308,9 +291,7 @@ void OpenRows::remove_beyond()
 {
   for (int i = atom->nlocal - 1; i >= 0; i--) {
     highest = std::max(highest, atom->tag[i]);
-    if (!(atom->mask[i] & groupbit) || plane.height(atom->x[i]) >= end()) continue;
-    atom->avec->copy(atom->nlocal - 1, i, 1);
-    atom->nlocal--;
+    if ((atom->mask[i] & groupbit) && plane.height(atom->x[i]) < end()) remove_particle(lmp, i);
   }
 }
 
@@ -350,17 +331,16 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
   MPI_Allreduce(&n, &all, 1, MPI_INT, MPI_SUM, world);
   if (!all) return false;
 
-  const std::vector<tagint> tags = new_tags(last);
+  std::vector<NewIDs> one_each;
+  for (const int i : last) one_each.emplace_back(atom->tag[i], 1);
+  const std::vector<tagint> ids =
+      new_ids(lmp, one_each, highest, owner + ": too many particles have entered for their IDs");
   std::vector<int> created;
   for (int k = 0; k < n; k++) {
-    const int i = last[k], j = atom->nlocal;
-    if (j == atom->nmax) atom->avec->grow(0);
-    atom->avec->copy(i, j, 0);
-    atom->nlocal++;
-    atom->tag[j] = tags[k];
-    for (int d = 0; d < 3; d++) atom->x[j][d] -= step(i) * plane.normal[d];
-    create_attributes(modify, j);
-    created.push_back(j);
+    const int i = last[k];
+    double x[3];
+    for (int d = 0; d < 3; d++) x[d] = atom->x[i][d] - step(i) * plane.normal[d];
+    created.push_back(create_copy(lmp, i, ids[k], x));
   }
 
   refresh(created);
@@ -375,7 +355,6 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
     }
 
   for (const int j : created) check_seat(atom->x[j], band);
-  for (const tagint tag : tags) highest = std::max(highest, tag);
   last = created;
   return true;
 }
@@ -444,44 +423,16 @@ void OpenRows::check_lattice(const OpenBand &band, double largest) const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::check_seat(double *x, const OpenBand &band) const
+void OpenRows::check_seat(const double *x, const OpenBand &band) const
 {
   constexpr double APART = 0.5;    // of the width of a row
-  double unit[3] = {x[0], x[1], x[2]};
-  if (domain->triclinic) domain->x2lamda(x, unit);
-  const double *const lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
-  const double *const hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
-  for (int d = 0; d < domain->dimension; d++)
-    if (!domain->periodicity[d] && (unit[d] < lo[d] || unit[d] >= hi[d]))
-      error->one(FLERR,
-                 "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",
-                 owner, x[0], x[1], x[2]);
+  if (!in_box(lmp, x))
+    error->one(FLERR,
+               "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",
+               owner, x[0], x[1], x[2]);
   if (band.has_near(x, APART * half_width))
     error->one(FLERR, "{}: at {:g} {:g} {:g}, where a particle enters, there is another one", owner,
                x[0], x[1], x[2]);
-}
-
-/* ----------------------------------------------------------------------
-   in the order of the tags of the particles in front, on whatever processor they are
-------------------------------------------------------------------------- */
-
-std::vector<tagint> OpenRows::new_tags(const std::vector<int> &last) const
-{
-  std::vector<tagint> mine;
-  for (const int i : last) mine.push_back(atom->tag[i]);
-  std::vector<tagint> all = gather_all(world, mine, MPI_LMP_TAGINT);
-  std::sort(all.begin(), all.end());
-
-  tagint most = highest, first;
-  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
-  MPI_Allreduce(&most, &first, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (first >= MAXTAGINT - static_cast<tagint>(all.size()))
-    error->all(FLERR, "{}: too many particles have entered for their IDs", owner);
-
-  for (auto &tag : mine)
-    tag = first + 1 +
-        static_cast<tagint>(std::lower_bound(all.begin(), all.end(), tag) - all.begin());
-  return mine;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -113,8 +113,7 @@ namespace SPHDissipation {
     bool fill(std::vector<int> &last, const OpenBand &, const Refresh &);
     void check_alone(const OpenBand &) const;
     void check_lattice(const OpenBand &, double largest) const;
-    void check_seat(double *x, const OpenBand &) const;
-    std::vector<tagint> new_tags(const std::vector<int> &last) const;
+    void check_seat(const double *x, const OpenBand &) const;
   };
 
 }    // namespace SPHDissipation

@@ -20,9 +20,8 @@
 #include "fix.h"
 #include "force.h"
 #include "neigh_list.h"
-#include "sph_dissipation_attributes.h"
 #include "sph_dissipation_balance.h"
-#include "sph_dissipation_gather.h"
+#include "sph_dissipation_particles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +37,8 @@ static constexpr double NEXT = 1.6;         // distance of neighbors that split 
 
 /* ---------------------------------------------------------------------- */
 
-RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineLedger &ledger) :
-    Pointers(lmp), items(lmp, fix), highest(0), ledger(ledger), pairs(lmp, items),
+RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
+    Pointers(lmp), items(lmp, fix), highest(0), balance(balance), pairs(lmp, items),
     rest(lmp, items, pairs), support(0.0), smallest(0.0), spinning(false)
 {
 }
@@ -185,30 +184,12 @@ bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
   for (int k = 0; k < stencil.n; k++) {
     double x[3];
     for (int d = 0; d < 3; d++) x[d] = atom->x[i][d] + stencil.d[k][d];
-    if (!in_box(x)) return false;
+    if (!in_box(lmp, x)) return false;
   }
   return true;
 }
 
 /* ---------------------------------------------------------------------- */
-
-bool RefineEvent::in_box(const double *x) const
-{
-  double place[3] = {x[0], x[1], x[2]}, unit[3] = {x[0], x[1], x[2]};
-  if (domain->triclinic) domain->x2lamda(place, unit);
-  const double *const lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
-  const double *const hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
-  for (int d = 0; d < domain->dimension; d++)
-    if (!domain->periodicity[d] && (unit[d] < lo[d] || unit[d] >= hi[d])) return false;
-  return true;
-}
-
-/* ---------------------------------------------------------------------- */
-
-std::vector<tagint> RefineEvent::gather(const std::vector<tagint> &mine) const
-{
-  return gather_all(world, mine, MPI_LMP_TAGINT);
-}
 
 /* ----------------------------------------------------------------------
    if there are more events than that, those of the lowest IDs take place
@@ -224,7 +205,7 @@ bigint RefineEvent::withhold(bigint most)
   MPI_Allreduce(&number, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all <= most) return all;
 
-  std::vector<tagint> tags = gather(mine);
+  std::vector<tagint> tags = gather_all(world, mine, MPI_LMP_TAGINT);
   std::nth_element(tags.begin(), tags.begin() + most, tags.end());
   const tagint end = tags[most];
   for (int i = 0; i < atom->nlocal; i++) items[i].withheld = (atom->tag[i] >= end) ? 1.0 : 0.0;
@@ -285,8 +266,10 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
 
   // particles are changed first, then created, then removed; from here on ghosts are of the past
 
-  const std::vector<tagint> first = new_tags();
-  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
+  std::vector<NewIDs> daughters;
+  for (const Split &one : splits) daughters.emplace_back(atom->tag[one.i], one.stencil.n - 1);
+  const std::vector<tagint> first = new_ids(
+      lmp, daughters, highest, "Fix sph/refine: too many particles have split for their IDs");
   const int nbefore = atom->nlocal;
   std::vector<char> own_event(nbefore, 0), dead(nbefore, 0);
   for (const Split &one : splits) own_event[one.i] = 1;
@@ -299,31 +282,25 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
 
   for (Merge &one : merges) {
     Lump &whole = one.whole;
-    for (const Lump &part : one.parts) ledger.count(-1.0, part);
+    for (const Lump &part : one.parts) balance.count(-1.0, part);
     for (int d = 0; d < 3; d++) {
       whole.u[d] += rest.velocity(one.i)[d];
       whole.u_end[d] += rest.velocity(one.i)[d];
     }
     whole.energy += force->mvv2e * (one.heat - rest.work(one.i));
     set_lump(one.i, whole);
-    ledger.count(1.0, whole);
-    ledger.merged(force->mvv2e * one.heat);
+    balance.count(1.0, whole);
+    balance.merged(force->mvv2e * one.heat);
     changed(one.i, 0.0);
   }
-  for (int i = 0; i < nbefore; i++) ledger.add(RefineLedger::ROTATION, force->mvv2e * rest.work(i));
+  for (int i = 0; i < nbefore; i++)
+    balance.add(RefineBalance::ROTATION, force->mvv2e * rest.work(i));
 
-  atom->nghost = 0;
-  atom->avec->clear_bonus();
+  begin_change(lmp);
   create(first, changed);
-  remove(dead);
-
-  bigint change = atom->nlocal - nbefore, all;
-  MPI_Allreduce(&change, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  atom->natoms += all;
-  if (atom->map_style != Atom::MAP_NONE) {
-    atom->map_init();
-    atom->map_set();
-  }
+  for (int i = nbefore - 1; i >= 0; i--)
+    if (dead[i]) remove_particle(lmp, i);
+  end_change(lmp, nbefore);
 }
 
 /* ----------------------------------------------------------------------
@@ -336,14 +313,14 @@ void RefineEvent::move_others(const std::vector<char> &own_event)
     const double *const du = rest.velocity(i);
     if (own_event[i] || dot(du, du) == 0.0) continue;
     Lump one = items[i].lump;
-    ledger.count(-1.0, one);
+    balance.count(-1.0, one);
     for (int d = 0; d < 3; d++) {
       one.u[d] += du[d];
       one.u_end[d] += du[d];
     }
     one.energy -= force->mvv2e * rest.work(i);
     set_lump(i, one);
-    ledger.count(1.0, one);
+    balance.count(1.0, one);
   }
 }
 
@@ -356,7 +333,7 @@ void RefineEvent::create(const std::vector<tagint> &first, const Changed &change
   for (std::size_t k = 0; k < splits.size(); k++) {
     const int i = splits[k].i, n = splits[k].stencil.n;
     Lump parent = items[i].lump, daughters[Stencil::MOST];
-    ledger.count(-1.0, parent);
+    balance.count(-1.0, parent);
     for (int d = 0; d < 3; d++) {
       parent.u[d] += rest.velocity(i)[d];
       parent.u_end[d] += rest.velocity(i)[d];
@@ -366,66 +343,11 @@ void RefineEvent::create(const std::vector<tagint> &first, const Changed &change
     const bool whole = families() && splits[k].stencil.isotropic;
     const double family = whole ? static_cast<double>(first[k]) : 0.0;
     for (int m = 0; m < n; m++) {
-      int j = i;
-      if (m > 0) {
-        j = atom->nlocal;
-        if (j == atom->nmax) atom->avec->grow(0);
-        atom->avec->copy(i, j, 0);
-        atom->nlocal++;
-        atom->tag[j] = first[k] + m - 1;
-        create_attributes(modify, j);
-      }
+      const int j = (m == 0) ? i : create_copy(lmp, i, first[k] + m - 1, atom->x[i]);
       set_lump(j, daughters[m]);
-      ledger.count(1.0, daughters[m]);
+      balance.count(1.0, daughters[m]);
       changed(j, family);
     }
-    ledger.add(RefineLedger::SPLITS, 1.0);
+    balance.add(RefineBalance::SPLITS, 1.0);
   }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void RefineEvent::remove(const std::vector<char> &dead)
-{
-  for (int i = static_cast<int>(dead.size()) - 1; i >= 0; i--) {
-    if (!dead[i]) continue;
-    atom->avec->copy(atom->nlocal - 1, i, 1);
-    atom->nlocal--;
-  }
-}
-
-/* ----------------------------------------------------------------------
-   first of the new IDs of each split, in the order of the IDs of those that split, on whatever
-   processor they are
-------------------------------------------------------------------------- */
-
-std::vector<tagint> RefineEvent::new_tags()
-{
-  std::vector<tagint> mine;
-  for (const Split &one : splits) {
-    mine.push_back(atom->tag[one.i]);
-    mine.push_back(one.stencil.n - 1);
-  }
-  const std::vector<tagint> all = gather(mine);
-  std::vector<std::pair<tagint, tagint>> parents;
-  for (std::size_t k = 0; k < all.size(); k += 2) parents.emplace_back(all[k], all[k + 1]);
-  std::sort(parents.begin(), parents.end());
-
-  tagint most = highest;
-  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
-  MPI_Allreduce(&most, &highest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-
-  std::vector<tagint> first(splits.size());
-  std::vector<std::pair<tagint, tagint>> numbers;    // of parent, first daughter
-  for (const auto &parent : parents) {
-    if (highest >= MAXTAGINT - parent.second)
-      error->all(FLERR, "Fix sph/refine: too many particles have split for their IDs");
-    numbers.emplace_back(parent.first, highest + 1);
-    highest += parent.second;
-  }
-  for (std::size_t k = 0; k < splits.size(); k++)
-    first[k] = std::lower_bound(numbers.begin(), numbers.end(),
-                                std::make_pair(atom->tag[splits[k].i], static_cast<tagint>(0)))
-                   ->second;
-  return first;
 }

@@ -25,14 +25,14 @@ class NeighList;
 
 namespace SPHDissipation {
 
-  class RefineLedger;
+  class RefineBalance;
 
   // All splits and merges of one time step, on all processors at once.  What happens is found out with
   // the particles as they are, then they are changed, then the lists of particles.
 
   class RefineEvent : protected Pointers {
    public:
-    RefineEvent(class LAMMPS *, Fix *, RefineLedger &);
+    RefineEvent(class LAMMPS *, Fix *, RefineBalance &);
 
     void init(double support, double smallest_share);
 
@@ -52,7 +52,7 @@ namespace SPHDissipation {
     tagint highest;    // ID that was ever given
 
    private:
-    RefineLedger &ledger;
+    RefineBalance &balance;
     RefinePairs pairs;
     RefineRest rest;
     double support;
@@ -78,14 +78,10 @@ namespace SPHDissipation {
     bool merging(int i) const;
     bool families() const;    // that all daughters of one split can merge as a whole
     bool find_stencil(NeighList *full, int i, Stencil &) const;
-    bool in_box(const double *x) const;
     bigint withhold(bigint most);
     void give_rest(NeighList *full);
     void move_others(const std::vector<char> &own_event);
     void create(const std::vector<tagint> &first, const Changed &changed);
-    void remove(const std::vector<char> &dead);
-    std::vector<tagint> new_tags();
-    std::vector<tagint> gather(const std::vector<tagint> &mine) const;
   };
 
 }    // namespace SPHDissipation

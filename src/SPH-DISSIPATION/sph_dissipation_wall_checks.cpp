@@ -27,7 +27,7 @@
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_gather.h"
+#include "sph_dissipation_particles.h"
 
 #include <algorithm>
 #include <cmath>

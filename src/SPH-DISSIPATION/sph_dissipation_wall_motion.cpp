@@ -16,11 +16,9 @@
 #include "compute.h"
 #include "domain.h"
 #include "error.h"
-#include "input.h"
 #include "math_extra.h"
 #include "modify.h"
 #include "update.h"
-#include "variable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,17 +40,10 @@ WallMotion::WallMotion(LAMMPS *lmp, const std::string &owner) :
 
 /* ---------------------------------------------------------------------- */
 
-WallMotion::~WallMotion()
-{
-  for (auto &value : values) delete[] value.name;
-}
-
-/* ---------------------------------------------------------------------- */
-
 void WallMotion::set_velocity(char **arg)
 {
   for (int d = 0; d < 3; d++) read(values[d], arg[d]);
-  if (domain->dimension == 2 && (values[2].name || values[2].number != 0.0))
+  if (domain->dimension == 2 && !values[2].value.is_zero())
     error->all(FLERR, "{}: velocity and gravity must lie in the plane in 2d", owner);
 }
 
@@ -72,33 +63,20 @@ void WallMotion::set_rotation(char **arg)
   rotation_given = true;
 }
 
-/* ----------------------------------------------------------------------
-   number, or variable v_name
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void WallMotion::read(Value &value, const char *word)
+void WallMotion::read(Component &one, const char *word)
 {
-  delete[] value.name;
-  value = Value();
-  if (utils::strmatch(word, "^v_"))
-    value.name = utils::strdup(word + 2);
-  else
-    value.number = utils::numeric(FLERR, word, false, lmp);
-  any_variable = any_variable || value.name;
+  one = Component();
+  one.value.set(lmp, word);
+  any_variable = any_variable || one.value.varies();
 }
 
 /* ---------------------------------------------------------------------- */
 
 void WallMotion::init()
 {
-  for (auto &value : values) {
-    if (!value.name) continue;
-    value.variable = input->variable->find(value.name);
-    if (value.variable < 0)
-      error->all(FLERR, "Variable {} for {} does not exist", value.name, owner);
-    if (!input->variable->equalstyle(value.variable))
-      error->all(FLERR, "Variable {} for {} is not an equal-style variable", value.name, owner);
-  }
+  for (auto &one : values) one.value.init(lmp, owner, false, "is not an equal-style variable");
 }
 
 /* ----------------------------------------------------------------------
@@ -108,9 +86,10 @@ void WallMotion::init()
 bool WallMotion::evaluate(double *result)
 {
   if (any_variable) modify->clearstep_compute();
-  for (int k = 0; k < NVALUES; k++)
-    result[k] = values[k].name ? input->variable->compute_equal(values[k].variable)
-                               : values[k].number;
+  for (int k = 0; k < NVALUES; k++) {
+    values[k].value.evaluate(lmp, 0);
+    result[k] = values[k].value.now();
+  }
   if (!any_variable) return false;
   const auto &computes = modify->get_compute_list();
   return std::any_of(computes.begin(), computes.end(), [](const Compute *compute) {
@@ -158,7 +137,7 @@ void WallMotion::estimate_rates()
   update->endstep = endstep;
 
   for (int k = 0; k < NVALUES; k++) {
-    Value &value = values[k];
+    Component &value = values[k];
     if (next[k] == value.now && second[k] == value.now) continue;
     const double rate = (3.0 * next[k] - second[k] - 2.0 * value.now) / update->dt;
     value.rate = std::isfinite(rate) ? rate : 0.0;
@@ -184,7 +163,7 @@ void WallMotion::advance()
   if (any_variable) modify->addstep_compute(update->ntimestep + 1);
   known_step = update->ntimestep;
   for (int k = 0; k < NVALUES; k++) {
-    Value &value = values[k];
+    Component &value = values[k];
     value.mean = 0.5 * (value.now + now[k]);
     value.rate = (update->dt != 0.0) ? (now[k] - value.now) / update->dt : 0.0;
     value.now = now[k];

@@ -1,0 +1,72 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_PARTICLES_H
+#define LMP_SPH_DISSIPATION_PARTICLES_H
+
+#include "lmptype.h"
+
+#include <mpi.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+
+namespace SPHDissipation {
+
+  // Gather what all processors have, in their order.
+
+  template <class T>
+  std::vector<T> gather_all(MPI_Comm world, const std::vector<T> &mine, MPI_Datatype type)
+  {
+    int nprocs, n = static_cast<int>(mine.size()), total = 0;
+    MPI_Comm_size(world, &nprocs);
+    std::vector<int> counts(nprocs), starts(nprocs);
+    MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+    for (int p = 0; p < nprocs; p++) {
+      starts[p] = total;
+      total += counts[p];
+    }
+    std::vector<T> all(total);
+    MPI_Allgatherv(mine.data(), n, type, all.data(), counts.data(), starts.data(), type, world);
+    return all;
+  }
+
+  // Tell whether x is inside the boundaries of the box that are not periodic.
+
+  bool in_box(LAMMPS *, const double *x);
+
+  // Creating and deleting particles, for fixes that do it between two neighbor lists.  All processors
+  // call begin_change(), from which on there are no ghosts; create and remove owned particles; and
+  // call end_change() with the number of owned particles that there were, which counts all of them.
+
+  void begin_change(LAMMPS *);
+  int create_copy(LAMMPS *, int i, tagint id,
+                  const double *x);         // of particle i; returns the new one
+  void remove_particle(LAMMPS *, int i);    // the last one takes its place
+  void end_change(LAMMPS *, int nlocal_before);
+
+  // Return the first of the new IDs that particles with these IDs get, each so many in a row: in the
+  // order of the old IDs, on whatever processor they are.  highest = ID that was ever given, before
+  // and after; an error with these words if there are no more.
+
+  typedef std::pair<tagint, tagint> NewIDs;    // old ID, number of new ones
+  std::vector<tagint> new_ids(LAMMPS *, const std::vector<NewIDs> &mine, tagint &highest,
+                              const std::string &too_many);
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

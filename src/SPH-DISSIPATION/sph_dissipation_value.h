@@ -1,0 +1,58 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_VALUE_H
+#define LMP_SPH_DISSIPATION_VALUE_H
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+
+namespace SPHDissipation {
+
+  // A value in the arguments of a command: a number, or v_name, a variable of equal or of atom style.
+  // Variables are evaluated between Modify::clearstep_compute() and Modify::addstep_compute().
+
+  class Value {
+   public:
+    void set(LAMMPS *, const std::string &word);    // an error if it is neither
+
+    // Find the variable.  Errors say that the owner has none of this name, or that it is of no style
+    // that it can be: may be of atom style, or equal style only.
+    void init(LAMMPS *, const std::string &owner, bool may_be_by_atom, const char *wrong_style);
+
+    void evaluate(LAMMPS *,
+                  int igroup);    // now, for owned particles; 0 for those not of the group
+
+    const std::string &name() const { return variable_name; }    // empty: a number
+    bool varies() const { return !variable_name.empty(); }
+    bool is_by_atom() const { return by_atom; }
+    bool is_zero() const { return !varies() && number == 0.0; }    // at all times
+    double now() const { return number; }                          // if it is not by atom
+    double operator()(int i) const { return column.empty() ? number : column[i]; }
+    double memory_usage() const;    // bytes
+
+   private:
+    std::string variable_name;
+    int variable = -1;    // its index
+    bool by_atom = false;
+    double number = 0.0;
+    std::vector<double> column;    // by owned particle
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
