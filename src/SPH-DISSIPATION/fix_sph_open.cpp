@@ -45,8 +45,8 @@ using namespace SPHDissipation;
 static constexpr double NODES = 3.0;          // of the plane, per radius of what is measured there
 static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
-// in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves;
-// files without a format begin with the size
+// in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves.
+// Files without a format begin with the size.
 
 static constexpr int FORMAT = 1003;
 enum {
@@ -65,19 +65,18 @@ enum { COUNT = OpenBalance::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 }
 /* ---------------------------------------------------------------------- */
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), condition(nullptr),
-    rows(nullptr), balance(nullptr), pair(nullptr), integrator(nullptr), avec(nullptr),
-    spinning(nullptr), fluidbit(0), radius(0.0), area(0.0), is_new(false), supersonic(false),
-    gap(false), set_up(false), totals_known(false), totals(new double[NVECTOR])
+    Fix(lmp, narg, arg), pair(nullptr), integrator(nullptr), avec(nullptr), spinning(nullptr),
+    fluidbit(0), radius(0.0), area(0.0), is_new(false), supersonic(false), gap(false),
+    set_up(false), totals_known(false), totals(NVECTOR)
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
-  plane = new OpenPlane(lmp, owner);
-  values = new OpenValues(lmp, owner);
-  samples = new OpenSamples(lmp, *plane);
-  condition = new OpenCondition(lmp, owner, *plane, *values, *samples);
-  rows = new OpenRows(lmp, owner, *plane, groupbit);
-  balance = new OpenBalance(lmp);
+  plane.reset(new OpenPlane(lmp, owner));
+  values.reset(new OpenValues(lmp, owner));
+  samples.reset(new OpenSamples(lmp, *plane));
+  condition.reset(new OpenCondition(lmp, owner, *plane, *values, *samples));
+  rows.reset(new OpenRows(lmp, owner, *plane, groupbit));
+  balance.reset(new OpenBalance(lmp));
 
   fluid_name = arg[3];
   const int fluid_group = group->find(fluid_name);
@@ -104,7 +103,7 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   vector_flag = 1;
   size_vector = NVECTOR;
   global_freq = 1;
-  extvector = 0;    // an account is not to be scaled by the number of atoms
+  extvector = 0;    // sums are not to be scaled by the number of atoms
 }
 
 /* ---------------------------------------------------------------------- */
@@ -139,13 +138,6 @@ int FixSPHOpen::keyword_argument(int iarg, int narg, char **arg)
 FixSPHOpen::~FixSPHOpen()
 {
   if (auto *fluid = PairSPHBulk::find(force)) fluid->remove_open_zone(this);
-  delete balance;
-  delete rows;
-  delete condition;
-  delete samples;
-  delete values;
-  delete plane;
-  delete[] totals;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -211,7 +203,8 @@ void FixSPHOpen::init()
 }
 
 /* ----------------------------------------------------------------------
-   fix adapt may change the speed of sound
+   Set the times of averages and of the memory of waves, at each step: fix adapt may change the speed of
+   sound.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_times()
@@ -227,7 +220,8 @@ void FixSPHOpen::set_times()
 }
 
 /* ----------------------------------------------------------------------
-   a zone with fluid at its sides has pairs with it all along
+   Tell whether a particle at x may have pairs of zone and fluid: near the plane, and, in a zone with a
+   region, which may have fluid at its sides, all along.
 ------------------------------------------------------------------------- */
 
 bool FixSPHOpen::zone_near(const double *x, double reach) const
@@ -237,7 +231,7 @@ bool FixSPHOpen::zone_near(const double *x, double reach) const
 }
 
 /* ----------------------------------------------------------------------
-   a run that continues another one, or a restart file, goes on with the velocities that are there
+   Set the velocities of the zone, unless the run continues another one, or a restart file.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup_pre_exchange()
@@ -257,7 +251,8 @@ void FixSPHOpen::setup_pre_exchange()
 }
 
 /* ----------------------------------------------------------------------
-   particles stay what they are in number and order from one neighbor list to the next
+   Find the particles of the zone and the fluid near it: number and order of the particles stay the same
+   from one neighbor list to the next, ...
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup_pre_force(int /*vflag*/)
@@ -296,8 +291,8 @@ bool FixSPHOpen::has_lost_members() const
 }
 
 /* ----------------------------------------------------------------------
-   the first half of the step has the forces of its start; particles of the zone are where the
-   velocity of then brings them
+   Count the forces at the start of the step for its first half, and move the particles of the zone with
+   the velocity that they had then.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::initial_integrate(int /*vflag*/)
@@ -312,8 +307,9 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   ... and then where the mean velocity of the step brings them.  Along the plane they move with the
-   velocity given, if there is one: with their own, those that leave would gather, or enter walls.
+   Correct the move to that of the mean velocity of the step, and let particles enter and leave.  Along
+   the plane they move with the given velocity, if there is one: with their own, those that leave would
+   gather, or enter walls.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::post_integrate()
@@ -348,7 +344,7 @@ void FixSPHOpen::post_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   the second half of the step is that of the fluid, with the forces at its end
+   Make a particle of the zone one of the fluid, whose integrator does the second half of the step.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::enter(int i, const double *v)
@@ -360,7 +356,8 @@ void FixSPHOpen::enter(int i, const double *v)
 }
 
 /* ----------------------------------------------------------------------
-   the first half was that of the fluid, which has extrapolated the internal energy to the end
+   Make a particle of the fluid one of the zone.  The integrator has extrapolated its internal energy to
+   the end of the step: the second half is taken back.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::leave(int i)
@@ -372,7 +369,7 @@ void FixSPHOpen::leave(int i)
 }
 
 /* ----------------------------------------------------------------------
-   of a particle of the zone that no step has brought where it is
+   Set the velocity of a particle of the zone that no step has brought where it is.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_velocity(int i)
@@ -384,7 +381,7 @@ void FixSPHOpen::set_velocity(int i)
 }
 
 /* ----------------------------------------------------------------------
-   what enters brings its spin and its internal energy
+   Set spin and internal energy of a particle of the zone to the given ones, if it moves into the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_spin(int i)
@@ -440,7 +437,7 @@ void FixSPHOpen::set_state(Engine &engine)
 }
 
 /* ----------------------------------------------------------------------
-   of particles with a full support behind them
+   Compare the density of the zone with the prescribed one, at particles with a full support.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::check_density() const
@@ -454,8 +451,8 @@ void FixSPHOpen::check_density() const
 }
 
 /* ----------------------------------------------------------------------
-   variables are needed for the zone and for the fluid near its plane, which is in its group for a
-   moment
+   Measure the fluid near the plane.  It is in the group of the zone while variables are evaluated, which
+   both need.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::sample(Engine &engine)
@@ -488,7 +485,8 @@ void FixSPHOpen::sample(Engine &engine)
 }
 
 /* ----------------------------------------------------------------------
-   the bulk term of a particle of the zone is its own: it has a full support where it counts
+   Set density and pressure of a particle of the zone.  Its bulk term is its own: where it counts, the
+   particle has a full support.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_pressure(Engine &engine, int i)
@@ -515,19 +513,19 @@ void FixSPHOpen::set_pressure(Engine &engine, int i)
 }
 
 /* ----------------------------------------------------------------------
-   the balance, see OpenBalance; number of particles of the zone; mean pressure and velocity of the fluid
-   at the plane
+   Return a value of the balance, see OpenBalance; after these the number of particles of the zone, mean
+   pressure and mean velocity of the fluid at the plane.
 ------------------------------------------------------------------------- */
 
 double FixSPHOpen::compute_vector(int n)
 {
   if (!totals_known) {
-    balance->total(totals);
+    balance->total(totals.data());
     double count = 0.0;
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) count += 1.0;
-    MPI_Allreduce(&count, totals + COUNT, 1, MPI_DOUBLE, MPI_SUM, world);
-    samples->mean_at_plane(totals + PRESSURE, totals + VELOCITY);
+    MPI_Allreduce(&count, &totals[COUNT], 1, MPI_DOUBLE, MPI_SUM, world);
+    samples->mean_at_plane(&totals[PRESSURE], &totals[VELOCITY]);
     totals_known = true;
   }
   return totals[n];
@@ -574,7 +572,7 @@ void FixSPHOpen::restart(char *buf)
 }
 
 /* ----------------------------------------------------------------------
-   what a zone remembers of rows and waves is of its plane
+   Warn that waves and rows of another plane are of no use.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn_of_other_plane()

@@ -44,13 +44,13 @@ static constexpr double SPLIT = 1.6, MERGE = 0.6;    // defaults: volume over ta
 static constexpr double WIDEST = 1.0 / 1.5;          // target spacing over the support radius
 static constexpr double NEVER = -INFINITY;           // step of the last event
 
-// of each particle: step of its last event; if that was a split, which its daughters can undo as a
-// whole, the lowest of their new IDs, else 0
+// what each particle has of its last event: the step; and, if that was a split that its daughters can
+// undo as a whole, the lowest of their new IDs, else 0
 
 enum { STEP, FAMILY, NPAST };
 
-// in restart files: -format, balance, highest ID that was ever given; files without a format begin with
-// the number of splits; this number also stands for what is written of each particle
+// in restart files: -format, balance, highest ID that was ever given.  The format is also that of what
+// is written of each particle.  Files without one begin with the number of splits.
 
 static constexpr int FORMAT = 1003;
 enum { BALANCE = 1, HIGHEST = BALANCE + RefineBalance::NVALUE, NSTATE };
@@ -58,18 +58,18 @@ enum { BALANCE = 1, HIGHEST = BALANCE + RefineBalance::NVALUE, NSTATE };
 /* ---------------------------------------------------------------------- */
 
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), by_spacing(false), largest_volume(0.0), balance(nullptr), event(nullptr),
-    pair(nullptr), list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0),
-    past(nullptr), not_fluid(0), last_step(-1), event_step(-1), postponed(false),
-    totals_known(false), set_up(false), totals(new double[RefineBalance::NVALUE])
+    Fix(lmp, narg, arg), by_spacing(false), largest_volume(0.0), pair(nullptr), list(nullptr),
+    split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr), not_fluid(0),
+    last_step(-1), event_step(-1), postponed(false), totals_known(false), set_up(false),
+    totals(RefineBalance::NVALUE)
 {
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
   if (nevery <= 0) error->all(FLERR, "Fix {} N must be > 0, not {}", style, arg[3]);
   if (strcmp(arg[4], "volume") != 0 && strcmp(arg[4], "spacing") != 0)
     error->all(FLERR, "Fix {}: the target must be volume or spacing, not {}", style, arg[4]);
-  balance = new RefineBalance(lmp);
-  event = new RefineEvent(lmp, this, *balance);
+  balance.reset(new RefineBalance(lmp));
+  event.reset(new RefineEvent(lmp, this, *balance));
   by_spacing = (strcmp(arg[4], "spacing") == 0);
   target_word = arg[5];
   target.set(lmp, target_word);
@@ -156,9 +156,6 @@ FixSPHRefine::~FixSPHRefine()
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(past);
-  delete event;
-  delete balance;
-  delete[] totals;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -206,7 +203,7 @@ void FixSPHRefine::init()
 }
 
 /* ----------------------------------------------------------------------
-   volume of a particle for which the target has this value
+   Return the volume that a value of the target stands for.
 ------------------------------------------------------------------------- */
 
 double FixSPHRefine::target_volume(double value) const
@@ -215,7 +212,7 @@ double FixSPHRefine::target_volume(double value) const
 }
 
 /* ----------------------------------------------------------------------
-   an error if a value cannot be a target; tag 0: that of all particles
+   Refuse a value that cannot be a target: that of the particle with this ID, or, 0, of all.
 ------------------------------------------------------------------------- */
 
 void FixSPHRefine::check_target(double value, tagint tag) const
@@ -251,7 +248,7 @@ void FixSPHRefine::evaluate_target()
 }
 
 /* ----------------------------------------------------------------------
-   steps from one event of a particle to the next one, with the time step as it is now
+   Set the number of steps from one event of a particle to the next, with the time step of now.
 ------------------------------------------------------------------------- */
 
 void FixSPHRefine::find_waiting()
@@ -266,7 +263,7 @@ void FixSPHRefine::find_waiting()
 }
 
 /* ----------------------------------------------------------------------
-   what one fix splits, the other one would merge
+   Refuse two fixes for one particle: what one splits, the other would merge.
 ------------------------------------------------------------------------- */
 
 void FixSPHRefine::check_overlap()
@@ -298,7 +295,8 @@ bool FixSPHRefine::is_fluid(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   a last event in the future is of a time before the steps were counted anew, and this fix was defined
+   Tell whether the last event of a particle is long enough ago.  It seems to be in the future after
+   reset_timestep, if this fix was not there then to count anew: such an event does not count.
 ------------------------------------------------------------------------- */
 
 bool FixSPHRefine::may_change(int i) const
@@ -308,7 +306,7 @@ bool FixSPHRefine::may_change(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   the last events are as many steps ago as before, also after reset_timestep
+   Shift the steps of the last events after reset_timestep, so that they are as long ago as before.
 ------------------------------------------------------------------------- */
 
 void FixSPHRefine::count_anew(bigint step)
@@ -322,8 +320,8 @@ void FixSPHRefine::count_anew(bigint step)
 }
 
 /* ----------------------------------------------------------------------
-   after the particles have moved, before it is decided whether neighbor lists are built anew: lists
-   and ghosts of the last step still fit the particles
+   Split and merge, after the particles have moved and before LAMMPS decides on new neighbor lists:
+   lists and ghosts of the last step still fit the particles.
 ------------------------------------------------------------------------- */
 
 void FixSPHRefine::post_integrate()
@@ -363,7 +361,7 @@ void FixSPHRefine::post_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   within which neighbors are in the lists
+   Return the volume within which neighbors are in the lists.
 ------------------------------------------------------------------------- */
 
 double FixSPHRefine::list_volume() const
@@ -374,7 +372,7 @@ double FixSPHRefine::list_volume() const
 }
 
 /* ----------------------------------------------------------------------
-   whether any particle is to split or to merge
+   Tell whether any particle is to split or to merge, and count those of the fluid.
 ------------------------------------------------------------------------- */
 
 bool FixSPHRefine::wanted(bigint &nfluid)
@@ -444,7 +442,7 @@ void FixSPHRefine::post_force(int /*vflag*/)
 double FixSPHRefine::compute_vector(int n)
 {
   if (!totals_known) {
-    balance->total(totals);
+    balance->total(totals.data());
     totals_known = true;
   }
   return totals[n];

@@ -24,6 +24,7 @@ FixStyle(sph/refine,FixSPHRefine);
 
 #include "sph_dissipation_value.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,8 @@ namespace SPHDissipation {
   class RefineBalance;
 }    // namespace SPHDissipation
 
-// Splits particles of the fluids sph/bulk and sph/micropolar that are larger than a target and merges
-// those that are smaller, and keeps account of what that changes.
+// Splits particles of the fluids sph/bulk and sph/micropolar that are larger than a target, merges those
+// that are smaller, and sums up what that changes.
 
 class FixSPHRefine : public Fix {
  public:
@@ -66,8 +67,8 @@ class FixSPHRefine : public Fix {
   std::string target_word;    // as it was given
   SPHDissipation::Value target;
   double largest_volume;    // target that leaves enough neighbors
-  SPHDissipation::RefineBalance *balance;
-  SPHDissipation::RefineEvent *event;
+  std::unique_ptr<SPHDissipation::RefineBalance> balance;
+  std::unique_ptr<SPHDissipation::RefineEvent> event;
   class PairSPHBulk *pair;
   class NeighList *list;
   double split_above, merge_below;    // volume over target
@@ -81,7 +82,7 @@ class FixSPHRefine : public Fix {
   bool postponed;                     // the last check
   bool totals_known;
   bool set_up;    // since it was defined
-  double *totals;
+  std::vector<double> totals;
 
   int keyword_argument(int, int, char **);
   void check_setup();

@@ -272,7 +272,8 @@ OpenCondition::Reference OpenCondition::reference(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   the wave at a particle of the zone: that of now, or the one that has come as far by now
+   Return the wave at a particle of the zone.  With condition lagged it is the one that left the fluid so
+   long ago that it is at the particle now.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::wave(const Reference &ref) const
@@ -284,8 +285,8 @@ double OpenCondition::wave(const Reference &ref) const
 }
 
 /* ----------------------------------------------------------------------
-   Of a quantity that is given, where the other one is from inside, only the changes of the wave: so it
-   holds in the mean over time.
+   Return the wave less its mean over time.  Where velocity or state is given and the other one is from
+   inside, only that acts: so the given one holds in the mean over time.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::changes(const Reference &ref, double wave) const
@@ -294,7 +295,8 @@ double OpenCondition::changes(const Reference &ref, double wave) const
 }
 
 /* ----------------------------------------------------------------------
-   along the plane, what leaves keeps its own one
+   Set the velocity of a particle of the zone.  Its component along the plane is the prescribed one where
+   fluid enters; particles that leave keep theirs.
 ------------------------------------------------------------------------- */
 
 void OpenCondition::velocity(int i, double *u) const

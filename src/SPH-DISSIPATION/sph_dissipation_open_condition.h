@@ -25,7 +25,7 @@ namespace LAMMPS_NS {
 
 namespace SPHDissipation {
 
-  // What an open zone prescribes: numbers, or variables of equal or atom style
+  // What a buffer zone prescribes: velocity, density or pressure, internal energy, and spin
 
   class OpenValues : protected Pointers {
    public:
@@ -33,7 +33,7 @@ namespace SPHDissipation {
 
     OpenValues(class LAMMPS *, const std::string &owner);    // owner: for messages
 
-    // # of words of the keyword at arg[iarg], with which it sets quantities; 0 if it is none of those
+    // Set the quantities of the keyword at arg[iarg]; return its number of words, 0 if it is none of them.
     int keyword_argument(int iarg, int narg, char **arg);
     void check() const;
     void init(bool needs_energy);    // finds the variables; the energies must then be > 0
@@ -41,8 +41,7 @@ namespace SPHDissipation {
     bool given(Quantity k) const { return is_given[k]; }
     bool vary() const { return any_variable; }
 
-    // values at the current time of the owned particles with a group bit; igroup: for messages only
-    // particles that get no value of their own have 0
+    // Evaluate the variables now, for owned particles of the group; others have 0.
     void evaluate(int igroup);
 
     double memory_usage() const;    // bytes
@@ -62,7 +61,7 @@ namespace SPHDissipation {
   struct EosParams;
   struct Particle;
 
-  // Boundary condition of an open zone: velocity, pressure, and density of its particles, from what is
+  // Boundary condition of a buffer zone: velocity, pressure, and density of its particles, from what is
   // prescribed and from what the fluid does.
   // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
 
@@ -74,9 +73,9 @@ namespace SPHDissipation {
     double averaging_time;    // 0: by the support radius
     double clock;             // time of the zone, which no command sets back
 
-    // # of words of the keyword at arg[iarg]; 0 if it is none of those of a condition
+    // Set what the keyword at arg[iarg] says; return its number of words, 0 if it is none of a condition.
     int keyword_argument(int iarg, int narg, char **arg);
-    void check();    // what would have no effect, or leaves something open
+    void check();    // refuse keywords without an effect, and too few of them
 
     void init(const FluidModel &fluid_in) { fluid = &fluid_in; }
     bool given_velocity() const;
@@ -106,7 +105,8 @@ namespace SPHDissipation {
     Kind kind;
     int order;    // of values from inside, kind fixed
 
-    // what is prescribed at a particle of zone or fluid, or the average of what the fluid had
+    // The state from which waves are counted at a particle of zone or fluid: what is prescribed, else the
+    // average over time of what the fluid had
 
     struct Reference {
       OpenPlane::Spot spot;

@@ -91,8 +91,8 @@ bool OpenPlane::beside(const double *x, double slack) const
 }
 
 /* ----------------------------------------------------------------------
-   In a box that is not orthogonal, the image that is closest along its edges need not be the one that is
-   least beside the normal
+   Take the image that is least beside the normal: in a box that is not orthogonal, that need not be the
+   one that is closest along its edges.
 ------------------------------------------------------------------------- */
 
 OpenPlane::Offset OpenPlane::offset(const double *from, const double *to) const
@@ -134,7 +134,7 @@ void OpenPlane::check_box() const
 }
 
 /* ----------------------------------------------------------------------
-   along the periodic directions of the box, if there are any in the plane
+   Set two directions of the plane, along the periodic ones of the box if there are any in it.
 ------------------------------------------------------------------------- */
 
 void OpenPlane::set_tangents()
@@ -297,8 +297,8 @@ void OpenSamples::init()
 }
 
 /* ----------------------------------------------------------------------
-   Forces are computed again at the start of a run, and twice in a step with a viscous stage: what the
-   first time found is taken back.
+   Take back what was measured at this time: forces are computed again at the start of a run, and twice
+   in a step with a viscous stage.
 ------------------------------------------------------------------------- */
 
 void OpenSamples::begin(double time)
@@ -371,8 +371,8 @@ void OpenSamples::finish(double time)
 }
 
 /* ----------------------------------------------------------------------
-   least squares: along the plane, so that next to a wall, where there is fluid on one side only, a
-   linear profile is found as it is, and along the normal.  No slope where the fluid is too thin.
+   Fit a linear profile by least squares, along the plane, where a wall leaves fluid on one side of the
+   node only, and along the normal.  No slope where the fluid is too thin.
 ------------------------------------------------------------------------- */
 
 void OpenSamples::fit(const Sums &sum, Node &node) const
@@ -401,53 +401,46 @@ void OpenSamples::fit(const Sums &sum, Node &node) const
 }
 
 /* ----------------------------------------------------------------------
-   function(node, weight) for the nodes with fluid around a place; returns the sum of their weights
+   Set the values to the means of of_node(node, k) over the nodes with fluid around a place; zero and
+   false if there are none.
 ------------------------------------------------------------------------- */
 
 template <class Function>
-double OpenSamples::interpolate(const Spot &spot, Function &&function) const
+bool OpenSamples::interpolate(const Spot &spot, int nvalue, double *value, Function &&of_node) const
 {
   double total = 0.0;
+  std::fill_n(value, nvalue, 0.0);
   for (int c = 0; c < spot.n; c++) {
     if (!(nodes[spot.node[c]].weight > 0.0)) continue;
-    function(spot.node[c], spot.weight[c]);
+    for (int k = 0; k < nvalue; k++) value[k] += spot.weight[c] * of_node(spot.node[c], k);
     total += spot.weight[c];
   }
-  return total;
+  if (!(total > 0.0)) return false;
+  for (int k = 0; k < nvalue; k++) value[k] /= total;
+  return true;
 }
 
 /* ---------------------------------------------------------------------- */
 
 bool OpenSamples::now(const Spot &spot, double height, int order, OpenSample &result) const
 {
-  double value[NVALUE] = {};
-  const double total = interpolate(spot, [&](int n, double weight) {
-    const Node &node = nodes[n];
-    const double ahead = (order > 0) ? height - node.distance : 0.0;
-    for (int v = 0; v < NVALUE; v++) value[v] += weight * (node.value[v] + ahead * node.slope[v]);
+  return interpolate(spot, NVALUE, reinterpret_cast<double *>(&result), [&](int n, int k) {
+    const double ahead = (order > 0) ? height - nodes[n].distance : 0.0;
+    return nodes[n].value[k] + ahead * nodes[n].slope[k];
   });
-  if (!(total > 0.0)) return false;
-  auto *const to = reinterpret_cast<double *>(&result);
-  for (int v = 0; v < NVALUE; v++) to[v] = value[v] / total;
-  return true;
 }
 
 /* ---------------------------------------------------------------------- */
 
 bool OpenSamples::average(const Spot &spot, OpenSample &result) const
 {
-  double value[NVALUE] = {};
-  const double total = interpolate(spot, [&](int n, double weight) {
-    for (int v = 0; v < NVALUE; v++) value[v] += weight * nodes[n].mean[v];
+  return interpolate(spot, NVALUE, reinterpret_cast<double *>(&result), [&](int n, int k) {
+    return nodes[n].mean[k];
   });
-  if (!(total > 0.0)) return false;
-  auto *const to = reinterpret_cast<double *>(&result);
-  for (int v = 0; v < NVALUE; v++) to[v] = value[v] / total;
-  return true;
 }
 
 /* ----------------------------------------------------------------------
-   between two times that are known, or at the first or the last one
+   Interpolate the wave between two times, or return that of the first or of the last one.
 ------------------------------------------------------------------------- */
 
 double OpenSamples::wave(const Spot &spot, double time) const
@@ -461,22 +454,22 @@ double OpenSamples::wave(const Spot &spot, double time) const
   const Past &a = (after == history.end() || after == history.begin()) ? b : *(after - 1);
   const double part = (b.time > a.time) ? (time - a.time) / (b.time - a.time) : 0.0;
 
-  double value = 0.0;
-  const double total = interpolate(spot, [&](int n, double weight) {
-    value += weight * (a.wave[n] + part * (b.wave[n] - a.wave[n]));
+  double value;
+  interpolate(spot, 1, &value, [&](int n, int) {
+    return a.wave[n] + part * (b.wave[n] - a.wave[n]);
   });
-  return (total > 0.0) ? value / total : 0.0;
+  return value;
 }
 
 /* ---------------------------------------------------------------------- */
 
 double OpenSamples::distance(const Spot &spot) const
 {
-  double value = 0.0;
-  const double total = interpolate(spot, [&](int n, double weight) {
-    value += weight * nodes[n].distance;
+  double value;
+  interpolate(spot, 1, &value, [&](int n, int) {
+    return nodes[n].distance;
   });
-  return (total > 0.0) ? value / total : 0.0;
+  return value;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -28,7 +28,7 @@ class Region;
 
 namespace SPHDissipation {
 
-  // Where the fluid ends in an open zone: a plane, the space behind it, and a grid of nodes on it.
+  // The plane between the fluid and a buffer zone, the space behind it, and a grid of nodes on it.
   // Periodic directions lie in the plane, or the zone has a region.
 
   class OpenPlane : protected Pointers {
@@ -50,8 +50,8 @@ namespace SPHDissipation {
     bool beside(const double *x) const;                  // beyond the sides of the zone
     bool beside(const double *x, double slack) const;    // ... and no place so near is within them
 
-    // how far a place is, with periodic images, beside the line along the normal through another one,
-    // and how far ahead
+    // Distance of a place from the line along the normal through another one, and along that line, with
+    // periodic images
     struct Offset {
       double beside, ahead;
       double distance() const { return std::sqrt(beside * beside + ahead * ahead); }
@@ -64,11 +64,11 @@ namespace SPHDissipation {
     int nnodes() const { return count[0] * count[1]; }
     double node_distance() const { return std::max(step[0], count[1] > 1 ? step[1] : 0.0); }
 
-    // function(node, place of x along the plane from there, 2 values) for the nodes within the radius
-    // of x in both of them
+    // Call function(node, l) for the nodes within the radius of x in both directions of the plane; l[2] =
+    // how far x is from the node in each.
     template <class Function> void near(const double *x, double radius, Function &&function) const;
 
-    // the nodes around the place of x on the plane and their weights, whose sum is 1
+    // The nodes around the place of x on the plane, and their weights, whose sum is 1
     struct Spot {
       int n;
       int node[4];
@@ -115,7 +115,7 @@ namespace SPHDissipation {
       }
   }
 
-  // what is measured of the fluid
+  // What is measured of the fluid
 
   struct OpenSample {
     double wave;    // J = rho c u' + p', see sph_dissipation_characteristics.h
@@ -123,9 +123,9 @@ namespace SPHDissipation {
     double u[3];    // velocity
   };
 
-  // What the fluid does at the plane of an open zone, at the nodes on it: linear fits to the fluid
-  // within a radius, weighted with the kernel and the volumes; the waves that have left through it;
-  // averages over time.  The same on all processors.
+  // Measures the fluid at the nodes of the plane: linear fits to the fluid within a radius, weighted with
+  // the kernel and the volumes; averages over time; the waves that have left.  The same on all
+  // processors.
 
   class OpenSamples : protected Pointers {
    public:
@@ -136,19 +136,19 @@ namespace SPHDissipation {
     void init();
     void set_times(double averaging_time, double memory);    // memory: longest lag, time units
 
-    // this time: begin(); add() for each owned particle of the fluid; finish(), until which
-    // what is asked for below is that of the step before
+    // Measure at this time: begin(); add() each owned particle of the fluid; finish().  Until then, what
+    // is asked for below is of the step before.
     void begin(double time);
     void add(const double *x, double height, double volume, const OpenSample &, Kernel,
              double radius);
     void finish(double time);
 
-    // at a place, behind the plane or not; false: no fluid there
+    // Interpolate between the nodes; false if there is no fluid.
 
     bool now(const Spot &, double height, int order, OpenSample &) const;    // order 1: with slope
     bool average(const Spot &, OpenSample &) const;                          // over time
     double wave(const Spot &, double time) const;                            // J at a time before
-    double distance(const Spot &) const;    // mean distance of what is measured from the plane
+    double distance(const Spot &) const;    // from the plane to the middle of what is measured
 
     void mean_at_plane(double *p, double *u) const;    // of all nodes, now
     bool any() const { return !history.empty(); }
@@ -189,7 +189,8 @@ namespace SPHDissipation {
     std::deque<Past> history;           // the oldest first
 
     void fit(const Sums &, Node &) const;
-    template <class Function> double interpolate(const Spot &, Function &&function) const;
+    template <class Function>
+    bool interpolate(const Spot &, int nvalue, double *value, Function &&of_node) const;
   };
 
 }    // namespace SPHDissipation

@@ -60,8 +60,8 @@ int OpenBand::nearest_node(const double *x) const
 }
 
 /* ----------------------------------------------------------------------
-   whether function(k, offset from x) holds for a particle k that is not farther than reach, seen along
-   the normal, and perhaps for some farther ones
+   Tell whether function(k, offset from x) holds for a particle k not farther than reach beside x.  It is
+   called for all of these, and for some farther ones.
 ------------------------------------------------------------------------- */
 
 template <class Function>
@@ -147,9 +147,8 @@ void OpenRows::init(double support_in, int fluid_bit)
 }
 
 /* ----------------------------------------------------------------------
-   Dumps that are sorted by ID take it that IDs which are consecutive when a run begins stay the same
-   as long as there are as many of them (Dump::init() and Dump::sort() of LAMMPS).  So they must not
-   be: a particle of the zone gets the next free one.
+   Give one particle of the zone the next free ID, if all IDs are consecutive.  Sorted dumps take it that
+   such IDs stay the same as long as there are as many of them (Dump::init() and Dump::sort()).
 ------------------------------------------------------------------------- */
 
 void OpenRows::interrupt_ids()
@@ -180,7 +179,8 @@ double OpenRows::step(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   a layer of a lattice that comes there comes as a whole, on any number of processors
+   Return the height at which the zone ends, with a tolerance: a layer of a lattice that reaches the end
+   is on the same side of it as a whole, on any number of processors.
 ------------------------------------------------------------------------- */
 
 double OpenRows::end() const
@@ -189,8 +189,8 @@ double OpenRows::end() const
 }
 
 /* ----------------------------------------------------------------------
-   seen from the particle nearest to the plane: distance of the next one straight behind it, and of
-   the nearest row.  Half of that is how far a particle of a row may be beside it.
+   Measure spacing and width of the rows at the particle nearest to the plane: the distance of the next
+   one straight behind it, and that of the nearest row.
 ------------------------------------------------------------------------- */
 
 void OpenRows::find_rows()
@@ -296,7 +296,7 @@ void OpenRows::remove_beyond()
 }
 
 /* ----------------------------------------------------------------------
-   owned particles that move into the fluid and have none behind them in their row
+   Return the owned particles that move into the fluid and have none behind them in their row.
 ------------------------------------------------------------------------- */
 
 std::vector<int> OpenRows::last_ones(const OpenBand &band) const
@@ -313,10 +313,10 @@ std::vector<int> OpenRows::last_ones(const OpenBand &band) const
 }
 
 /* ----------------------------------------------------------------------
-   one new particle behind each of the last ones, which it replaces in the list; false if there was
-   none on any processor
-   the mass between two particles of a row is that of one: with distances that depend on the place
-   it is the harmonic mean of theirs, to second order
+   Create a particle behind each of the last ones, which it replaces in the list.  False if there was
+   none on any processor.
+   The mass between two particles of a row is that of one.  So, where distances depend on the place, the
+   new particle is as far away as the harmonic mean of the two, to second order.
 ------------------------------------------------------------------------- */
 
 bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh)
@@ -360,7 +360,7 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
 }
 
 /* ----------------------------------------------------------------------
-   what is not of the zone is beside it
+   Refuse other particles in the zone.
 ------------------------------------------------------------------------- */
 
 void OpenRows::check_alone(const OpenBand &band) const
@@ -379,9 +379,10 @@ void OpenRows::check_alone(const OpenBand &band) const
 }
 
 /* ----------------------------------------------------------------------
-   On a lattice, from the plane to the end of the zone, a particle follows the other: those that lack
-   at the end of rows that move into the fluid are created.  What is at the plane has a row behind it,
-   or a wall.  Where there is no lattice, as in a zone that the fluid has filled, there are no rows.
+   Refuse gaps in the rows of a lattice, which must reach from the plane to the end of the zone, and
+   warn of fluid at the plane with neither a row nor a wall behind it.  What is missing at the end of
+   rows that move into the fluid is created later.  A zone without a lattice, as one that the fluid has
+   filled, has no rows.
 ------------------------------------------------------------------------- */
 
 void OpenRows::check_lattice(const OpenBand &band, double largest) const

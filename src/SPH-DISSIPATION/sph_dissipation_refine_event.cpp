@@ -29,9 +29,8 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-static constexpr double REST_RADIUS =
-    0.5;                                    // of those that take angular momentum, over the support
-static constexpr double FARTHEST = 0.35;    // distance of two that merge, over the support
+static constexpr double FARTHEST = 0.35;          // distance of two that merge, over the support
+static constexpr double RESIDUAL_RADIUS = 0.5;    // of those that take angular momentum, the same
 static constexpr double STRETCHED = 1.4;    // spacing over the mean one, that splits in two only
 static constexpr double NEXT = 1.6;         // distance of neighbors that split together, over it
 
@@ -39,7 +38,7 @@ static constexpr double NEXT = 1.6;         // distance of neighbors that split 
 
 RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
     Pointers(lmp), items(lmp, fix), highest(0), balance(balance), pairs(lmp, items),
-    rest(lmp, items, pairs), support(0.0), smallest(0.0), spinning(false)
+    residual(lmp, items, pairs), support(0.0), smallest(0.0), spinning(false)
 {
 }
 
@@ -50,7 +49,7 @@ void RefineEvent::init(double support_in, double smallest_share)
   support = support_in;
   smallest = smallest_share;
   spinning = (atom->style_match("sph/micropolar") != nullptr);
-  rest.init(REST_RADIUS * support);
+  residual.init(RESIDUAL_RADIUS * support);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -120,7 +119,7 @@ void RefineEvent::set_lump(int i, const Lump &one)
 }
 
 /* ----------------------------------------------------------------------
-   of a pair that is to merge now
+   Tell whether particle i merges in this event.
 ------------------------------------------------------------------------- */
 
 bool RefineEvent::merging(int i) const
@@ -154,8 +153,9 @@ bigint RefineEvent::plan(NeighList *full, bigint most)
 }
 
 /* ----------------------------------------------------------------------
-   into the parts of a cube, where they are not too small; into two along the axis on which the
-   neighbors are farthest, where these are not arranged evenly; false if a daughter would leave the box
+   Choose how particle i splits: into the parts of a cube, or, where neighbors are not arranged evenly
+   or the parts would be too small, into two along the axis on which the neighbors are farthest.  False
+   if a daughter would leave the box.
 ------------------------------------------------------------------------- */
 
 bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
@@ -192,7 +192,7 @@ bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
 /* ---------------------------------------------------------------------- */
 
 /* ----------------------------------------------------------------------
-   if there are more events than that, those of the lowest IDs take place
+   Drop the events of the highest IDs if there are more than the most.  Return how many take place.
 ------------------------------------------------------------------------- */
 
 bigint RefineEvent::withhold(bigint most)
@@ -219,10 +219,11 @@ bigint RefineEvent::withhold(bigint most)
 }
 
 /* ----------------------------------------------------------------------
-   a pair whose neighbors cannot take over its angular momentum does not merge
+   Give the residual angular momentum of the merges to neighbors.  A pair without neighbors that could
+   take it does not merge.
 ------------------------------------------------------------------------- */
 
-void RefineEvent::give_rest(NeighList *full)
+void RefineEvent::give_residual(NeighList *full)
 {
   for (int i = 0; i < atom->nlocal; i++)
     if (items[i].is(APART) || (merging(i) && !pairs.leads(i))) items[i].mass = 0.0;
@@ -236,7 +237,7 @@ void RefineEvent::give_rest(NeighList *full)
 
   std::vector<Merge> taken;
   for (const Merge &one : merges) {
-    if (rest.give(full, one.i, one.rest))
+    if (residual.give(full, one.i, one.residual))
       taken.push_back(one);
     else
       items[one.i].withheld = 1.0;
@@ -244,7 +245,7 @@ void RefineEvent::give_rest(NeighList *full)
   merges = taken;
   items.forward_withheld();
   items.forward_rotation();
-  rest.take(full);
+  residual.take(full);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -257,14 +258,14 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
     Merge one;
     one.i = i;
     for (int j : pairs.members(i)) one.parts.push_back(items[j].lump);
-    one.heat =
-        merge(one.parts.data(), one.parts.size(), domain->dimension, spinning, one.whole, one.rest);
+    one.heat = merge(one.parts.data(), one.parts.size(), domain->dimension, spinning, one.whole,
+                     one.residual);
     merges.push_back(one);
   }
-  rest.clear();
-  if (!spinning) give_rest(full);
+  residual.clear();
+  if (!spinning) give_residual(full);
 
-  // particles are changed first, then created, then removed; from here on ghosts are of the past
+  // particles are changed first, then created, then removed
 
   std::vector<NewIDs> daughters;
   for (const Split &one : splits) daughters.emplace_back(atom->tag[one.i], one.stencil.n - 1);
@@ -284,17 +285,17 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
     Lump &whole = one.whole;
     for (const Lump &part : one.parts) balance.count(-1.0, part);
     for (int d = 0; d < 3; d++) {
-      whole.u[d] += rest.velocity(one.i)[d];
-      whole.u_end[d] += rest.velocity(one.i)[d];
+      whole.u[d] += residual.velocity(one.i)[d];
+      whole.u_end[d] += residual.velocity(one.i)[d];
     }
-    whole.energy += force->mvv2e * (one.heat - rest.work(one.i));
+    whole.energy += force->mvv2e * (one.heat - residual.work(one.i));
     set_lump(one.i, whole);
     balance.count(1.0, whole);
     balance.merged(force->mvv2e * one.heat);
     changed(one.i, 0.0);
   }
   for (int i = 0; i < nbefore; i++)
-    balance.add(RefineBalance::ROTATION, force->mvv2e * rest.work(i));
+    balance.add(RefineBalance::ROTATION, force->mvv2e * residual.work(i));
 
   begin_change(lmp);
   create(first, changed);
@@ -304,13 +305,13 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
 }
 
 /* ----------------------------------------------------------------------
-   neighbors that take over angular momentum
+   Move the neighbors that take residual angular momentum and have no event of their own.
 ------------------------------------------------------------------------- */
 
 void RefineEvent::move_others(const std::vector<char> &own_event)
 {
   for (int i = 0; i < atom->nlocal; i++) {
-    const double *const du = rest.velocity(i);
+    const double *const du = residual.velocity(i);
     if (own_event[i] || dot(du, du) == 0.0) continue;
     Lump one = items[i].lump;
     balance.count(-1.0, one);
@@ -318,14 +319,14 @@ void RefineEvent::move_others(const std::vector<char> &own_event)
       one.u[d] += du[d];
       one.u_end[d] += du[d];
     }
-    one.energy -= force->mvv2e * rest.work(i);
+    one.energy -= force->mvv2e * residual.work(i);
     set_lump(i, one);
     balance.count(1.0, one);
   }
 }
 
 /* ----------------------------------------------------------------------
-   the first daughter takes the place of its parent, the others are new
+   Replace each particle that splits by its first daughter, and create the others.
 ------------------------------------------------------------------------- */
 
 void RefineEvent::create(const std::vector<tagint> &first, const Changed &changed)
@@ -335,10 +336,10 @@ void RefineEvent::create(const std::vector<tagint> &first, const Changed &change
     Lump parent = items[i].lump, daughters[Stencil::MOST];
     balance.count(-1.0, parent);
     for (int d = 0; d < 3; d++) {
-      parent.u[d] += rest.velocity(i)[d];
-      parent.u_end[d] += rest.velocity(i)[d];
+      parent.u[d] += residual.velocity(i)[d];
+      parent.u_end[d] += residual.velocity(i)[d];
     }
-    parent.energy -= force->mvv2e * rest.work(i);
+    parent.energy -= force->mvv2e * residual.work(i);
     split(parent, splits[k].stencil, domain->dimension, daughters);
     const bool whole = families() && splits[k].stencil.isotropic;
     const double family = whole ? static_cast<double>(first[k]) : 0.0;

@@ -27,8 +27,8 @@ namespace SPHDissipation {
 
   class RefineBalance;
 
-  // All splits and merges of one time step, on all processors at once.  What happens is found out with
-  // the particles as they are, then they are changed, then the lists of particles.
+  // Does all splits and merges of one time step, on all processors at once: plan() decides with the
+  // particles as they are, carry_out() changes them.
 
   class RefineEvent : protected Pointers {
    public:
@@ -36,15 +36,15 @@ namespace SPHDissipation {
 
     void init(double support, double smallest_share);
 
-    // what each owned particle is to do; volume: now, target: to have, both as they are
+    // Set what each owned particle is to do, its volume now and that of its target.
     void begin();
     void set(int i, RefineState, double volume, double most, double target, double family);
 
-    // who merges with whom, who splits how; at most so many events; returns their number on all
-    // processors, and changes nothing but the items
+    // Decide who merges with whom and who splits how, in at most so many events.  Changes the items
+    // only.  Returns the number of events on all processors.
     bigint plan(NeighList *full, bigint most);
 
-    // changed(i, family) is called for each owned particle that has come from an event
+    // Split and merge.  Calls changed(i, family) for each owned particle that has come from an event.
     typedef std::function<void(int i, double family)> Changed;
     void carry_out(NeighList *full, const Changed &changed);
 
@@ -54,7 +54,7 @@ namespace SPHDissipation {
    private:
     RefineBalance &balance;
     RefinePairs pairs;
-    RefineRest rest;
+    RefineResidual residual;
     double support;
     double smallest;    // volume of a daughter over the target
     bool spinning;
@@ -67,7 +67,7 @@ namespace SPHDissipation {
       int i;
       std::vector<Lump> parts;
       Lump whole;
-      double heat, rest[3];
+      double heat, residual[3];
     };
     std::vector<double> targets;
     std::vector<Split> splits;
@@ -76,10 +76,10 @@ namespace SPHDissipation {
     Lump lump(int i) const;
     void set_lump(int i, const Lump &);
     bool merging(int i) const;
-    bool families() const;    // that all daughters of one split can merge as a whole
+    bool families() const;    // all daughters of one split can merge as a whole
     bool find_stencil(NeighList *full, int i, Stencil &) const;
     bigint withhold(bigint most);
-    void give_rest(NeighList *full);
+    void give_residual(NeighList *full);
     void move_others(const std::vector<char> &own_event);
     void create(const std::vector<tagint> &first, const Changed &changed);
   };

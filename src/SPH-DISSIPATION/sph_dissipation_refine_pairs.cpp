@@ -25,7 +25,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-static constexpr int place(std::size_t bytes)
+static constexpr int column_of(std::size_t bytes)
 {
   return static_cast<int>(bytes / sizeof(double));
 }
@@ -57,27 +57,27 @@ void RefineItems::forward_all()
 
 void RefineItems::forward_choice()
 {
-  forward(place(offsetof(RefineItem, choice)), 1);
+  forward(column_of(offsetof(RefineItem, choice)), 1);
 }
 
 void RefineItems::forward_settled()
 {
-  forward(place(offsetof(RefineItem, settled)), 1);
+  forward(column_of(offsetof(RefineItem, settled)), 1);
 }
 
 void RefineItems::forward_withheld()
 {
-  forward(place(offsetof(RefineItem, withheld)), 1);
+  forward(column_of(offsetof(RefineItem, withheld)), 1);
 }
 
 void RefineItems::forward_point()
 {
-  forward(place(offsetof(RefineItem, mass)), 7);
+  forward(column_of(offsetof(RefineItem, mass)), 7);
 }
 
 void RefineItems::forward_rotation()
 {
-  const int from = place(offsetof(RefineItem, gives));
+  const int from = column_of(offsetof(RefineItem, gives));
   forward(from, SIZE - from);
 }
 
@@ -143,7 +143,8 @@ bool RefinePairs::fits(int i, int j) const
 }
 
 /* ----------------------------------------------------------------------
-   of equal distances the IDs decide, or, of two images of a particle in a narrow box, the places
+   Tell whether j is nearer to i than the other one.  At equal distances the IDs decide, for two images
+   of one particle, in a narrow box, the positions.
 ------------------------------------------------------------------------- */
 
 bool RefinePairs::nearer(int i, int j, int other) const
@@ -191,7 +192,7 @@ void RefinePairs::settle()
 }
 
 /* ----------------------------------------------------------------------
-   the parent, which is the first of its daughters, has an ID below the new ones
+   Tell the leader of a family: the first daughter has the ID of the parent, below the new ones.
 ------------------------------------------------------------------------- */
 
 bool RefinePairs::is_first(int i) const
@@ -200,7 +201,8 @@ bool RefinePairs::is_first(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   of the first one, in the order of the IDs: those that may merge into one, each once, where it is nearest
+   Return the members of the family that i leads, in the order of their IDs, each once, in its nearest
+   image.  Empty if the whole would be too large.
 ------------------------------------------------------------------------- */
 
 std::vector<int> RefinePairs::family(int i, const int *neighbors, int n, double farthest_sq) const
@@ -289,10 +291,10 @@ void RefinePairs::find(NeighList *full, double farthest)
 }
 
 /* ----------------------------------------------------------------------
-   from one point to another one
+   Set r to the way from the point of one item to that of another one.
 ------------------------------------------------------------------------- */
 
-void RefineRest::offset(int from, int to, double *r) const
+void RefineResidual::offset(int from, int to, double *r) const
 {
   const RefineItem &a = items[from], &b = items[to];
   for (int d = 0; d < 3; d++) r[d] = (b.lump.x[d] - a.lump.x[d]) + (b.center[d] - a.center[d]);
@@ -300,7 +302,7 @@ void RefineRest::offset(int from, int to, double *r) const
 
 /* ---------------------------------------------------------------------- */
 
-bool RefineRest::give(NeighList *full, int i, const double *angmom)
+bool RefineResidual::give(NeighList *full, int i, const double *angmom)
 {
   Shell shell;
   const int *const neighbors = full->firstneigh[i];
@@ -319,7 +321,7 @@ bool RefineRest::give(NeighList *full, int i, const double *angmom)
 
 /* ---------------------------------------------------------------------- */
 
-void RefineRest::clear()
+void RefineResidual::clear()
 {
   du.assign(3 * atom->nlocal, 0.0);
   works.assign(atom->nlocal, 0.0);
@@ -327,7 +329,7 @@ void RefineRest::clear()
 
 /* ---------------------------------------------------------------------- */
 
-void RefineRest::take(NeighList *full)
+void RefineResidual::take(NeighList *full)
 {
   clear();
   for (int ii = 0; ii < full->inum; ii++) {

@@ -26,11 +26,11 @@ class NeighList;
 
 namespace SPHDissipation {
 
-  // what a particle does in an event
+  // What a particle does in an event
 
   enum RefineState { APART, KEEPS, SPLITS, MERGES };    // APART: no fluid
 
-  // A particle and what its neighbors are to know of it in an event; all doubles, to be sent as rows
+  // A particle and what its neighbors need of it in an event.  All doubles, to be sent as rows.
 
   struct RefineItem {
     double state;     // RefineState, see is()
@@ -51,7 +51,7 @@ namespace SPHDissipation {
 
     double mass, center[3], u[3];    // center: from the particle
 
-    double gives;    // its neighbors take over its rest of angular momentum
+    double gives;    // nonzero: its neighbors take its residual angular momentum
     Rotation rotation;
 
     bool is(RefineState one) const { return state == static_cast<double>(one); }
@@ -67,8 +67,8 @@ namespace SPHDissipation {
     RefineItem &operator[](int i) { return items[i]; }
     const RefineItem &operator[](int i) const { return items[i]; }
 
-    // sends members of the items to the ghosts; all but the places of the particles themselves, which
-    // ghosts have in frames of their own
+    // Send members of the items to the ghosts.  The positions of ghosts are not sent but those that
+    // they have: of periodic images.
 
     static constexpr int SIZE = sizeof(RefineItem) / sizeof(double);
     void forward_all();
@@ -90,13 +90,13 @@ namespace SPHDissipation {
     void forward(int first, int count);
   };
 
-  // Partners of merges: each particle that is to merge chooses the nearest one that may be its
-  // partner, two that have chosen each other are settled, the others choose again.  Which of two
-  // distances is the smaller one is known up to round-off only; equal ones are decided by the IDs,
-  // so that the pairs do not depend on the number of processors.
+  // Finds the partners of merges.  Each particle that is to merge chooses the nearest one that may be
+  // its partner; two that have chosen each other are settled, the others choose again.  Distances that
+  // are equal up to round-off are decided by the IDs, so that the pairs do not depend on the number of
+  // processors.
   //
-  // Before that, all daughters of one split may merge as a whole: what pairs, one after the other,
-  // do not give back is the moment of inertia of a spinning particle in three dimensions.
+  // A family, all daughters of one split, merges first and as a whole.  It serves spinning particles in
+  // three dimensions: pairs, one after the other, do not restore the moment of inertia of the parent.
 
   class RefinePairs : protected Pointers {
    public:
@@ -112,8 +112,8 @@ namespace SPHDissipation {
    private:
     RefineItems &items;
     std::vector<int>
-        mates;    // of a family: of the one that leads any other one, of these that one
-    std::map<int, std::vector<int>> families;
+        mates;    // in a family: of the leader another member, of the others the leader
+    std::map<int, std::vector<int>> families;    // members, by their leader
 
     void settle();
     bool is_first(int i) const;
@@ -124,22 +124,23 @@ namespace SPHDissipation {
     int nearest(int i, const int *neighbors, int n, double farthest_sq) const;
   };
 
-  // Angular momentum that merged particles without spin leave over: their neighbors take it as a
-  // rotation.  A pair that merges counts as one point, whether it then does or not.
+  // Gives the residual angular momentum of a merge, which a particle without spin cannot hold, to the
+  // neighbors as a rotation.  Each pair of the plan counts as one point, also if it then does not merge.
 
-  class RefineRest : protected Pointers {
+  class RefineResidual : protected Pointers {
    public:
-    RefineRest(class LAMMPS *lmp, RefineItems &items, const RefinePairs &pairs) :
+    RefineResidual(class LAMMPS *lmp, RefineItems &items, const RefinePairs &pairs) :
         Pointers(lmp), items(items), pairs(pairs), radius(0.0)
     {
     }
 
     void init(double radius_in) { radius = radius_in; }
 
-    // the neighbors of owned particle i are to rotate; false if there is no such rotation
+    // Find the rotation of the neighbors of owned particle i.  False if there is none.
     bool give(NeighList *full, int i, const double *angmom);
 
-    // velocity that each owned particle gets, and the energy that takes, of a pair that of its lower ID
+    // Sum up the velocity that each owned particle gets, and the work of it; that of a pair is with its
+    // lower ID.
     void take(NeighList *full);
     const double *velocity(int i) const { return &du[3 * i]; }
     double work(int i) const { return works[i]; }
