@@ -194,8 +194,9 @@ void FixSPHRefine::init()
 
   const double support = pair->support_radius();
   largest_volume = pow(WIDEST * support, domain->dimension);
-  target.init(lmp, fmt::format("Fix {}", style), true,
-              "is neither of equal style nor of atom style");
+  if (!target.init(lmp, fmt::format("Fix {}", style), true))
+    error->all(FLERR, "Variable {} for Fix {} is neither of equal style nor of atom style",
+               target.name(), style);
   if (!target.varies()) check_target(target.now(), 0);
   event->init(support, merge_below);
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
@@ -218,18 +219,18 @@ double FixSPHRefine::target_volume(double value) const
 void FixSPHRefine::check_target(double value, tagint tag) const
 {
   const double volume = target_volume(value);
-  const bool positive = std::isfinite(value) && value > 0.0;
-  if (positive && volume <= largest_volume) return;
+  if (value > 0.0 && volume <= largest_volume) return;
   const std::string where = tag ? fmt::format(" for particle {}", tag) : "";
-  std::string message;
-  if (!positive)
-    message =
+  if (!std::isfinite(value) || !(value > 0.0)) {
+    const std::string message =
         fmt::format("Fix {}: the target {} is {}{}, must be > 0", style, target_word, value, where);
-  else
-    message = fmt::format(
-        "Fix {}: the target {}{} is a volume of {:g}, larger than {:g}: particles would "
-        "have hardly any neighbors within the support radius",
-        style, target_word, where, volume, largest_volume);
+    if (tag) error->one(FLERR, message);
+    error->all(FLERR, message);
+  }
+  const std::string message =
+      fmt::format("Fix {}: the target {}{} is a volume of {:g}, larger than {:g}: particles would "
+                  "have hardly any neighbors within the support radius",
+                  style, target_word, where, volume, largest_volume);
   if (tag) error->one(FLERR, message);
   error->all(FLERR, message);
 }

@@ -62,7 +62,9 @@ void FixSPHTorque::init()
 {
   if (domain->dimension == 2 && !(value[0].is_zero() && value[1].is_zero()))
     error->all(FLERR, "Fix {}: torque must be along z in 2d", style);
-  for (auto &one : value) one.init(lmp, fmt::format("fix {}", style), true, "is of invalid style");
+  for (auto &one : value)
+    if (!one.init(lmp, fmt::format("fix {}", style), true))
+      error->all(FLERR, "Variable {} for fix {} is of invalid style", one.name(), style);
 
   receiving_groups = 0;
   for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar"))

@@ -107,7 +107,9 @@ void OpenValues::init(bool needs_energy_in)
   for (int k = 0; k < NQUANTITY; k++) {
     if (!is_given[k]) continue;
     Value &one = value[k];
-    one.init(lmp, owner, true, "is neither of equal style nor of atom style");
+    if (!one.init(lmp, owner, true))
+      error->all(FLERR, "Variable {} for {} is neither of equal style nor of atom style",
+                 one.name(), owner);
     any_variable = any_variable || one.varies();
     const char *const wrong = one.varies() ? nullptr : fault(k, one.now());
     if (wrong) error->all(FLERR, "{}: {:g} cannot be used: {}", owner, one.now(), wrong);

@@ -333,8 +333,9 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
 
   std::vector<NewIDs> one_each;
   for (const int i : last) one_each.emplace_back(atom->tag[i], 1);
-  const std::vector<tagint> ids =
-      new_ids(lmp, one_each, highest, owner + ": too many particles have entered for their IDs");
+  std::vector<tagint> ids;
+  if (!new_ids(lmp, one_each, highest, ids))
+    error->all(FLERR, "{}: too many particles have entered for their IDs", owner);
   std::vector<int> created;
   for (int k = 0; k < n; k++) {
     const int i = last[k];

@@ -16,7 +16,6 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "domain.h"
-#include "error.h"
 #include "fix.h"
 #include "lammps.h"
 #include "modify.h"
@@ -99,27 +98,25 @@ void SPHDissipation::end_change(LAMMPS *lmp, int nlocal_before)
 
 /* ---------------------------------------------------------------------- */
 
-std::vector<tagint> SPHDissipation::new_ids(LAMMPS *lmp, const std::vector<NewIDs> &mine,
-                                            tagint &highest, const std::string &too_many)
+bool SPHDissipation::new_ids(LAMMPS *lmp, const std::vector<NewIDs> &mine, tagint &highest,
+                             std::vector<tagint> &first)
 {
   std::vector<tagint> flat;
   for (const NewIDs &one : mine) flat.insert(flat.end(), {one.first, one.second});
   flat = gather_all(lmp->world, flat, MPI_LMP_TAGINT);
-  std::map<tagint, tagint> first;    // by old ID, the number of new ones at first
-  for (std::size_t k = 0; k < flat.size(); k += 2) first[flat[k]] = flat[k + 1];
+  std::map<tagint, tagint> number, first_of;    // by the IDs of the particles
+  for (std::size_t k = 0; k < flat.size(); k += 2) number[flat[k]] = flat[k + 1];
 
   const Atom *const atom = lmp->atom;
   tagint most = highest;
   for (int i = 0; i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
   MPI_Allreduce(&most, &highest, 1, MPI_LMP_TAGINT, MPI_MAX, lmp->world);
-  for (auto &one : first) {
-    const tagint number = one.second;
-    if (highest >= MAXTAGINT - number) lmp->error->all(FLERR, too_many);
-    one.second = highest + 1;
-    highest += number;
+  for (const auto &one : number) {
+    if (highest >= MAXTAGINT - one.second) return false;
+    first_of[one.first] = highest + 1;
+    highest += one.second;
   }
-
-  std::vector<tagint> found;
-  for (const NewIDs &one : mine) found.push_back(first[one.first]);
-  return found;
+  first.clear();
+  for (const NewIDs &one : mine) first.push_back(first_of[one.first]);
+  return true;
 }

@@ -17,7 +17,6 @@
 #include "lmptype.h"
 
 #include <mpi.h>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,13 +57,13 @@ namespace SPHDissipation {
   void remove_particle(LAMMPS *, int i);    // the last one takes its place
   void end_change(LAMMPS *, int nlocal_before);
 
-  // Return the first of the new IDs that particles with these IDs get, each so many in a row: in the
-  // order of the old IDs, on whatever processor they are.  highest = ID that was ever given, before
-  // and after; an error with these words if there are no more.
+  // Find new IDs for particles, each so many in a row: in the order of the IDs that the particles have,
+  // on whatever processor they are.  first = of the new IDs, highest = ID that was ever given, before
+  // and after.  False if there are not enough.
 
-  typedef std::pair<tagint, tagint> NewIDs;    // old ID, number of new ones
-  std::vector<tagint> new_ids(LAMMPS *, const std::vector<NewIDs> &mine, tagint &highest,
-                              const std::string &too_many);
+  typedef std::pair<tagint, tagint> NewIDs;    // ID of a particle, number of new ones
+  [[nodiscard]] bool new_ids(LAMMPS *, const std::vector<NewIDs> &mine, tagint &highest,
+                             std::vector<tagint> &first);
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

@@ -269,8 +269,9 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
 
   std::vector<NewIDs> daughters;
   for (const Split &one : splits) daughters.emplace_back(atom->tag[one.i], one.stencil.n - 1);
-  const std::vector<tagint> first = new_ids(
-      lmp, daughters, highest, "Fix sph/refine: too many particles have split for their IDs");
+  std::vector<tagint> first;
+  if (!new_ids(lmp, daughters, highest, first))
+    error->all(FLERR, "Fix sph/refine: too many particles have split for their IDs");
   const int nbefore = atom->nlocal;
   std::vector<char> own_event(nbefore, 0), dead(nbefore, 0);
   for (const Split &one : splits) own_event[one.i] = 1;

@@ -35,18 +35,16 @@ void Value::set(LAMMPS *lmp, const std::string &word)
 
 /* ---------------------------------------------------------------------- */
 
-void Value::init(LAMMPS *lmp, const std::string &owner, bool may_be_by_atom,
-                 const char *wrong_style)
+bool Value::init(LAMMPS *lmp, const std::string &owner, bool may_be_by_atom)
 {
-  if (!varies()) return;
+  if (!varies()) return true;
   Variable *const variables = lmp->input->variable;
   variable = variables->find(variable_name.c_str());
   if (variable < 0)
     lmp->error->all(FLERR, "Variable {} for {} does not exist", variable_name, owner);
   by_atom = may_be_by_atom && variables->atomstyle(variable);
-  if (!by_atom && !variables->equalstyle(variable))
-    lmp->error->all(FLERR, "Variable {} for {} {}", variable_name, owner, wrong_style);
   column.clear();
+  return by_atom || variables->equalstyle(variable);
 }
 
 /* ---------------------------------------------------------------------- */

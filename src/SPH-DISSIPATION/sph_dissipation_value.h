@@ -29,9 +29,9 @@ namespace SPHDissipation {
    public:
     void set(LAMMPS *, const std::string &word);    // an error if it is neither
 
-    // Find the variable.  Errors say that the owner has none of this name, or that it is of no style
-    // that it can be: may be of atom style, or equal style only.
-    void init(LAMMPS *, const std::string &owner, bool may_be_by_atom, const char *wrong_style);
+    // Find the variable; an error, which names the owner, if there is none.  False if it is neither of
+    // equal style nor, where that may be, of atom style.
+    [[nodiscard]] bool init(LAMMPS *, const std::string &owner, bool may_be_by_atom);
 
     void evaluate(LAMMPS *,
                   int igroup);    // now, for owned particles; 0 for those not of the group

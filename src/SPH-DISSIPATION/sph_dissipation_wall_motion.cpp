@@ -76,7 +76,10 @@ void WallMotion::read(Component &one, const char *word)
 
 void WallMotion::init()
 {
-  for (auto &one : values) one.value.init(lmp, owner, false, "is not an equal-style variable");
+  for (auto &one : values)
+    if (!one.value.init(lmp, owner, false))
+      error->all(FLERR, "Variable {} for {} is not an equal-style variable", one.value.name(),
+                 owner);
 }
 
 /* ----------------------------------------------------------------------
