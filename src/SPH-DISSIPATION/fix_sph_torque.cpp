@@ -83,8 +83,8 @@ void FixSPHTorque::setup(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   only spins that are integrated, of particles with inertia, follow a torque
-   the integrators set the inertia in their setup(), which may come after this one
+   Refuse a group without, and warn of particles without, a spin that follows a torque: one that is
+   integrated, with an inertia.  The integrators set the inertia in their setup(), which may come later.
 ------------------------------------------------------------------------- */
 
 void FixSPHTorque::check_receivers()
@@ -114,8 +114,8 @@ void FixSPHTorque::check_receivers()
 }
 
 /* ----------------------------------------------------------------------
-   the work of a step is that of the mean power at its ends; spins are those
-   extrapolated to the end of the step, where the torque acts
+   Add the torque to the particles.  It acts at the end of the step, hence its power is that with the
+   spins extrapolated there, and the work of a step that of the mean power at both ends.
 ------------------------------------------------------------------------- */
 
 void FixSPHTorque::post_force(int /*vflag*/)
@@ -144,7 +144,7 @@ void FixSPHTorque::post_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   work of the torque since the fix was defined
+   Return the work of the torque since the fix was defined.
 ------------------------------------------------------------------------- */
 
 double FixSPHTorque::compute_scalar()
@@ -155,7 +155,7 @@ double FixSPHTorque::compute_scalar()
 }
 
 /* ----------------------------------------------------------------------
-   torque that the particles of the group have got in the last step
+   Return the torque on the particles of the group in the last step.
 ------------------------------------------------------------------------- */
 
 double FixSPHTorque::compute_vector(int d)

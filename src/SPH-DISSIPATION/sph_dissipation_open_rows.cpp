@@ -18,8 +18,8 @@
 #include "domain.h"
 #include "error.h"
 #include "math_extra.h"
+#include "sph_dissipation_create.h"
 #include "sph_dissipation_open_plane.h"
-#include "sph_dissipation_particles.h"
 #include "update.h"
 
 #include <algorithm>

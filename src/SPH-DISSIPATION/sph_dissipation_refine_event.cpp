@@ -21,7 +21,7 @@
 #include "force.h"
 #include "neigh_list.h"
 #include "sph_dissipation_balance.h"
-#include "sph_dissipation_particles.h"
+#include "sph_dissipation_create.h"
 
 #include <algorithm>
 #include <cmath>

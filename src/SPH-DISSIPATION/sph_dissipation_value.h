@@ -27,20 +27,21 @@ namespace SPHDissipation {
 
   class Value {
    public:
-    void set(LAMMPS *, const std::string &word);    // an error if it is neither
+    // Read a word of the input; an error if it is neither.
+    void set(LAMMPS *, const std::string &word);
 
-    // Find the variable; an error, which names the owner, if there is none.  False if it is neither of
-    // equal style nor, where that may be, of atom style.
+    // Find the variable, at the start of a run; an error, which names the owner, if there is none.
+    // False if it is neither of equal style nor, where that may be, of atom style.
     [[nodiscard]] bool init(LAMMPS *, const std::string &owner, bool may_be_by_atom);
 
-    void evaluate(LAMMPS *,
-                  int igroup);    // now, for owned particles; 0 for those not of the group
+    // Evaluate the variable at this step; if it is of atom style, for owned particles of the group.
+    void evaluate(LAMMPS *, int igroup);
 
     const std::string &name() const { return variable_name; }    // empty: a number
     bool varies() const { return !variable_name.empty(); }
     bool is_by_atom() const { return by_atom; }
     bool is_zero() const { return !varies() && number == 0.0; }    // at all times
-    double now() const { return number; }                          // if it is not by atom
+    double now() const { return number; }                          // if it is not of atom style
     double operator()(int i) const { return column.empty() ? number : column[i]; }
     double memory_usage() const;    // bytes
 

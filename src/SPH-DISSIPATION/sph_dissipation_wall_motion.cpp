@@ -83,7 +83,7 @@ void WallMotion::init()
 }
 
 /* ----------------------------------------------------------------------
-   values at the current time step; true if a variable took something from a compute
+   Evaluate all values at this time step; true if a variable took something from a compute.
 ------------------------------------------------------------------------- */
 
 bool WallMotion::evaluate(double *result)
@@ -101,10 +101,9 @@ bool WallMotion::evaluate(double *result)
 }
 
 /* ----------------------------------------------------------------------
-   Variables are functions of time, or of what the particles do.  The rate of the former follows
-   from their values in the steps to come.  Those of the latter are not known in advance: they keep
-   the rate of the step that led here, if a run ended with it, and so do those that do not change
-   any more.
+   Set values and rates at the start of a run.  Variables that are functions of time get their rate from
+   the values in the steps to come.  Those that depend on the particles are not known in advance: they
+   keep the rate of the last step, if a run ended with it, and so do those that do not change any more.
 ------------------------------------------------------------------------- */
 
 void WallMotion::start()
@@ -123,8 +122,8 @@ void WallMotion::start()
 }
 
 /* ----------------------------------------------------------------------
-   change over the step before this one, as the parabola through now and the two steps to come
-   has it; in a run of no steps, ramp() of variables has no slope
+   Set the rates to the changes over the step before this one, as the parabola through now and the two
+   steps to come has them.  In a run of no steps, ramp() of variables would have no slope.
 ------------------------------------------------------------------------- */
 
 void WallMotion::estimate_rates()
@@ -149,14 +148,14 @@ void WallMotion::estimate_rates()
 
 /* ---------------------------------------------------------------------- */
 
-void WallMotion::rest()
+void WallMotion::stop()
 {
   known_step = -1;
   for (auto &value : values) value.now = value.mean = value.rate = 0.0;
 }
 
 /* ----------------------------------------------------------------------
-   with a time step of zero, nothing changes in time
+   Go to the end of a step.  With a time step of zero, nothing changes in time.
 ------------------------------------------------------------------------- */
 
 void WallMotion::advance()

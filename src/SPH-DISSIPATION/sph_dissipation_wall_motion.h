@@ -28,7 +28,7 @@ namespace SPHDissipation {
 
   class WallMotion : protected Pointers {
    public:
-    WallMotion(class LAMMPS *, const std::string &owner);    // owner = what messages name
+    WallMotion(class LAMMPS *, const std::string &owner);    // owner: for messages
 
     // arguments of the commands; what they mean is checked here
 
@@ -37,7 +37,7 @@ namespace SPHDissipation {
 
     void init();       // of a run: find the variables
     void start();      // of a run: values now, and the rates at which they change
-    void rest();       // until the next start: the wall stands still
+    void stop();       // until the next start the wall stands still
     void advance();    // to the end of a step
 
     WallVelocity velocity() const;    // at the end of the last step

@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_SPH_DISSIPATION_PARTICLES_H
-#define LMP_SPH_DISSIPATION_PARTICLES_H
+#ifndef LMP_SPH_DISSIPATION_CREATE_H
+#define LMP_SPH_DISSIPATION_CREATE_H
 
 #include "lmptype.h"
 
@@ -47,21 +47,24 @@ namespace SPHDissipation {
 
   bool in_box(LAMMPS *, const double *x);
 
-  // Creating and deleting particles, for fixes that do it between two neighbor lists.  All processors
-  // call begin_change(), from which on there are no ghosts; create and remove owned particles; and
-  // call end_change() with the number of owned particles that there were, which counts all of them.
+  // Create and delete particles, for fixes that do it between two neighbor lists.  All processors call
+  // begin_change(), from which on there are no ghosts, create and remove owned particles, and call
+  // end_change() with the number of owned particles that there were.
 
   void begin_change(LAMMPS *);
-  int create_copy(LAMMPS *, int i, tagint id,
-                  const double *x);         // of particle i; returns the new one
-  void remove_particle(LAMMPS *, int i);    // the last one takes its place
   void end_change(LAMMPS *, int nlocal_before);
+
+  // Append a copy of owned particle i with another ID and position; return its index.
+  int create_copy(LAMMPS *, int i, tagint id, const double *x);
+
+  // Remove an owned particle.  The last one takes its place.
+  void remove_particle(LAMMPS *, int i);
 
   // Find new IDs for particles, each so many in a row: in the order of the IDs that the particles have,
   // on whatever processor they are.  first = of the new IDs, highest = ID that was ever given, before
   // and after.  False if there are not enough.
 
-  typedef std::pair<tagint, tagint> NewIDs;    // ID of a particle, number of new ones
+  using NewIDs = std::pair<tagint, tagint>;    // ID of a particle, number of new ones
   [[nodiscard]] bool new_ids(LAMMPS *, const std::vector<NewIDs> &mine, tagint &highest,
                              std::vector<tagint> &first);
 

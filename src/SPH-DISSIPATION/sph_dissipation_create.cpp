@@ -11,7 +11,7 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_particles.h"
+#include "sph_dissipation_create.h"
 
 #include "atom.h"
 #include "atom_vec.h"
