@@ -27,7 +27,8 @@ using namespace SPHDissipation;
 void Value::set(LAMMPS *lmp, const std::string &word)
 {
   *this = Value();
-  if (utils::strmatch(word, "^v_"))
+  is_variable = utils::strmatch(word, "^v_");
+  if (is_variable)
     variable_name = word.substr(2);
   else
     number = utils::numeric(FLERR, word, false, lmp);

@@ -37,8 +37,8 @@ namespace SPHDissipation {
     // Evaluate the variable at this step; if it is of atom style, for owned particles of the group.
     void evaluate(LAMMPS *, int igroup);
 
-    const std::string &name() const { return variable_name; }    // empty: a number
-    bool varies() const { return !variable_name.empty(); }
+    const std::string &name() const { return variable_name; }    // of the variable
+    bool varies() const { return is_variable; }
     bool is_by_atom() const { return by_atom; }
     bool is_zero() const { return !varies() && number == 0.0; }    // at all times
     double now() const { return number; }                          // if it is not of atom style
@@ -46,6 +46,7 @@ namespace SPHDissipation {
     double memory_usage() const;    // bytes
 
    private:
+    bool is_variable = false;
     std::string variable_name;
     int variable = -1;    // its index
     bool by_atom = false;
