@@ -4,6 +4,7 @@ results.txt; a copy beside the README is what the numbers of the README are comp
 
 import argparse
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -124,19 +125,104 @@ def environment(ranks, cores):
     return env
 
 
-def frames(path):
-    """The frames of a text dump: {step: {column: values}}."""
+# ---------------------------------------------------------------------------------------------
+# readers of what LAMMPS writes
+
+
+def each_frame(path):
+    """Step and {column: values} of each frame of a text dump, in their order."""
     import numpy as np
 
-    found = {}
     with open(path) as file:
-        while file.readline():
-            step = int(file.readline())
-            file.readline()
-            count = int(file.readline())
-            for _ in range(4):
-                file.readline()
-            names = file.readline().split()[2:]
-            rows = np.array([file.readline().split() for _ in range(count)], dtype=float)
-            found[step] = dict(zip(names, rows.T))
+        for line in file:
+            if line.startswith("ITEM: TIMESTEP"):
+                step = int(next(file))
+            elif line.startswith("ITEM: NUMBER OF"):
+                count = int(next(file))
+            elif line.startswith(("ITEM: ATOMS", "ITEM: ENTRIES")):
+                names = line.split()[2:]
+                rows = np.array([next(file).split() for _ in range(count)], dtype=float).reshape(count, len(names))
+                yield step, dict(zip(names, rows.T))
+
+
+def frames(path):
+    """The frames of a text dump: {step: {column: values}}."""
+    return dict(each_frame(path))
+
+
+def read_grid(path):
+    """Frames of a dump of style grid whose first columns are ix iy iz: [(box lengths, array[ix, iy, iz, column])]."""
+    import numpy as np
+
+    found = []
+    with open(path) as file:
+        for line in file:
+            if line.startswith("ITEM: BOX"):
+                length = np.array([np.diff(list(map(float, next(file).split())))[0] for _ in range(3)])
+            elif line.startswith("ITEM: GRID SIZE"):
+                count = tuple(map(int, next(file).split()))
+            elif line.startswith("ITEM: GRID CELLS"):
+                rows = np.array([next(file).split() for _ in range(np.prod(count))], dtype=float)
+                place = rows[:, :3].astype(int) - 1
+                field = np.full((*count, rows.shape[1] - 3), np.nan)
+                field[tuple(place.T)] = rows[:, 3:]
+                assert not np.isnan(field).any()
+                found.append((length, field))
     return found
+
+
+def read_array(path):
+    """Frames of a file of fix ave/time mode vector: [array[row, column]]."""
+    import numpy as np
+
+    found, rows = [], 0
+    with open(path) as file:
+        for line in file:
+            if line.startswith("#"):
+                continue
+            if rows == 0:
+                rows, frame = int(line.split()[1]), []
+                continue
+            frame.append(line.split()[1:])
+            rows -= 1
+            if rows == 0:
+                found.append(np.array(frame, dtype=float))
+    return found
+
+
+def thermo(log):
+    """Thermodynamic output of every run in the text of a log file: [{column: values}]."""
+    import numpy as np
+
+    found = []
+    for head, body in re.findall(r"^ *(Step .*?)\n(.*?)^Loop time", log, re.MULTILINE | re.DOTALL):
+        rows = [line.split() for line in body.splitlines() if re.match(r"^\s*\d+(\s+[-+.\deEnaif]+)*\s*$", line)]
+        found.append(dict(zip(head.split(), np.array(rows, dtype=float).T)))
+    return found
+
+
+# ---------------------------------------------------------------------------------------------
+# figures
+
+
+def pyplot(sizes=True, **settings):
+    """matplotlib.pyplot for files, with settings of matplotlib (_ for .); sizes: with those of letters that most figures have."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    common = {"font_size": 9, "legend_fontsize": 8} if sizes else {}
+    plt.rcParams.update({name.replace("_", "."): value for name, value in {**common, **settings}.items()})
+    return plt
+
+
+def save(figure, path, dpi=90, framed=(), tight=False):
+    """Write a figure and forget it; framed: axes that get a grid and a legend. Returns the path."""
+    for axes in framed:
+        axes.grid(alpha=0.3)
+        axes.legend()
+    if tight:
+        figure.tight_layout()
+    figure.savefig(path, dpi=dpi)
+    pyplot(sizes=False).close(figure)
+    return path

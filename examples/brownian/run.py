@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 MU, T, PULL, DT = 2.0, 0.2, 0.1, 0.01
 CELL = 2**(1 / 3)                             # of the bcc lattice of density 1
@@ -82,11 +82,7 @@ def hydrodynamic_radius(mobility, length):
 
 
 def plot(path, found):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.5), layout="constrained")
     for index, ((cells, kind), r) in enumerate((key, r) for key, r in found.items() if "lags" in r and key[1] == 2):
         left.plot(r["lags"], r["spread"], f"C{index}.", ms=4, label=f"heavy particle, L = {r['length']:.2f}")
@@ -106,11 +102,7 @@ def plot(path, found):
         x = np.linspace(1e-9, 1.1 * inverse.max(), 60)
         right.plot(x, drag(mine[-1]["radius"], 1 / x), color, lw=0.9)
     right.set(xlabel="$1/L$", title="$6\\pi\\mu\\,U/F$ and $6\\pi\\mu\\,D/k_BT$")
-    for axes in (left, right):
-        axes.grid(alpha=0.3)
-        axes.legend()
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path, framed=(left, right))
 
 
 def main():

@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 import reference                    # noqa: E402
 
 # name: label, case of reference.csv, variables of the input; the longest first.  Where viscosity is large, so is the pressure
@@ -39,20 +39,6 @@ LIMITS = {
           "k3": (0.015, 0.03, 0.05), "k3b": (0.015, 0.03, 0.05)},
     50: {"re100": (0.01, 0.03, 0.05), "k3": (0.01, 0.03, 0.05)},
 }
-
-
-def lines(path):
-    """The particles of all frames of a dump, by column."""
-    rows = []
-    with open(path) as file:
-        while file.readline():
-            for _ in range(2):
-                file.readline()
-            count = int(file.readline())
-            for _ in range(5):
-                file.readline()
-            rows += [file.readline().split() for _ in range(count)]
-    return np.array(rows, dtype=float).T
 
 
 def interpolated(tree, values, points, radius):
@@ -119,7 +105,7 @@ class Run:
         columns = np.loadtxt(out / f"{name}.lid.txt", skiprows=4)
         self.lid_x, self.lid_stress = columns[:, 1], -columns[:, 3] / 0.02
 
-        particles = lines(out / f"{name}.lines.txt")
+        particles = np.hstack([list(frame.values()) for frame in frames(out / f"{name}.lines.txt").values()])
         tree = cKDTree(particles[:2].T)
         self.s = np.linspace(0.5 / size, 1 - 0.5 / size, size)
 
@@ -149,19 +135,11 @@ class Run:
         self.particles = np.loadtxt(out / f"{name}.particles.txt", skiprows=9)
 
 
-def style():
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    plt.rcParams.update({"font.size": 9, "grid.alpha": 0.3, "lines.linewidth": 1.2, "legend.fontsize": 8})
-    return plt
-
-
 COLORS = {"re100": "C0", "re400": "C2", "re1000": "C3", "k3": "C1", "k3b": "C4"}
 
 
 def plot_energy(path, runs, references):
-    plt = style()
+    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.2)
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 3.8), layout="constrained")
     for base, run in runs.items():
         left.plot(run.t, run.energy, color=COLORS[base], label=run.label, alpha=0.9)
@@ -174,12 +152,11 @@ def plot_energy(path, runs, references):
     right.set(xlabel="$x/L$", ylabel="shear stress on the lid$\\,/\\,\\rho U^2$", xlim=(0, 1), ylim=(0, 0.4))
     for axes in (left, right):
         axes.grid(True)
-    figure.savefig(path, dpi=95)
-    plt.close(figure)
+    save(figure, path, dpi=95)
 
 
 def plot_profiles(path, runs, references):
-    plt = style()
+    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.2)
     newtonian = [base for base in runs if base.startswith("re")]
     spinning = [base for base in runs if base in ("re400", "k3", "k3b")] if {"k3", "k3b"} & set(runs) else []
     rows = [["u", "u", "u", "v", "v", "v"]] if newtonian else []
@@ -214,12 +191,11 @@ def plot_profiles(path, runs, references):
         axes["w"].set(xlabel="spin$\\,L/U$ at $x = L/2$", ylim=(0, 1), title=runs["k3"].label)
     for axis in axes.values():
         axis.grid(True)
-    figure.savefig(path, dpi=95)
-    plt.close(figure)
+    save(figure, path, dpi=95)
 
 
 def plot_streamlines(path, runs, references):
-    plt = style()
+    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.2)
     chosen = [base for base in ("re400", "k3", "re1000") if base in runs] or list(runs)
     figure, axes = plt.subplots(1, len(chosen), figsize=(3.7 * len(chosen), 3.9), squeeze=False, layout="constrained")
     levels = [-0.115, -0.11, -0.1, -0.085, -0.07, -0.05, -0.03, -0.015, -0.005, 0.0004, 0.0008, 0.0014]
@@ -230,12 +206,11 @@ def plot_streamlines(path, runs, references):
         axis.contour(grid, grid, references.psi[run.case].reshape(len(grid), -1), levels, colors="k", linestyles="--", linewidths=0.7)
         axis.set(xlim=(0, 1), ylim=(0, 1), aspect="equal", xlabel="$x/L$", title=run.label)
     axes[0, 0].set_ylabel("$y/L$")
-    figure.savefig(path, dpi=95)
-    plt.close(figure)
+    save(figure, path, dpi=95)
 
 
 def plot_particles(path, runs, disorder):
-    plt = style()
+    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.2)
     panels = [(runs[base].label, runs[base].particles) for base in sorted(runs, key=["re1000", "k3", "re400", "re100", "k3b"].index)][:2]
     if disorder:
         panels.append(("Re = 1000, $N = 50$, without shifting", np.loadtxt(disorder, skiprows=9)))
@@ -246,8 +221,7 @@ def plot_particles(path, runs, disorder):
         axis.set(xlim=(0, 1), ylim=(0, 1), aspect="equal", xlabel="$x/L$", title=label)
     axes[0, 0].set_ylabel("$y/L$")
     figure.colorbar(shown, ax=axes[0], label="speed$\\,/\\,U$", shrink=0.85)
-    figure.savefig(path, dpi=110)
-    plt.close(figure)
+    save(figure, path, dpi=110)
 
 
 def main():

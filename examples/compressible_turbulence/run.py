@@ -16,7 +16,7 @@ import field
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, read_array, save      # noqa: E402
 
 KAPPAS, QUICK_KAPPAS = (0, 1, 10, 100), (0, 10, 100)
 SOLENOIDAL = 0.03           # energy with bulk viscosity over that without
@@ -39,17 +39,11 @@ class Run:
         return abs(self.total - self.total[0]).max() / self.kinetic[0]
 
     def last_spectrum(self, out):
-        lines = (out / f"{self.name}.spectra.txt").read_text().splitlines()
-        rows = int(next(line for line in lines if not line.startswith("#")).split()[1])
-        return np.array([line.split()[1:] for line in lines[-rows:]], dtype=float).T
+        return read_array(out / f"{self.name}.spectra.txt")[-1].T
 
 
 def plot(out, runs):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "legend.fontsize": 8})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3)
     figure, axes = plt.subplots(1, 3, figsize=(11, 3.4))
     for number, run in enumerate(runs):
         color, label = f"C{number}", f"$\\kappa/\\mu$ = {run.kappa:g}"
@@ -65,10 +59,7 @@ def plot(out, runs):
     for axis, x in zip(axes, ("time", "time", "wave number")):
         axis.set_xlabel(x)
         axis.legend()
-    figure.tight_layout()
-    path = out / "turbulence.png"
-    figure.savefig(path, dpi=130)
-    return path
+    return save(figure, out / "turbulence.png", dpi=130, tight=True)
 
 
 def main():

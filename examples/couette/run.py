@@ -15,7 +15,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from exact import Circular, Plane           # noqa: E402
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 PLANE = (12, 24, 48)        # rows between the plates
 CIRCULAR = (10, 20, 40)     # rings between the cylinders
@@ -78,12 +78,9 @@ def order(sizes, errors):
 
 
 def plot(path, kind, runs, sizes):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.0, "legend.fontsize": 8})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.0)
     figure, axes = plt.subplots(1, 3, figsize=(12, 3.9), layout="constrained")
     plane = kind == "plane"
     run = runs[kind, sorted(sizes)[-2] if len(sizes) > 1 else sizes[0]]
@@ -117,8 +114,7 @@ def plot(path, kind, runs, sizes):
     axes[2].yaxis.set_major_formatter("{x:g}")
     axes[2].yaxis.set_minor_formatter(NullFormatter())
     axes[2].legend()
-    figure.savefig(path, dpi=95)
-    plt.close(figure)
+    save(figure, path, dpi=95)
 
 
 def main():

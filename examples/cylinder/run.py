@@ -15,7 +15,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from reference import shedding              # noqa: E402
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 CASES = {                                   # Re: variables of the input, in which n is the number of particles per diameter
     20: {"n": 12, "support": 4, "end": 24.0, "mean": 8.0, "kick": 0.0},
@@ -76,11 +76,7 @@ def smooth(frame, spacing, box, support=3.0):
 
 def plot(path, out, runs, n):
     """n: particles per diameter of each run"""
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.0, "legend.fontsize": 8})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.0)
     figure = plt.figure(figsize=(13, 3.4 + 3.0 * len(runs)), layout="constrained")
     top, *below = figure.subfigures(1 + len(runs), 1, height_ratios=[3.4] + [3.0] * len(runs))
     axes = top.subplots(1, 3)
@@ -108,8 +104,7 @@ def plot(path, out, runs, n):
             axis.add_patch(plt.Circle((0, 0), 0.5, color="0.4"))
             axis.set(aspect="equal", title=f"Re = {Re}: {title}", xlim=box[:2], ylim=box[2:])
             part.colorbar(picture, ax=axis, shrink=0.8)
-    figure.savefig(path, dpi=80)
-    plt.close(figure)
+    save(figure, path, dpi=80)
 
 
 def main():

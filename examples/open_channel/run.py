@@ -15,7 +15,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE.parent / "poiseuille")]
 from exact import Channel                   # noqa: E402
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 MU, LENGTH = 0.1, 4.0
 FLUIDS = {"newtonian": (0.0, 0.05), "micropolar": (0.1, 0.05)}     # mu_r, gamma1; K H = 2
@@ -64,11 +64,7 @@ class Run:
 
 
 def plot(path, runs):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.0, "legend.fontsize": 7.5})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.0, legend_fontsize=7.5)
     figure, axes = plt.subplots(1, 4, figsize=(15.0, 3.8), layout="constrained")
     fine = np.linspace(-1, 1, 401)
     for color, fluid in zip(("k", "C3"), FLUIDS):
@@ -88,8 +84,7 @@ def plot(path, runs):
     axes[3].set(xlabel="mass that has entered, over $\\rho H^2$", title="change of the mass in the channel, $10^{-3}$")
     axes[0].legend(loc="upper center")
     axes[2].legend()
-    figure.savefig(path, dpi=95)
-    plt.close(figure)
+    save(figure, path, dpi=95)
 
 
 def main():

@@ -16,7 +16,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 sys.path.insert(0, str(HERE.parent))
 from exact import Drop, invariants, period      # noqa: E402
-from run_lammps import Example, frames          # noqa: E402
+from run_lammps import Example, frames, pyplot, save          # noqa: E402
 
 KAPPA = 0.1             # of the runs without shear viscosity
 MU = KAPPA / 3          # and of those without bulk term: kappa = 2 mu then, and sound is damped by kappa + mu
@@ -99,11 +99,7 @@ class Run:
 
 
 def plot_drop(path, runs, T, n):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "grid.alpha": 0.3, "lines.linewidth": 1.2, "legend.fontsize": 8})
+    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.2)
     sizes = sorted(run.n for name, run in runs.items() if name.startswith("kappa_"))
     main, mg, fine = runs[f"kappa_{n}"], runs["mg"], runs[f"kappa_{sizes[-1]}"]
     end = main.t[-1] / T
@@ -157,15 +153,11 @@ def plot_drop(path, runs, T, n):
         axes.set(xlim=(0, stop), xlabel="$t/T$")
         axes.grid(True)
         axes.legend(loc="lower right" if axes is left else "upper right", ncol=2 if axes is right else 1, framealpha=0.9)
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path)
 
 
 def plot_spin(path, runs, T):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot(sizes=False)
     figure, (picture, left, middle, right) = plt.subplots(1, 4, figsize=(12.5, 3.3), gridspec_kw={"width_ratios": [0.95, 1.1, 1, 1]})
     cases = {"spin": ("C0", f"$\\kappa$ = {KAPPA:g}"), "spin_mg": ("C1", f"mg, $\\mu$ = {MU:.3f}"), "spin_morris": ("C3", "morris, the same")}
     run = runs["spin"]
@@ -194,8 +186,7 @@ def plot_spin(path, runs, T):
         axes.grid(True, alpha=0.3)
     middle.legend(fontsize=8, loc="lower left")
     figure.tight_layout()
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path)
 
 
 def main():

@@ -16,7 +16,7 @@ from scipy.optimize import curve_fit
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 RATIOS, QUICK_RATIOS = (1, 3, 10, 30, 60, 150, 300, 1000), (3, 30, 300, 1000)
 MODES = {"rkl2": "viscous rkl2", "trapezoidal": "viscous implicit"}
@@ -91,10 +91,7 @@ class Run:
 
 
 def plot(path, runs):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot(sizes=False)
     figure, (left, right, work) = plt.subplots(1, 3, figsize=(12.6, 3.8))
     for color, run in zip(("C0", "C1", "C2", "C3", "C4", "C5", "C6", "C7"), [r for r in runs if r.mode == "rkl2"]):
         left.plot(run.t, run.continuum.amplitude(run.t), "-", color=color, lw=0.8)
@@ -121,9 +118,7 @@ def plot(path, runs):
     work.legend()
     for axis in (left, right, work):
         axis.grid(alpha=0.3)
-    figure.tight_layout()
-    figure.savefig(path, dpi=110)
-    return path
+    return save(figure, path, dpi=110, tight=True)
 
 
 def main():

@@ -15,7 +15,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from exact import Pipe                      # noqa: E402
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 # sigma: rows across the pipe, distance of the particles of a row at x = 0 over that of the rows, support over that
 SIZES = {-1: (38, 0.2, 6.0), 0: (30, 0.5, 6.0), 1: (26, 0.7, 6.0), 10: (34, 1.0, 6.0)}
@@ -95,10 +95,7 @@ class Run:
 
 def draw_fields(path, runs):
     """As figure 4 of the paper: velocity at the start, exact, and that of the particles halfway."""
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot(sizes=False)
     figure, axes = plt.subplots(len(runs), 2, figsize=(8.4, 2.1 * len(runs)), layout="constrained", squeeze=False)
     x, y = np.meshgrid(np.linspace(-1, 1, 201), np.linspace(0, 1, 101))
     for row, (sigma, run) in zip(axes, runs.items()):
@@ -115,17 +112,12 @@ def draw_fields(path, runs):
             axis.set_aspect("equal")
     for axis in axes[-1]:
         axis.set_xlabel("$x/L$")
-    figure.savefig(path, dpi=110)
-    plt.close(figure)
+    save(figure, path, dpi=110)
 
 
 def draw_decay(path, runs, wrong):
     """As figure 5 of the paper, with what goes wrong beside it."""
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2, "legend.fontsize": 7.5})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.2, legend_fontsize=7.5)
     figure, axes = plt.subplots(1, 4, figsize=(16.0, 4.0), layout="constrained")
     for color, (sigma, run) in zip(("C0", "C2", "C1", "C3"), runs.items()):
         fine = np.linspace(0, run.at[-1], 200)
@@ -147,16 +139,12 @@ def draw_decay(path, runs, wrong):
     axes[2].legend(title=f"for $\\sigma = {next(iter(wrong.values())).sigma}$ with")
     for axis in axes:
         axis.set_xlabel("$t U_0/L$")
-    figure.savefig(path, dpi=95)
-    plt.close(figure)
+    save(figure, path, dpi=95)
 
 
 def draw_refined(path, constant, changing):
     """Errors with and without splitting and merging, and where the particles are halfway."""
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot(sizes=False)
     figure, axes = plt.subplots(1, 4, figsize=(15.0, 3.2), layout="constrained")
     for look, (what, run) in zip(("-", "--"), (("constant particles", constant), ("splitting and merging", changing))):
         axes[0].plot(run.at, 100 * (run.u / run.exact.center(run.at) - 1), look, label=what)
@@ -170,8 +158,7 @@ def draw_refined(path, constant, changing):
         axis.plot(frame["x"][inside], frame["y"][inside], ".", ms=1.5)
         axis.set(xlim=(-1, 1), ylim=(0, 0.5), xlabel="$x/L$", ylabel="$y/L$",
                  title=f"{'constant' if run is constant else 'splitting and merging'}, $t = {t:.3g}$")
-    figure.savefig(path, dpi=95)
-    plt.close(figure)
+    save(figure, path, dpi=95)
 
 
 def main():

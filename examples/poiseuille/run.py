@@ -15,7 +15,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from exact import Channel                   # noqa: E402
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 FLUIDS = {                                  # mu_r, gamma1, alpha; mu = H = 1, f = 2
     "newtonian": (0.0, 0.3, 0.0),
@@ -84,11 +84,7 @@ def order(sizes, errors):
 
 
 def plot(path, runs, sizes):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.0, "legend.fontsize": 7.5})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.0, legend_fontsize=7.5)
     figure, axes = plt.subplots(1, 4, figsize=(14.5, 4.0), layout="constrained")
     fine = np.linspace(-1, 1, 401)
     shown = min(sizes, key=lambda n: abs(n - 25))
@@ -124,8 +120,7 @@ def plot(path, runs, sizes):
         axis.yaxis.set_minor_formatter(NullFormatter())
         axis.grid(which="minor", alpha=0.15)
         axis.legend(loc="lower left", fontsize=7)
-    figure.savefig(path, dpi=95)
-    plt.close(figure)
+    save(figure, path, dpi=95)
 
 
 def main():

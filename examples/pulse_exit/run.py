@@ -14,7 +14,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 # kinds of outlets: name, color, condition and what is given, in which {u} and {p} stand for the stream and its pressure
 OUTLETS = {
@@ -85,12 +85,9 @@ def pulse(outlet, width, stream, angle=0, wavelength=0, length=None):
 
 
 def plot(path, straight, oblique, vortices):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
     from matplotlib.ticker import NullFormatter
 
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.0, "legend.fontsize": 7.5})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.0, legend_fontsize=7.5)
     figure, axes = plt.subplots(1, 4, figsize=(15.5, 4.2), layout="constrained")
     for axis, stream in zip(axes, STREAMS):
         for outlet, (color, *_) in OUTLETS.items():
@@ -118,8 +115,7 @@ def plot(path, straight, oblique, vortices):
     axes[3].axhline(LEFT, color="0.5", ls=":", lw=0.8)
     axes[3].set(xlabel="time, core radii over stream", title="kinetic energy of a vortex carried out")
     axes[3].legend()
-    figure.savefig(path, dpi=95)
-    plt.close(figure)
+    save(figure, path, dpi=95)
 
 
 def main():

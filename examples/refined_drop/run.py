@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 STYLES = ("bulk", "micropolar")
 CONSERVED = 1e-12        # angular momentum
@@ -31,10 +31,7 @@ class Run:
 
 
 def plot(path, runs):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, (picture, left, right) = plt.subplots(1, 3, figsize=(11, 3.4), constrained_layout=True)
     frame = max(runs["bulk"].frames.values(), key=lambda frame: len(frame["x"]))
     picture.scatter(frame["x"], frame["y"], s=14 * frame["mass"], c=frame["mass"], cmap="viridis", lw=0)
@@ -46,11 +43,7 @@ def plot(path, runs):
     left.axhline(CONSERVED, color="0.5", lw=0.8, ls="--")
     left.set(title="$|L - L(0)|\\,/\\,L(0)$", xlabel="step", ylim=(1e-17, 1e-10))
     right.set(title="change of energy / initial kinetic energy", xlabel="step", ylim=(-0.05, 0.3))
-    for axes in (left, right):
-        axes.grid(alpha=0.3)
-        axes.legend()
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path, framed=(left, right))
 
 
 def main():

@@ -14,7 +14,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 from swirl import Swirl                     # noqa: E402
 
 CASES = {        # variables of the input, legend, color
@@ -83,11 +83,7 @@ class Run:
 
 
 def plot(path, runs, theory, dim):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "grid.alpha": 0.3, "lines.linewidth": 1.4, "legend.fontsize": 8})
+    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.4)
     figure = plt.figure(figsize=(9.6, 5.8))
     grid = figure.add_gridspec(2, 12, height_ratios=[1, 1.15], left=0.05, right=0.985, top=0.95, bottom=0.085, hspace=0.16, wspace=1.5)
     first, end = next(iter(runs.values())).frames[0], next(iter(runs.values())).t[-1]
@@ -131,8 +127,7 @@ def plot(path, runs, theory, dim):
     right.legend(loc="center right", framealpha=0.9)
     middle.annotate("morris", (0.55 * run.t[-1], 0.3), (0.5 * run.t[-1], 1e-4), color="C3")
     middle.annotate("mg, mg + bulk", (0.35 * run.t[-1], 3e-14), color="k")
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path)
 
 
 def main():

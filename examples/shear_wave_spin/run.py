@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 SETS = {"a": dict(mu_r=0.5, gamma1=1, I=1), "b": dict(mu_r=1.0, gamma1=20, I=10),      # with mu = 1
         "c": dict(mu_r=2.0, gamma1=50, I=40)}                                           # mu (1 + 2/n)
@@ -30,11 +30,7 @@ def eigenvalues(k, mu_r, gamma1, I):
 
 
 def plot(path, found):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.6), layout="constrained")
     k = np.linspace(0.08, 0.31, 60)
     for color, (name, values) in zip(("C0", "C1", "C2"), SETS.items()):
@@ -54,8 +50,7 @@ def plot(path, found):
     right.set(xlabel="$kh$", title="rate over eigenvalue")
     for axes in (left, right):
         axes.grid(alpha=0.3)
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path)
 
 
 def main():

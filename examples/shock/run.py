@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 GAMMA, MACH = 1.4, 2.0                       # as in the input
 U1 = MACH
@@ -87,10 +87,7 @@ class Run:
 
 
 def plot(path, runs):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot(sizes=False)
     figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8))
     u = U2 + (U1 - U2) * (1 - np.cos(np.linspace(1e-4, np.pi - 1e-4, 4000))) / 2
     for color, viscosity in zip(("C0", "C1", "C2"), VISCOSITIES):
@@ -109,9 +106,7 @@ def plot(path, runs):
         axis.set_ylabel(f"{label}, of that before the shock")
         axis.grid(alpha=0.3)
     axes[0].legend(title="$\\lambda + 2\\mu$", fontsize=7, title_fontsize=7)
-    figure.tight_layout()
-    figure.savefig(path, dpi=110)
-    return path
+    return save(figure, path, dpi=110, tight=True)
 
 
 def main():

@@ -15,7 +15,7 @@ from scipy.optimize import curve_fit
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 FLUIDS = HERE.parent.parent / "potentials" / "fluids.sph"
 CASES = {      # fluid: wavelength [m], title
@@ -114,12 +114,7 @@ def extrapolate(runs):
 
 
 def plot(out, measured, alone):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2,
-                         "legend.fontsize": 8, "legend.framealpha": 0.9})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.2, legend_framealpha=0.9)
     paths = [out / "absorption.png", out / "convergence.png"]
     figure, axes = plt.subplots(2, 2, figsize=(8.6, 6.2), sharex=True, sharey=True)
     for axis, (name, runs) in zip(axes.flat, measured.items()):
@@ -148,8 +143,7 @@ def plot(out, measured, alone):
     figure.tight_layout(rect=(0, 0, 1, 0.955))
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", ncol=4)
-    figure.savefig(paths[0], dpi=110)
-    plt.close(figure)
+    save(figure, paths[0], dpi=110)
 
     figure, axis = plt.subplots(figsize=(5.6, 3.9))
     fine = np.linspace(min(QUICK_CELLS), 2000, 4000)
@@ -168,9 +162,7 @@ def plot(out, measured, alone):
     axis.set_xlabel("$(k h)^2$,  $h$ = half the support radius")
     axis.set_ylabel("measured damping / Stokes")
     axis.legend(loc="lower left", title="marks: SPH, lines: lattice sums\nfilled at 0: extrapolated")
-    figure.tight_layout()
-    figure.savefig(paths[1], dpi=110)
-    plt.close(figure)
+    save(figure, paths[1], dpi=110, tight=True)
     return paths
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import curve_fit
 
 import run as absorption
-from run_lammps import Example
+from run_lammps import Example, pyplot, save
 
 HERE = Path(__file__).resolve().parent
 absorption.SUPPORT = 3
@@ -70,10 +70,7 @@ class Run(absorption.Run):
 
 
 def plot(path, runs):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    plt = pyplot(sizes=False)
     figure, axis = plt.subplots(figsize=(5.6, 3.9))
     for mark, mode in zip("osx+", MODES):
         some = [run for run in runs if run.mode == mode and run.fluid.name == "CO2"]
@@ -86,9 +83,7 @@ def plot(path, runs):
     axis.set_ylabel("force computations per step of sound")
     axis.legend()
     axis.grid(alpha=0.3, which="both")
-    figure.tight_layout()
-    figure.savefig(path, dpi=110)
-    return path
+    return save(figure, path, dpi=110, tight=True)
 
 
 def main():

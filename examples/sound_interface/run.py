@@ -17,7 +17,7 @@ from scipy.optimize import curve_fit
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 LENGTH, C0, MU, KAPPA, LAMBDA, STEP = 240.0, 10.0, 0.5, 1.0, 60.0, 0.02      # as in the input
 TRANSMITTED = 0.01       # amplitude behind the plane over that without one, minus 1
@@ -56,10 +56,7 @@ def rates(series):
 
 
 def plot(path, packet, uniform, t, sides):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, (first, second) = plt.subplots(1, 2, figsize=(9.6, 3.2), constrained_layout=True)
     for index, color in ((0, "0.6"), (-1, "C0")):
         time, x, _, u = packet[index]
@@ -74,11 +71,7 @@ def plot(path, packet, uniform, t, sides):
     k = 2 * np.pi / LAMBDA
     second.plot(t, sides[0][2][0] / C0 * np.exp(-0.5 * (KAPPA + MU) * k**2 * t), "k:", lw=1, label="$e^{-\\Gamma t}$")
     second.set(title="standing wave, each side", xlabel="t", ylabel="amplitude $/c_0$")
-    for axes in (first, second):
-        axes.grid(alpha=0.3)
-        axes.legend()
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path, framed=(first, second))
 
 
 def main():

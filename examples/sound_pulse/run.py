@@ -17,7 +17,7 @@ import reference
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot      # noqa: E402
 
 # Errors of an independent implementation of the method (numpy, no neighbor lists) with this
 # kernel, support and time integration.  Reached means: not more than 10 % above.
@@ -127,23 +127,14 @@ MARKS = {64: ("o", "C0"), 128: ("s", "C1"), 256: ("^", "C2"), 512: ("v", "C3")}
 
 
 def plot(out, cases, solutions):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2,
-                         "legend.fontsize": 8, "legend.framealpha": 0.9})
-    size = dict(dpi=110)
+    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.2, legend_framealpha=0.9)
     paths = []
     wendland = [case for case in cases if "quintic" not in case]
     A, L, c0 = reference.AMPLITUDE, reference.LENGTH, reference.C0
     x = np.linspace(reference.XLO, reference.XLO + L, 600)
 
-    def save(figure, name):
-        figure.tight_layout()
-        paths.append(out / name)
-        figure.savefig(paths[-1], **size)
-        plt.close(figure)
+    def keep(figure, name):
+        paths.append(save(figure, out / name, dpi=110, tight=True))
 
     figure, axes = plt.subplots(2, 2, figsize=(8.6, 6.0), sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     for column, case in enumerate(wendland):
@@ -171,7 +162,7 @@ def plot(out, cases, solutions):
     axes[0, 0].set_ylabel("$v\\,/\\,(A c_0)$")
     axes[1, 0].set_ylabel("$(v - v_\\mathrm{ref})\\,/\\,(A c_0)$  [%]")
     axes[0, 0].legend(loc="lower right")
-    save(figure, "velocity.png")
+    keep(figure, "velocity.png")
 
     figure, axes = plt.subplots(2, 2, figsize=(8.6, 5.6), sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     for column, case in enumerate(wendland):
@@ -192,7 +183,7 @@ def plot(out, cases, solutions):
     axes[0, 0].set_ylabel("$E_\\mathrm{kin}(t)\\,/\\,E_\\mathrm{kin}(0)$")
     axes[1, 0].set_ylabel("difference  [%]")
     axes[0, 1].legend(loc="upper right")
-    save(figure, "kinetic_energy.png")
+    keep(figure, "kinetic_energy.png")
 
     figure, axes = plt.subplots(figsize=(4.8, 3.8))
     for (case, runs), color in zip(cases.items(), ("C0", "C1", "C2")):
@@ -205,7 +196,7 @@ def plot(out, cases, solutions):
     axes.set_xlabel("number of particles $n$")
     axes.set_ylabel("relative $L_2$ error of $v(x)$")
     axes.legend()
-    save(figure, "convergence.png")
+    keep(figure, "convergence.png")
     return paths
 
 

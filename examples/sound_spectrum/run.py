@@ -16,7 +16,7 @@ from scipy.special import j0
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 C0, MU, T, SUPPORT = 3.0, 1.5, 0.009, 5.0
 WAVES = ((1, 0), (0, 1), (2, 0), (0, 2), (1, 1), (1, -1))    # in the order of the columns
@@ -146,11 +146,7 @@ def spectrum(z, dt, parts):
 
 
 def plot(path, results):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.5, 3.4), layout="constrained")
     for index, kappa in enumerate(results):
         color = f"C{index}"
@@ -177,8 +173,7 @@ def plot(path, results):
         axes.grid(alpha=0.3)
     left.legend()
     right.legend()
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path)
 
 
 def jobs(example, runs, waves, structure_steps):

@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 GAMMA1, GAMMA2, INERTIA, SUPPORT = 1.0, 0.5, 0.5, 4      # as in the input
 MODES = {"transverse": GAMMA1, "longitudinal": 2 * GAMMA1 + GAMMA2}
@@ -22,11 +22,7 @@ THEORY = 0.01       # of the spin viscosities, extrapolated to kh = 0
 
 
 def plot(path, found, lines):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
     for color, (mode, points) in zip(("C0", "C3"), found.items()):
         for nx, (k, _, time, amplitude) in points.items():
@@ -41,11 +37,7 @@ def plot(path, found, lines):
     left.set(xlabel="time over relaxation time of the continuum", title="amplitude; line: continuum")
     right.axhline(1, color="k", lw=0.8)
     right.set(xlabel="$(kh)^2$", title="spin viscosity over the one asked for")
-    for axes in (left, right):
-        axes.grid(alpha=0.3)
-        axes.legend()
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path, framed=(left, right))
 
 
 def main():

@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 SUPPORTS = (3, 4, 6)
 LATTICE = 1e-4      # rate against the lattice sum; the time step is 1 % of the relaxation time
@@ -36,11 +36,7 @@ def lattice_factor(dim, rc):
 
 
 def plot(path, runs):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
     for index, ((dim, support), data) in enumerate(runs.items()):
         time, spin = data[:, 1], data[:, 2]
@@ -55,8 +51,7 @@ def plot(path, runs):
     for axes in (left, right):
         axes.grid(alpha=0.3)
     left.legend()
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path)
 
 
 def main():

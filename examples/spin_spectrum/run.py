@@ -17,7 +17,7 @@ from scipy.special import j0, j1
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 MU, MU_R, GAMMA1, INERTIA, SUPPORT, T, DT, EVERY, WIDTH = 2.0, 0.5, 1.0, 2.0, 5.0, 0.2, 0.025, 10, 24
 STEPS, QUICK = 300000, 20000
@@ -86,11 +86,7 @@ def rates(matrix):
 
 
 def plot(path, time, found, answer, exact):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, axes = plt.subplots(figsize=(5.2, 3.6), layout="constrained")
     for (a, b), label in NAMES.items():
         norm = SCALE[a] * SCALE[b]
@@ -98,10 +94,7 @@ def plot(path, time, found, answer, exact):
         axes.plot(time, answer[a, b] / norm, color=line.get_color(), lw=1)
         axes.plot(time, exact[a, b] / norm, color=line.get_color(), lw=0.8, ls=":")
     axes.set(xlabel="$t$", title="correlations, over their thermal values")
-    axes.grid(alpha=0.3)
-    axes.legend()
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path, framed=[axes])
 
 
 def main():

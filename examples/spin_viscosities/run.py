@@ -15,7 +15,7 @@ from scipy.optimize import curve_fit
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 LENGTHS = (12, 16, 20, 28)              # wavelengths over h
 QUICK = (16, 20, 28)
@@ -81,11 +81,7 @@ def extrapolate(group):
 
 
 def plot(path, groups):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, both = plt.subplots(1, 2, figsize=(8.6, 3.6), layout="constrained", sharey=True)
     for axes, dim in zip(both, MU_R):
         axes.axhspan(1 - MERIT, 1 + MERIT, color="0.92", zorder=0)
@@ -101,8 +97,7 @@ def plot(path, groups):
         axes.grid(alpha=0.3)
         axes.legend(loc="lower left")
     both[0].set_ylabel("measured / asked for")
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path)
 
 
 def main():

@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 CASES = (0.1, 0.01)      # vortex viscosity
 INERTIA = 0.02           # as in the input
@@ -22,11 +22,7 @@ RIGID = 0.02             # spin part over what rigid rotation with this L has, m
 
 
 def plot(path, runs):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
     for color, (mu_r, (data, _)) in zip(("C0", "C3"), runs.items()):
         time, total, orbital, spin = data[1:, 1:].T
@@ -40,8 +36,7 @@ def plot(path, runs):
     for axes in (left, right):
         axes.grid(alpha=0.3)
         axes.legend(loc="best")
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path)
 
 
 def main():

@@ -16,7 +16,7 @@ import reference
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, read_array, read_grid, save      # noqa: E402
 
 ENERGY = 0.02               # energy over that of the spectral solution, n = 64, Re = 100
 PEAK, PEAK_TIME = 0.05, 0.2     # of the rate of loss of energy
@@ -58,42 +58,16 @@ class Run:
         self.vortical, self.dilatational = shear - 3 * mu * div2, (3 * mu + zeta) * div2
 
     def spectra(self, out):
-        frames, rows = [], 0
-        for line in (out / f"{self.name}.spectra.txt").read_text().splitlines():
-            if line.startswith("#"):
-                continue
-            words = line.split()
-            if rows == 0:
-                rows = int(words[1])
-                frames.append([])
-            else:
-                frames[-1].append(words[1:])
-                rows -= 1
-        return [np.array(frame, dtype=float).T for frame in frames]
+        return [frame.T for frame in read_array(out / f"{self.name}.spectra.txt")]
 
 
 def fields(path):
     """Velocities u[z, y, x, component] of the frames of a dump of style grid."""
-    found = []
-    with open(path) as file:
-        while line := file.readline():
-            if line.startswith("ITEM: GRID SIZE"):
-                size = [int(word) for word in file.readline().split()]
-            elif line.startswith("ITEM: GRID CELLS"):
-                rows = np.array([file.readline().split() for _ in range(np.prod(size))], dtype=float)
-                u = np.zeros((*size[::-1], 3))
-                ix, iy, iz = rows[:, :3].astype(int).T - 1
-                u[iz, iy, ix] = rows[:, 3:6]
-                found.append(u)
-    return found
+    return [field[..., :3].transpose(2, 1, 0, 3) for _, field in read_grid(path)]
 
 
 def plot(out, runs):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "legend.fontsize": 8})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3)
     figure, axes = plt.subplots(1, 3, figsize=(11, 3.4))
     for re in sorted({run.re for run in runs}):
         t, energy, power = reference.load(re)
@@ -122,10 +96,7 @@ def plot(out, runs):
     axes[2].set_ylabel("$E^s$ (lines), $E^d$ (dots)")
     axes[2].set_ylim(1e-10, 1)
     axes[2].legend()
-    figure.tight_layout()
-    path = out / "energy.png"
-    figure.savefig(path, dpi=130)
-    return path
+    return save(figure, out / "energy.png", dpi=130, tight=True)
 
 
 def vorticity(side, dz, u):

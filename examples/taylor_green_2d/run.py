@@ -14,7 +14,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 DECAY = 0.02                # decay rate over the exact one, with shifting; Re = 1000 with n = 100
 SPEEDS = {"1.0": "shifting", "0.0": "no shifting"}
@@ -38,11 +38,7 @@ class Run:
 
 
 def plot(out, runs):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "legend.fontsize": 8})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3)
     figure, axes = plt.subplots(1, 2, figsize=(8.6, 3.4))
     for axis, re in zip(axes, sorted({run.re for run in runs})):
         some = [run for run in runs if run.re == re]
@@ -56,10 +52,7 @@ def plot(out, runs):
         axis.set_xlabel("time")
         axis.legend()
     axes[0].set_ylabel("kinetic energy per volume")
-    figure.tight_layout()
-    path = out / "decay.png"
-    figure.savefig(path, dpi=130)
-    return path
+    return save(figure, out / "decay.png", dpi=130, tight=True)
 
 
 def main():

@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 DTS, QUICK = (0.0035, 0.007, 0.014, 0.028), (0.007,)
 RATE = 13.6            # of the fastest viscous mode, as LAMMPS prints it
@@ -47,11 +47,7 @@ def moments(center, density):
 
 
 def plot(path, runs, shapes):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "legend.fontsize": 8})
+    plt = pyplot()
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
     rate = RATE * np.array(list(runs))
     for column, label, mark in ((0, "x", "o"), (1, "y", "s"), (3, "spin", "^"), (12, "between the steps", "kx")):
@@ -65,11 +61,7 @@ def plot(path, runs, shapes):
     for (name, (center, density, _)), mark in zip(shapes.items(), "os"):
         right.semilogy(center, np.clip(density, 1e-7, None), mark, ms=3, mfc="none", label=name)
     right.set(xlabel="$v\\sqrt{m/k_BT}$, $\\Omega\\sqrt{J/k_BT}$", title="distribution", ylim=(1e-6, 1))
-    for axes in (left, right):
-        axes.grid(alpha=0.3)
-        axes.legend()
-    figure.savefig(path, dpi=90)
-    plt.close(figure)
+    save(figure, path, framed=(left, right))
 
 
 def main():

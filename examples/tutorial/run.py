@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent))
 
-from run_lammps import Example
+from run_lammps import Example, thermo
 
 PAGE = FOLDER.parents[1] / "doc" / "src" / "Howto_sph_tutorial.rst"
 
@@ -23,13 +23,6 @@ def inputs():
     text = PAGE.read_text()
     found = re.findall(r"\.\. code-block:: LAMMPS\n\n((?:   .*\n|\n)+)", text)
     return {number: re.sub(r"^   ", "", block, flags=re.MULTILINE) for number, block in enumerate(found, 1)}
-
-
-def thermo(path):
-    """{column: values} of the last run in a log file"""
-    head, body = re.findall(r"^ *(Step .*?)\n(.*?)^Loop time", path.read_text(), re.MULTILINE | re.DOTALL)[-1]
-    rows = [line.split() for line in body.splitlines() if re.match(r" *\d+ ", line)]
-    return dict(zip(head.split(), np.array(rows, dtype=float).T))
 
 
 def chunks(path):
@@ -81,7 +74,7 @@ def main():
     jobs.update({f"3-{kappa}": {"kappa": kappa} for kappa in kappas})
     jobs.update({"2": {}, "1": {}})
     example.run(jobs, {name: out / f"in.{name[0]}" for name in jobs})
-    log = lambda name: thermo(out / f"{name}.log")
+    log = lambda name: thermo((out / f"{name}.log").read_text())[-1]
 
     rest = log("1")
     example.merit("1: smallest density of the box at rest, less 1", rest["c_rho"][-1] - 1, -1e-12, 1e-12)

@@ -14,7 +14,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames      # noqa: E402
+from run_lammps import Example, frames, pyplot, save      # noqa: E402
 from swirl import Swirl                     # noqa: E402
 
 R1, SUPPORT = 0.5, 4                            # as in the input; R2 = 1, Omega0 = 1
@@ -77,11 +77,7 @@ class Run:
 
 
 def plot(path, runs, n):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2, "legend.fontsize": 8})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.2)
     figure, axes = plt.subplots(1, 3, figsize=(11.5, 4.0), gridspec_kw={"width_ratios": [1, 1, 1.05]})
     for axis, (ratio, etas) in zip(axes, RATIOS.items()):
         for shear, (stress, marker, color) in SHEARS.items():
@@ -112,9 +108,7 @@ def plot(path, runs, n):
             axis.text(run.t[-1], run.omega + (0.05 if shear == "morris" else -0.1 if ratio == "0.2" else 0.04),
                       f"$\\eta_2/\\eta_1 = {ratio}$", ha="right", color=color, fontsize=8)
     axis.set(xlim=(0, run.t[-1]), ylim=(0, 1.65), xlabel="$t\\,\\Omega_0$", title="inner fluid, $\\Omega_\\mathrm{in}(t)/\\Omega_0$")
-    figure.tight_layout()
-    figure.savefig(path, dpi=95)
-    plt.close(figure)
+    save(figure, path, dpi=95, tight=True)
 
 
 def main():

@@ -18,7 +18,7 @@ from scipy.optimize import least_squares
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from lattice_sums import Lattice, period  # noqa: E402
-from run_lammps import Example  # noqa: E402
+from run_lammps import Example, pyplot  # noqa: E402
 
 KAPPAS = [0, 0.41, 1.67, 2.7, 10, 100, 1000]      # bulk over shear viscosity
 DAMPING = 0.25                                    # damping ratio of the sound waves: c0 is chosen for that
@@ -355,19 +355,11 @@ def write_tables(out, rows, results):
 
 
 def plot(out, results, rows):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2,
-                         "legend.fontsize": 8, "legend.framealpha": 0.9})
+    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.2, legend_framealpha=0.9)
     paths = []
 
-    def save(figure, name):
-        figure.tight_layout()
-        paths.append(out / name)
-        figure.savefig(paths[-1], dpi=110)
-        plt.close(figure)
+    def keep(figure, name):
+        paths.append(save(figure, out / name, dpi=110, tight=True))
 
     shown = {"2d hex, support 4": ("hexagonal", "o", "C0"), "3d bcc [100], support 4": ("bcc", "s", "C1"),
              "3d fcc [100], support 4": ("fcc", "D", "C2"), "2d random, support 4": ("2d disordered", "^", "C3"),
@@ -418,7 +410,7 @@ def plot(out, results, rows):
         axis.set_xlabel("requested $\\kappa/\\mu$")
         axis.set_xticks([0, 1, 10, 100, 1000], ["0", "1", "10", "100", "1000"])
     axes[0].set_yticks([0, 1, 10, 100, 1000], ["0", "1", "10", "100", "1000"])
-    save(figure, "viscosity.png")
+    keep(figure, "viscosity.png")
 
     # wavelength: points from LAMMPS, lines from the lattice sums
     figure, axes = plt.subplots(1, 3, figsize=(11.5, 3.9))
@@ -447,7 +439,7 @@ def plot(out, results, rows):
     axes[2].set_title("speed of sound / $c_0$")
     axes[2].set_xlabel("$(kh)^2$")
     axes[2].legend(loc="lower left")
-    save(figure, "wavelength.png")
+    keep(figure, "wavelength.png")
 
     # lattices and supports
     figure, axis = plt.subplots(figsize=(8.2, 4.2))
@@ -471,7 +463,7 @@ def plot(out, results, rows):
     axis.set_xticks(range(len(names)), labels)
     axis.grid(axis="x", visible=False)
     axis.set_ylabel("shear viscosity, measured / requested")
-    save(figure, "arrangements.png")
+    keep(figure, "arrangements.png")
     return paths
 
 

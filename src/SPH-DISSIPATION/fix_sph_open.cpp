@@ -23,6 +23,7 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_balance.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_fields.h"
@@ -30,11 +31,8 @@
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_checks.h"
 #include "sph_dissipation_open_condition.h"
-#include "sph_dissipation_open_ledger.h"
 #include "sph_dissipation_open_plane.h"
 #include "sph_dissipation_open_rows.h"
-#include "sph_dissipation_open_samples.h"
-#include "sph_dissipation_open_values.h"
 #include "update.h"
 
 #include <algorithm>
@@ -48,39 +46,38 @@ using namespace SPHDissipation;
 static constexpr double NODES = 3.0;          // of the plane, per radius of what is measured there
 static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
-// in restart files: -format, size, ledger, rows, clock, point and normal of the plane; then the waves;
-// files without a format begin with the size
+// in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves.
+// Files without a format begin with the size.
 
 static constexpr int FORMAT = 1003;
 enum {
   SIZE = 1,
-  LEDGER,
-  ROWS = LEDGER + OpenLedger::NVALUE,
+  BALANCE,
+  ROWS = BALANCE + OpenBalance::NVALUE,
   CLOCK = ROWS + OpenRows::NSTATE,
   PLANE,
   NHEAD = PLANE + 6
 };
 
-// the vector of the fix, after the ledger
+// the vector of the fix, after the balance
 
-enum { COUNT = OpenLedger::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
+enum { COUNT = OpenBalance::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
 /* ---------------------------------------------------------------------- */
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), plane(nullptr), values(nullptr), samples(nullptr), condition(nullptr),
-    rows(nullptr), ledger(nullptr), fluid(nullptr), integrator(nullptr), fields(nullptr),
-    fluidbit(0), radius(0.0), area(0.0), is_new(false), supersonic(false), gap(false),
-    set_up(false), totals_known(false), totals(new double[NVECTOR])
+    Fix(lmp, narg, arg), fluid(nullptr), integrator(nullptr), fields(nullptr), fluidbit(0),
+    radius(0.0), area(0.0), is_new(false), supersonic(false), gap(false), set_up(false),
+    totals_known(false), totals(NVECTOR)
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
-  plane = new OpenPlane(lmp, owner);
-  values = new OpenValues(lmp, owner);
-  samples = new OpenSamples(lmp, *plane);
-  condition = new OpenCondition(lmp, owner, *plane, *values, *samples);
-  rows = new OpenRows(lmp, owner, *plane, groupbit);
-  ledger = new OpenLedger(lmp);
+  plane.reset(new OpenPlane(lmp, owner));
+  values.reset(new OpenValues(lmp, owner));
+  samples.reset(new OpenSamples(lmp, *plane));
+  condition.reset(new OpenCondition(lmp, owner, *plane, *values, *samples));
+  rows.reset(new OpenRows(lmp, owner, *plane, groupbit));
+  balance.reset(new OpenBalance(lmp));
 
   fluid_name = arg[3];
   const int fluid_group = group->find(fluid_name);
@@ -107,7 +104,7 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   vector_flag = 1;
   size_vector = NVECTOR;
   global_freq = 1;
-  extvector = 0;    // an account is not to be scaled by the number of atoms
+  extvector = 0;    // sums are not to be scaled by the number of atoms
 }
 
 /* ---------------------------------------------------------------------- */
@@ -142,13 +139,6 @@ int FixSPHOpen::keyword_argument(int iarg, int narg, char **arg)
 FixSPHOpen::~FixSPHOpen()
 {
   if (auto *fluid = find_fluid(force)) fluid->open->remove(this);
-  delete ledger;
-  delete rows;
-  delete condition;
-  delete samples;
-  delete values;
-  delete plane;
-  delete[] totals;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -212,7 +202,8 @@ void FixSPHOpen::init()
 }
 
 /* ----------------------------------------------------------------------
-   fix adapt may change the speed of sound
+   Set the times of averages and of the memory of waves, at each step: fix adapt may change the speed of
+   sound.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_times()
@@ -228,7 +219,8 @@ void FixSPHOpen::set_times()
 }
 
 /* ----------------------------------------------------------------------
-   a zone with fluid at its sides has pairs with it all along
+   Tell whether a particle at x may have pairs of zone and fluid: near the plane, and, in a zone with a
+   region, which may have fluid at its sides, all along.
 ------------------------------------------------------------------------- */
 
 bool FixSPHOpen::zone_near(const double *x, double reach) const
@@ -238,7 +230,7 @@ bool FixSPHOpen::zone_near(const double *x, double reach) const
 }
 
 /* ----------------------------------------------------------------------
-   a run that continues another one, or a restart file, goes on with the velocities that are there
+   Set the velocities of the zone, unless the run continues another one, or a restart file.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup_pre_exchange()
@@ -258,7 +250,8 @@ void FixSPHOpen::setup_pre_exchange()
 }
 
 /* ----------------------------------------------------------------------
-   particles stay what they are in number and order from one neighbor list to the next
+   Find the particles of the zone and the fluid near it: number and order of the particles stay the same
+   from one neighbor list to the next, ...
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup_pre_force(int /*vflag*/)
@@ -297,14 +290,14 @@ bool FixSPHOpen::has_lost_members() const
 }
 
 /* ----------------------------------------------------------------------
-   the first half of the step has the forces of its start; particles of the zone are where the
-   velocity of then brings them
+   Count the forces at the start of the step for its first half, and move the particles of the zone with
+   the velocity that they had then.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::initial_integrate(int /*vflag*/)
 {
   check_set_up(lmp, this, set_up);
-  ledger->advance(0.5 * update->dt);
+  balance->advance(0.5 * update->dt);
   condition->clock += update->dt;
   totals_known = false;
   for (const int i : members)
@@ -313,8 +306,9 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   ... and then where the mean velocity of the step brings them.  Along the plane they move with the
-   velocity given, if there is one: with their own, those that leave would gather, or enter walls.
+   Correct the move to that of the mean velocity of the step, and let particles enter and leave.  Along
+   the plane they move with the given velocity, if there is one: with their own, those that leave would
+   gather, or enter walls.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::post_integrate()
@@ -349,7 +343,7 @@ void FixSPHOpen::post_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   the second half of the step is that of the fluid, with the forces at its end
+   Make a particle of the zone one of the fluid, whose integrator does the second half of the step.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::enter(int i, const double *v)
@@ -357,23 +351,24 @@ void FixSPHOpen::enter(int i, const double *v)
   atom->mask[i] = (atom->mask[i] & ~groupbit) | fluidbit;
   std::copy_n(v, 3, atom->v[i]);
   integrator->arrive(i);
-  ledger->carry(OpenLedger::IN, i, v, atom->esph[i], *fields);
+  balance->carry(OpenBalance::IN, i, v, atom->esph[i], *fields);
 }
 
 /* ----------------------------------------------------------------------
-   the first half was that of the fluid, which has extrapolated the internal energy to the end
+   Make a particle of the fluid one of the zone.  The integrator has extrapolated its internal energy to
+   the end of the step: the second half is taken back.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::leave(int i)
 {
   atom->mask[i] = (atom->mask[i] & ~fluidbit) | groupbit;
   atom->esph[i] -= 0.5 * update->dt * fields->desph_before[i];
-  ledger->carry(OpenLedger::OUT, i, atom->v[i], atom->esph[i], *fields);
+  balance->carry(OpenBalance::OUT, i, atom->v[i], atom->esph[i], *fields);
   integrator->depart(i);
 }
 
 /* ----------------------------------------------------------------------
-   of a particle of the zone that no step has brought where it is
+   Set the velocity of a particle of the zone that no step has brought where it is.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_velocity(int i)
@@ -385,7 +380,7 @@ void FixSPHOpen::set_velocity(int i)
 }
 
 /* ----------------------------------------------------------------------
-   what enters brings its spin and its internal energy
+   Set spin and internal energy of a particle of the zone to the given ones, if it moves into the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_spin(int i)
@@ -416,7 +411,7 @@ void FixSPHOpen::pre_exchange()
 
 void FixSPHOpen::final_integrate()
 {
-  ledger->advance(0.5 * update->dt);
+  balance->advance(0.5 * update->dt);
   totals_known = false;
 }
 
@@ -424,7 +419,7 @@ void FixSPHOpen::final_integrate()
 
 void FixSPHOpen::set_impact(const OpenImpact &impact)
 {
-  ledger->set_impact(impact);
+  balance->set_impact(impact);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -441,7 +436,7 @@ void FixSPHOpen::set_states(OpenStage &stage)
 }
 
 /* ----------------------------------------------------------------------
-   of particles with a full support behind them
+   Compare the density of the zone with the prescribed one, at particles with a full support.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::check_density() const
@@ -455,8 +450,8 @@ void FixSPHOpen::check_density() const
 }
 
 /* ----------------------------------------------------------------------
-   variables are needed for the zone and for the fluid near its plane, which is in its group for a
-   moment
+   Measure the fluid near the plane.  It is in the group of the zone while variables are evaluated, which
+   both need.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::sample(const OpenStage &stage)
@@ -489,7 +484,8 @@ void FixSPHOpen::sample(const OpenStage &stage)
 }
 
 /* ----------------------------------------------------------------------
-   the bulk term of a particle of the zone is its own: it has a full support where it counts
+   Set density and pressure of a particle of the zone.  Its bulk term is its own: where it counts, the
+   particle has a full support.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_state(OpenStage &stage, int i)
@@ -510,19 +506,19 @@ void FixSPHOpen::set_state(OpenStage &stage, int i)
 }
 
 /* ----------------------------------------------------------------------
-   the ledger, see OpenLedger; number of particles of the zone; mean pressure and velocity of the fluid
-   at the plane
+   Return a value of the balance, see OpenBalance; after these the number of particles of the zone, mean
+   pressure and mean velocity of the fluid at the plane.
 ------------------------------------------------------------------------- */
 
 double FixSPHOpen::compute_vector(int n)
 {
   if (!totals_known) {
-    ledger->total(totals);
+    balance->total(totals.data());
     double count = 0.0;
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) count += 1.0;
-    MPI_Allreduce(&count, totals + COUNT, 1, MPI_DOUBLE, MPI_SUM, world);
-    samples->mean_at_plane(totals + PRESSURE, totals + VELOCITY);
+    MPI_Allreduce(&count, &totals[COUNT], 1, MPI_DOUBLE, MPI_SUM, world);
+    samples->mean_at_plane(&totals[PRESSURE], &totals[VELOCITY]);
     totals_known = true;
   }
   return totals[n];
@@ -533,7 +529,7 @@ double FixSPHOpen::compute_vector(int n)
 void FixSPHOpen::write_restart(FILE *fp)
 {
   std::vector<double> state(NHEAD);
-  ledger->total(&state[LEDGER]);
+  balance->total(&state[BALANCE]);
   rows->pack(&state[ROWS]);
   state[CLOCK] = condition->clock;
   std::copy_n(plane->point, 3, &state[PLANE]);
@@ -559,7 +555,7 @@ void FixSPHOpen::restart(char *buf)
   if (state[0] != -FORMAT)
     error->all(FLERR, "Fix {} {}: the restart file was written by {} version of this fix", style,
                id, (state[0] < -FORMAT) ? "a newer" : "an older");
-  ledger->restart(state + LEDGER);
+  balance->restart(state + BALANCE);
   condition->clock = state[CLOCK];
   if (plane->is_at(state + PLANE)) {
     rows->unpack(state + ROWS);
@@ -569,7 +565,7 @@ void FixSPHOpen::restart(char *buf)
 }
 
 /* ----------------------------------------------------------------------
-   what a zone remembers of rows and waves is of its plane
+   Warn that waves and rows of another plane are of no use.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn_of_other_plane()

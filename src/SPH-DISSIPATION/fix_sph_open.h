@@ -24,6 +24,7 @@ FixStyle(sph/open,FixSPHOpen);
 
 #include "sph_dissipation_open_stage.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,15 +33,16 @@ namespace SPHDissipation {
   class Fields;
   class Fluid;
   class OpenCondition;
-  class OpenLedger;
+  class OpenBalance;
   class OpenPlane;
   class OpenRows;
   class OpenSamples;
   class OpenValues;
 }    // namespace SPHDissipation
 
-// Open zone for the fluids sph/bulk and sph/micropolar: moves its particles, gives them the state that
-// is prescribed or that the fluid has, lets them into the fluid and out of it, keeps account of it.
+// Open boundary of the fluids sph/bulk and sph/micropolar, a buffer zone: moves its particles, gives them
+// the state that is prescribed or that the fluid has, lets them into the fluid and out of it, and sums
+// up what they carry.
 // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
 
 class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
@@ -68,12 +70,12 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void set_impact(const SPHDissipation::OpenImpact &) override;
 
  private:
-  SPHDissipation::OpenPlane *plane;
-  SPHDissipation::OpenValues *values;
-  SPHDissipation::OpenSamples *samples;
-  SPHDissipation::OpenCondition *condition;
-  SPHDissipation::OpenRows *rows;
-  SPHDissipation::OpenLedger *ledger;
+  std::unique_ptr<SPHDissipation::OpenPlane> plane;
+  std::unique_ptr<SPHDissipation::OpenValues> values;
+  std::unique_ptr<SPHDissipation::OpenSamples> samples;
+  std::unique_ptr<SPHDissipation::OpenCondition> condition;
+  std::unique_ptr<SPHDissipation::OpenRows> rows;
+  std::unique_ptr<SPHDissipation::OpenBalance> balance;
   SPHDissipation::Fluid *fluid;
   class FixSPHBulk *integrator;    // of the fluid
   SPHDissipation::Fields *fields;
@@ -86,7 +88,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   bool supersonic, gap;        // has been warned of
   bool set_up;                 // since it was defined
   bool totals_known;
-  double *totals;
+  std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
 
   int keyword_argument(int, int, char **);

@@ -26,13 +26,12 @@
 #include "neighbor.h"
 #include "npair.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_balance.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_refine_event.h"
-#include "sph_dissipation_refine_ledger.h"
-#include "sph_dissipation_refine_target.h"
 #include "update.h"
 
 #include <algorithm>
@@ -44,36 +43,38 @@ using namespace FixConst;
 using namespace SPHDissipation;
 
 static constexpr double SPLIT = 1.6, MERGE = 0.6;    // defaults: volume over target
+static constexpr double WIDEST = 1.0 / 1.5;          // target spacing over the support radius
 static constexpr double NEVER = -INFINITY;           // step of the last event
 
-// of each particle: step of its last event; if that was a split, which its daughters can undo as a
-// whole, the lowest of their new IDs, else 0
+// what each particle has of its last event: the step; and, if that was a split that its daughters can
+// undo as a whole, the lowest of their new IDs, else 0
 
 enum { STEP, FAMILY, NPAST };
 
-// in restart files: -format, ledger, highest ID that was ever given; files without a format begin with
-// the number of splits; this number also stands for what is written of each particle
+// in restart files: -format, balance, highest ID that was ever given.  The format is also that of what
+// is written of each particle.  Files without one begin with the number of splits.
 
 static constexpr int FORMAT = 1003;
-enum { LEDGER = 1, HIGHEST = LEDGER + RefineLedger::NVALUE, NSTATE };
+enum { BALANCE = 1, HIGHEST = BALANCE + RefineBalance::NVALUE, NSTATE };
 
 /* ---------------------------------------------------------------------- */
 
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), target(nullptr), ledger(nullptr), event(nullptr), fluid(nullptr),
-    list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr),
-    not_fluid(0), last_step(-1), event_step(-1), postponed(false), totals_known(false),
-    set_up(false), totals(new double[RefineLedger::NVALUE])
+    Fix(lmp, narg, arg), by_spacing(false), largest_volume(0.0), fluid(nullptr), list(nullptr),
+    split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr), not_fluid(0),
+    last_step(-1), event_step(-1), postponed(false), totals_known(false), set_up(false),
+    totals(RefineBalance::NVALUE)
 {
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
   if (nevery <= 0) error->all(FLERR, "Fix {} N must be > 0, not {}", style, arg[3]);
   if (strcmp(arg[4], "volume") != 0 && strcmp(arg[4], "spacing") != 0)
     error->all(FLERR, "Fix {}: the target must be volume or spacing, not {}", style, arg[4]);
-  target = new RefineTarget(lmp, fmt::format("Fix {}", style));
-  ledger = new RefineLedger(lmp);
-  event = new RefineEvent(lmp, this, *ledger);
-  target->set(strcmp(arg[4], "spacing") == 0, arg[5]);
+  balance.reset(new RefineBalance(lmp));
+  event.reset(new RefineEvent(lmp, this, *balance));
+  by_spacing = (strcmp(arg[4], "spacing") == 0);
+  target_word = arg[5];
+  target.set(lmp, target_word);
   for (int iarg = 6; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
   if (split_above < 2.0 * merge_below)
     error->all(FLERR,
@@ -88,7 +89,7 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
   restart_peratom = 1;
   create_attribute = 1;
   vector_flag = 1;
-  size_vector = RefineLedger::NVALUE;
+  size_vector = RefineBalance::NVALUE;
   global_freq = 1;
   extvector = 0;
   comm_forward = RefineItems::SIZE;
@@ -157,10 +158,6 @@ FixSPHRefine::~FixSPHRefine()
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(past);
-  delete event;
-  delete ledger;
-  delete target;
-  delete[] totals;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -197,14 +194,63 @@ void FixSPHRefine::init()
   check_overlap();
 
   const double support = fluid->support_radius();
-  target->init(support, domain->dimension);
+  largest_volume = pow(WIDEST * support, domain->dimension);
+  if (!target.init(lmp, fmt::format("Fix {}", style), true))
+    error->all(FLERR, "Variable {} for Fix {} is neither of equal style nor of atom style",
+               target.name(), style);
+  if (!target.varies()) check_target(target.now(), 0);
   event->init(support, merge_below);
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
   set_up = true;
 }
 
 /* ----------------------------------------------------------------------
-   steps from one event of a particle to the next one, with the time step as it is now
+   Return the volume that a value of the target stands for.
+------------------------------------------------------------------------- */
+
+double FixSPHRefine::target_volume(double value) const
+{
+  return by_spacing ? pow(value, domain->dimension) : value;
+}
+
+/* ----------------------------------------------------------------------
+   Refuse a value that cannot be a target: that of the particle with this ID, or, 0, of all.
+------------------------------------------------------------------------- */
+
+void FixSPHRefine::check_target(double value, tagint tag) const
+{
+  const double volume = target_volume(value);
+  if (value > 0.0 && volume <= largest_volume) return;
+  const std::string where = tag ? fmt::format(" for particle {}", tag) : "";
+  if (!std::isfinite(value) || !(value > 0.0)) {
+    const std::string message =
+        fmt::format("Fix {}: the target {} is {}{}, must be > 0", style, target_word, value, where);
+    if (tag) error->one(FLERR, message);
+    error->all(FLERR, message);
+  }
+  const std::string message =
+      fmt::format("Fix {}: the target {}{} is a volume of {:g}, larger than {:g}: particles would "
+                  "have hardly any neighbors within the support radius",
+                  style, target_word, where, volume, largest_volume);
+  if (tag) error->one(FLERR, message);
+  error->all(FLERR, message);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHRefine::evaluate_target()
+{
+  if (!target.varies()) return;
+  modify->clearstep_compute();
+  target.evaluate(lmp, igroup);
+  if (!target.is_by_atom()) check_target(target.now(), 0);
+  for (int i = 0; i < atom->nlocal && target.is_by_atom(); i++)
+    if (atom->mask[i] & groupbit) check_target(target(i), atom->tag[i]);
+  modify->addstep_compute(update->ntimestep + 1);
+}
+
+/* ----------------------------------------------------------------------
+   Set the number of steps from one event of a particle to the next, with the time step of now.
 ------------------------------------------------------------------------- */
 
 void FixSPHRefine::find_waiting()
@@ -219,7 +265,7 @@ void FixSPHRefine::find_waiting()
 }
 
 /* ----------------------------------------------------------------------
-   what one fix splits, the other one would merge
+   Refuse two fixes for one particle: what one splits, the other would merge.
 ------------------------------------------------------------------------- */
 
 void FixSPHRefine::check_overlap()
@@ -251,7 +297,8 @@ bool FixSPHRefine::is_fluid(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   a last event in the future is of a time before the steps were counted anew, and this fix was defined
+   Tell whether the last event of a particle is long enough ago.  It seems to be in the future after
+   reset_timestep, if this fix was not there then to count anew: such an event does not count.
 ------------------------------------------------------------------------- */
 
 bool FixSPHRefine::may_change(int i) const
@@ -261,7 +308,7 @@ bool FixSPHRefine::may_change(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   the last events are as many steps ago as before, also after reset_timestep
+   Shift the steps of the last events after reset_timestep, so that they are as long ago as before.
 ------------------------------------------------------------------------- */
 
 void FixSPHRefine::count_anew(bigint step)
@@ -275,8 +322,8 @@ void FixSPHRefine::count_anew(bigint step)
 }
 
 /* ----------------------------------------------------------------------
-   after the particles have moved, before it is decided whether neighbor lists are built anew: lists
-   and ghosts of the last step still fit the particles
+   Split and merge, after the particles have moved and before LAMMPS decides on new neighbor lists:
+   lists and ghosts of the last step still fit the particles.
 ------------------------------------------------------------------------- */
 
 void FixSPHRefine::post_integrate()
@@ -293,7 +340,7 @@ void FixSPHRefine::post_integrate()
     if (dynamic_cast<FixSPHRefine *>(other)->event_step == update->ntimestep) postponed = true;
   if (postponed) return;
 
-  target->evaluate(igroup);
+  evaluate_target();
   not_fluid = fluid->not_fluid();
   find_waiting();
   bigint nfluid;
@@ -307,7 +354,7 @@ void FixSPHRefine::post_integrate()
   if (!event->plan(list, std::max(most, static_cast<bigint>(1)))) return;
 
   totals_known = false;
-  ledger->add(RefineLedger::ELASTIC, -fluid->elastic_energy(Fluid::NOW));
+  balance->add(RefineBalance::ELASTIC, -fluid->elastic_energy(Fluid::NOW));
   event->carry_out(list, [this](int i, double family) {
     past[i][STEP] = static_cast<double>(update->ntimestep);
     past[i][FAMILY] = family;
@@ -316,7 +363,7 @@ void FixSPHRefine::post_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   within which neighbors are in the lists
+   Return the volume within which neighbors are in the lists.
 ------------------------------------------------------------------------- */
 
 double FixSPHRefine::list_volume() const
@@ -327,7 +374,7 @@ double FixSPHRefine::list_volume() const
 }
 
 /* ----------------------------------------------------------------------
-   whether any particle is to split or to merge
+   Tell whether any particle is to split or to merge, and count those of the fluid.
 ------------------------------------------------------------------------- */
 
 bool FixSPHRefine::wanted(bigint &nfluid)
@@ -338,10 +385,10 @@ bool FixSPHRefine::wanted(bigint &nfluid)
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !is_fluid(i)) continue;
     sum[FLUID] += 1.0;
-    const double ratio = atom->vfrac[i] / target->volume(i);
+    const double ratio = atom->vfrac[i] / target_volume(target(i));
     if (ratio > split_above) {
       sum[DAUGHTERS] += ratio;
-      if (target->volume(i) < smallest) sum[CROWDED] += 1.0;
+      if (target_volume(target(i)) < smallest) sum[CROWDED] += 1.0;
     }
     if ((ratio > split_above || ratio < merge_below) && may_change(i)) sum[EVENTS] += 1.0;
   }
@@ -372,7 +419,7 @@ void FixSPHRefine::set_items()
     RefineState state = is_fluid(i) ? KEEPS : APART;
     double goal = 0.0;
     if (state == KEEPS && (atom->mask[i] & groupbit)) {
-      goal = target->volume(i);
+      goal = target_volume(target(i));
       const double ratio = atom->vfrac[i] / goal;
       if (may_change(i)) {
         if (ratio > split_above) state = SPLITS;
@@ -388,7 +435,7 @@ void FixSPHRefine::set_items()
 void FixSPHRefine::post_force(int /*vflag*/)
 {
   if (event_step != update->ntimestep) return;
-  ledger->add(RefineLedger::ELASTIC, fluid->elastic_energy(Fluid::LAST_FORCES));
+  balance->add(RefineBalance::ELASTIC, fluid->elastic_energy(Fluid::LAST_FORCES));
   totals_known = false;
 }
 
@@ -397,7 +444,7 @@ void FixSPHRefine::post_force(int /*vflag*/)
 double FixSPHRefine::compute_vector(int n)
 {
   if (!totals_known) {
-    ledger->total(totals);
+    balance->total(totals.data());
     totals_known = true;
   }
   return totals[n];
@@ -477,7 +524,7 @@ void FixSPHRefine::write_restart(FILE *fp)
   count_anew(update->ntimestep);    // before the particles are written
   double state[NSTATE];
   state[0] = -FORMAT;
-  ledger->total(state + LEDGER);
+  balance->total(state + BALANCE);
   state[HIGHEST] = static_cast<double>(event->highest);
   if (comm->me != 0) return;
   const int size = sizeof(state);
@@ -491,7 +538,7 @@ void FixSPHRefine::restart(char *buf)
   if (state[0] != -FORMAT)
     error->all(FLERR, "Fix {} {}: the restart file was written by {} version of this fix", style,
                id, (state[0] < -FORMAT) ? "a newer" : "an older");
-  ledger->restart(state + LEDGER);
+  balance->restart(state + BALANCE);
   event->highest = static_cast<tagint>(state[HIGHEST]);
 }
 

@@ -22,16 +22,21 @@ FixStyle(sph/refine,FixSPHRefine);
 
 #include "fix.h"
 
+#include "sph_dissipation_value.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Fluid;
   class RefineEvent;
-  class RefineLedger;
-  class RefineTarget;
+  class RefineBalance;
 }    // namespace SPHDissipation
 
-// Splits particles of the fluids sph/bulk and sph/micropolar that are larger than a target and merges
-// those that are smaller, and keeps account of what that changes.
+// Splits particles of the fluids sph/bulk and sph/micropolar that are larger than a target, merges those
+// that are smaller, and sums up what that changes.
 
 class FixSPHRefine : public Fix {
  public:
@@ -59,9 +64,12 @@ class FixSPHRefine : public Fix {
   double memory_usage() override;
 
  private:
-  SPHDissipation::RefineTarget *target;
-  SPHDissipation::RefineLedger *ledger;
-  SPHDissipation::RefineEvent *event;
+  bool by_spacing;            // the target is a spacing, else a volume
+  std::string target_word;    // as it was given
+  SPHDissipation::Value target;
+  double largest_volume;    // target that leaves enough neighbors
+  std::unique_ptr<SPHDissipation::RefineBalance> balance;
+  std::unique_ptr<SPHDissipation::RefineEvent> event;
   SPHDissipation::Fluid *fluid;
   class NeighList *list;
   double split_above, merge_below;    // volume over target
@@ -75,11 +83,14 @@ class FixSPHRefine : public Fix {
   bool postponed;                     // the last check
   bool totals_known;
   bool set_up;    // since it was defined
-  double *totals;
+  std::vector<double> totals;
 
   int keyword_argument(int, int, char **);
   void check_setup();
   void check_overlap();
+  double target_volume(double value) const;
+  void check_target(double value, tagint tag) const;
+  void evaluate_target();
   void find_waiting();
   bool is_fluid(int i) const;
   bool may_change(int i) const;

@@ -18,13 +18,10 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
-#include "input.h"
-#include "memory.h"
 #include "modify.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fields.h"
 #include "update.h"
-#include "variable.h"
 
 #include <cstring>
 
@@ -35,9 +32,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), name{nullptr, nullptr, nullptr}, variable{-1, -1, -1},
-    per_atom{false, false, false}, value{0.0, 0.0, 0.0}, nmax(0),
-    field(nullptr), total{0.0, 0.0, 0.0}, power(0.0), work(0.0), receiving_groups(0),
+    Fix(lmp, narg, arg), total{0.0, 0.0, 0.0}, power(0.0), work(0.0), receiving_groups(0),
     not_receiving(0), set_up(false)
 {
   if (!Fields::with_spins(atom))
@@ -45,26 +40,13 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   if (narg > 6) error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[6]);
 
-  for (int d = 0; d < 3; d++) {
-    if (utils::strmatch(arg[3 + d], "^v_"))
-      name[d] = utils::strdup(arg[3 + d] + 2);
-    else
-      value[d] = utils::numeric(FLERR, arg[3 + d], false, lmp);
-  }
+  for (int d = 0; d < 3; d++) value[d].set(lmp, arg[3 + d]);
 
   restart_global = 1;
   scalar_flag = vector_flag = 1;
   size_vector = 3;
   global_freq = 1;
   extscalar = extvector = 1;
-}
-
-/* ---------------------------------------------------------------------- */
-
-FixSPHTorque::~FixSPHTorque()
-{
-  for (auto &one : name) delete[] one;
-  memory->destroy(field);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -78,16 +60,11 @@ int FixSPHTorque::setmask()
 
 void FixSPHTorque::init()
 {
-  if (domain->dimension == 2 && (name[0] || name[1] || value[0] != 0.0 || value[1] != 0.0))
+  if (domain->dimension == 2 && !(value[0].is_zero() && value[1].is_zero()))
     error->all(FLERR, "Fix {}: torque must be along z in 2d", style);
-  for (int d = 0; d < 3; d++) {
-    if (!name[d]) continue;
-    variable[d] = input->variable->find(name[d]);
-    if (variable[d] < 0) error->all(FLERR, "Variable {} for fix {} does not exist", name[d], style);
-    per_atom[d] = input->variable->atomstyle(variable[d]);
-    if (!per_atom[d] && !input->variable->equalstyle(variable[d]))
-      error->all(FLERR, "Variable {} for fix {} is of invalid style", name[d], style);
-  }
+  for (auto &one : value)
+    if (!one.init(lmp, fmt::format("fix {}", style), true))
+      error->all(FLERR, "Variable {} for fix {} is of invalid style", one.name(), style);
 
   receiving_groups = 0;
   for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar"))
@@ -106,8 +83,8 @@ void FixSPHTorque::setup(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   only spins that are integrated, of particles with inertia, follow a torque
-   the integrators set the inertia in their setup(), which may come after this one
+   Refuse a group without, and warn of particles without, a spin that follows a torque: one that is
+   integrated, with an inertia.  The integrators set the inertia in their setup(), which may come later.
 ------------------------------------------------------------------------- */
 
 void FixSPHTorque::check_receivers()
@@ -137,31 +114,16 @@ void FixSPHTorque::check_receivers()
 }
 
 /* ----------------------------------------------------------------------
-   the work of a step is that of the mean power at its ends; spins are those
-   extrapolated to the end of the step, where the torque acts
+   Add the torque to the particles.  It acts at the end of the step, hence its power is that with the
+   spins extrapolated there, and the work of a step that of the mean power at both ends.
 ------------------------------------------------------------------------- */
 
 void FixSPHTorque::post_force(int /*vflag*/)
 {
   check_set_up(lmp, this, set_up);
-  bool any_per_atom = false, any_variable = false;
-  for (int d = 0; d < 3; d++) {
-    any_per_atom = any_per_atom || per_atom[d];
-    any_variable = any_variable || name[d];
-  }
-  if (any_per_atom && atom->nmax > nmax) {
-    nmax = atom->nmax;
-    memory->destroy(field);
-    memory->create(field, nmax, 3, "sph/torque:field");
-  }
+  const bool any_variable = value[0].varies() || value[1].varies() || value[2].varies();
   if (any_variable) modify->clearstep_compute();
-  for (int d = 0; d < 3; d++) {
-    if (!name[d]) continue;
-    if (per_atom[d])
-      input->variable->compute_atom(variable[d], igroup, &field[0][d], 3, 0);
-    else
-      value[d] = input->variable->compute_equal(variable[d]);
-  }
+  for (auto &one : value) one.evaluate(lmp, igroup);
   if (any_variable) modify->addstep_compute(update->ntimestep + 1);
 
   const Fields &fields = *Fields::of(atom);
@@ -172,7 +134,7 @@ void FixSPHTorque::post_force(int /*vflag*/)
     if (!(mask[i] & groupbit) || !(mask[i] & receiving_groups) || !(fields.inertia[i] > 0.0))
       continue;
     for (int d = 0; d < 3; d++) {
-      const double torque = per_atom[d] ? field[i][d] : value[d];
+      const double torque = value[d](i);
       atom->torque[i][d] += torque;
       total[d] += torque;
       power += torque * fields.omegaest[i][d];
@@ -182,7 +144,7 @@ void FixSPHTorque::post_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   work of the torque since the fix was defined
+   Return the work of the torque since the fix was defined.
 ------------------------------------------------------------------------- */
 
 double FixSPHTorque::compute_scalar()
@@ -193,7 +155,7 @@ double FixSPHTorque::compute_scalar()
 }
 
 /* ----------------------------------------------------------------------
-   torque that the particles of the group have got in the last step
+   Return the torque on the particles of the group in the last step.
 ------------------------------------------------------------------------- */
 
 double FixSPHTorque::compute_vector(int d)
@@ -225,5 +187,5 @@ void FixSPHTorque::restart(char *buf)
 
 double FixSPHTorque::memory_usage()
 {
-  return 3.0 * nmax * sizeof(double);
+  return value[0].memory_usage() + value[1].memory_usage() + value[2].memory_usage();
 }

@@ -22,6 +22,8 @@ FixStyle(sph/torque,FixSPHTorque);
 
 #include "fix.h"
 
+#include "sph_dissipation_value.h"
+
 namespace LAMMPS_NS {
 
 // Torque on every particle of a group from numbers or variables, and its work: the body torque m G
@@ -30,7 +32,6 @@ namespace LAMMPS_NS {
 class FixSPHTorque : public Fix {
  public:
   FixSPHTorque(class LAMMPS *, int, char **);
-  ~FixSPHTorque() override;
   int setmask() override;
   void init() override;
   void setup(int) override;
@@ -42,12 +43,7 @@ class FixSPHTorque : public Fix {
   double memory_usage() override;
 
  private:
-  char *name[3];       // of the variable, nullptr for a number
-  int variable[3];     // its index
-  bool per_atom[3];    // atom-style variable
-  double value[3];     // number, or value of an equal-style variable
-  int nmax;
-  double **field;     // values of atom-style variables
+  SPHDissipation::Value value[3];
   double total[3];    // torque on all particles in the last step, of this rank
   double power;       // of the last step, of this rank
   double work;        // since the fix was defined, of this rank

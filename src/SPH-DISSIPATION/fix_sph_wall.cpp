@@ -178,7 +178,7 @@ void FixSPHWall::init()
 void FixSPHWall::setup_pre_exchange()
 {
   if (update->whichflag == 2)
-    motion->rest();
+    motion->stop();
   else
     motion->start();
   int changed = set_velocity(), any;

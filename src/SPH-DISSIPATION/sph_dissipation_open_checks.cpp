@@ -41,7 +41,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// particles of the zone that another fix moves, too
+// Refuse another fix that moves particles of the zone.
 
 static void check_moved_once(LAMMPS *lmp, const Fix *fix, const char *fluid_name)
 {
@@ -104,7 +104,7 @@ void SPHDissipation::check_open_groups(LAMMPS *lmp, const Fix *fix, const Fluid 
 }
 
 /* ----------------------------------------------------------------------
-   what enters is in the group of the fluid and in no other one that it was not in before
+   Return the integrator of the group of the fluid: what enters is in no other group that could have one.
 ------------------------------------------------------------------------- */
 
 FixSPHBulk *SPHDissipation::find_open_integrator(LAMMPS *lmp, const Fix *fix, int fluid_group)
@@ -156,7 +156,8 @@ void SPHDissipation::check_open_places(LAMMPS *lmp, const Fix *fix, const OpenPl
 }
 
 /* ----------------------------------------------------------------------
-   a region that is not as wide or as long as the zone loses rows, or the fluid that is measured
+   Refuse a region that is not as wide or as long as the zone: it would lose rows, or the fluid that is
+   measured.
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_open_region(LAMMPS *lmp, const Fix *fix, const OpenPlane &plane,
@@ -195,7 +196,8 @@ void SPHDissipation::check_open_region(LAMMPS *lmp, const Fix *fix, const OpenPl
 }
 
 /* ----------------------------------------------------------------------
-   what enters has the group of the fluid instead of that of the zone
+   Refuse neighbor lists without pairs of the zone, also of its particles once they have entered, with
+   the group of the fluid instead of that of the zone.
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_open_lists(LAMMPS *lmp, const Fix *fix, int fluid_bit)
@@ -220,7 +222,7 @@ void SPHDissipation::check_open_lists(LAMMPS *lmp, const Fix *fix, int fluid_bit
 }
 
 /* ----------------------------------------------------------------------
-   styles of hybrid/overlay, apart from one without forces
+   Warn of other styles of hybrid/overlay, apart from one without forces.
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_open_styles(LAMMPS *lmp, const Fix *fix, const Fluid *fluid,
@@ -274,7 +276,7 @@ void SPHDissipation::check_open_masses(LAMMPS *lmp, const Fix *fix, int fluid_bi
   }
   MPI_Allreduce(sum.data(), zone.data(), 2 * n, MPI_DOUBLE, MPI_SUM, lmp->world);
 
-  // of the particle of the fluid that is most like those of the zone
+  // compare with the particle of the fluid that is most like those of the zone
 
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
@@ -292,7 +294,8 @@ void SPHDissipation::check_open_masses(LAMMPS *lmp, const Fix *fix, int fluid_bi
 }
 
 /* ----------------------------------------------------------------------
-   a jet is thin at its sides, not at its center
+   Warn of masses that make another density than the prescribed one: for one particle it may be lower at
+   the side of a jet, hence the largest and the mean.
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_open_density(LAMMPS *lmp, const Fix *fix,
@@ -317,58 +320,52 @@ void SPHDissipation::check_open_density(LAMMPS *lmp, const Fix *fix,
 }
 
 /* ----------------------------------------------------------------------
-   Heights at which there is fluid in front of a node of the plane: one bit for each of so many parts of
-   the depth.  Four bits for what enters on each side of the node: at the side of a jet, which may
-   contract, and at a wall there is none.  A gas may be as thin as it wants.
+   Mark for each node of the plane, one bit each, the parts of the depth in which there is fluid, and the
+   sides of the node on which particles enter.  Nodes with particles on all sides count: at the side of
+   a jet, which may contract, and at a wall there is no fluid.  A gas may be as thin as it wants.
 ------------------------------------------------------------------------- */
 
 bool SPHDissipation::warn_of_gap(LAMMPS *lmp, const Fix *fix, const OpenPlane &plane,
                                  const Fluid *fluid, int fluid_bit, double radius, double spacing)
 {
+  using Bits = long long;
   constexpr int PARTS = 58;
   constexpr double GAP = 2.0;    // sizes of a particle; layers of lattices are one apart
   if (fluid->model->choice.eos == Eos::IDEAL) return false;
   const Atom *const atom = lmp->atom;
-  const int sides = 2 * (lmp->domain->dimension - 1);
-  const double depth = 2.0 * fluid->support_radius();
-  const double part = depth / PARTS;
-  const bigint one = 1;
-  const bigint enters = ((one << sides) - 1) << PARTS;
-  std::vector<bigint> mine(plane.nnodes(), 0), all(plane.nnodes());
+  const int nodes = plane.nnodes(), sides = 2 * (lmp->domain->dimension - 1);
+  const double depth = 2.0 * fluid->support_radius(), part = depth / PARTS;
+  std::vector<Bits> mine(2 * nodes, 0), all(2 * nodes);    // parts, then sides, of the nodes
   double size = 0.0, largest;
   for (int i = 0; i < atom->nlocal; i++) {
     const double *const x = atom->x[i];
     const double height = plane.height(x);
     if (height < -spacing || height >= depth) continue;
-    if (atom->mask[i] & fix->groupbit) {
-      if (!(MathExtra::dot3(atom->v[i], plane.normal) > 0.0)) continue;
-      plane.near(x, radius, [&](int node, const double *l) {
-        for (int k = 0; k < sides; k++)
-          if ((k % 2 ? -l[k / 2] : l[k / 2]) > 0.5 * radius) mine[node] |= one << (PARTS + k);
-      });
-    } else if ((atom->mask[i] & fluid_bit) && height >= 0.0 && !plane.beside(x))
-      plane.near(x, radius, [&](int node, const double *) {
-        mine[node] |= one << static_cast<int>(height / part);
-      });
-    else
+    const bool in_zone = atom->mask[i] & fix->groupbit;
+    if (in_zone ? !(MathExtra::dot3(atom->v[i], plane.normal) > 0.0)
+                : (!(atom->mask[i] & fluid_bit) || height < 0.0 || plane.beside(x)))
       continue;
+    plane.near(x, radius, [&](int node, const double *l) {
+      if (!in_zone) mine[node] |= Bits(1) << static_cast<int>(height / part);
+      for (int k = 0; k < sides && in_zone; k++)
+        if ((k % 2 ? -l[k / 2] : l[k / 2]) > 0.5 * radius) mine[nodes + node] |= Bits(1) << k;
+    });
     size = std::max(size, atom->rmass[i] / fluid->model->coeffs[atom->type[i]].eos.rho0);
   }
-  MPI_Allreduce(mine.data(), all.data(), plane.nnodes(), MPI_LMP_BIGINT, MPI_BOR, lmp->world);
+  MPI_Allreduce(mine.data(), all.data(), 2 * nodes, MPI_LONG_LONG, MPI_BOR, lmp->world);
   MPI_Allreduce(&size, &largest, 1, MPI_DOUBLE, MPI_MAX, lmp->world);
-  const double least = GAP * std::max(spacing, pow(largest, 1.0 / fluid->dimension()));
 
   double widest = 0.0;
-  for (const bigint bits : all) {
-    if ((bits & enters) != enters) continue;
-    int last = 0;    // the first part behind the fluid so far
-    for (int k = 0; k < PARTS; k++) {
-      if (!(bits & (one << k))) continue;
-      widest = std::max(widest, (k - last) * part);
-      last = k + 1;
-    }
+  for (int node = 0; node < nodes; node++) {
+    if (all[nodes + node] != (Bits(1) << sides) - 1) continue;
+    int end = 0;    // of the fluid so far
+    for (int k = 0; k < PARTS; k++)
+      if (all[node] >> k & 1) {
+        widest = std::max(widest, (k - end) * part);
+        end = k + 1;
+      }
   }
-  if (widest < least) return false;
+  if (widest < GAP * std::max(spacing, pow(largest, 1.0 / fluid->dimension()))) return false;
   if (lmp->comm->me == 0)
     lmp->error->warning(
         FLERR,

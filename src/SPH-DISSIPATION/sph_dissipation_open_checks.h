@@ -27,8 +27,8 @@ namespace SPHDissipation {
   class Fluid;
   class OpenPlane;
 
-  // What an open zone and the fluid in front of it must be like.  Called by all ranks; errors name the
-  // style of the fix.
+  // Checks of a buffer zone and the fluid in front of it.  Called by all ranks; errors name the style of
+  // the fix.
 
   // the groups are static, no particle is in both, those of the zone are of the fluid and moved by no
   // other fix
@@ -52,7 +52,7 @@ namespace SPHDissipation {
 
   void check_open_lists(LAMMPS *, const Fix *, int fluid_bit);
 
-  // a warning if other pair styles, whose forces no ledger has, act between zone and fluid
+  // a warning if other pair styles, whose forces are not in the balance, act between zone and fluid
 
   void check_open_styles(LAMMPS *, const Fix *, const Fluid *, int fluid_bit);
 
@@ -66,9 +66,9 @@ namespace SPHDissipation {
 
   void check_open_density(LAMMPS *, const Fix *, const std::vector<double> &ratios);
 
-  // A warning if there is a gap between what enters and the fluid in front of it, up to two support
-  // radii from the plane, as wide as particles of this size never leave it; radius: of fluid that is
-  // next to a place on the plane.  True if there is one.
+  // Warn of a gap between what enters and the fluid in front of it, wider than two particles, up to two
+  // support radii from the plane; spacing = of the zone, radius = of the fluid that a node of the plane
+  // sees.  True if there is one.
 
   bool warn_of_gap(LAMMPS *, const Fix *, const OpenPlane &, const Fluid *, int fluid_bit,
                    double radius, double spacing);

@@ -14,18 +14,144 @@
 #include "sph_dissipation_open_condition.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "error.h"
+#include "group.h"
 #include "math_extra.h"
+#include "modify.h"
 #include "sph_dissipation_characteristics.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_open_values.h"
+#include "update.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+OpenValues::OpenValues(LAMMPS *lmp, const std::string &owner) :
+    Pointers(lmp), owner(owner), is_given(), any_variable(false), needs_energy(false)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+int OpenValues::keyword_argument(int iarg, int narg, char **arg)
+{
+  struct Keyword {
+    const char *name;
+    Quantity first;
+    int n;
+    bool or_inside;    // can be taken from inside
+  };
+  static constexpr Keyword KEYWORDS[] = {{"velocity", VX, 3, true},
+                                         {"density", RHO, 1, true},
+                                         {"pressure", P, 1, true},
+                                         {"energy", ENERGY, 1, false},
+                                         {"spin", WX, 3, false}};
+  for (const auto &keyword : KEYWORDS) {
+    if (strcmp(arg[iarg], keyword.name) != 0) continue;
+    auto needs = [&](int n) {
+      if (iarg + n >= narg)
+        utils::missing_cmd_args(FLERR, fmt::format("{} {}", utils::lowercase(owner), keyword.name),
+                                error);
+    };
+    needs(1);
+    for (int k = 0; k < keyword.n; k++) is_given[keyword.first + k] = false;
+    if (keyword.or_inside && strcmp(arg[iarg + 1], "inside") == 0) return 2;
+    needs(keyword.n);
+    for (int k = 0; k < keyword.n; k++) {
+      value[keyword.first + k].set(lmp, arg[iarg + 1 + k]);
+      is_given[keyword.first + k] = true;
+    }
+    return keyword.n + 1;
+  }
+  return 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenValues::check() const
+{
+  if (given(RHO) && given(P))
+    error->all(FLERR, "{}: density and pressure cannot both be given, one follows from the other",
+               owner);
+  if (given(WX) && !atom->omega)
+    error->all(FLERR, "{} spin requires atom style sph/micropolar", owner);
+}
+
+/* ---------------------------------------------------------------------- */
+
+const char *OpenValues::fault(int k, double x) const
+{
+  if (!std::isfinite(x)) return "values must be finite";
+  if (domain->dimension == 2 && x != 0.0) {
+    if (k == VZ) return "velocity must lie in the plane in 2d";
+    if (k == WX || k == WY) return "spin must be along z in 2d";
+  }
+  if (k == ENERGY && needs_energy && !(x > 0.0)) return "energy must be > 0 with eos ideal";
+  return nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenValues::init(bool needs_energy_in)
+{
+  any_variable = false;
+  needs_energy = needs_energy_in;
+  for (int k = 0; k < NQUANTITY; k++) {
+    if (!is_given[k]) continue;
+    Value &one = value[k];
+    if (!one.init(lmp, owner, true))
+      error->all(FLERR, "Variable {} for {} is neither of equal style nor of atom style",
+                 one.name(), owner);
+    any_variable = any_variable || one.varies();
+    const char *const wrong = one.varies() ? nullptr : fault(k, one.now());
+    if (wrong) error->all(FLERR, "{}: {:g} cannot be used: {}", owner, one.now(), wrong);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenValues::evaluate(int igroup)
+{
+  if (!any_variable) return;
+  const int groupbit = group->bitmask[igroup];
+  const int nlocal = atom->nlocal;
+  modify->clearstep_compute();
+  for (int k = 0; k < NQUANTITY; k++) {
+    Value &one = value[k];
+    if (!is_given[k] || !one.varies()) continue;
+    one.evaluate(lmp, igroup);
+    if (!one.is_by_atom()) {
+      if (const char *const wrong = fault(k, one.now()))
+        error->all(FLERR, "{}: variable {} is {} at step {}: {}", owner, one.name(), one.now(),
+                   update->ntimestep, wrong);
+      continue;
+    }
+    for (int i = 0; i < nlocal; i++) {
+      if (!(atom->mask[i] & groupbit)) continue;
+      if (const char *const wrong = fault(k, one(i)))
+        error->one(FLERR, "{}: variable {} is {} for particle {} at step {}: {}", owner, one.name(),
+                   one(i), atom->tag[i], update->ntimestep, wrong);
+    }
+  }
+  modify->addstep_compute(update->ntimestep + 1);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double OpenValues::memory_usage() const
+{
+  double bytes = 0.0;
+  for (const auto &one : value) bytes += one.memory_usage();
+  return bytes;
+}
 
 /* ---------------------------------------------------------------------- */
 
@@ -148,7 +274,8 @@ OpenCondition::Reference OpenCondition::reference(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   the wave at a particle of the zone: that of now, or the one that has come as far by now
+   Return the wave at a particle of the zone.  With condition lagged it is the one that left the fluid so
+   long ago that it is at the particle now.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::wave(const Reference &ref) const
@@ -160,8 +287,8 @@ double OpenCondition::wave(const Reference &ref) const
 }
 
 /* ----------------------------------------------------------------------
-   Of a quantity that is given, where the other one is from inside, only the changes of the wave: so it
-   holds in the mean over time.
+   Return the wave less its mean over time.  Where velocity or state is given and the other one is from
+   inside, only that acts: so the given one holds in the mean over time.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::changes(const Reference &ref, double wave) const
@@ -170,7 +297,8 @@ double OpenCondition::changes(const Reference &ref, double wave) const
 }
 
 /* ----------------------------------------------------------------------
-   along the plane, what leaves keeps its own one
+   Set the velocity of a particle of the zone.  Its component along the plane is the prescribed one where
+   fluid enters; particles that leave keep theirs.
 ------------------------------------------------------------------------- */
 
 void OpenCondition::velocity(int i, double *u) const

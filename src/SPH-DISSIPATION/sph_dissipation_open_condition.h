@@ -16,18 +16,52 @@
 
 #include "pointers.h"
 #include "sph_dissipation_open_plane.h"
-#include "sph_dissipation_open_samples.h"
+#include "sph_dissipation_value.h"
 
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
+
 namespace SPHDissipation {
+
+  // What a buffer zone prescribes: velocity, density or pressure, internal energy, and spin
+
+  class OpenValues : protected Pointers {
+   public:
+    enum Quantity { VX, VY, VZ, RHO, P, ENERGY, WX, WY, WZ, NQUANTITY };
+
+    OpenValues(class LAMMPS *, const std::string &owner);    // owner: for messages
+
+    // Set the quantities of the keyword at arg[iarg]; return its number of words, 0 if it is none of them.
+    int keyword_argument(int iarg, int narg, char **arg);
+    void check() const;
+    void init(bool needs_energy);    // finds the variables; the energies must then be > 0
+
+    bool given(Quantity k) const { return is_given[k]; }
+    bool vary() const { return any_variable; }
+
+    // Evaluate the variables now, for owned particles of the group; others have 0.
+    void evaluate(int igroup);
+
+    double memory_usage() const;    // bytes
+
+    double operator()(Quantity k, int i) const { return value[k](i); }
+
+   private:
+    const std::string owner;
+    Value value[NQUANTITY];
+    bool is_given[NQUANTITY];
+    bool any_variable, needs_energy;
+
+    const char *fault(int k, double) const;    // what a value must not be; nullptr: nothing
+  };
+
   class FluidModel;
-  class OpenValues;
   struct EosParams;
   struct Particle;
 
-  // Boundary condition of an open zone: velocity, pressure, and density of its particles, from what is
+  // Boundary condition of a buffer zone: velocity, pressure, and density of its particles, from what is
   // prescribed and from what the fluid does.
   // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
 
@@ -39,9 +73,9 @@ namespace SPHDissipation {
     double averaging_time;    // 0: by the support radius
     double clock;             // time of the zone, which no command sets back
 
-    // # of words of the keyword at arg[iarg]; 0 if it is none of those of a condition
+    // Set what the keyword at arg[iarg] says; return its number of words, 0 if it is none of a condition.
     int keyword_argument(int iarg, int narg, char **arg);
-    void check();    // what would have no effect, or leaves something open
+    void check();    // refuse keywords without an effect, and too few of them
 
     void init(const FluidModel &fluid_in) { fluid = &fluid_in; }
     bool given_velocity() const;
@@ -71,7 +105,8 @@ namespace SPHDissipation {
     Kind kind;
     int order;    // of values from inside, kind fixed
 
-    // what is prescribed at a particle of zone or fluid, or the average of what the fluid had
+    // The state from which waves are counted at a particle of zone or fluid: what is prescribed, else the
+    // average over time of what the fluid had
 
     struct Reference {
       OpenPlane::Spot spot;

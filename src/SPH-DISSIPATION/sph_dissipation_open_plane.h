@@ -15,17 +15,20 @@
 #define LMP_SPH_DISSIPATION_OPEN_PLANE_H
 
 #include "pointers.h"
+#include "sph_dissipation_kernel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 class Region;
 
 namespace SPHDissipation {
 
-  // Where the fluid ends in an open zone: a plane, the space behind it, and a grid of nodes on it.
+  // The plane between the fluid and a buffer zone, the space behind it, and a grid of nodes on it.
   // Periodic directions lie in the plane, or the zone has a region.
 
   class OpenPlane : protected Pointers {
@@ -47,8 +50,8 @@ namespace SPHDissipation {
     bool beside(const double *x) const;                  // beyond the sides of the zone
     bool beside(const double *x, double slack) const;    // ... and no place so near is within them
 
-    // how far a place is, with periodic images, beside the line along the normal through another one,
-    // and how far ahead
+    // Distance of a place from the line along the normal through another one, and along that line, with
+    // periodic images
     struct Offset {
       double beside, ahead;
       double distance() const { return std::sqrt(beside * beside + ahead * ahead); }
@@ -61,11 +64,11 @@ namespace SPHDissipation {
     int nnodes() const { return count[0] * count[1]; }
     double node_distance() const { return std::max(step[0], count[1] > 1 ? step[1] : 0.0); }
 
-    // function(node, place of x along the plane from there, 2 values) for the nodes within the radius
-    // of x in both of them
+    // Call function(node, l) for the nodes within the radius of x in both directions of the plane; l[2] =
+    // how far x is from the node in each.
     template <class Function> void near(const double *x, double radius, Function &&function) const;
 
-    // the nodes around the place of x on the plane and their weights, whose sum is 1
+    // The nodes around the place of x on the plane, and their weights, whose sum is 1
     struct Spot {
       int n;
       int node[4];
@@ -111,6 +114,84 @@ namespace SPHDissipation {
         function(wrap(1, m) * count[0] + wrap(0, n), r);
       }
   }
+
+  // What is measured of the fluid
+
+  struct OpenSample {
+    double wave;    // J = rho c u' + p', see sph_dissipation_characteristics.h
+    double p;       // pressure
+    double u[3];    // velocity
+  };
+
+  // Measures the fluid at the nodes of the plane: linear fits to the fluid within a radius, weighted with
+  // the kernel and the volumes; averages over time; the waves that have left.  The same on all
+  // processors.
+
+  class OpenSamples : protected Pointers {
+   public:
+    typedef OpenPlane::Spot Spot;
+
+    OpenSamples(class LAMMPS *, const OpenPlane &);
+
+    void init();
+    void set_times(double averaging_time, double memory);    // memory: longest lag, time units
+
+    // Measure at this time: begin(); add() each owned particle of the fluid; finish().  Until then, what
+    // is asked for below is of the step before.
+    void begin(double time);
+    void add(const double *x, double height, double volume, const OpenSample &, Kernel,
+             double radius);
+    void finish(double time);
+
+    // Interpolate between the nodes; false if there is no fluid.
+
+    bool now(const Spot &, double height, int order, OpenSample &) const;    // order 1: with slope
+    bool average(const Spot &, OpenSample &) const;                          // over time
+    double wave(const Spot &, double time) const;                            // J at a time before
+    double distance(const Spot &) const;    // from the plane to the middle of what is measured
+
+    void mean_at_plane(double *p, double *u) const;    // of all nodes, now
+    bool any() const { return !history.empty(); }
+
+    double memory_usage() const;    // bytes
+
+    // state in a restart file
+    std::vector<double> pack() const;
+    bool unpack(const std::vector<double> &);    // false if it is of other nodes
+
+   private:
+    static constexpr int NVALUE = sizeof(OpenSample) / sizeof(double);
+
+    // weighted sums of a node over the fluid; l = place along the plane from there, d = height
+
+    struct Sums {
+      double weight, l[2], ll[3], d, dd;    // ll: l0 l0, l1 l1, l0 l1
+      double value[NVALUE], value_l[NVALUE][2], value_d[NVALUE];
+    };
+
+    struct Node {
+      double weight, distance;    // of what is measured from the plane
+      double value[NVALUE];       // at the node and that distance
+      double slope[NVALUE];       // along the normal
+      double mean[NVALUE];        // over time
+      double known;               // > 0: there has been fluid
+    };
+
+    struct Past {
+      double time;
+      std::vector<double> wave;    // of the nodes
+    };
+
+    const OpenPlane &plane;
+    double averaging_time, memory;
+    std::vector<Sums> my_sums, sums;
+    std::vector<Node> nodes, before;    // before: without the last time
+    std::deque<Past> history;           // the oldest first
+
+    void fit(const Sums &, Node &) const;
+    template <class Function>
+    bool interpolate(const Spot &, int nvalue, double *value, Function &&of_node) const;
+  };
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

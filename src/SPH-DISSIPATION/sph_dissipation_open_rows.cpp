@@ -14,14 +14,11 @@
 #include "sph_dissipation_open_rows.h"
 
 #include "atom.h"
-#include "atom_vec.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "math_extra.h"
-#include "sph_dissipation_attributes.h"
-#include "sph_dissipation_gather.h"
-#include "sph_dissipation_open_band.h"
+#include "sph_dissipation_create.h"
 #include "sph_dissipation_open_plane.h"
 #include "update.h"
 
@@ -30,6 +27,93 @@
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+OpenBand::OpenBand(LAMMPS *lmp, const OpenPlane &plane, int groupbit, double lo, double hi) :
+    Pointers(lmp), plane(plane), at_node(plane.nnodes())
+{
+  std::vector<double> mine;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const x = atom->x[i];
+    const bool mine_of_zone = atom->mask[i] & groupbit;
+    const double height = plane.height(x);
+    if (height < lo || height > hi) continue;
+    if (!mine_of_zone && plane.beside(x)) continue;
+    mine.insert(mine.end(), {x[0], x[1], x[2], mine_of_zone ? 1.0 : 0.0});
+  }
+
+  const std::vector<double> all = gather_all(world, mine, MPI_DOUBLE);
+  for (std::size_t k = 0; k < all.size(); k += 4) {
+    at_node[nearest_node(&all[k])].push_back(static_cast<int>(of_zone.size()));
+    place.insert(place.end(), &all[k], &all[k] + 3);
+    of_zone.push_back(all[k + 3] > 0.0);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int OpenBand::nearest_node(const double *x) const
+{
+  const OpenPlane::Spot spot = plane.spot(x);
+  return spot.node[std::max_element(spot.weight, spot.weight + spot.n) - spot.weight];
+}
+
+/* ----------------------------------------------------------------------
+   Tell whether function(k, offset from x) holds for a particle k not farther than reach beside x.  It is
+   called for all of these, and for some farther ones.
+------------------------------------------------------------------------- */
+
+template <class Function>
+bool OpenBand::any(const double *x, double reach, Function &&function) const
+{
+  bool found = false;
+  plane.near(x, reach + plane.node_distance(), [&](int node, const double *) {
+    for (const int k : at_node[node]) found = found || function(k, plane.offset(x, &place[3 * k]));
+  });
+  return found;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool OpenBand::has_behind(const double *x, double beside) const
+{
+  return any(x, beside, [&](int k, const OpenPlane::Offset &to) {
+    return of_zone[k] && to.beside < beside && to.ahead < 0.0;
+  });
+}
+
+bool OpenBand::has_any_behind(const double *x, double beside) const
+{
+  return any(x, beside, [&](int, const OpenPlane::Offset &to) {
+    return to.beside < beside && to.ahead < 0.0;
+  });
+}
+
+double OpenBand::next(const double *x, double beside, bool behind) const
+{
+  double nearest = INFINITY;
+  any(x, beside, [&](int k, const OpenPlane::Offset &to) {
+    const double distance = behind ? -to.ahead : to.ahead;
+    if (of_zone[k] && to.beside < beside && distance > 0.0) nearest = std::min(nearest, distance);
+    return false;
+  });
+  return nearest;
+}
+
+bool OpenBand::has_near(const double *x, double distance) const
+{
+  return any(x, distance, [&](int, const OpenPlane::Offset &to) {
+    return to.distance() < distance;
+  });
+}
+
+bool OpenBand::has_other_near(const double *x, double distance) const
+{
+  return any(x, distance, [&](int k, const OpenPlane::Offset &to) {
+    return !of_zone[k] && to.distance() < distance;
+  });
+}
 
 static constexpr double FAR = 1.0e300;
 static constexpr double ROUND_OFF = 1.0e-9;    // of lengths
@@ -63,9 +147,8 @@ void OpenRows::init(double support_in, int fluid_bit)
 }
 
 /* ----------------------------------------------------------------------
-   Dumps that are sorted by ID take it that IDs which are consecutive when a run begins stay the same
-   as long as there are as many of them (Dump::init() and Dump::sort() of LAMMPS).  So they must not
-   be: a particle of the zone gets the next free one.
+   Give one particle of the zone the next free ID, if all IDs are consecutive.  Sorted dumps take it that
+   such IDs stay the same as long as there are as many of them (Dump::init() and Dump::sort()).
 ------------------------------------------------------------------------- */
 
 void OpenRows::interrupt_ids()
@@ -77,15 +160,10 @@ void OpenRows::interrupt_ids()
   MPI_Allreduce(&mine, &last, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   const auto next = static_cast<tagint>(atom->natoms) + 1;
 
-  const bool mapped = (atom->map_style != Atom::MAP_NONE);
-  if (mapped) atom->map_clear();
-  atom->nghost = 0;
+  begin_change(lmp);
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->tag[i] == last) atom->tag[i] = next;
-  if (mapped) {
-    atom->map_init();
-    atom->map_set();
-  }
+  end_change(lmp, atom->nlocal);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -101,7 +179,8 @@ double OpenRows::step(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   a layer of a lattice that comes there comes as a whole, on any number of processors
+   Return the height at which the zone ends, with a tolerance: a layer of a lattice that reaches the end
+   is on the same side of it as a whole, on any number of processors.
 ------------------------------------------------------------------------- */
 
 double OpenRows::end() const
@@ -110,8 +189,8 @@ double OpenRows::end() const
 }
 
 /* ----------------------------------------------------------------------
-   seen from the particle nearest to the plane: distance of the next one straight behind it, and of
-   the nearest row.  Half of that is how far a particle of a row may be beside it.
+   Measure spacing and width of the rows at the particle nearest to the plane: the distance of the next
+   one straight behind it, and that of the nearest row.
 ------------------------------------------------------------------------- */
 
 void OpenRows::find_rows()
@@ -177,11 +256,8 @@ double OpenRows::largest_spacing() const
 
 void OpenRows::renew(const Refresh &refresh)
 {
-  const bigint nblocal = atom->nlocal;
-  bigint natoms;
-  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
-  atom->nghost = 0;
-  atom->avec->clear_bonus();
+  const int nbefore = atom->nlocal;
+  begin_change(lmp);
   remove_beyond();
   if (by_distance()) refresh({});    // particles have changed sides, and places in memory
 
@@ -206,14 +282,7 @@ void OpenRows::renew(const Refresh &refresh)
 
   std::vector<int> last = last_ones(band);
   while (fill(last, band, refresh)) {}
-
-  bigint change = atom->nlocal - nblocal;
-  MPI_Allreduce(&change, &natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  atom->natoms += natoms;
-  if (atom->map_style != Atom::MAP_NONE) {
-    atom->map_init();
-    atom->map_set();
-  }
+  end_change(lmp, nbefore);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -222,14 +291,12 @@ void OpenRows::remove_beyond()
 {
   for (int i = atom->nlocal - 1; i >= 0; i--) {
     highest = std::max(highest, atom->tag[i]);
-    if (!(atom->mask[i] & groupbit) || plane.height(atom->x[i]) >= end()) continue;
-    atom->avec->copy(atom->nlocal - 1, i, 1);
-    atom->nlocal--;
+    if ((atom->mask[i] & groupbit) && plane.height(atom->x[i]) < end()) remove_particle(lmp, i);
   }
 }
 
 /* ----------------------------------------------------------------------
-   owned particles that move into the fluid and have none behind them in their row
+   Return the owned particles that move into the fluid and have none behind them in their row.
 ------------------------------------------------------------------------- */
 
 std::vector<int> OpenRows::last_ones(const OpenBand &band) const
@@ -246,10 +313,10 @@ std::vector<int> OpenRows::last_ones(const OpenBand &band) const
 }
 
 /* ----------------------------------------------------------------------
-   one new particle behind each of the last ones, which it replaces in the list; false if there was
-   none on any processor
-   the mass between two particles of a row is that of one: with distances that depend on the place
-   it is the harmonic mean of theirs, to second order
+   Create a particle behind each of the last ones, which it replaces in the list.  False if there was
+   none on any processor.
+   The mass between two particles of a row is that of one.  So, where distances depend on the place, the
+   new particle is as far away as the harmonic mean of the two, to second order.
 ------------------------------------------------------------------------- */
 
 bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh)
@@ -264,17 +331,17 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
   MPI_Allreduce(&n, &all, 1, MPI_INT, MPI_SUM, world);
   if (!all) return false;
 
-  const std::vector<tagint> tags = new_tags(last);
+  std::vector<NewIDs> one_each;
+  for (const int i : last) one_each.emplace_back(atom->tag[i], 1);
+  std::vector<tagint> ids;
+  if (!new_ids(lmp, one_each, highest, ids))
+    error->all(FLERR, "{}: too many particles have entered for their IDs", owner);
   std::vector<int> created;
   for (int k = 0; k < n; k++) {
-    const int i = last[k], j = atom->nlocal;
-    if (j == atom->nmax) atom->avec->grow(0);
-    atom->avec->copy(i, j, 0);
-    atom->nlocal++;
-    atom->tag[j] = tags[k];
-    for (int d = 0; d < 3; d++) atom->x[j][d] -= step(i) * plane.normal[d];
-    create_attributes(modify, j);
-    created.push_back(j);
+    const int i = last[k];
+    double x[3];
+    for (int d = 0; d < 3; d++) x[d] = atom->x[i][d] - step(i) * plane.normal[d];
+    created.push_back(create_copy(lmp, i, ids[k], x));
   }
 
   refresh(created);
@@ -289,13 +356,12 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
     }
 
   for (const int j : created) check_seat(atom->x[j], band);
-  for (const tagint tag : tags) highest = std::max(highest, tag);
   last = created;
   return true;
 }
 
 /* ----------------------------------------------------------------------
-   what is not of the zone is beside it
+   Refuse other particles in the zone.
 ------------------------------------------------------------------------- */
 
 void OpenRows::check_alone(const OpenBand &band) const
@@ -314,9 +380,10 @@ void OpenRows::check_alone(const OpenBand &band) const
 }
 
 /* ----------------------------------------------------------------------
-   On a lattice, from the plane to the end of the zone, a particle follows the other: those that lack
-   at the end of rows that move into the fluid are created.  What is at the plane has a row behind it,
-   or a wall.  Where there is no lattice, as in a zone that the fluid has filled, there are no rows.
+   Refuse gaps in the rows of a lattice, which must reach from the plane to the end of the zone, and
+   warn of fluid at the plane with neither a row nor a wall behind it.  What is missing at the end of
+   rows that move into the fluid is created later.  A zone without a lattice, as one that the fluid has
+   filled, has no rows.
 ------------------------------------------------------------------------- */
 
 void OpenRows::check_lattice(const OpenBand &band, double largest) const
@@ -358,44 +425,16 @@ void OpenRows::check_lattice(const OpenBand &band, double largest) const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::check_seat(double *x, const OpenBand &band) const
+void OpenRows::check_seat(const double *x, const OpenBand &band) const
 {
   constexpr double APART = 0.5;    // of the width of a row
-  double unit[3] = {x[0], x[1], x[2]};
-  if (domain->triclinic) domain->x2lamda(x, unit);
-  const double *const lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
-  const double *const hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
-  for (int d = 0; d < domain->dimension; d++)
-    if (!domain->periodicity[d] && (unit[d] < lo[d] || unit[d] >= hi[d]))
-      error->one(FLERR,
-                 "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",
-                 owner, x[0], x[1], x[2]);
+  if (!in_box(lmp, x))
+    error->one(FLERR,
+               "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",
+               owner, x[0], x[1], x[2]);
   if (band.has_near(x, APART * half_width))
     error->one(FLERR, "{}: at {:g} {:g} {:g}, where a particle enters, there is another one", owner,
                x[0], x[1], x[2]);
-}
-
-/* ----------------------------------------------------------------------
-   in the order of the tags of the particles in front, on whatever processor they are
-------------------------------------------------------------------------- */
-
-std::vector<tagint> OpenRows::new_tags(const std::vector<int> &last) const
-{
-  std::vector<tagint> mine;
-  for (const int i : last) mine.push_back(atom->tag[i]);
-  std::vector<tagint> all = gather_all(world, mine, MPI_LMP_TAGINT);
-  std::sort(all.begin(), all.end());
-
-  tagint most = highest, first;
-  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
-  MPI_Allreduce(&most, &first, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (first >= MAXTAGINT - static_cast<tagint>(all.size()))
-    error->all(FLERR, "{}: too many particles have entered for their IDs", owner);
-
-  for (auto &tag : mine)
-    tag = first + 1 +
-        static_cast<tagint>(std::lower_bound(all.begin(), all.end(), tag) - all.begin());
-  return mine;
 }
 
 /* ---------------------------------------------------------------------- */

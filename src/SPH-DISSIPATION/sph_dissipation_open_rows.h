@@ -21,14 +21,46 @@
 #include <vector>
 
 namespace LAMMPS_NS {
+
 namespace SPHDissipation {
 
-  class OpenBand;
   class OpenPlane;
 
-  // The far end of an open zone.  Its particles stand in rows along the normal of the plane.  Behind
-  // the last one of a row that moves on comes a copy of it, those beyond the end are deleted: before
-  // neighbor lists are built anew, with results that do not depend on the number of processors.
+  // The particles near the far end of a buffer zone, of all processors, also those not of the zone
+
+  class OpenBand : protected Pointers {
+   public:
+    // those between two heights
+    OpenBand(class LAMMPS *, const OpenPlane &, int groupbit, double lo, double hi);
+
+    // one of the zone behind x, not farther beside it than this
+    bool has_behind(const double *x, double beside) const;
+
+    // distance of the nearest one of the zone behind x, or in front of it, not farther beside it than
+    // this; infinite if there is none
+    double next(const double *x, double beside, bool behind) const;
+
+    // any one behind x, not farther beside it than this
+    bool has_any_behind(const double *x, double beside) const;
+
+    // any one, or one that is not of the zone, closer to x than this
+    bool has_near(const double *x, double distance) const;
+    bool has_other_near(const double *x, double distance) const;
+
+   private:
+    const OpenPlane &plane;
+    std::vector<double> place;    // 3 each
+    std::vector<char> of_zone;
+    std::vector<std::vector<int>> at_node;    // of the plane
+
+    int nearest_node(const double *x) const;
+    template <class Function> bool any(const double *x, double reach, Function &&function) const;
+  };
+
+  // Creates and deletes the particles at the far end of a buffer zone, before neighbor lists are built
+  // anew.  Particles stand in rows along the normal of the plane: a copy of the last one of a row comes
+  // behind it as it moves on, those beyond the end are deleted.  Results do not depend on the number of
+  // processors.
 
   class OpenRows : protected Pointers {
    public:
@@ -42,18 +74,17 @@ namespace SPHDissipation {
     void set_distance(Distance f) { distance = std::move(f); }
     bool by_distance() const { return static_cast<bool>(distance); }
 
-    // finds distance and width of the rows, from the particles of the zone, if they are not known: the
-    // zone is new then, until renew()
+    // Measure distance and width of the rows if they are not known.  The zone is new then, until renew().
     void init(double support, int fluid_bit);
     bool are_new() const { return unknown_sides; }
     double width() const { return 2.0 * half_width; }    // of a row
     double largest_spacing() const;                      // now
 
-    // particles have moved along the normal, by this at most, since renew()
+    // Note that particles have moved along the normal, by this at most.
     void note_motion(double most) { moved += most; }
 
-    // deletes and creates; refresh(those) is called with owned particles that are new, or have moved,
-    // to set their velocities and to make their distances known
+    // Delete and create particles.  Calls refresh(those) with owned particles that are new or have moved,
+    // to set their velocities and to make their distances known.
     typedef std::function<void(const std::vector<int> &)> Refresh;
     void renew(const Refresh &refresh);
 
@@ -69,8 +100,8 @@ namespace SPHDissipation {
     double given_spacing, spacing, half_width, support;
     double moved;
     tagint highest;        // tag that was ever given
-    bool unknown_end;      // how far the rows reach is to be found out
-    bool unknown_sides;    // so is whether there is something else among them
+    bool unknown_end;      // it is not known how far the rows reach
+    bool unknown_sides;    // nor whether there is something else among them
     Distance distance;
 
     double step(int i) const;    // from an owned particle to the next one of its row
@@ -82,8 +113,7 @@ namespace SPHDissipation {
     bool fill(std::vector<int> &last, const OpenBand &, const Refresh &);
     void check_alone(const OpenBand &) const;
     void check_lattice(const OpenBand &, double largest) const;
-    void check_seat(double *x, const OpenBand &) const;
-    std::vector<tagint> new_tags(const std::vector<int> &last) const;
+    void check_seat(const double *x, const OpenBand &) const;
   };
 
 }    // namespace SPHDissipation

@@ -75,9 +75,9 @@ void OpenStage::remove(OpenZone *zone)
 void OpenStage::run()
 {
   for (auto zone : zones) zone->set_states(*this);
-  set_places();
+  set_zones();
   Particle *const particle = engine.particle;
-  exchange.forward({field(particle, &particle->vol, 2), {place.data(), 1, 1}});
+  exchange.forward({field(particle, &particle->vol, 2), {zone_of.data(), 1, 1}});
   update_ghosts();
 }
 
@@ -93,31 +93,31 @@ void OpenStage::set_state(int i, double rho, double pressure)
 
 /* ---------------------------------------------------------------------- */
 
-void OpenStage::set_places()
+void OpenStage::set_zones()
 {
-  place.resize(atom->nlocal + atom->nghost);
+  zone_of.resize(atom->nlocal + atom->nghost);
   int fluid_bits = 0;
   for (const auto &zone : zones) fluid_bits |= zone->fluid_bit();
   for (int i = 0; i < atom->nlocal; i++) {
     const int mask = atom->mask[i];
-    place[i] = (mask & fluid_bits) ? 0.0 : NEITHER;
+    zone_of[i] = (mask & fluid_bits) ? 0.0 : NEITHER;
     if (!(mask & zone_bits)) continue;
     for (std::size_t k = 0; k < zones.size(); k++)
-      if (mask & zones[k]->zone_bit()) place[i] = static_cast<double>(k + 1);
+      if (mask & zones[k]->zone_bit()) zone_of[i] = static_cast<double>(k + 1);
   }
 }
 
 /* ----------------------------------------------------------------------
-   density and group of ghost atoms, as their owners have them
+   Set density and group of ghost particles to those of their owners.
 ------------------------------------------------------------------------- */
 
 void OpenStage::update_ghosts()
 {
   for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) {
-    if (place[i] == NEITHER) continue;
+    if (zone_of[i] == NEITHER) continue;
     int &mask = atom->mask[i];
-    if (place[i] > 0.0) {
-      const OpenZone *const zone = zones[static_cast<int>(place[i]) - 1];
+    if (zone_of[i] > 0.0) {
+      const OpenZone *const zone = zones[static_cast<int>(zone_of[i]) - 1];
       mask = (mask & ~zone->fluid_bit()) | zone->zone_bit();
       atom->vfrac[i] = engine.particle[i].vol;
       atom->rho[i] = atom->rmass[i] / atom->vfrac[i];
@@ -136,7 +136,7 @@ void OpenStage::sum_impacts(NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   the particles of a pair of fluid and zone are on both sides of the plane
+   Find the rows of the neighbor list near the plane of each zone, which have all its pairs with the fluid.
 ------------------------------------------------------------------------- */
 
 void OpenStage::find_rows(NeighList *list)
@@ -149,8 +149,8 @@ void OpenStage::find_rows(NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   A pair gives its particle of the fluid force, couple, half of the heat of shear and spin, and
-   the part P V w_j (-F r.u) / c of the work of the pressure that its V has
+   Sum up what the pairs of a zone give their particles of the fluid: force, couple, half of the heat of
+   shear and spin, and the part P V w_j (-F r.u) / c of the work of the pressure.
 ------------------------------------------------------------------------- */
 
 OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
@@ -169,9 +169,10 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   for (const int ii : rows[k]) {
     pairs.add_row(list->ilist[ii]);
     engine.visit_pairs(ii, [&](int i, int j, bigint entry) {
-      if (!(place[i] == zone && place[j] == 0.0) && !(place[j] == zone && place[i] == 0.0)) return;
+      if (!(zone_of[i] == zone && zone_of[j] == 0.0) && !(zone_of[j] == zone && zone_of[i] == 0.0))
+        return;
       pairs.add(j, all.slope[entry]);
-      const int fluid = (place[i] == 0.0) ? i : j, other = (place[i] == 0.0) ? j : i;
+      const int fluid = (zone_of[i] == 0.0) ? i : j, other = (zone_of[i] == 0.0) ? j : i;
       if (fluid >= mine) return;
       const Particle &f = particle[fluid], &z = particle[other];
       double flux = 0.0;
@@ -189,7 +190,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   engine.accumulate_forces(pairs, forces.data(), torques.data(), divergence.data());
 
   pairs.visit([&](int i) {
-    if (i < mine && place[i] == 0.0) {
+    if (i < mine && zone_of[i] == 0.0) {
       total.add(particle[i], forces[i]);
       if (engine.has_spin()) total.add(engine.spin[i], torques[i]);
     }
@@ -207,7 +208,7 @@ double OpenStage::memory_usage() const
   double bytes = pairs.memory_usage();
   for (const auto &row : rows) bytes += static_cast<double>(row.capacity() * sizeof(int));
   return bytes +
-      static_cast<double>(place.capacity() * sizeof(double) + forces.capacity() * sizeof(ForceSum) +
-                          torques.capacity() * sizeof(TorqueSum) +
-                          divergence.capacity() * sizeof(double));
+      static_cast<double>(
+             zone_of.capacity() * sizeof(double) + forces.capacity() * sizeof(ForceSum) +
+             torques.capacity() * sizeof(TorqueSum) + divergence.capacity() * sizeof(double));
 }

@@ -22,7 +22,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // What a zone does to the fluid in one force computation
+  // What a buffer zone does to the fluid in one force computation
 
   struct OpenImpact {
     double force[3], torque[3];    // torque about the origin, of forces and couples
@@ -33,11 +33,12 @@ namespace SPHDissipation {
     void add(const Spin &, const TorqueSum &);
   };
 
-  // What a fix does between the two passes whose particles are fluid with a prescribed state, as it
-  // enters or leaves.  The fix hands itself to OpenStage::add() in its init() and takes itself back when
-  // it is deleted.
-
   class OpenStage;
+
+  // A buffer zone, as a fix provides it between the two passes: its particles are fluid with a prescribed
+  // state, as it enters or leaves.  The fix hands itself to OpenStage::add() in its init() and takes itself
+  // back when it is deleted.
+
 
   class OpenZone {
    public:
@@ -56,8 +57,8 @@ namespace SPHDissipation {
     ~OpenZone() = default;    // nobody deletes a fix through this
   };
 
-  // Particles of open zones get the density and pressure that act in the pair forces; what the zones
-  // do to the fluid is summed up, from the pairs of a particle of a zone and one of the fluid
+  // Gives the particles of buffer zones the density and pressure that act in the pair forces, and sums
+  // up what the zones do to the fluid, from the pairs of a particle of a zone and one of the fluid.
 
   class OpenStage : public Stage {
    public:
@@ -80,9 +81,9 @@ namespace SPHDissipation {
     std::vector<OpenZone *> zones;
     int zone_bits = 0;
 
-    // 0: fluid, k: in zone k - 1, -1: neither; owned and ghost, for groups change between the
-    // borders of two neighbor lists
-    std::vector<double> place;
+    // Zone of each owned and ghost particle: 0 fluid, k zone k - 1, -1 neither.  Groups change between two
+    // neighbor lists, and with them only the masks of owned particles.
+    std::vector<double> zone_of;
 
     std::vector<std::vector<int>> rows;    // of the neighbor list, near the plane of each zone
 
@@ -93,7 +94,7 @@ namespace SPHDissipation {
     std::vector<TorqueSum> torques;
     std::vector<double> divergence;
 
-    void set_places();
+    void set_zones();
     void update_ghosts();
     void find_rows(NeighList *);
     OpenImpact impact(NeighList *, std::size_t);

@@ -20,10 +20,9 @@
 #include "fix.h"
 #include "force.h"
 #include "neigh_list.h"
-#include "sph_dissipation_attributes.h"
+#include "sph_dissipation_balance.h"
+#include "sph_dissipation_create.h"
 #include "sph_dissipation_fields.h"
-#include "sph_dissipation_gather.h"
-#include "sph_dissipation_refine_ledger.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,17 +30,16 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-static constexpr double REST_RADIUS =
-    0.5;                                    // of those that take angular momentum, over the support
-static constexpr double FARTHEST = 0.35;    // distance of two that merge, over the support
+static constexpr double FARTHEST = 0.35;          // distance of two that merge, over the support
+static constexpr double RESIDUAL_RADIUS = 0.5;    // of those that take angular momentum, the same
 static constexpr double STRETCHED = 1.4;    // spacing over the mean one, that splits in two only
 static constexpr double NEXT = 1.6;         // distance of neighbors that split together, over it
 
 /* ---------------------------------------------------------------------- */
 
-RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineLedger &ledger) :
-    Pointers(lmp), items(lmp, fix), highest(0), ledger(ledger), pairs(lmp, items),
-    rest(lmp, items, pairs), support(0.0), smallest(0.0), fields(nullptr)
+RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
+    Pointers(lmp), items(lmp, fix), highest(0), balance(balance), pairs(lmp, items),
+    residual(lmp, items, pairs), support(0.0), smallest(0.0), fields(nullptr)
 {
 }
 
@@ -52,7 +50,7 @@ void RefineEvent::init(double support_in, double smallest_share)
   support = support_in;
   smallest = smallest_share;
   fields = Fields::of(atom);
-  rest.init(REST_RADIUS * support);
+  residual.init(RESIDUAL_RADIUS * support);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -116,7 +114,7 @@ void RefineEvent::set_lump(int i, const Lump &one)
 }
 
 /* ----------------------------------------------------------------------
-   of a pair that is to merge now
+   Tell whether particle i merges in this event.
 ------------------------------------------------------------------------- */
 
 bool RefineEvent::merging(int i) const
@@ -150,8 +148,9 @@ bigint RefineEvent::plan(NeighList *full, bigint most)
 }
 
 /* ----------------------------------------------------------------------
-   into the parts of a cube, where they are not too small; into two along the axis on which the
-   neighbors are farthest, where these are not arranged evenly; false if a daughter would leave the box
+   Choose how particle i splits: into the parts of a cube, or, where neighbors are not arranged evenly
+   or the parts would be too small, into two along the axis on which the neighbors are farthest.  False
+   if a daughter would leave the box.
 ------------------------------------------------------------------------- */
 
 bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
@@ -180,33 +179,15 @@ bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
   for (int k = 0; k < stencil.n; k++) {
     double x[3];
     for (int d = 0; d < 3; d++) x[d] = atom->x[i][d] + stencil.d[k][d];
-    if (!in_box(x)) return false;
+    if (!in_box(lmp, x)) return false;
   }
   return true;
 }
 
 /* ---------------------------------------------------------------------- */
 
-bool RefineEvent::in_box(const double *x) const
-{
-  double place[3] = {x[0], x[1], x[2]}, unit[3] = {x[0], x[1], x[2]};
-  if (domain->triclinic) domain->x2lamda(place, unit);
-  const double *const lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
-  const double *const hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
-  for (int d = 0; d < domain->dimension; d++)
-    if (!domain->periodicity[d] && (unit[d] < lo[d] || unit[d] >= hi[d])) return false;
-  return true;
-}
-
-/* ---------------------------------------------------------------------- */
-
-std::vector<tagint> RefineEvent::gather(const std::vector<tagint> &mine) const
-{
-  return gather_all(world, mine, MPI_LMP_TAGINT);
-}
-
 /* ----------------------------------------------------------------------
-   if there are more events than that, those of the lowest IDs take place
+   Drop the events of the highest IDs if there are more than the most.  Return how many take place.
 ------------------------------------------------------------------------- */
 
 bigint RefineEvent::withhold(bigint most)
@@ -219,7 +200,7 @@ bigint RefineEvent::withhold(bigint most)
   MPI_Allreduce(&number, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all <= most) return all;
 
-  std::vector<tagint> tags = gather(mine);
+  std::vector<tagint> tags = gather_all(world, mine, MPI_LMP_TAGINT);
   std::nth_element(tags.begin(), tags.begin() + most, tags.end());
   const tagint end = tags[most];
   for (int i = 0; i < atom->nlocal; i++) items[i].withheld = (atom->tag[i] >= end) ? 1.0 : 0.0;
@@ -233,10 +214,11 @@ bigint RefineEvent::withhold(bigint most)
 }
 
 /* ----------------------------------------------------------------------
-   a pair whose neighbors cannot take over its angular momentum does not merge
+   Give the residual angular momentum of the merges to neighbors.  A pair without neighbors that could
+   take it does not merge.
 ------------------------------------------------------------------------- */
 
-void RefineEvent::give_rest(NeighList *full)
+void RefineEvent::give_residual(NeighList *full)
 {
   for (int i = 0; i < atom->nlocal; i++)
     if (items[i].is(APART) || (merging(i) && !pairs.leads(i))) items[i].mass = 0.0;
@@ -250,7 +232,7 @@ void RefineEvent::give_rest(NeighList *full)
 
   std::vector<Merge> taken;
   for (const Merge &one : merges) {
-    if (rest.give(full, one.i, one.rest))
+    if (residual.give(full, one.i, one.residual))
       taken.push_back(one);
     else
       items[one.i].withheld = 1.0;
@@ -258,7 +240,7 @@ void RefineEvent::give_rest(NeighList *full)
   merges = taken;
   items.forward_withheld();
   items.forward_rotation();
-  rest.take(full);
+  residual.take(full);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -272,16 +254,19 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
     one.i = i;
     for (int j : pairs.members(i)) one.parts.push_back(items[j].lump);
     one.heat = merge(one.parts.data(), one.parts.size(), domain->dimension, fields->has_spins,
-                     one.whole, one.rest);
+                     one.whole, one.residual);
     merges.push_back(one);
   }
-  rest.clear();
-  if (!fields->has_spins) give_rest(full);
+  residual.clear();
+  if (!fields->has_spins) give_residual(full);
 
-  // particles are changed first, then created, then removed; from here on ghosts are of the past
+  // particles are changed first, then created, then removed
 
-  const std::vector<tagint> first = new_tags();
-  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
+  std::vector<NewIDs> daughters;
+  for (const Split &one : splits) daughters.emplace_back(atom->tag[one.i], one.stencil.n - 1);
+  std::vector<tagint> first;
+  if (!new_ids(lmp, daughters, highest, first))
+    error->all(FLERR, "Fix sph/refine: too many particles have split for their IDs");
   const int nbefore = atom->nlocal;
   std::vector<char> own_event(nbefore, 0), dead(nbefore, 0);
   for (const Split &one : splits) own_event[one.i] = 1;
@@ -294,56 +279,50 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
 
   for (Merge &one : merges) {
     Lump &whole = one.whole;
-    for (const Lump &part : one.parts) ledger.count(-1.0, part);
+    for (const Lump &part : one.parts) balance.count(-1.0, part);
     for (int d = 0; d < 3; d++) {
-      whole.u[d] += rest.velocity(one.i)[d];
-      whole.u_end[d] += rest.velocity(one.i)[d];
+      whole.u[d] += residual.velocity(one.i)[d];
+      whole.u_end[d] += residual.velocity(one.i)[d];
     }
-    whole.energy += force->mvv2e * (one.heat - rest.work(one.i));
+    whole.energy += force->mvv2e * (one.heat - residual.work(one.i));
     set_lump(one.i, whole);
-    ledger.count(1.0, whole);
-    ledger.merged(force->mvv2e * one.heat);
+    balance.count(1.0, whole);
+    balance.merged(force->mvv2e * one.heat);
     changed(one.i, 0.0);
   }
-  for (int i = 0; i < nbefore; i++) ledger.add(RefineLedger::ROTATION, force->mvv2e * rest.work(i));
+  for (int i = 0; i < nbefore; i++)
+    balance.add(RefineBalance::ROTATION, force->mvv2e * residual.work(i));
 
-  atom->nghost = 0;
-  atom->avec->clear_bonus();
+  begin_change(lmp);
   create(first, changed);
-  remove(dead);
-
-  bigint change = atom->nlocal - nbefore, all;
-  MPI_Allreduce(&change, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  atom->natoms += all;
-  if (atom->map_style != Atom::MAP_NONE) {
-    atom->map_init();
-    atom->map_set();
-  }
+  for (int i = nbefore - 1; i >= 0; i--)
+    if (dead[i]) remove_particle(lmp, i);
+  end_change(lmp, nbefore);
 }
 
 /* ----------------------------------------------------------------------
-   neighbors that take over angular momentum
+   Move the neighbors that take residual angular momentum and have no event of their own.
 ------------------------------------------------------------------------- */
 
 void RefineEvent::move_others(const std::vector<char> &own_event)
 {
   for (int i = 0; i < atom->nlocal; i++) {
-    const double *const du = rest.velocity(i);
+    const double *const du = residual.velocity(i);
     if (own_event[i] || dot(du, du) == 0.0) continue;
     Lump one = items[i].lump;
-    ledger.count(-1.0, one);
+    balance.count(-1.0, one);
     for (int d = 0; d < 3; d++) {
       one.u[d] += du[d];
       one.u_end[d] += du[d];
     }
-    one.energy -= force->mvv2e * rest.work(i);
+    one.energy -= force->mvv2e * residual.work(i);
     set_lump(i, one);
-    ledger.count(1.0, one);
+    balance.count(1.0, one);
   }
 }
 
 /* ----------------------------------------------------------------------
-   the first daughter takes the place of its parent, the others are new
+   Replace each particle that splits by its first daughter, and create the others.
 ------------------------------------------------------------------------- */
 
 void RefineEvent::create(const std::vector<tagint> &first, const Changed &changed)
@@ -351,76 +330,21 @@ void RefineEvent::create(const std::vector<tagint> &first, const Changed &change
   for (std::size_t k = 0; k < splits.size(); k++) {
     const int i = splits[k].i, n = splits[k].stencil.n;
     Lump parent = items[i].lump, daughters[Stencil::MOST];
-    ledger.count(-1.0, parent);
+    balance.count(-1.0, parent);
     for (int d = 0; d < 3; d++) {
-      parent.u[d] += rest.velocity(i)[d];
-      parent.u_end[d] += rest.velocity(i)[d];
+      parent.u[d] += residual.velocity(i)[d];
+      parent.u_end[d] += residual.velocity(i)[d];
     }
-    parent.energy -= force->mvv2e * rest.work(i);
+    parent.energy -= force->mvv2e * residual.work(i);
     split(parent, splits[k].stencil, domain->dimension, daughters);
     const bool whole = families() && splits[k].stencil.isotropic;
     const double family = whole ? static_cast<double>(first[k]) : 0.0;
     for (int m = 0; m < n; m++) {
-      int j = i;
-      if (m > 0) {
-        j = atom->nlocal;
-        if (j == atom->nmax) atom->avec->grow(0);
-        atom->avec->copy(i, j, 0);
-        atom->nlocal++;
-        atom->tag[j] = first[k] + m - 1;
-        create_attributes(modify, j);
-      }
+      const int j = (m == 0) ? i : create_copy(lmp, i, first[k] + m - 1, atom->x[i]);
       set_lump(j, daughters[m]);
-      ledger.count(1.0, daughters[m]);
+      balance.count(1.0, daughters[m]);
       changed(j, family);
     }
-    ledger.add(RefineLedger::SPLITS, 1.0);
+    balance.add(RefineBalance::SPLITS, 1.0);
   }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void RefineEvent::remove(const std::vector<char> &dead)
-{
-  for (int i = static_cast<int>(dead.size()) - 1; i >= 0; i--) {
-    if (!dead[i]) continue;
-    atom->avec->copy(atom->nlocal - 1, i, 1);
-    atom->nlocal--;
-  }
-}
-
-/* ----------------------------------------------------------------------
-   first of the new IDs of each split, in the order of the IDs of those that split, on whatever
-   processor they are
-------------------------------------------------------------------------- */
-
-std::vector<tagint> RefineEvent::new_tags()
-{
-  std::vector<tagint> mine;
-  for (const Split &one : splits) {
-    mine.push_back(atom->tag[one.i]);
-    mine.push_back(one.stencil.n - 1);
-  }
-  const std::vector<tagint> all = gather(mine);
-  std::vector<std::pair<tagint, tagint>> parents;
-  for (std::size_t k = 0; k < all.size(); k += 2) parents.emplace_back(all[k], all[k + 1]);
-  std::sort(parents.begin(), parents.end());
-
-  tagint most = highest;
-  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
-  MPI_Allreduce(&most, &highest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-
-  std::vector<tagint> first(splits.size());
-  std::vector<std::pair<tagint, tagint>> numbers;    // of parent, first daughter
-  for (const auto &parent : parents) {
-    if (highest >= MAXTAGINT - parent.second)
-      error->all(FLERR, "Fix sph/refine: too many particles have split for their IDs");
-    numbers.emplace_back(parent.first, highest + 1);
-    highest += parent.second;
-  }
-  for (std::size_t k = 0; k < splits.size(); k++)
-    first[k] = std::lower_bound(numbers.begin(), numbers.end(),
-                                std::make_pair(atom->tag[splits[k].i], static_cast<tagint>(0)))
-                   ->second;
-  return first;
 }

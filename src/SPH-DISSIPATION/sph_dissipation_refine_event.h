@@ -15,9 +15,7 @@
 #define LMP_SPH_DISSIPATION_REFINE_EVENT_H
 
 #include "pointers.h"
-#include "sph_dissipation_refine_items.h"
 #include "sph_dissipation_refine_pairs.h"
-#include "sph_dissipation_refine_rest.h"
 
 #include <functional>
 #include <vector>
@@ -28,26 +26,26 @@ class NeighList;
 namespace SPHDissipation {
 
   class Fields;
-  class RefineLedger;
+  class RefineBalance;
 
-  // All splits and merges of one time step, on all processors at once.  What happens is found out with
-  // the particles as they are, then they are changed, then the lists of particles.
+  // Does all splits and merges of one time step, on all processors at once: plan() decides with the
+  // particles as they are, carry_out() changes them.
 
   class RefineEvent : protected Pointers {
    public:
-    RefineEvent(class LAMMPS *, Fix *, RefineLedger &);
+    RefineEvent(class LAMMPS *, Fix *, RefineBalance &);
 
     void init(double support, double smallest_share);
 
-    // what each owned particle is to do; volume: now, target: to have, both as they are
+    // Set what each owned particle is to do, its volume now and that of its target.
     void begin();
     void set(int i, RefineState, double volume, double most, double target, double family);
 
-    // who merges with whom, who splits how; at most so many events; returns their number on all
-    // processors, and changes nothing but the items
+    // Decide who merges with whom and who splits how, in at most so many events.  Changes the items
+    // only.  Returns the number of events on all processors.
     bigint plan(NeighList *full, bigint most);
 
-    // changed(i, family) is called for each owned particle that has come from an event
+    // Split and merge.  Calls changed(i, family) for each owned particle that has come from an event.
     typedef std::function<void(int i, double family)> Changed;
     void carry_out(NeighList *full, const Changed &changed);
 
@@ -55,9 +53,9 @@ namespace SPHDissipation {
     tagint highest;    // ID that was ever given
 
    private:
-    RefineLedger &ledger;
+    RefineBalance &balance;
     RefinePairs pairs;
-    RefineRest rest;
+    RefineResidual residual;
     double support;
     double smallest;    // volume of a daughter over the target
     Fields *fields;
@@ -70,7 +68,7 @@ namespace SPHDissipation {
       int i;
       std::vector<Lump> parts;
       Lump whole;
-      double heat, rest[3];
+      double heat, residual[3];
     };
     std::vector<double> targets;
     std::vector<Split> splits;
@@ -79,16 +77,12 @@ namespace SPHDissipation {
     Lump lump(int i) const;
     void set_lump(int i, const Lump &);
     bool merging(int i) const;
-    bool families() const;    // that all daughters of one split can merge as a whole
+    bool families() const;    // all daughters of one split can merge as a whole
     bool find_stencil(NeighList *full, int i, Stencil &) const;
-    bool in_box(const double *x) const;
     bigint withhold(bigint most);
-    void give_rest(NeighList *full);
+    void give_residual(NeighList *full);
     void move_others(const std::vector<char> &own_event);
     void create(const std::vector<tagint> &first, const Changed &changed);
-    void remove(const std::vector<char> &dead);
-    std::vector<tagint> new_tags();
-    std::vector<tagint> gather(const std::vector<tagint> &mine) const;
   };
 
 }    // namespace SPHDissipation

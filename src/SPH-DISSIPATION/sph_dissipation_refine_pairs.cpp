@@ -14,14 +14,91 @@
 #include "sph_dissipation_refine_pairs.h"
 
 #include "atom.h"
+#include "comm.h"
+#include "domain.h"
 #include "neigh_list.h"
-#include "sph_dissipation_refine_items.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+static constexpr int column_of(std::size_t bytes)
+{
+  return static_cast<int>(bytes / sizeof(double));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineItems::resize()
+{
+  items.assign(atom->nlocal + atom->nghost, RefineItem());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineItems::forward(int first_in, int count_in)
+{
+  first = first_in;
+  count = count_in;
+  comm->forward_comm(fix, count);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineItems::forward_all()
+{
+  forward(0, SIZE);
+  const int nall = atom->nlocal + atom->nghost;
+  for (int i = atom->nlocal; i < nall; i++) std::copy_n(atom->x[i], 3, items[i].lump.x);
+}
+
+void RefineItems::forward_choice()
+{
+  forward(column_of(offsetof(RefineItem, choice)), 1);
+}
+
+void RefineItems::forward_settled()
+{
+  forward(column_of(offsetof(RefineItem, settled)), 1);
+}
+
+void RefineItems::forward_withheld()
+{
+  forward(column_of(offsetof(RefineItem, withheld)), 1);
+}
+
+void RefineItems::forward_point()
+{
+  forward(column_of(offsetof(RefineItem, mass)), 7);
+}
+
+void RefineItems::forward_rotation()
+{
+  const int from = column_of(offsetof(RefineItem, gives));
+  forward(from, SIZE - from);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int RefineItems::pack(int n, const int *list, double *buf) const
+{
+  for (int k = 0; k < n; k++) {
+    const double *const row = reinterpret_cast<const double *>(&items[list[k]]) + first;
+    buf = std::copy_n(row, count, buf);
+  }
+  return n * count;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineItems::unpack(int n, int from, const double *buf)
+{
+  for (int i = from; i < from + n; i++, buf += count)
+    std::copy_n(buf, count, reinterpret_cast<double *>(&items[i]) + first);
+}
 
 static constexpr int ROUNDS = 30;
 static constexpr double EQUAL = 1.0e-9;     // distances squared
@@ -66,7 +143,8 @@ bool RefinePairs::fits(int i, int j) const
 }
 
 /* ----------------------------------------------------------------------
-   of equal distances the IDs decide, or, of two images of a particle in a narrow box, the places
+   Tell whether j is nearer to i than the other one.  At equal distances the IDs decide, for two images
+   of one particle, in a narrow box, the positions.
 ------------------------------------------------------------------------- */
 
 bool RefinePairs::nearer(int i, int j, int other) const
@@ -114,7 +192,7 @@ void RefinePairs::settle()
 }
 
 /* ----------------------------------------------------------------------
-   the parent, which is the first of its daughters, has an ID below the new ones
+   Tell the leader of a family: the first daughter has the ID of the parent, below the new ones.
 ------------------------------------------------------------------------- */
 
 bool RefinePairs::is_first(int i) const
@@ -123,7 +201,8 @@ bool RefinePairs::is_first(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   of the first one, in the order of the IDs: those that may merge into one, each once, where it is nearest
+   Return the members of the family that i leads, in the order of their IDs, each once, in its nearest
+   image.  Empty if the whole would be too large.
 ------------------------------------------------------------------------- */
 
 std::vector<int> RefinePairs::family(int i, const int *neighbors, int n, double farthest_sq) const
@@ -208,5 +287,69 @@ void RefinePairs::find(NeighList *full, double farthest)
     settle();
     MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MAX, world);
     if (!found_all) break;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Set r to the way from the point of one item to that of another one.
+------------------------------------------------------------------------- */
+
+void RefineResidual::offset(int from, int to, double *r) const
+{
+  const RefineItem &a = items[from], &b = items[to];
+  for (int d = 0; d < 3; d++) r[d] = (b.lump.x[d] - a.lump.x[d]) + (b.center[d] - a.center[d]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool RefineResidual::give(NeighList *full, int i, const double *angmom)
+{
+  Shell shell;
+  const int *const neighbors = full->firstneigh[i];
+  for (int k = 0; k < full->numneigh[i]; k++) {
+    const int j = neighbors[k] & NEIGHMASK;
+    if (!(items[j].mass > 0.0)) continue;
+    double r[3];
+    offset(i, j, r);
+    const double weight = shell_weight(dot(r, r), radius);
+    if (weight > 0.0) shell.add(weight * items[j].mass, r, items[j].u);
+  }
+  const bool taken = shell.take(angmom, domain->dimension, items[i].rotation);
+  items[i].gives = taken ? 1.0 : 0.0;
+  return taken;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineResidual::clear()
+{
+  du.assign(3 * atom->nlocal, 0.0);
+  works.assign(atom->nlocal, 0.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineResidual::take(NeighList *full)
+{
+  clear();
+  for (int ii = 0; ii < full->inum; ii++) {
+    const int i = full->ilist[ii];
+    if (items[i].is(APART)) continue;
+    const int point = (items[i].mass > 0.0) ? i : pairs.mate(i);
+    const int *const neighbors = full->firstneigh[i];
+    for (int k = 0; k < full->numneigh[i]; k++) {
+      const int j = neighbors[k] & NEIGHMASK;
+      if (items[j].gives == 0.0 || j == point) continue;
+      double r[3], one[3] = {0.0, 0.0, 0.0};
+      offset(j, point, r);
+      const double weight = shell_weight(dot(r, r), radius);
+      if (!(weight > 0.0)) continue;
+      items[j].rotation.velocity(weight, r, one);
+      for (int d = 0; d < 3; d++) {
+        du[3 * i + d] += one[d];
+        works[i] += items[i].mass * (items[i].u[d] - items[j].rotation.mean[d]) * one[d];
+      }
+    }
+    works[i] += 0.5 * items[i].mass * dot(&du[3 * i], &du[3 * i]);
   }
 }

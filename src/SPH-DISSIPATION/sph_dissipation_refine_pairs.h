@@ -15,24 +15,88 @@
 #define LMP_SPH_DISSIPATION_REFINE_PAIRS_H
 
 #include "pointers.h"
+#include "sph_dissipation_split.h"
 
 #include <map>
 #include <vector>
 
 namespace LAMMPS_NS {
+class Fix;
 class NeighList;
 
 namespace SPHDissipation {
 
-  class RefineItems;
+  // What a particle does in an event
 
-  // Partners of merges: each particle that is to merge chooses the nearest one that may be its
-  // partner, two that have chosen each other are settled, the others choose again.  Which of two
-  // distances is the smaller one is known up to round-off only; equal ones are decided by the IDs,
-  // so that the pairs do not depend on the number of processors.
+  enum RefineState { APART, KEEPS, SPLITS, MERGES };    // APART: no fluid
+
+  // A particle and what its neighbors need of it in an event.  All doubles, to be sent as rows.
+
+  struct RefineItem {
+    double state;     // RefineState, see is()
+    double mask;      // bits of its groups
+    double volume;    // now
+    double most;      // volume that a merge may give it
+    double family;    // of the daughters of one split, the lowest of their new IDs; 0: none
+    Lump lump;
+
+    // partner of a merge: ID of the particle that it would merge with, or the family that does as a
+    // whole; nonzero once that is settled
+
+    double choice, settled;
+    double withheld;    // of the lowest ID of those that merge, or of one that splits: not now
+
+    // The particle as its neighbors will meet it: a pair that merges is a point in its centre of
+    // mass, whose mass the lower ID has, the other none
+
+    double mass, center[3], u[3];    // center: from the particle
+
+    double gives;    // nonzero: its neighbors take its residual angular momentum
+    Rotation rotation;
+
+    bool is(RefineState one) const { return state == static_cast<double>(one); }
+  };
+
+  // Items of all owned and ghost particles during one event
+
+  class RefineItems : protected Pointers {
+   public:
+    RefineItems(class LAMMPS *lmp, Fix *fix) : Pointers(lmp), fix(fix), first(0), count(0) {}
+
+    void resize();    // for the particles that there are; zero
+    RefineItem &operator[](int i) { return items[i]; }
+    const RefineItem &operator[](int i) const { return items[i]; }
+
+    // Send members of the items to the ghosts.  The positions of ghosts are not sent but those that
+    // they have: of periodic images.
+
+    static constexpr int SIZE = sizeof(RefineItem) / sizeof(double);
+    void forward_all();
+    void forward_choice();
+    void forward_settled();
+    void forward_withheld();
+    void forward_point();
+    void forward_rotation();
+
+    int pack(int n, const int *list, double *buf) const;
+    void unpack(int n, int from, const double *buf);
+    double memory_usage() const { return items.capacity() * sizeof(RefineItem); }
+
+   private:
+    Fix *fix;
+    std::vector<RefineItem> items;
+    int first, count;    // of the doubles of an item that are sent
+
+    void forward(int first, int count);
+  };
+
+  // Finds the partners of merges.  Each particle that is to merge chooses the nearest one that may be
+  // its partner; two that have chosen each other are settled, the others choose again.  Distances that
+  // are equal up to round-off are decided by the IDs, so that the pairs do not depend on the number of
+  // processors.
   //
-  // Before that, all daughters of one split may merge as a whole: what pairs, one after the other,
-  // do not give back is the moment of inertia of a spinning particle in three dimensions.
+  // A family, all daughters of one split, merges first and as a whole.  It serves spinning particles in
+  // three dimensions: pairs, one after the other, do not restore the moment of inertia of the parent.
 
   class RefinePairs : protected Pointers {
    public:
@@ -48,8 +112,8 @@ namespace SPHDissipation {
    private:
     RefineItems &items;
     std::vector<int>
-        mates;    // of a family: of the one that leads any other one, of these that one
-    std::map<int, std::vector<int>> families;
+        mates;    // in a family: of the leader another member, of the others the leader
+    std::map<int, std::vector<int>> families;    // members, by their leader
 
     void settle();
     bool is_first(int i) const;
@@ -58,6 +122,37 @@ namespace SPHDissipation {
     bool nearer(int i, int j, int other) const;    // to i, j than the other one
     std::vector<int> family(int i, const int *neighbors, int n, double farthest_sq) const;
     int nearest(int i, const int *neighbors, int n, double farthest_sq) const;
+  };
+
+  // Gives the residual angular momentum of a merge, which a particle without spin cannot hold, to the
+  // neighbors as a rotation.  Each pair of the plan counts as one point, also if it then does not merge.
+
+  class RefineResidual : protected Pointers {
+   public:
+    RefineResidual(class LAMMPS *lmp, RefineItems &items, const RefinePairs &pairs) :
+        Pointers(lmp), items(items), pairs(pairs), radius(0.0)
+    {
+    }
+
+    void init(double radius_in) { radius = radius_in; }
+
+    // Find the rotation of the neighbors of owned particle i.  False if there is none.
+    bool give(NeighList *full, int i, const double *angmom);
+
+    // Sum up the velocity that each owned particle gets, and the work of it; that of a pair is with its
+    // lower ID.
+    void take(NeighList *full);
+    const double *velocity(int i) const { return &du[3 * i]; }
+    double work(int i) const { return works[i]; }
+    void clear();
+
+   private:
+    RefineItems &items;
+    const RefinePairs &pairs;
+    double radius;
+    std::vector<double> du, works;
+
+    void offset(int from, int to, double *r) const;
   };
 
 }    // namespace SPHDissipation

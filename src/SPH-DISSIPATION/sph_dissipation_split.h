@@ -105,10 +105,10 @@ namespace SPHDissipation {
     constexpr double LEAST = 0.8;    // over that of a body of the same shape
     double second = 0.0;
     for (int k = 0; k < stencil.n; k++) second += dot(stencil.d[k], stencil.d[k]) / stencil.n;
-    const double rest = parent.inertia - (dim == 3 ? 2.0 / 3.0 : 1.0) * second;
+    const double remaining = parent.inertia - (dim == 3 ? 2.0 / 3.0 : 1.0) * second;
     const double least = LEAST * std::pow(stencil.n, -2.0 / dim) * parent.inertia;
-    rotate = rest > 0.0 && rest >= least && (dim < 3 || stencil.isotropic);
-    return rotate ? rest : parent.inertia;
+    rotate = remaining > 0.0 && remaining >= least && (dim < 3 || stencil.isotropic);
+    return rotate ? remaining : parent.inertia;
   }
 
   inline void split(const Lump &parent, const Stencil &stencil, int dim, Lump *daughters)
@@ -164,9 +164,10 @@ namespace SPHDissipation {
   // One particle from n; returns the heat of it in units of mass velocity^2, not yet in whole.energy.
   // A spinning one has the largest of the principal moments of inertia of its parts: with it, the
   // energy of its spin is at most that of the motion of the parts, L^2/(2 J) <= L J^-1 L/2.
-  // One without spin leaves over the angular momentum rest.
+  // One without spin cannot hold the residual angular momentum.
 
-  inline double merge(const Lump *parts, int n, int dim, bool spinning, Lump &whole, double *rest)
+  inline double merge(const Lump *parts, int n, int dim, bool spinning, Lump &whole,
+                      double *residual)
   {
     whole = Lump();
     for (int k = 0; k < n; k++) {
@@ -202,7 +203,7 @@ namespace SPHDissipation {
         },
         whole.u_end);
 
-    for (int d = 0; d < 3; d++) rest[d] = spinning ? 0.0 : now.angmom[d];
+    for (int d = 0; d < 3; d++) residual[d] = spinning ? 0.0 : now.angmom[d];
     if (!spinning) return now.energy;
 
     Symmetric moments;
@@ -228,7 +229,8 @@ namespace SPHDissipation {
     return std::max(now.energy - 0.5 * dot(now.angmom, now.angmom) / moment, 0.0);
   }
 
-  // Neighbors of a merged particle, at r from it, that take over its rest of angular momentum
+  // Rotation of the neighbors of a merged particle, at r from it, which take its residual angular
+  // momentum
 
   struct Rotation {
     double rate[3];      // angular velocity that is added to theirs
@@ -250,8 +252,8 @@ namespace SPHDissipation {
 
   inline double shell_weight(double rsq, double radius)
   {
-    const double rest = 1.0 - rsq / (radius * radius);
-    return rest > 0.0 ? rest * rest : 0.0;
+    const double inside = 1.0 - rsq / (radius * radius);
+    return inside > 0.0 ? inside * inside : 0.0;
   }
 
   struct Shell {

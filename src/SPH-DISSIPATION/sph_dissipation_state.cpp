@@ -18,12 +18,13 @@
 #include "domain.h"
 #include "error.h"
 #include "math_const.h"
-#include "sph_dissipation_elasticity.h"
+#include "math_extra.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 using namespace LAMMPS_NS;
@@ -230,6 +231,88 @@ double FluidState::longest_wave() const
     length =
         std::max(length, domain->periodicity[d] ? domain->prd[d] : -(all[2 * d] + all[2 * d + 1]));
   return length;
+}
+
+/* ----------------------------------------------------------------------
+   Sum up d2c/dgamma2 for any shear gamma s k, with unit vectors k and s at right angles, which moves a
+   neighbor at r by gamma s (k.r): -sum_j w_j [F (k.r)^2 + F'/r (k.r)^2 (s.r)^2], as sums over the
+   products of components of r, xx yy zz yz xz xy
+------------------------------------------------------------------------- */
+
+void LatticeStrain::run(const std::vector<double> &weight)
+{
+  constexpr double DQ = 1.0e-4;    // for F' by differences
+  const LoopData &pairs = engine.pairs();
+  const Particle *const particle = engine.particle;
+  const int *const type = atom->type;
+  const int n = atom->ntypes + 1;
+  std::vector<Sum> my_sums(n, Sum());
+
+  with_kernel(engine.kernel_form(), [&](auto k) {
+    engine.visit_pairs([&](int i, int j, bigint entry) {
+      if (weight[i] + weight[j] == 0.0) return;
+      double r[3];
+      for (int d = 0; d < 3; d++) r[d] = particle[i].x[d] - particle[j].x[d];
+      const double product[6] = {r[0] * r[0], r[1] * r[1], r[2] * r[2],
+                                 r[1] * r[2], r[0] * r[2], r[0] * r[1]};
+      const double dist = sqrt(product[0] + product[1] + product[2]);
+      if (dist == 0.0) return;
+      const double q = dist / pairs.support;
+      const double from = std::max(q - DQ, 0.0), to = std::min(q + DQ, 1.0);
+      const double derivative =
+          pairs.slope_norm * (k.slope(to) - k.slope(from)) / (to - from) / (pairs.support * dist);
+      for (const int one : {i, j}) {
+        const double each = weight[one] * engine.weight(i + j - one) / engine.density[one].c;
+        Sum &sum = my_sums[type[one]];
+        for (int a = 0; a < 6; a++) {
+          sum.second[a] -= each * pairs.slope[entry] * product[a];
+          for (int b = 0; b < 6; b++)
+            sum.fourth[a][b] -= each * derivative * product[a] * product[b];
+        }
+      }
+    });
+    return 0;
+  });
+
+  sums.resize(n);
+  MPI_Allreduce(my_sums.data(), sums.data(), n * sizeof(Sum) / sizeof(double), MPI_DOUBLE, MPI_SUM,
+                world);
+}
+
+/* ----------------------------------------------------------------------
+   Return the value of largest size for all k and s of small integer components, among them those in
+   which square, cubic and hexagonal lattices have their extremes.
+------------------------------------------------------------------------- */
+
+double LatticeStrain::largest(int type) const
+{
+  constexpr int MOST = 2;
+  const Sum &sum = sums[type];
+  const int most_z = (engine.dimension() == 2) ? 0 : MOST;
+  std::vector<std::array<double, 3>> directions;
+  for (int l = -MOST; l <= MOST; l++)
+    for (int m = -MOST; m <= MOST; m++)
+      for (int n = -most_z; n <= most_z; n++)
+        if (l || m || n) directions.push_back({(double) l, (double) m, (double) n});
+
+  constexpr int A[6] = {0, 1, 2, 1, 0, 0},
+                B[6] = {0, 1, 2, 2, 2, 1};    // components of the products
+  double found = 0.0;
+  for (const auto &k : directions)
+    for (const auto &s : directions) {
+      if (MathExtra::dot3(k.data(), s.data()) != 0.0) continue;
+      double second = 0.0, fourth = 0.0, mixed[6];
+      for (int c = 0; c < 6; c++) {
+        mixed[c] = k[A[c]] * s[B[c]] + (A[c] != B[c] ? k[B[c]] * s[A[c]] : 0.0);
+        second += (A[c] != B[c] ? 2.0 : 1.0) * k[A[c]] * k[B[c]] * sum.second[c];
+      }
+      for (int c = 0; c < 6; c++)
+        for (int d = 0; d < 6; d++) fourth += mixed[c] * sum.fourth[c][d] * mixed[d];
+      const double change =
+          (second + fourth / MathExtra::lensq3(s.data())) / MathExtra::lensq3(k.data());
+      if (fabs(change) > fabs(found)) found = change;
+    }
+  return found;
 }
 
 /* ----------------------------------------------------------------------

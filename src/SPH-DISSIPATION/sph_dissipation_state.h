@@ -24,6 +24,28 @@ namespace SPHDissipation {
 
   class FluidModel;
 
+  // How the number density of particles changes in a shear gamma of their arrangement: d2c/dgamma2
+  // over c, which times the pressure is the shear modulus of a lattice (theory page).
+
+  class LatticeStrain : public Stage {
+   public:
+    using Stage::Stage;
+
+    // sums over the pairs of pass 1; weight = of owned and ghost particles
+
+    void run(const std::vector<double> &weight);
+
+    // sum of weight times d2c/dgamma2 over c, the largest in size of all directions of the shear
+
+    double largest(int type) const;
+
+   private:
+    struct Sum {
+      double second[6], fourth[6][6];    // coefficients of any shear
+    };
+    std::vector<Sum> sums;    // by type
+  };
+
   // The fluid as it enters the first step, by type: density, pressure, and the shear elasticity that
   // the pressure gives to a regular arrangement.  The means are over the particles with a full
   // support, that is without a free surface in reach; over all if there are no such particles.

@@ -41,10 +41,10 @@ static constexpr double CUTOFF = 3.0;
 
 static constexpr double OUTER = 0.85;
 
-// directions that are the rest of vectors that cancel each other mean nothing: shortest rest, as part
-// of the vectors
+// A sum of vectors has a direction if it is longer than this part of the sum of their lengths: a
+// shorter one is the residual of vectors that cancel each other.
 
-static constexpr double REST = 0.1;
+static constexpr double RESIDUAL = 0.1;
 
 // 1 inside of a sphere, going to zero smoothly at its surface, on which particles of lattices lie
 
@@ -171,8 +171,9 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
       for (int d = 0; d < 3; d++) inward[d] += part * r[d];
     });
     const double length = MathExtra::len3(inward);
-    const bool outer = filled < OUTER && length > REST * REST * width &&
-        MathExtra::dot3(inward, s.normal) < -REST * REST * length * MathExtra::len3(s.normal);
+    const bool outer = filled < OUTER && length > RESIDUAL * RESIDUAL * width &&
+        MathExtra::dot3(inward, s.normal) <
+            -RESIDUAL * RESIDUAL * length * MathExtra::len3(s.normal);
     for (int d = 0; d < 3; d++) s.normal[d] = outer ? -inward[d] / length : 0.0;
     s.depth = (filled - 0.5) * width * sqrt(MathConst::MY_2PI);
   }
@@ -203,7 +204,7 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
       for (int d = 0; d < 3; d++) normal[d] += weight * plane.normal[d];
     });
     const double length = MathExtra::len3(normal);
-    if (length > REST * weights) {
+    if (length > RESIDUAL * weights) {
       s.depth = std::max(depth / weights, 0.0);
       for (int d = 0; d < 3; d++) s.normal[d] = normal[d] / length;
     } else {

@@ -26,8 +26,8 @@
 #include "pair_hybrid.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_create.h"
 #include "sph_dissipation_fluid.h"
-#include "sph_dissipation_gather.h"
 #include "sph_dissipation_model.h"
 
 #include <algorithm>
@@ -81,7 +81,7 @@ std::set<Kind> SPHDissipation::all_kinds(LAMMPS *lmp)
 }
 
 /* ----------------------------------------------------------------------
-   as NPair decides
+   Tell whether there can be pairs of two kinds, by the rules of NPair.
 ------------------------------------------------------------------------- */
 
 bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b)
@@ -104,7 +104,7 @@ bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b
 }
 
 /* ----------------------------------------------------------------------
-   and what pair style hybrid does
+   Tell whether the pair style of the fluid gets them: also pair style hybrid must let them through.
 ------------------------------------------------------------------------- */
 
 static bool have_pairs(LAMMPS *lmp, const Fluid *fluid, const Kind &a, const Kind &b)
@@ -160,11 +160,10 @@ void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Flu
 }
 
 /* ----------------------------------------------------------------------
-   warn if the wall does not fill the support of the fluid at its surface.  The first
-   layer is what has fluid at the distance of the particle spacing; how deep the wall
-   goes below it, as seen within the support radius, must be that minus one spacing.
-   The neighbor lists have no pairs of wall particles, hence the cells.
-   warn if the masses do not fit the distances, for the spacing is that of the masses
+   Warn if the wall does not fill the support of the fluid at its surface.  The first layer has fluid at
+   the distance of the particle spacing; below it, the wall must go as deep as the support radius minus
+   one spacing.  The neighbor lists have no pairs of wall particles, hence the cells.
+   Warn if the masses do not fit the distances, for the spacing is that of the masses.
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_wall_thickness(LAMMPS *lmp, const Fix *fix, const Fluid *fluid)

@@ -16,11 +16,9 @@
 #include "compute.h"
 #include "domain.h"
 #include "error.h"
-#include "input.h"
 #include "math_extra.h"
 #include "modify.h"
 #include "update.h"
-#include "variable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,17 +40,10 @@ WallMotion::WallMotion(LAMMPS *lmp, const std::string &owner) :
 
 /* ---------------------------------------------------------------------- */
 
-WallMotion::~WallMotion()
-{
-  for (auto &value : values) delete[] value.name;
-}
-
-/* ---------------------------------------------------------------------- */
-
 void WallMotion::set_velocity(char **arg)
 {
   for (int d = 0; d < 3; d++) read(values[d], arg[d]);
-  if (domain->dimension == 2 && (values[2].name || values[2].number != 0.0))
+  if (domain->dimension == 2 && !values[2].value.is_zero())
     error->all(FLERR, "{}: velocity and gravity must lie in the plane in 2d", owner);
 }
 
@@ -72,45 +63,36 @@ void WallMotion::set_rotation(char **arg)
   rotation_given = true;
 }
 
-/* ----------------------------------------------------------------------
-   number, or variable v_name
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void WallMotion::read(Value &value, const char *word)
+void WallMotion::read(Component &one, const char *word)
 {
-  delete[] value.name;
-  value = Value();
-  if (utils::strmatch(word, "^v_"))
-    value.name = utils::strdup(word + 2);
-  else
-    value.number = utils::numeric(FLERR, word, false, lmp);
-  any_variable = any_variable || value.name;
+  one = Component();
+  one.value.set(lmp, word);
+  any_variable = any_variable || one.value.varies();
 }
 
 /* ---------------------------------------------------------------------- */
 
 void WallMotion::init()
 {
-  for (auto &value : values) {
-    if (!value.name) continue;
-    value.variable = input->variable->find(value.name);
-    if (value.variable < 0)
-      error->all(FLERR, "Variable {} for {} does not exist", value.name, owner);
-    if (!input->variable->equalstyle(value.variable))
-      error->all(FLERR, "Variable {} for {} is not an equal-style variable", value.name, owner);
-  }
+  for (auto &one : values)
+    if (!one.value.init(lmp, owner, false))
+      error->all(FLERR, "Variable {} for {} is not an equal-style variable", one.value.name(),
+                 owner);
 }
 
 /* ----------------------------------------------------------------------
-   values at the current time step; true if a variable took something from a compute
+   Evaluate all values at this time step; true if a variable took something from a compute.
 ------------------------------------------------------------------------- */
 
 bool WallMotion::evaluate(double *result)
 {
   if (any_variable) modify->clearstep_compute();
-  for (int k = 0; k < NVALUES; k++)
-    result[k] = values[k].name ? input->variable->compute_equal(values[k].variable)
-                               : values[k].number;
+  for (int k = 0; k < NVALUES; k++) {
+    values[k].value.evaluate(lmp, 0);
+    result[k] = values[k].value.now();
+  }
   if (!any_variable) return false;
   const auto &computes = modify->get_compute_list();
   return std::any_of(computes.begin(), computes.end(), [](const Compute *compute) {
@@ -119,10 +101,9 @@ bool WallMotion::evaluate(double *result)
 }
 
 /* ----------------------------------------------------------------------
-   Variables are functions of time, or of what the particles do.  The rate of the former follows
-   from their values in the steps to come.  Those of the latter are not known in advance: they keep
-   the rate of the step that led here, if a run ended with it, and so do those that do not change
-   any more.
+   Set values and rates at the start of a run.  Variables that are functions of time get their rate from
+   the values in the steps to come.  Those that depend on the particles are not known in advance: they
+   keep the rate of the last step, if a run ended with it, and so do those that do not change any more.
 ------------------------------------------------------------------------- */
 
 void WallMotion::start()
@@ -141,8 +122,8 @@ void WallMotion::start()
 }
 
 /* ----------------------------------------------------------------------
-   change over the step before this one, as the parabola through now and the two steps to come
-   has it; in a run of no steps, ramp() of variables has no slope
+   Set the rates to the changes over the step before this one, as the parabola through now and the two
+   steps to come has them.  In a run of no steps, ramp() of variables would have no slope.
 ------------------------------------------------------------------------- */
 
 void WallMotion::estimate_rates()
@@ -158,7 +139,7 @@ void WallMotion::estimate_rates()
   update->endstep = endstep;
 
   for (int k = 0; k < NVALUES; k++) {
-    Value &value = values[k];
+    Component &value = values[k];
     if (next[k] == value.now && second[k] == value.now) continue;
     const double rate = (3.0 * next[k] - second[k] - 2.0 * value.now) / update->dt;
     value.rate = std::isfinite(rate) ? rate : 0.0;
@@ -167,14 +148,14 @@ void WallMotion::estimate_rates()
 
 /* ---------------------------------------------------------------------- */
 
-void WallMotion::rest()
+void WallMotion::stop()
 {
   known_step = -1;
   for (auto &value : values) value.now = value.mean = value.rate = 0.0;
 }
 
 /* ----------------------------------------------------------------------
-   with a time step of zero, nothing changes in time
+   Go to the end of a step.  With a time step of zero, nothing changes in time.
 ------------------------------------------------------------------------- */
 
 void WallMotion::advance()
@@ -184,7 +165,7 @@ void WallMotion::advance()
   if (any_variable) modify->addstep_compute(update->ntimestep + 1);
   known_step = update->ntimestep;
   for (int k = 0; k < NVALUES; k++) {
-    Value &value = values[k];
+    Component &value = values[k];
     value.mean = 0.5 * (value.now + now[k]);
     value.rate = (update->dt != 0.0) ? (now[k] - value.now) / update->dt : 0.0;
     value.now = now[k];

@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_WALL_MOTION_H
 
 #include "pointers.h"
+#include "sph_dissipation_value.h"
 #include "sph_dissipation_wall_terms.h"
 
 #include <string>
@@ -27,8 +28,7 @@ namespace SPHDissipation {
 
   class WallMotion : protected Pointers {
    public:
-    WallMotion(class LAMMPS *, const std::string &owner);    // owner = what messages name
-    ~WallMotion() override;
+    WallMotion(class LAMMPS *, const std::string &owner);    // owner: for messages
 
     // arguments of the commands; what they mean is checked here
 
@@ -37,7 +37,7 @@ namespace SPHDissipation {
 
     void init();       // of a run: find the variables
     void start();      // of a run: values now, and the rates at which they change
-    void rest();       // until the next start: the wall stands still
+    void stop();       // until the next start the wall stands still
     void advance();    // to the end of a step
 
     WallVelocity velocity() const;    // at the end of the last step
@@ -54,25 +54,23 @@ namespace SPHDissipation {
     void restart(const double *);
 
    private:
-    struct Value {
-      char *name = nullptr;    // of the variable
-      int variable = -1;       // its index
-      double number = 0.0;     // if there is no variable
-      double now = 0.0;        // at the end of the last step
-      double mean = 0.0;       // of its values at both ends of this step
-      double rate = 0.0;       // of its change
+    struct Component {
+      Value value;
+      double now = 0.0;     // at the end of the last step
+      double mean = 0.0;    // of its values at both ends of this step
+      double rate = 0.0;    // of its change
     };
     static constexpr int NVALUES = 4;
 
     const std::string owner;
-    Value values[NVALUES];    // velocity along x, y, z and angular velocity
+    Component values[NVALUES];    // velocity along x, y, z and angular velocity
     bool rotation_given;
     double given[6];    // point and direction of the axis as in the input
     double point[3], axis[3];
     bool any_variable;
     bigint known_step;    // time step that the values are for, -1 if none
 
-    void read(Value &, const char *);
+    void read(Component &, const char *);
     bool evaluate(double *);
     void estimate_rates();
   };

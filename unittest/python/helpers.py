@@ -9,9 +9,14 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "examples"))
+from run_lammps import each_frame, read_array, read_grid, thermo     # noqa: E402, F401
 
 LMP = os.environ.get("SPHD_LMP") or shutil.which("lmp") or "lmp"
 MPIEXEC = os.environ.get("SPHD_MPIEXEC") or shutil.which("mpiexec") or "mpiexec"
@@ -72,14 +77,7 @@ class Result:
 
     def thermo(self):
         """Thermodynamic output of every run: a list of {column: array}."""
-        tables = re.findall(r"^ *(Step .*?)\n(.*?)^Loop time", self.log, re.MULTILINE | re.DOTALL)
-        result = []
-        for head, body in tables:
-            names = head.split()
-            rows = [line.split() for line in body.splitlines()
-                    if re.match(r"^\s*\d+(\s+[-+.\deEnaif]+)*\s*$", line)]
-            result.append(dict(zip(names, np.array(rows, dtype=float).T)))
-        return result
+        return thermo(self.log)
 
 
 class Lammps:
@@ -147,19 +145,7 @@ class Frame:
 
 def read_dump(path):
     """All frames of a dump file written by the commands of dump()."""
-    frames = []
-    with open(path) as file:
-        for line in file:
-            if line.startswith("ITEM: TIMESTEP"):
-                step = int(next(file))
-            elif line.startswith("ITEM: NUMBER OF ATOMS"):
-                number = int(next(file))
-            elif line.startswith("ITEM: ATOMS"):
-                names = [dump_name(word) for word in line.split()[2:]]
-                rows = np.array([next(file).split() for _ in range(number)], dtype=float)
-                rows = rows.reshape(number, len(names))
-                frames.append(Frame(step, dict(zip(names, rows.T))))
-    return frames
+    return [Frame(step, {dump_name(name): values for name, values in columns.items()}) for step, columns in each_frame(path)]
 
 
 def dump_name(word):

@@ -2,44 +2,10 @@
 
 import numpy as np
 
+from helpers import read_array, read_grid     # noqa: F401, for the tests
+
 COLUMNS = ("wave", "modes", "solenoidal", "dilatational", "enstrophy", "density", "kinetic", "spin")
 TOTALS = ("solenoidal", "dilatational", "curl2", "div2", "power_curl", "power_div", "density2", "kinetic", "spin")
-
-
-def read_grid(path):
-    """Frames of a dump of style grid whose first columns are ix iy iz: [(box lengths, array[ix, iy, iz, column])]."""
-    frames = []
-    with open(path) as file:
-        for line in file:
-            if line.startswith("ITEM: BOX"):
-                length = np.array([np.diff(list(map(float, next(file).split())))[0] for _ in range(3)])
-            elif line.startswith("ITEM: GRID SIZE"):
-                count = tuple(map(int, next(file).split()))
-            elif line.startswith("ITEM: GRID CELLS"):
-                rows = np.array([next(file).split() for _ in range(np.prod(count))], dtype=float)
-                place = rows[:, :3].astype(int) - 1
-                field = np.full((*count, rows.shape[1] - 3), np.nan)
-                field[tuple(place.T)] = rows[:, 3:]
-                assert not np.isnan(field).any()
-                frames.append((length, field))
-    return frames
-
-
-def read_array(path):
-    """Frames of a file of fix ave/time mode vector: [array[row, column]]."""
-    frames, rows = [], 0
-    with open(path) as file:
-        for line in file:
-            if line.startswith("#"):
-                continue
-            if rows == 0:
-                rows, frame = int(line.split()[1]), []
-                continue
-            frame.append(line.split()[1:])
-            rows -= 1
-            if rows == 0:
-                frames.append(np.array(frame, dtype=float))
-    return frames
 
 
 def wave_vectors(count, length):

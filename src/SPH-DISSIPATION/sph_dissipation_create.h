@@ -1,0 +1,74 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_CREATE_H
+#define LMP_SPH_DISSIPATION_CREATE_H
+
+#include "lmptype.h"
+
+#include <mpi.h>
+#include <utility>
+#include <vector>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+
+namespace SPHDissipation {
+
+  // Gather what all processors have, in their order.
+
+  template <class T>
+  std::vector<T> gather_all(MPI_Comm world, const std::vector<T> &mine, MPI_Datatype type)
+  {
+    int nprocs, n = static_cast<int>(mine.size()), total = 0;
+    MPI_Comm_size(world, &nprocs);
+    std::vector<int> counts(nprocs), starts(nprocs);
+    MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+    for (int p = 0; p < nprocs; p++) {
+      starts[p] = total;
+      total += counts[p];
+    }
+    std::vector<T> all(total);
+    MPI_Allgatherv(mine.data(), n, type, all.data(), counts.data(), starts.data(), type, world);
+    return all;
+  }
+
+  // Tell whether x is inside the boundaries of the box that are not periodic.
+
+  bool in_box(LAMMPS *, const double *x);
+
+  // Create and delete particles, for fixes that do it between two neighbor lists.  All processors call
+  // begin_change(), from which on there are no ghosts, create and remove owned particles, and call
+  // end_change() with the number of owned particles that there were.
+
+  void begin_change(LAMMPS *);
+  void end_change(LAMMPS *, int nlocal_before);
+
+  // Append a copy of owned particle i with another ID and position; return its index.
+  int create_copy(LAMMPS *, int i, tagint id, const double *x);
+
+  // Remove an owned particle.  The last one takes its place.
+  void remove_particle(LAMMPS *, int i);
+
+  // Find new IDs for particles, each so many in a row: in the order of the IDs that the particles have,
+  // on whatever processor they are.  first = of the new IDs, highest = ID that was ever given, before
+  // and after.  False if there are not enough.
+
+  using NewIDs = std::pair<tagint, tagint>;    // ID of a particle, number of new ones
+  [[nodiscard]] bool new_ids(LAMMPS *, const std::vector<NewIDs> &mine, tagint &highest,
+                             std::vector<tagint> &first);
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
