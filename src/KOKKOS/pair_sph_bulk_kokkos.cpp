@@ -422,6 +422,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::grow()
 template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::copy_coeffs()
 {
   const LoopData &engine_data = engine->pairs();
+  const Parameters &par = engine->parameters();
   const int n = engine_data.ntypes_1;
   if (!types->extent(0)) {
     *types = Kokkos::View<TypeKokkos *, DeviceType>("sph:types", n);
@@ -429,7 +430,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::copy_coeffs()
   }
   auto h_types = Kokkos::create_mirror_view(*types);
   auto h_coeff = Kokkos::create_mirror_view(data->coeff);
-  for (int i = 1; i < n; i++) h_types(i) = {model->coeffs[i].eos, model->coeffs[i].zeta};
+  for (int i = 1; i < n; i++) h_types(i) = {par.type[i].eos, par.type[i].zeta};
   for (int k = 0; k < n * n; k++) h_coeff(k) = engine_data.coeff[k];
   Kokkos::deep_copy(*types, h_types);
   Kokkos::deep_copy(data->coeff, h_coeff);
@@ -440,7 +441,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::copy_coeffs()
   data->support = engine_data.support;
   data->weight_norm = engine_data.weight_norm;
   data->slope_norm = engine_data.slope_norm;
-  data->self_weight = kernel_weight(model->choice.kernel, dim, 0.0, support);
+  data->self_weight = par.self_weight;
 
   data->each = (model->choice.volume == Volume::MASS) ? 1 : 0;
   data->weight = decltype(data->weight)("sph:weight", 1);    // by mass it is set in each step
@@ -572,7 +573,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::find_bound()
   with_kernel(model->choice.kernel, [&](auto kernel) {
     Kokkos::parallel_for(
         "sph:bound", Kokkos::RangePolicy<DeviceType>(0, list->inum),
-        BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, engine->shear_form(), bound});
+        BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, engine->parameters().shear, bound});
   });
 
   if (communicates_on_device()) {
@@ -721,21 +722,9 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::run_forces(bool 
   if (vflag_atom) data->vatom = decltype(data->vatom)("sph:vatom", atom->nlocal);
 
   with_kernel(model->choice.kernel, [&](auto kernel) {
-    typedef decltype(kernel) K;
-    switch (model->choice.shear) {
-      case Shear::MG:
-        return run_force_loop<K, Shear::MG>(virial);
-      case Shear::MG_FR:
-        return run_force_loop<K, Shear::MG_FR>(virial);
-      case Shear::MORRIS:
-        return run_force_loop<K, Shear::MORRIS>(virial);
-      case Shear::ESPANOL:
-        return run_force_loop<K, Shear::ESPANOL>(virial);
-      case Shear::MICROPOLAR:
-        return run_force_loop<K, Shear::MICROPOLAR>(virial);
-      default:
-        return run_force_loop<K, Shear::NONE>(virial);
-    }
+    with_form(model->choice.shear, [&](auto form) {
+      run_force_loop<decltype(kernel), decltype(form)>(virial);
+    });
   });
 
   if (!vflag_atom) return;
@@ -747,13 +736,13 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::run_forces(bool 
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
-template <class K, Shear SHEAR>
+template <class K, class Form>
 void PairSPHBulkKokkos<DeviceType>::run_force_loop(bool virial)
 {
   if (model->choice.bulk == Bulk::VOLUME)
-    run_loop(ForceLoopKokkos<DeviceType, K, SHEAR, true>{*data}, virial);
+    run_loop(ForceLoopKokkos<DeviceType, K, Form, true>{*data}, virial);
   else
-    run_loop(ForceLoopKokkos<DeviceType, K, SHEAR, false>{*data}, virial);
+    run_loop(ForceLoopKokkos<DeviceType, K, Form, false>{*data}, virial);
 }
 
 /* ---------------------------------------------------------------------- */

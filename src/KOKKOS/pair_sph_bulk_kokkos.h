@@ -106,7 +106,7 @@ class PairSPHBulkKokkos : virtual public PairSPHBulk, public KokkosBase {
   void send_density();
   void send_boundary();
   template <class Loop> void run_loop(const Loop &, bool virial);
-  template <class K, SPHDissipation::Shear SHEAR> void run_force_loop(bool virial);
+  template <class K, class Form> void run_force_loop(bool virial);
 };
 
 }    // namespace LAMMPS_NS

@@ -19,7 +19,7 @@ using namespace LAMMPS_NS;
 
 template <class DeviceType>
 PairSPHMicropolarKokkos<DeviceType>::PairSPHMicropolarKokkos(LAMMPS *lmp) :
-    PairSPHBulk(lmp, NAME, VISCOSITIES), PairSPHBulkKokkos<DeviceType>(lmp), PairSPHMicropolar(lmp)
+    PairSPHBulk(lmp, NAME, true), PairSPHBulkKokkos<DeviceType>(lmp), PairSPHMicropolar(lmp)
 {
 }
 

@@ -35,7 +35,7 @@ using namespace SPHDissipation;
 
 // columns of the array, elements of the vector
 
-enum { WAVE, MODES, SOLENOIDAL, DILATATIONAL, ENSTROPHY, DENSITY, KINETIC, SPIN, NCOLUMN };
+enum { WAVE, MODES, SOLENOIDAL, DILATATIONAL, ENSTROPHY, DENSITY, KINETIC, SPIN_ENERGY, NCOLUMN };
 enum {
   SUM_SOLENOIDAL,
   SUM_DILATATIONAL,
@@ -271,11 +271,11 @@ void ComputeSPHSpectrum::sum_modes()
         column[ENSTROPHY] = 0.5 * factor * mode.curl2;
         column[DENSITY] = factor * std::norm(modes[RHO][m]);
         column[KINETIC] = 0.5 * factor * square(ROOT, m);
-        column[SPIN] = micropolar ? 0.5 * factor * square(OMEGA, m) : 0.0;
+        column[SPIN_ENERGY] = micropolar ? 0.5 * factor * square(OMEGA, m) : 0.0;
 
         const double ksq = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
         total[SUM_KINETIC] += column[KINETIC];
-        total[SUM_SPIN] += column[SPIN];
+        total[SUM_SPIN] += column[SPIN_ENERGY];
         if (ksq > 0.0) {    // all but the means
           total[SUM_SOLENOIDAL] += column[SOLENOIDAL];
           total[SUM_DILATATIONAL] += column[DILATATIONAL];

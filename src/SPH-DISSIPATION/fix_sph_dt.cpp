@@ -22,7 +22,7 @@
 #include "pair.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_steps.h"
 #include "sph_dissipation_table.h"
 #include "update.h"
 

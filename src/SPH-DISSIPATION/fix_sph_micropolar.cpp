@@ -20,8 +20,9 @@
 #include "error.h"
 #include "force.h"
 #include "neighbor.h"
-#include "pair_sph_micropolar.h"
+#include "pair_sph_bulk.h"
 #include "sph_dissipation_integrate.h"
+#include "sph_dissipation_model.h"
 
 #include <cmath>
 #include <cstring>
@@ -153,8 +154,7 @@ void FixSPHMicropolar::set_inertia_of(int i)
 
 bool FixSPHMicropolar::has_torques() const
 {
-  const auto *micropolar = dynamic_cast<PairSPHMicropolar *>(pair);
-  return micropolar && micropolar->has_torques();
+  return pair->fluid().has_torques();
 }
 
 /* ----------------------------------------------------------------------

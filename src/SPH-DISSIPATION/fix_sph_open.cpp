@@ -476,7 +476,7 @@ void FixSPHOpen::sample(Engine &engine)
   for (const int i : near) {
     const Particle &particle = engine.particle[i];
     samples->add(particle.x, plane->height(particle.x), particle.vol,
-                 condition->sample(i, particle), engine.kernel_form(), radius);
+                 condition->sample(i, particle), engine.parameters().kernel, radius);
   }
   samples->finish(condition->clock);
 
@@ -512,7 +512,7 @@ void FixSPHOpen::set_pressure(Engine &engine, int i)
   atom->rho[i] = rho;
   atom->vfrac[i] = particle.vol = atom->rmass[i] / rho;
   const double c_inv = particle.vol / engine.weight(i);
-  if (engine.bulk_form() == Bulk::DENSITY) p += engine.zeta_term[i];
+  if (engine.parameters().bulk == Bulk::DENSITY) p += engine.zeta_term[i];
   particle.g = p * c_inv * c_inv;
 }
 

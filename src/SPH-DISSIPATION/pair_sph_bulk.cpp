@@ -24,8 +24,8 @@
 #include "neighbor.h"
 #include "pair_hybrid.h"
 #include "sph_dissipation_boundary_stage.h"
+#include "sph_dissipation_channels.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_crowding.h"
 #include "sph_dissipation_density.h"
 #include "sph_dissipation_engine.h"
@@ -39,6 +39,7 @@
 #include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_pressure.h"
 #include "sph_dissipation_state.h"
+#include "sph_dissipation_steps.h"
 #include "sph_dissipation_stress.h"
 #include "sph_dissipation_surface.h"
 #include "sph_dissipation_table.h"
@@ -76,16 +77,14 @@ class PairSPHBulk::StressTally : public PairTally {
 
 /* ---------------------------------------------------------------------- */
 
-PairSPHBulk::PairSPHBulk(LAMMPS *lmp) : PairSPHBulk(lmp, "sph/bulk", {"mu"}) {}
+PairSPHBulk::PairSPHBulk(LAMMPS *lmp) : PairSPHBulk(lmp, "sph/bulk", false) {}
 
 /* ----------------------------------------------------------------------
-   for derived styles: name of the style and of its viscosities by type pair
+   for derived styles: name of the style
 ------------------------------------------------------------------------- */
 
-PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
-                         const std::vector<std::string> &viscosities) :
-    Pair(lmp),
-    fluid_style(name), model(new FluidModel(lmp, name, viscosities)), dim(0), support(0.0),
+PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name, bool spins) :
+    Pair(lmp), fluid_style(name), model(new FluidModel(lmp, name, spins)), dim(0), support(0.0),
     set_up(false), announced(false), stale(false), warned_step(0.0), noise_step(0.0),
     engine(new Engine(lmp)), crowding_requested(false), continued(false), changed(false)
 {
@@ -97,9 +96,9 @@ PairSPHBulk::PairSPHBulk(LAMMPS *lmp, const std::string &name,
                    std::max({DensityStage::REVERSE, LimitStage::REVERSE, SurfaceStage::REVERSE,
                              BoundaryStage::REVERSE, CrowdingStage::REVERSE, NoiseStage::REVERSE,
                              ForceStage::REVERSE, ViscousStage::REVERSE, FluidState::REVERSE}));
-  density = new DensityStage(lmp, *engine, *exchange, *model);
+  density = new DensityStage(lmp, *engine, *exchange);
   limit = new LimitStage(lmp, *engine, *exchange);
-  pressure = new PressureStage(lmp, *engine, *exchange, *model);
+  pressure = new PressureStage(lmp, *engine, *exchange);
   open = new OpenStage(lmp, *engine, *exchange);
   boundary = new BoundaryStage(lmp, *engine, *exchange, *model, fluid_style);
   crowd = new CrowdingStage(lmp, *engine, *exchange);
@@ -215,7 +214,8 @@ void PairSPHBulk::find_viscous_velocity()
   if (neighbor->ago == 0 || viscous->has_old_rates())
     viscous->set_rate(coeff_table().fastest_rate());
   sum_forces(nullptr);
-  const bool symmetric = (boundary->empty() || has_noise()) && engine->bulk_form() != Bulk::VOLUME;
+  const bool symmetric =
+      (boundary->empty() || has_noise()) && engine->parameters().bulk != Bulk::VOLUME;
   viscous->run(list, (model->choice.limit != Limit::NO) ? limit->bound : nullptr, symmetric);
 }
 
@@ -394,7 +394,7 @@ void PairSPHBulk::allocate()
 
 void PairSPHBulk::settings(int narg, char **arg)
 {
-  model->settings(narg, arg, default_shear());
+  model->settings(narg, arg);
 
   int found = engine->choose_loops(model->simd), found_all;
   MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MIN, world);
@@ -492,45 +492,11 @@ void PairSPHBulk::derive_coeffs()
     changed = true;
   }
   viscous->forget_rates();
-  const int n = atom->ntypes;
-  std::vector<PairCoeff> pair_coeffs((n + 1) * (n + 1));
-  std::vector<double> rho0(n + 1);
-
-  for (int i = 1; i <= n; i++) {
-    model->mix(i);
-    for (int j = 1; j <= i; j++) {
-      if (!model->coeffs[i].other && !model->coeffs[j].other) check_pair(i, j);
-      pair_coeffs[i * (n + 1) + j] = pair_coeffs[j * (n + 1) + i] = pair_coefficients(i, j);
-    }
-    rho0[i] = reference_density(i);
-    model->set_bulk(i, intrinsic_kappa_of(i, i));
-    if (has_noise()) model->check_balance(i, intrinsic_kappa_of(i, i));
-  }
-
-  const Settings &choice = model->choice;
-  engine->setup(choice.kernel, dim, support, choice.shear, choice.bulk, choice.volume, pair_coeffs,
-                rho0);
+  model->derive(dim, support);
+  engine->setup(model->parameters());
 }
 
-/* ----------------------------------------------------------------------
-   what a derived style does in its own way
-------------------------------------------------------------------------- */
-
-Shear PairSPHBulk::default_shear() const
-{
-  return Shear::MG;
-}
-
-PairCoeff PairSPHBulk::pair_coefficients(int i, int j) const
-{
-  return shear_coefficients(model->choice.shear, dim, model->viscosity(0, i, j),
-                            kernel_mean_radius(model->choice.kernel, dim, support));
-}
-
-double PairSPHBulk::intrinsic_kappa_of(int i, int j) const
-{
-  return intrinsic_kappa(model->choice.shear, dim, model->viscosity(0, i, j));
-}
+/* ---------------------------------------------------------------------- */
 
 double PairSPHBulk::reference_density(int type) const
 {
@@ -544,30 +510,7 @@ bool PairSPHBulk::has_type(int type) const
 
 double PairSPHBulk::bulk_viscosity(int type) const
 {
-  return (model->choice.bulk == Bulk::NONE) ? intrinsic_kappa_of(type, type)
-                                            : model->coeffs[type].kappa;
-}
-
-void PairSPHBulk::check_pair(int i, int j)
-{
-  if (model->choice.shear == Shear::NONE && model->viscosity(0, i, j) != 0.0)
-    error->all(FLERR, Error::NOLASTLINE,
-               "Pair_coeff mu must be 0 with shear none, not {} for types {} {}",
-               model->viscosity(0, i, j), j, i);
-}
-
-Columns PairSPHBulk::table_columns(int i, int j, double kappa, double zeta) const
-{
-  const PairCoeff coeff = pair_coefficients(i, j);
-  return {{"mu", model->viscosity(0, i, j)},
-          {"kappa", kappa},
-          {"zeta", zeta},
-          {"shear_coeff", std::max(coeff.along_r, coeff.along_u)}};
-}
-
-Columns PairSPHBulk::viscous_steps(int i, int j, double hsq, double rho) const
-{
-  return {{"shear", shear_step(model->choice.shear, hsq, model->viscosity(0, i, j) / rho)}};
+  return model->bulk_viscosity(type);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -577,7 +520,7 @@ void PairSPHBulk::announce()
   if (!compute_flag) return;    // pair_modify compute no
   const CoeffTable table = coeff_table();
   if (!announced) {
-    for (int i = 1; i <= atom->ntypes; i++) model->warn_of_ignored(i, intrinsic_kappa_of(i, i));
+    model->warn_of_ignored();
     warned_step = noise_step = 0.0;
     FluidState state(lmp, *engine, *exchange, *model);
     state.run(1, not_fluid());
@@ -630,7 +573,7 @@ void PairSPHBulk::adopt_changes()
 
 CoeffTable PairSPHBulk::coeff_table()
 {
-  find_smallest_inertia();
+  const double inertia = smallest_inertia();
   const int n = atom->ntypes;
   const Eos eos = model->choice.eos;
   std::vector<double> mine(2 * (n + 1), 0.0), all(2 * (n + 1));
@@ -656,14 +599,25 @@ CoeffTable PairSPHBulk::coeff_table()
     for (int j = i; j <= n; j++) {
       const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
       if (a.other || b.other) continue;
-      const double zeta = 0.5 * (a.zeta + b.zeta);
       const double rho = std::min(a.eos.rho0 / thinness[i], b.eos.rho0 / thinness[j]);
-      Columns steps = viscous_steps(i, j, hsq, rho);
-      steps.insert(steps.begin() + 1, {"bulk", bulk_step(hsq, zeta / rho)});
-      table.add_row(i, j, table_columns(i, j, zeta + intrinsic_kappa_of(i, j), zeta),
-                    acoustic_step(h, std::max(speed[i], speed[j])), steps);
+      table.add_row(i, j, model->pair_fluid(i, j), {hsq, rho, rho * inertia},
+                    acoustic_step(h, std::max(speed[i], speed[j])));
     }
   return table;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairSPHBulk::smallest_inertia()
+{
+  const double *const inertia = spin_inertia();
+  double mine = UNLIMITED_STEP, smallest;
+  if (inertia)
+    for (int i = 0; i < atom->nlocal; i++)
+      if (inertia[i] > 0.0 && !model->coeffs[atom->type[i]].other)
+        mine = std::min(mine, inertia[i]);
+  MPI_Allreduce(&mine, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
+  return smallest;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -774,7 +728,7 @@ void PairSPHBulk::write_restart_settings(FILE *fp)
 
 void PairSPHBulk::read_restart_settings(FILE *fp)
 {
-  model->read_settings(fp, default_shear());
+  model->read_settings(fp);
 }
 
 void PairSPHBulk::write_data(FILE *fp)

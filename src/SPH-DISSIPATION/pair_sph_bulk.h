@@ -27,7 +27,6 @@ namespace SPHDissipation {
   class Boundary;
   class BoundaryStage;
   class CoeffTable;
-  class Columns;
   class CrowdingStage;
   class DensityStage;
   class Engine;
@@ -41,9 +40,7 @@ namespace SPHDissipation {
   class PairTally;
   class PressureStage;
   class ViscousStage;
-  struct PairCoeff;
   struct ViscousSettings;
-  enum class Shear;
 }    // namespace SPHDissipation
 
 // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -191,21 +188,13 @@ class PairSPHBulk : public Pair {
   bool continued;
   bool changed;    // other coefficients, or motions of walls, than those of the last forces
 
-  PairSPHBulk(class LAMMPS *, const std::string &, const std::vector<std::string> &);
+  PairSPHBulk(class LAMMPS *, const std::string &, bool spins);
 
   virtual void allocate();
 
-  // what depends on the viscosities that a style has
-
-  virtual SPHDissipation::Shear default_shear() const;
-  virtual SPHDissipation::PairCoeff pair_coefficients(int, int) const;
-  virtual double intrinsic_kappa_of(int, int) const;
-  virtual void check_pair(int, int);
-  virtual SPHDissipation::Columns table_columns(int, int, double, double) const;
-  virtual SPHDissipation::Columns viscous_steps(int, int, double, double) const;
   virtual double **extrapolated_spin() { return nullptr; }
   virtual const double *spin_inertia() { return nullptr; }    // per mass
-  virtual void find_smallest_inertia() {}                     // for viscous_steps()
+  double smallest_inertia();    // per mass, of all particles that have one
 
   virtual void check_setup();
   void find_own_types();

@@ -31,27 +31,15 @@ class PairSPHMicropolar : virtual public PairSPHBulk {
  public:
   PairSPHMicropolar(class LAMMPS *);
 
-  void *extract(const char *, int &) override;
-  bool has_torques() const;    // any vortex or spin viscosity
-
  protected:
   static const std::string NAME;
-  static const std::vector<std::string> VISCOSITIES;
 
-  SPHDissipation::Shear default_shear() const override;
-  SPHDissipation::PairCoeff pair_coefficients(int, int) const override;
-  double intrinsic_kappa_of(int, int) const override;
   void check_setup() override;
-  void check_pair(int, int) override;
-  SPHDissipation::Columns table_columns(int, int, double, double) const override;
-  SPHDissipation::Columns viscous_steps(int, int, double, double) const override;
   double **extrapolated_spin() override;
   const double *spin_inertia() override;
-  void find_smallest_inertia() override;
 
  private:
   class AtomVecSPHMicropolar *spinning() const;
-  double smallest_inertia;    // per mass, of all particles that have one; limits the time step
 };
 
 }    // namespace LAMMPS_NS

@@ -207,7 +207,7 @@ double BoundaryStage::energy(double *each_atom) const
     total += energy;
     if (each_atom) each_atom[i] += energy;
   };
-  with_kernel(engine.kernel_form(), [&](auto k) {
+  with_kernel(engine.parameters().kernel, [&](auto k) {
     for (const auto &pair : pairs) {
       if (pair.fluid >= nforce()) continue;
       const Particle &w = engine.particle[pair.wall];
@@ -249,7 +249,7 @@ void BoundaryStage::set_near()
 {
   const LoopData &all = engine.pairs();
   const int nall = atom->nlocal + atom->nghost;
-  const int dim = engine.dimension();
+  const int dim = engine.parameters().dim;
   near.resize(nall);
   contact.resize(has_energy() ? nall : 0);
   for (int i = 0; i < nall; i++) {
@@ -288,7 +288,7 @@ void BoundaryStage::accumulate()
   const LoopData &all = engine.pairs();
   const bool repulsive = has_energy();
 
-  with_kernel(engine.kernel_form(), [&](auto k) {
+  with_kernel(engine.parameters().kernel, [&](auto k) {
     for (const auto &pair : pairs) {
       const Particle &f = engine.particle[pair.fluid];
       const Particle &w = engine.particle[pair.wall];

@@ -53,8 +53,8 @@ void CrowdingStage::run()
   contact.resize(nall);
 
   const LoopData &pairs = engine.pairs();
-  const int dim = engine.dimension();
-  with_kernel(engine.kernel_form(), [&](auto k) {
+  const int dim = engine.parameters().dim;
+  with_kernel(engine.parameters().kernel, [&](auto k) {
     for (int i = 0; i < nall; i++)
       contact[i] = contact_inverse<decltype(k)>(dim, pairs.support, engine.particle[i].vol);
 

@@ -42,7 +42,7 @@ void LatticeStrain::run(const std::vector<double> &weight)
   const int n = atom->ntypes + 1;
   std::vector<Sum> my_sums(n, Sum());
 
-  with_kernel(engine.kernel_form(), [&](auto k) {
+  with_kernel(engine.parameters().kernel, [&](auto k) {
     engine.visit_pairs([&](int i, int j, bigint entry) {
       if (weight[i] + weight[j] == 0.0) return;
       double r[3];
@@ -82,7 +82,7 @@ double LatticeStrain::largest(int type) const
 {
   constexpr int MOST = 3, TURNS = 12;
   const Sum &sum = sums[type];
-  const bool flat = (engine.dimension() == 2);
+  const bool flat = (engine.parameters().dim == 2);
   const int most_z = flat ? 0 : MOST, turns = flat ? 1 : TURNS;
   double found = 0.0;
 

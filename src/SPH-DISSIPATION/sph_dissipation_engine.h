@@ -15,8 +15,7 @@
 #define LMP_SPH_DISSIPATION_ENGINE_H
 
 #include "pointers.h"
-#include "sph_dissipation_coeffs.h"
-#include "sph_dissipation_kernel.h"
+#include "sph_dissipation_parameters.h"
 #include "sph_dissipation_rows.h"
 #include "sph_dissipation_threads.h"
 
@@ -68,7 +67,7 @@ namespace SPHDissipation {
     const Spin *spin;            // owned and ghost (micropolar)
     const int *type;             // read if the coefficients differ between types
     const double *zeta_term;     // zeta cdot/c of each particle (bulk volume)
-    const double *weight;        // w, owned and ghost (volume mass); nullptr if all are 1
+    const double *weight;        // w, owned and ghost; nullptr if all are 1 and no loop reads it
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
     DensitySum *density;         // owned and ghost, accumulated by pass 1
     ForceSum *force;             // owned and ghost, accumulated by pass 2
@@ -104,7 +103,7 @@ namespace SPHDissipation {
     Loop (*density)(Kernel, Volume);
     Loop (*rates)(Volume);
     Loop (*forces)(Shear, Bulk, Volume);
-    Loop (*noisy_forces)(const NoiseForm &, Volume);
+    Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
     void (*noise_pressure)(const NoiseData &, int n);    // of n particles
   };
@@ -153,12 +152,8 @@ namespace SPHDissipation {
     void set_threads(Threads *team) { threads = team; }    // which the caller keeps
     template <class Task> void for_each(int n, const Task &task) { threads->for_each(n, task); }
 
-    // choose the form of the loops; n = dimension of the kernel
-    // coeff = of the pair terms, for types 0 to ntypes of i, of j within
-    // rho0 = reference density by type, from 1, for the reference volumes m/rho0 (volume mass)
-    void setup(Kernel, int n, double support, Shear, Bulk, Volume,
-               const std::vector<PairCoeff> &coeff, const std::vector<double> &rho0);
-
+    // choose the loops; the parameters are read until the next call
+    void setup(const Parameters &);
     // pass 2 then adds the random forces and torques of the pairs, until setup() is called again; noise is read by each
     // pass 2
     void add_noise(const NoiseForm &, const NoiseData *noise);
@@ -201,15 +196,10 @@ namespace SPHDissipation {
     }
     const LoopSet &loop_set() const { return *loops; }
 
-    int dimension() const { return dim; }    // of the kernel
-    Kernel kernel_form() const { return kernel; }
-    Shear shear_form() const { return shear; }
-    Bulk bulk_form() const { return bulk; }
+    const Parameters &parameters() const { return *par; }
     // reference volume of a particle, owned or ghost
     double weight(int i) const { return data.weight ? data.weight[i] : 1.0; }
-
-    bool has_spin() const { return shear == Shear::MICROPOLAR; }
-
+    bool has_spin() const { return par->spins(); }
     double memory_usage() const;
     const char *instruction_set() const { return loops->name; }
 
@@ -223,18 +213,12 @@ namespace SPHDissipation {
 
    private:
     const LoopSet *loops;
-    Loop density_loop, rate_loop, force_loop, friction_loop;    // the last one without noise
+    const Parameters *par;
+    Loop density_loop, rate_loop, force_loop;
+    Loop noisy_loop;    // force_loop with noise, or nullptr
     LoopData data;
     Threads one_thread, *threads;
-    std::vector<PairCoeff> coeff;
-    std::vector<double> rho0;    // by type
-    Kernel kernel;
-    int dim;    // of the kernel
-    Shear shear;
-    Bulk bulk;
-    Volume volume;
-    double self_weight;    // W(0)
-    double *weights;       // reference volumes of atoms (volume mass)
+    double *weights;    // reference volumes of atoms
 
     // rows first_row[k] ... first_row[k+1] - 1 of the neighbor list are those of thread k, whose pairs
     // begin with entry first_pair[k]; sums of the threads but the first one

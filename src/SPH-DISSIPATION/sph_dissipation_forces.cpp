@@ -51,7 +51,7 @@ void ForceStage::run(NeighList *list, PairTally *tally)
   engine.for_each(n, [&](int i) {
     const TorqueSum &total = engine.torque[i];
     for (int d = 0; d < 3; d++) torque[i][d] += total.t[d];
-    desph[i] += total.heat_vortex + total.heat_spin;
+    for (const double heat : total.heat) desph[i] += heat;
   });
 }
 
@@ -72,8 +72,8 @@ void ForceStage::collect()
 
 double ForceStage::bulk_heat(int i) const
 {
-  if (engine.bulk_form() != Bulk::VOLUME && i >= atom->nlocal) return 0.0;
-  return SPHDissipation::bulk_heat(engine.bulk_form(), engine.zeta_term[i], engine.particle[i].vol,
+  if (engine.parameters().bulk != Bulk::VOLUME && i >= atom->nlocal) return 0.0;
+  return SPHDissipation::bulk_heat(engine.parameters().bulk, engine.zeta_term[i], engine.particle[i].vol,
                                    engine.weight(i), engine.density[i].cdot, engine.divergence[i]);
 }
 
@@ -88,8 +88,7 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
     if (atom->mask[i] & not_fluid) continue;
     double channel[NCHANNEL] = {engine.force[i].heat, bulk_heat(i)};
     if (engine.has_spin()) {
-      channel[VORTEX] = engine.torque[i].heat_vortex;
-      channel[SPIN] = engine.torque[i].heat_spin;
+      std::copy_n(engine.torque[i].heat, NCHANNEL - VORTEX, channel + VORTEX);
     }
     for (int k = 0; k < NCHANNEL; k++) {
       if (heat) heat[i] += channel[k];

@@ -52,7 +52,7 @@ void LimitStage::run()
   const LoopData &pairs = engine.pairs();
   const Particle *const particle = engine.particle;
   const int *const type = atom->type;
-  const Shear shear = engine.shear_form();
+  const Shear shear = engine.parameters().shear;
 
   engine.visit_pairs([&](int i, int j, bigint entry) {
     double rsq = 0.0;

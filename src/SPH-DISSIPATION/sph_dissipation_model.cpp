@@ -30,29 +30,19 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-Settings::Settings() :
-    kernel(Kernel::WENDLAND_C2), eos(Eos::LINEAR), shear(Shear::MG), bulk(Bulk::DENSITY), dim(0),
-    limit(Limit::NO), volume(Volume::NUMBER), thermal(false), temperature(0.0),
-    own_temperatures(false), heat_capacity(0.0), seed(0)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 TypeCoeff::TypeCoeff() :
-    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0), other(0), zeta(0.0)
+    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0), other(0)
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
-FluidModel::FluidModel(LAMMPS *lmp, const std::string &style,
-                       const std::vector<std::string> &viscosities) :
-    Pointers(lmp),
-    simd("auto"), coeffs(nullptr), shared(false), style(style), viscosity_names(viscosities),
+FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
+    Pointers(lmp), simd("auto"), coeffs(nullptr), shared(false), style(style), spins(spins),
     pair_viscosity(nullptr), viscosity_set(nullptr)
 {
-  for (const auto &name : viscosity_names) variables.push_back({name, nullptr, nullptr});
+  for (int k = 0; k < nviscosity(); k++)
+    variables.push_back({VISCOSITY_NAMES[k], nullptr, nullptr});
   for (const auto &name : {"c0", "kappa", "pb"}) variables.push_back({name, nullptr, nullptr});
 }
 
@@ -119,11 +109,11 @@ static bool choose(Choice &choice, const std::string &word,
    global settings
 ------------------------------------------------------------------------- */
 
-void FluidModel::settings(int narg, char **arg, Shear default_shear)
+void FluidModel::settings(int narg, char **arg)
 {
   choice = Settings();
   simd = "auto";
-  choice.shear = default_shear;
+  if (spins) choice.shear = Shear::MICROPOLAR;
 
   for (int iarg = 0, nwords; iarg < narg; iarg += nwords) {
     const std::string keyword = arg[iarg];
@@ -132,7 +122,7 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
     nwords = energy ? 4 : (keyword == "temp") ? 3 : 2;
     if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "bulk" &&
         keyword != "volume" && keyword != "limit" && keyword != "simd" && keyword != "temp" &&
-        (keyword != "shear" || default_shear != Shear::MG))
+        (keyword != "shear" || spins))
       error->all(FLERR, place(arg[iarg]), "Unknown pair_style {} keyword: {}", style, keyword);
     if (iarg + nwords > narg)
       utils::missing_cmd_args(
@@ -265,7 +255,7 @@ void FluidModel::coeff(int narg, char **arg, int **setflag)
 int FluidModel::is_viscosity(const std::string &word) const
 {
   for (int k = 0; k < nviscosity(); k++)
-    if (word == viscosity_names[k]) return k;
+    if (word == VISCOSITY_NAMES[k]) return k;
   return -1;
 }
 

@@ -112,7 +112,7 @@ void FluidModel::write_settings(FILE *fp) const
    proc 0 reads choices from restart file, bcasts
 ------------------------------------------------------------------------- */
 
-void FluidModel::read_settings(FILE *fp, Shear default_shear)
+void FluidModel::read_settings(FILE *fp)
 {
   Reader read(lmp, fp, style);
   const int format = read.format();
@@ -123,7 +123,6 @@ void FluidModel::read_settings(FILE *fp, Shear default_shear)
 
   // the micropolar shear term belongs to a style of its own
 
-  const bool spins = (default_shear == Shear::MICROPOLAR);
   const int first_shear = static_cast<int>(spins ? Shear::MICROPOLAR : Shear::NONE);
   const int last_shear = static_cast<int>(spins ? Shear::MICROPOLAR : Shear::ESPANOL);
   choice.kernel = static_cast<Kernel>(read.integer("kernel", 0, static_cast<int>(Kernel::LUCY)));
@@ -188,15 +187,14 @@ void FluidModel::read_coeffs(FILE *fp, int **setflag)
       type.kappa = read.number("kappa");
       type.rc = read.number("rc", true);
       type.intrinsic = read.integer("flag of intrinsic kappa", 0, 1);
-      for (int k = 0; k < nviscosity(); k++)
-        type.viscosity[k] = read.number(viscosity_names[k].c_str());
+      for (int k = 0; k < nviscosity(); k++) type.viscosity[k] = read.number(VISCOSITY_NAMES[k]);
     }
     for (int j = i + 1; j <= atom->ntypes; j++)
       for (int k = 0; k < nviscosity(); k++) {
         const int set = read.integer("flag of two types", 0, 1);
         viscosity_set[k][i][j] = viscosity_set[k][j][i] = set;
         if (!set) continue;
-        pair_viscosity[k][i][j] = pair_viscosity[k][j][i] = read.number(viscosity_names[k].c_str());
+        pair_viscosity[k][i][j] = pair_viscosity[k][j][i] = read.number(VISCOSITY_NAMES[k]);
         setflag[i][j] = 1;
       }
   }
@@ -222,7 +220,7 @@ void FluidModel::write_data_all(FILE *fp) const
     for (int j = i + 1; j <= atom->ntypes; j++) {
       utils::print(fp, "{} {}", i, j);
       for (int k = 0; k < nviscosity(); k++)
-        utils::print(fp, " {} {:.17g}", viscosity_names[k], viscosity(k, i, j));
+        utils::print(fp, " {} {:.17g}", VISCOSITY_NAMES[k], viscosity(k, i, j));
       utils::print(fp, "\n");
     }
   }

@@ -48,7 +48,7 @@ void OpenImpact::add(const Spin &spin, const TorqueSum &sum)
     torque[d] += sum.t[d];
     power += sum.t[d] * spin.w[d];
   }
-  power += sum.heat_vortex + sum.heat_spin;
+  for (const double heat : sum.heat) power += heat;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -147,7 +147,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   const LoopData &all = engine.pairs();
   const double zone = static_cast<double>(k + 1);
   const Particle *const particle = engine.particle;
-  const bool by_volume = (engine.bulk_form() == Bulk::VOLUME);
+  const bool by_volume = (engine.parameters().bulk == Bulk::VOLUME);
 
   // with newton off, what a pair of two processors gives to the ghost atom is known to its owner
 

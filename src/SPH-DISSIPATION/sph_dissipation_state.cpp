@@ -226,7 +226,7 @@ double FluidState::longest_wave() const
   MPI_Allreduce(edge, all, 6, MPI_DOUBLE, MPI_MIN, world);
 
   double length = 0.0;
-  for (int d = 0; d < engine.dimension(); d++)
+  for (int d = 0; d < engine.parameters().dim; d++)
     length =
         std::max(length, domain->periodicity[d] ? domain->prd[d] : -(all[2 * d] + all[2 * d + 1]));
   return length;
@@ -245,7 +245,7 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
   constexpr double REGULAR = 0.001;        // spread of the density; disordered particles yield
   constexpr double ELASTIC_PART = 0.25;    // of the viscosity
 
-  const bool shears = (engine.dimension() > 1) && !evened_out;
+  const bool shears = (engine.parameters().dim > 1) && !evened_out;
   LatticeStrain strain(lmp, engine, exchange);
   double length = 0.0;
   if (shears) {

@@ -109,7 +109,7 @@ void SurfaceStage::begin()
 
 void SurfaceStage::find(int bits)
 {
-  const int dim = engine.dimension();
+  const int dim = engine.parameters().dim;
   std::vector<int> owned, all, outer;
   double spacing = 0.0;
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
@@ -158,7 +158,7 @@ void SurfaceStage::find_sides(const std::vector<BoundaryPair> &pairs)
 void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &owned)
 {
   const double support = engine.pairs().support;
-  const int dim = engine.dimension();
+  const int dim = engine.parameters().dim;
   for (const int i : owned) {
     Surface &s = surface[i];
     const double width = WIDTH * s.spacing;

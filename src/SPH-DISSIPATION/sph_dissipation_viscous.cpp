@@ -280,7 +280,7 @@ void ViscousStage::set_velocities(const Unknowns &values)
 void ViscousStage::set_bulk_term()
 {
   DensitySum *const density = engine.density;
-  if (engine.bulk_form() != Bulk::NONE) {
+  if (engine.parameters().bulk != Bulk::NONE) {
     engine.accumulate_rates();
     const Field cdot = field(density, &density->cdot, 1);
     exchange.reverse({cdot});
