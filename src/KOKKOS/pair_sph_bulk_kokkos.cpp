@@ -336,8 +336,7 @@ void PairSPHBulkKokkos<DeviceType>::heating(double *heat, double *power) const
   if (!on_device) return PairSPHBulk::heating(heat, power);
   std::fill(power, power + NCHANNEL, 0.0);
   if (heat) std::fill(heat, heat + atom->nlocal + atom->nghost, 0.0);
-  const int nchannel = engine->has_spin() ? NCHANNEL : VORTEX;    // its own come last
-  for (int k = 0; k < nchannel; k++) {
+  for (int k = 0; k < NCHANNEL; k++) {
     const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
     for (int i = 0; i < atom->nlocal; i++) {
       if (atom->mask[i] & not_fluid()) continue;
@@ -411,7 +410,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::grow()
   reach(data->density, "sph:density", n);
   reach(data->zeta_term, "sph:zeta_term", n);
   if (spins) reach(data->spin, "sph:spin", n);
-  for (int k = 0; k < (spins ? NCHANNEL : VORTEX); k++) reach(data->heat[k], "sph:heat", n);
+  for (int k = 0; k < NCHANNEL; k++) reach(data->heat[k], "sph:heat", n);
   reach(data->weight, "sph:weight", data->each ? n : 1);
 }
 
@@ -430,14 +429,16 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::copy_coeffs()
   }
   auto h_types = Kokkos::create_mirror_view(*types);
   auto h_coeff = Kokkos::create_mirror_view(data->coeff);
-  for (int i = 1; i < n; i++) h_types(i) = {par.type[i].eos, par.type[i].zeta};
+  for (int i = 1; i < n; i++) h_types(i) = {par.type[i].eos, par.type[i].zeta, par.type[i].keywords};
   for (int k = 0; k < n * n; k++) h_coeff(k) = engine_data.coeff[k];
   Kokkos::deep_copy(*types, h_types);
   Kokkos::deep_copy(data->coeff, h_coeff);
 
   data->ntypes_1 = n;
   data->typed = engine_data.uniform ? 0 : 1;
-  data->bulk = model->choice.bulk;
+  data->bulk = par.bulk;
+  data->types = *types;
+  data->drag = par.drag;
   data->support = engine_data.support;
   data->weight_norm = engine_data.weight_norm;
   data->slope_norm = engine_data.slope_norm;
@@ -480,6 +481,8 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::set_particles()
   data->numneigh = k_list->d_numneigh;
   data->neighbors = k_list->d_neighbors;
   data->type = type;
+  data->mask = atomKK->k_mask.template view<DeviceType>();
+  data->not_fluid = not_fluid();
   data->f = atomKK->k_f.template view<DeviceType>();
   data->desph = avec->k_desph.template view<DeviceType>();
   if (engine->has_spin()) set_spins();

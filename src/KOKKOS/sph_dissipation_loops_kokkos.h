@@ -44,6 +44,7 @@ namespace SPHDissipation {
   struct TypeKokkos {
     EosParams eos;
     double zeta;
+    TypeCoeffs keywords;
   };
 
   // Input, output and scratch space of the loops, as class LoopData of the CPU styles
@@ -66,7 +67,10 @@ namespace SPHDissipation {
     int ntypes_1;
     int typed;    // 0: the coefficients of all pairs are the same
 
-    typename AT::t_int_1d type;
+    typename AT::t_int_1d type, mask;
+    Kokkos::View<TypeKokkos *, DeviceType> types;
+    bool drag;        // of single particles
+    int not_fluid;    // groups whose particles have none
     typename AT::t_kkacc_1d_3 f, torque;    // torque: micropolar
     Kokkos::View<double *, Kokkos::LayoutRight, DeviceType> desph;
     Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> vatom;    // if it is asked for
@@ -188,10 +192,12 @@ namespace SPHDissipation {
 
       heat[BULK] =
           bulk_heat(data.bulk, zeta_term_i, pi.vol, weight_i, data.density(i).cdot, divergence);
+      if (data.drag && !(data.mask(i) & data.not_fluid))
+        Channels::add_drag(data.types(data.type(i)).keywords, pi.vol, pi.u, false, total_f, heat);
       for (int d = 0; d < 3; d++) data.f(i, d) += total_f[d];
       if constexpr (Form::SPINS)
         for (int d = 0; d < 3; d++) data.torque(i, d) += total_t[d];
-      for (int c = 0; c < (Form::SPINS ? NCHANNEL : VORTEX); c++) {
+      for (int c = 0; c < NCHANNEL; c++) {
         data.heat[c](i) = heat[c];
         data.desph(i) += heat[c];
       }

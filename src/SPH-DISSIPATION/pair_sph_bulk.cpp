@@ -199,6 +199,7 @@ bigint PairSPHBulk::sum_before_forces()
 
 void PairSPHBulk::sum_forces(PairTally *tally)
 {
+  engine->set_not_fluid(not_fluid());
   forces->run(list, tally);
   if (!boundary->empty()) boundary->repel(tally);
 }

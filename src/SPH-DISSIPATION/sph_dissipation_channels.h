@@ -113,6 +113,18 @@ namespace SPHDissipation {
     double a[NCOEFF];
   };
 
+  // Coefficients of single types, by keyword of pair_coeff, each with its values one after another; another command
+  // may vary the first of them.  The keyword with no name ends the list.
+  enum TypeCoefficient { NTYPECOEFF };
+  struct TypeKeyword {
+    const char *name;
+    int first, count;    // of enum TypeCoefficient
+  };
+  constexpr TypeKeyword TYPE_KEYWORDS[] = {{nullptr, NTYPECOEFF, 0}};
+  struct TypeCoeffs {
+    double a[NTYPECOEFF + 1] = {};
+  };
+
   // Friction of a pair as a tensor, in units of F V_i V_j (mg/fr: F r V_i V_j): on the velocity of slip and
   // on the difference of the spins, along e and across it.  The noise is its root.
   struct PairFriction {
@@ -127,7 +139,8 @@ namespace SPHDissipation {
     int dim;               // of the kernel
     double mean_radius;    // integral of r W
     double viscosity[NVISCOSITY];
-    double zeta;    // coefficient of the bulk term, mean of the types
+    double zeta;        // coefficient of the bulk term, mean of the types
+    TypeCoeffs type;    // the larger ones of both types
   };
 
   // inertia of the motion that a channel damps, for its fastest rate
@@ -135,6 +148,12 @@ namespace SPHDissipation {
     double hsq;    // square of the length that stability knows, see stability_length_squared()
     double rho;    // of velocities
     double rho_inertia;    // of spins
+  };
+
+  // drag of a single particle against a stream, force -b V (u - stream)
+  struct Drag {
+    double b = 0.0;    // pressure * time / length^2
+    double stream[3] = {0.0, 0.0, 0.0};
   };
 
   // What a channel does not have is as here
@@ -147,10 +166,14 @@ namespace SPHDissipation {
     template <class Add> static void add_columns(const PairFluid &, const PairCoeff &, Add &&) {}
     // bulk viscosity that it brings with it
     static double intrinsic_kappa(const PairFluid &) { return 0.0; }
-    // the inequality that the viscosities violate, or nullptr
+    // the inequality that the viscosities of a pair, or the coefficients of a type, violate, or nullptr
     static const char *inadmissible(const PairFluid &) { return nullptr; }
+    static const char *inadmissible_type(const TypeCoeffs &) { return nullptr; }
     // rate of its fastest mode, 1/time
     static double rate(const PairFluid &, const PairCoeff &, const PairInertia &) { return 0.0; }
+
+    // of single particles: force, heat, and noise follow from it
+    SPH_FUNCTION static Drag drag(const TypeCoeffs &) { return {}; }
   };
 
 }    // namespace SPHDissipation
@@ -173,6 +196,26 @@ namespace SPHDissipation {
     template <class Function> static void visit(bool spins, Function &&function)
     {
       ((One::SPINS && !spins ? void() : function(One())), ...);
+    }
+    // sum of the coefficients of drag
+    SPH_FUNCTION static double drag(const TypeCoeffs &type) { return (One::drag(type).b + ...); }
+
+    // add the drag of a particle of volume vol and velocity u to its force and, by channel, to its heat, energy
+    // per time; linear: relative to rest instead of the stream
+    SPH_FUNCTION static void add_drag(const TypeCoeffs &type, double vol, const double *u,
+                                      bool linear, double *force, double *heat)
+    {
+      int channel = 0;
+      (add_drag(One::drag(type), vol, u, linear, force, heat[channel++]), ...);
+    }
+    SPH_FUNCTION static void add_drag(const Drag &drag, double vol, const double *u, bool linear,
+                                      double *force, double &heat)
+    {
+      for (int d = 0; d < 3; d++) {
+        const double slip = u[d] - (linear ? 0.0 : drag.stream[d]);
+        force[d] -= drag.b * vol * slip;
+        heat += drag.b * vol * slip * slip;
+      }
     }
   };
   using Channels = ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel>;
@@ -202,6 +245,16 @@ namespace SPHDissipation {
       kappa += channel.intrinsic_kappa(fluid);
     });
     return kappa;
+  }
+
+  // the inequality that coefficients by keyword violate, or nullptr
+  inline const char *inadmissible(const TypeCoeffs &type)
+  {
+    const char *violated = nullptr;
+    Channels::visit(true, [&](auto channel) {
+      if (!violated) violated = channel.inadmissible_type(type);
+    });
+    return violated;
   }
 
   // the inequality that the viscosities violate, or nullptr if the fluid dissipates: those of a type,

@@ -44,8 +44,8 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
     zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
     par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
-    noisy_loop(nullptr), data(), threads(&one_thread), weights(nullptr), nlocal_forces(-1),
-    nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
+    noisy_loop(nullptr), drag_noise(nullptr), data(), threads(&one_thread), weights(nullptr), not_fluid(0),
+    nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
   choose_loops("auto");
 }
@@ -101,6 +101,7 @@ void Engine::setup(const Parameters &parameters)
   force_loop = loops->forces((par->inviscid && !par->spins()) ? Shear::NONE : par->shear, par->bulk,
                              par->volume);
   noisy_loop = nullptr;
+  drag_noise = nullptr;
   data.coeff = par->pair.data();
   data.ntypes_1 = par->ntypes_1;
   data.uniform = par->uniform;
@@ -309,7 +310,7 @@ void Engine::run_density(Loop loop)
 void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 {
   data.tally = tally;
-  run_forces(list, noisy_loop ? noisy_loop : force_loop, !tally && !noisy_loop);
+  run_forces(list, noisy_loop ? noisy_loop : force_loop, !tally && !noisy_loop, false);
   nlocal_forces = atom->nlocal;
   nghost_forces = atom->nghost;
 }
@@ -319,14 +320,14 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 void Engine::accumulate_friction(NeighList *list)
 {
   data.tally = nullptr;
-  run_forces(list, force_loop, true);
+  run_forces(list, force_loop, true, true);
 }
 
 /* ----------------------------------------------------------------------
    shared: among the threads
 ------------------------------------------------------------------------- */
 
-void Engine::run_forces(NeighList *list, Loop loop, bool shared)
+void Engine::run_forces(NeighList *list, Loop loop, bool shared, bool linear)
 {
   const bool by_volume = (par->bulk == Bulk::VOLUME);
   const int nall = atom->nlocal + atom->nghost;
@@ -345,29 +346,47 @@ void Engine::run_forces(NeighList *list, Loop loop, bool shared)
     if (has_spin()) memset(static_cast<void *>(own.torque), 0, nrow * sizeof(TorqueSum));
     loop(own);
   };
-  if (!shared || sums.empty()) return work(data);
+  if (!shared || sums.empty())
+    work(data);
+  else {
+    threads->run([&](int k) {
+      LoopData own = part(k);
+      if (k > 0) {
+        Sums &mine = sums[k - 1];
+        mine.force.resize(nrow);
+        if (by_volume) mine.divergence.resize(nrow);
+        if (has_spin()) mine.torque.resize(nrow);
+        own.force = mine.force.data();
+        own.divergence = mine.divergence.data();
+        own.torque = mine.torque.data();
+      }
+      work(own);
+    });
 
-  threads->run([&](int k) {
-    LoopData own = part(k);
-    if (k > 0) {
-      Sums &mine = sums[k - 1];
-      mine.force.resize(nrow);
-      if (by_volume) mine.divergence.resize(nrow);
-      if (has_spin()) mine.torque.resize(nrow);
-      own.force = mine.force.data();
-      own.divergence = mine.divergence.data();
-      own.torque = mine.torque.data();
-    }
-    work(own);
+    for_each(nall, [&](int i) {
+      for (const auto &other : sums) {
+        add_row(force[i], other.force[i]);
+        if (by_volume) divergence[i] += other.divergence[i];
+        if (has_spin()) add_row(torque[i], other.torque[i]);
+      }
+    });
+  }
+  if (!par->drag) return;
+  for_each(atom->nlocal, [&](int i) {
+    double heat[NCHANNEL] = {};
+    add_drag(i, linear, force[i].f, heat);
+    if (drag_noise && !linear)
+      for (int d = 0; d < 3; d++) force[i].f[d] += drag_noise[3 * i + d];
   });
+}
 
-  for_each(nall, [&](int i) {
-    for (const auto &other : sums) {
-      add_row(force[i], other.force[i]);
-      if (by_volume) divergence[i] += other.divergence[i];
-      if (has_spin()) add_row(torque[i], other.torque[i]);
-    }
-  });
+/* ---------------------------------------------------------------------- */
+
+void Engine::add_drag(int i, bool linear, double *force_of, double *heat) const
+{
+  const TypeParameters &type = par->type[atom->type[i]];
+  if (!par->drag || type.other || (atom->mask[i] & not_fluid)) return;
+  Channels::add_drag(type.keywords, particle[i].vol, particle[i].u, linear, force_of, heat);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -47,6 +47,7 @@ namespace SPHDissipation {
 
   struct NoiseData;
   struct NoiseForm;
+  enum class NoiseChannel;
 
   // Pairs are worked off in blocks of as many as a vector has doubles; this is the widest one.  The
   // last block of a particle is filled up with spare particles, of which there are as many behind the
@@ -105,7 +106,7 @@ namespace SPHDissipation {
     Loop (*forces)(Shear, Bulk, Volume);
     Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
-    void (*noise_pressure)(const NoiseData &, int n);    // of n particles
+    void (*particle_numbers)(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
@@ -168,16 +169,21 @@ namespace SPHDissipation {
     void accumulate_rates();
 
     // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller
-    // on owned and ghost atoms
+    // on owned and ghost atoms, and the drag of single particles
     void accumulate_forces(NeighList *, PairTally *);
 
-    // the same without noise
+    // the same without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *);
 
     // forces, torques, heat and divergence of those pairs alone, added to arrays with room for the
     // spare particles; after pass 2
     void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *, double *divergence);
 
+    // drag of an owned particle, added to its force and, by channel, to its heat, energy per time
+    void add_drag(int i, bool linear, double *force_of, double *heat) const;
+    // random force of each owned particle, added by each pass 2 until setup() is called again
+    void add_drag_noise(const double *forces) { drag_noise = forces; }
+    void set_not_fluid(int bits) { not_fluid = bits; }    // groups whose particles have no drag
     bool has_forces() const;    // force[] is of the owned and ghost atoms that are there now
 
     // the pairs inside the support that pass 1 has found, for the sums of other stages: function(i, j, entry) for each of
@@ -216,6 +222,7 @@ namespace SPHDissipation {
     const Parameters *par;
     Loop density_loop, rate_loop, force_loop;
     Loop noisy_loop;    // force_loop with noise, or nullptr
+    const double *drag_noise;
     LoopData data;
     Threads one_thread, *threads;
     double *weights;    // reference volumes of atoms
@@ -233,6 +240,7 @@ namespace SPHDissipation {
     std::vector<bigint> first_pair;
     std::vector<Sums> sums;
 
+    int not_fluid;
     int nlocal_forces, nghost_forces;    // # of atoms that force[] is of
     int nmax, nmax_weights, imax;
     bigint pair_max;
@@ -242,7 +250,7 @@ namespace SPHDissipation {
     void grow_pairs(NeighList *);
     LoopData part(int thread) const;
     void run_density(Loop);
-    void run_forces(NeighList *, Loop, bool shared);
+    void run_forces(NeighList *, Loop, bool shared, bool linear);
   };
 
 }    // namespace SPHDissipation

@@ -45,6 +45,12 @@ void ForceStage::run(NeighList *list, PairTally *tally)
     for (int d = 0; d < 3; d++) f[i][d] += total.f[d];
     desph[i] += total.heat + bulk_heat(i);
   });
+  if (engine.parameters().drag)
+    engine.for_each(atom->nlocal, [&](int i) {
+      double channel[NCHANNEL] = {};
+      add_drag_heat(i, channel);
+      for (const double heat : channel) desph[i] += heat;
+    });
 
   if (!engine.has_spin()) return;
   double **torque = atom->torque;
@@ -73,8 +79,17 @@ void ForceStage::collect()
 double ForceStage::bulk_heat(int i) const
 {
   if (engine.parameters().bulk != Bulk::VOLUME && i >= atom->nlocal) return 0.0;
-  return SPHDissipation::bulk_heat(engine.parameters().bulk, engine.zeta_term[i], engine.particle[i].vol,
-                                   engine.weight(i), engine.density[i].cdot, engine.divergence[i]);
+  return SPHDissipation::bulk_heat(engine.parameters().bulk, engine.zeta_term[i],
+                                   engine.particle[i].vol, engine.weight(i), engine.density[i].cdot,
+                                   engine.divergence[i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ForceStage::add_drag_heat(int i, double *channel) const
+{
+  double force[3] = {0.0, 0.0, 0.0};
+  engine.add_drag(i, false, force, channel);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -90,6 +105,7 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
     if (engine.has_spin()) {
       std::copy_n(engine.torque[i].heat, NCHANNEL - VORTEX, channel + VORTEX);
     }
+    if (i < atom->nlocal) add_drag_heat(i, channel);
     for (int k = 0; k < NCHANNEL; k++) {
       if (heat) heat[i] += channel[k];
       power[k] += channel[k];

@@ -44,6 +44,8 @@ FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
   for (int k = 0; k < nviscosity(); k++)
     variables.push_back({VISCOSITY_NAMES[k], nullptr, nullptr});
   for (const auto &name : {"c0", "kappa", "pb"}) variables.push_back({name, nullptr, nullptr});
+  for (const auto *one = TYPE_KEYWORDS; one->name; one++)
+    variables.push_back({one->name, nullptr, nullptr});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -209,8 +211,16 @@ void FluidModel::settings(int narg, char **arg)
    words of pair_coeff that belong to a type
 ------------------------------------------------------------------------- */
 
+static const TypeKeyword *keyword_of_channel(const std::string &word)
+{
+  for (const auto *one = TYPE_KEYWORDS; one->name; one++)
+    if (word == one->name) return one;
+  return nullptr;
+}
+
 static bool is_type_keyword(const std::string &word)
 {
+  if (keyword_of_channel(word)) return true;
   for (const auto &keyword : {"rho0", "c0", "kappa", "rc", "pb", "gamma", "cv"})
     if (word == keyword) return true;
   return false;
@@ -285,13 +295,20 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
     one.viscosity[k] = utils::numeric(FLERR, arg[5 + k], false, lmp);
   one.rc = positive("rc", arg[nvalues - 1]);
 
-  for (int iarg = nvalues; iarg < narg; iarg += 2) {
+  for (int iarg = nvalues, nwords; iarg < narg; iarg += nwords) {
     const std::string keyword = arg[iarg];
-    if (keyword != "pb" && keyword != "gamma" && keyword != "cv")
+    const TypeKeyword *const own = keyword_of_channel(keyword);
+    nwords = own ? 1 + own->count : 2;
+    if (!own && keyword != "pb" && keyword != "gamma" && keyword != "cv")
       error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
                  keyword);
-    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
-    if (keyword == "pb")
+    if (iarg + nwords > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
+    if (own) {
+      for (int k = 0; k < own->count; k++)
+        one.keywords.a[own->first + k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
+      if (const char *violated = inadmissible(one.keywords))
+        error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff {}, not {}", violated, arg[iarg + 1]);
+    } else if (keyword == "pb")
       one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     else if (keyword == "cv") {
       if (!choice.own_temperatures)

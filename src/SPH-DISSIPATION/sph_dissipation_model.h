@@ -36,6 +36,7 @@ namespace SPHDissipation {
 
     EosParams eos;
     double viscosity[NVISCOSITY];
+    TypeCoeffs keywords;    // of TYPE_KEYWORDS
     double kappa;
     double rc;
     double gamma;     // 0: default of the equation of state
@@ -114,7 +115,7 @@ namespace SPHDissipation {
       double **known;
     };
 
-    enum { C0, KAPPA, PB };    // the variables after the viscosities
+    enum { C0, KAPPA, PB, NOTHER };    // the variables after the viscosities, before TYPE_KEYWORDS
 
     const std::string style;
     const bool spins;

@@ -29,6 +29,7 @@ void FluidModel::derive(int dim, double support)
 {
   const int n = atom->ntypes;
   static_cast<Settings &>(par) = choice;
+  par.drag = false;
   par.set_kernel(choice.kernel, dim, support);
   par.ntypes_1 = n + 1;
   par.type.assign(n + 1, TypeParameters());
@@ -48,10 +49,15 @@ void FluidModel::derive(int dim, double support)
     publish(nviscosity() + KAPPA, i);
     derived.eos = type.eos;
     derived.heat_capacity = heat_capacity(i);
+    derived.keywords = type.keywords;
     derived.other = type.other;
+    if (Channels::drag(type.keywords) > 0.0) par.drag = true;
     if (choice.thermal) check_balance(i);
   }
   par.set_uniform();
+  if (par.drag && choice.own_temperatures)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {} temp energy cannot be used with a drag of single particles", style);
   par.shared = shared;
 }
 
@@ -79,7 +85,10 @@ PairFluid FluidModel::pair_fluid(int i, int j) const
                      par.dim,
                      kernel_mean_radius(par.kernel, par.dim, par.support),
                      {},
-                     0.5 * (par.type[i].zeta + par.type[j].zeta)};
+                     0.5 * (par.type[i].zeta + par.type[j].zeta),
+                     {}};
+  for (int k = 0; k < NTYPECOEFF; k++)
+    fluid.type.a[k] = std::max(par.type[i].keywords.a[k], par.type[j].keywords.a[k]);
   for (int k = 0; k < nviscosity(); k++) fluid.viscosity[k] = viscosity(k, i, j);
   return fluid;
 }
@@ -202,8 +211,10 @@ double &FluidModel::type_value(int k, int i)
       return type.eos.c0;
     case KAPPA:
       return type.kappa;
-    default:
+    case PB:
       return type.eos.pb;
+    default:
+      return type.keywords.a[TYPE_KEYWORDS[k - nviscosity() - NOTHER].first];
   }
 }
 
@@ -260,6 +271,9 @@ bool FluidModel::adopt()
         error->all(FLERR, Error::NOLASTLINE,
                    "Pair style {}: kappa of type {} is intrinsic and cannot be changed", style, i);
       type_value(k, i) = one.value[i][i];
+      if (const char *violated = inadmissible(coeffs[i].keywords))
+        error->all(FLERR, Error::NOLASTLINE, "Pair style {}: {}, not {} of type {}", style,
+                   violated, one.value[i][i], i);
     }
 
     for (int i = 1; i <= atom->ntypes; i++)

@@ -69,6 +69,7 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   set_tags();
   if (energy) set_temperatures(continued);
   add_pressure(factor, not_fluid);
+  if (engine.parameters().drag) add_drag(factor, not_fluid);
   if (!set_coeffs(factor) && !energy) return;    // who pays for a random pressure is known by pairs
   if (form.kind == NoiseKind::DIRECTED) set_shares(bound, not_fluid);
   const LoopData &pairs = engine.pairs();
@@ -119,7 +120,6 @@ void NoiseStage::set_tags()
   std::copy_n(atom->tag, nall, tag.begin());
   std::fill_n(tag.begin() + nall, BLOCK, 0.0);
   data.tag = tag.data();
-  data.pressure = pressure.data();
 }
 
 /* ----------------------------------------------------------------------
@@ -227,7 +227,7 @@ bool NoiseStage::is_negative(int i) const
 void NoiseStage::add_pressure(double factor, int not_fluid)
 {
   const int nall = atom->nlocal + atom->nghost;
-  engine.loop_set().noise_pressure(data, nall);
+  engine.loop_set().particle_numbers(data, NoiseChannel::PRESSURE, nall, 1, pressure.data());
   std::vector<double> amplitude(atom->ntypes + 1, 0.0);
   for (int type = 1; type <= atom->ntypes; type++)
     if (!engine.parameters().type[type].other)
@@ -247,6 +247,26 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
     } else
       particle.g += random * c_inv * c_inv;
   }
+}
+
+/* ----------------------------------------------------------------------
+   random force of each owned particle, sqrt(2 kT b V/dt) xi, of the drags b of single particles
+------------------------------------------------------------------------- */
+
+void NoiseStage::add_drag(double factor, int not_fluid)
+{
+  const Parameters &par = engine.parameters();
+  const int nlocal = atom->nlocal, n = nlocal + BLOCK;
+  drag.resize(3 * n);
+  drag_force.assign(3 * nlocal, 0.0);
+  engine.loop_set().particle_numbers(data, NoiseChannel::DRAG, nlocal, 3, drag.data());
+  for (int i = 0; i < nlocal; i++) {
+    const TypeParameters &type = par.type[atom->type[i]];
+    if (type.other || (atom->mask[i] & not_fluid)) continue;
+    const double strength = sqrt(factor * Channels::drag(type.keywords) * engine.particle[i].vol);
+    for (int d = 0; d < par.dim; d++) drag_force[3 * i + d] = strength * drag[d * n + i];
+  }
+  engine.add_drag_noise(drag_force.data());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -285,7 +305,7 @@ double NoiseStage::memory_usage() const
 {
   return static_cast<double>(row.capacity() * sizeof(NoiseRow)) +
       static_cast<double>((spin_mobility.capacity() + tag.capacity() + reach.capacity() +
-                           share.capacity() + eta.capacity() + pressure.capacity() +
-                           random.capacity()) *
+                           share.capacity() + eta.capacity() + drag.capacity() +
+                           drag_force.capacity() + pressure.capacity() + random.capacity()) *
                           sizeof(double));
 }

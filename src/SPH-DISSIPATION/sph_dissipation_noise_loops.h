@@ -60,12 +60,11 @@ template <int ACROSS, bool SPIN, bool DIRECTED> struct PairNumbers {
 // keys and part of the counter that are the same for all pairs
 
 struct NoiseStep {
-  PhiloxKeys pair, pressure;
+  PhiloxKeys pair;
   std::uint64_t low, high;
 
   NoiseStep(const NoiseData &data) :
-      pair(keys_of(data, NoiseChannel::PAIR)), pressure(keys_of(data, NoiseChannel::PRESSURE)),
-      low(data.step & 0xffffffff), high(data.step >> 32)
+      pair(keys_of(data, NoiseChannel::PAIR)), low(data.step & 0xffffffff), high(data.step >> 32)
   {
   }
   static PhiloxKeys keys_of(const NoiseData &data, NoiseChannel channel)
@@ -332,16 +331,20 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   Vec other[NROW], other_spin_mobility;    // of j
 };
 
-// one number of each of n particles, and of some behind them
+// count random numbers of each of n particles, and of some behind them, the next number after the ones of all particles
+// and BLOCK more
 
-inline void pressure_loop(const NoiseData &data, int n)
+inline void particle_numbers(const NoiseData &data, NoiseChannel channel, int n, int count,
+                             double *numbers)
 {
   const NoiseStep step(data);
+  const PhiloxKeys keys = NoiseStep::keys_of(data, channel);
   for (int k = 0; k < n; k += LANES) {
     const Words tag = words(load(data.tag + k));
     const Words counter[4] = {tag, shifted<32>(tag), all_words(step.low), all_words(step.high)};
     Words random[4];
-    philox(counter, step.pressure, random);
-    store(data.pressure + k, uniform(random[0]));
+    philox(counter, keys, random);
+    for (int c = 0; c < count; c++)
+      store(numbers + c * static_cast<bigint>(n + BLOCK) + k, uniform(random[c]));
   }
 }

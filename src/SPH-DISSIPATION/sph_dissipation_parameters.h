@@ -61,6 +61,7 @@ namespace SPHDissipation {
     EosParams eos;
     double zeta = 0.0;             // coefficient of the bulk term
     double heat_capacity = 0.0;    // per mass
+    TypeCoeffs keywords;           // of the channels
     int other = 1;                 // its particles belong to another style of pair_style hybrid
   };
 
@@ -77,6 +78,7 @@ namespace SPHDissipation {
     std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
     bool uniform = true;                 // the coefficients of type 1 hold for all pairs
     bool inviscid = true;                // they are zero
+    bool drag = false;                   // of single particles, of any type
     bool shared = false;                 // there are types of other styles
 
     bool spins() const { return shear == Shear::MICROPOLAR; }
