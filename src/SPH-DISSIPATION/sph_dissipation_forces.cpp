@@ -20,6 +20,7 @@
 #include "sph_dissipation_particle_terms.h"
 
 #include <algorithm>
+#include <iterator>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -103,7 +104,7 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
     if (atom->mask[i] & not_fluid) continue;
     double channel[NCHANNEL] = {engine.force[i].heat, bulk_heat(i)};
     if (engine.has_spin()) {
-      std::copy_n(engine.torque[i].heat, NCHANNEL - VORTEX, channel + VORTEX);
+      std::copy(engine.torque[i].heat, std::end(engine.torque[i].heat), channel + VORTEX);
     }
     if (i < atom->nlocal) add_drag_heat(i, channel);
     for (int k = 0; k < NCHANNEL; k++) {

@@ -53,11 +53,11 @@ namespace SPHDissipation {
     double unused;    // rows are read by fours
   };
 
-  // torque, and heat of the channels from VORTEX on: what pass 2 accumulates
+  // torque, and heat of the channels from VORTEX to SPIN: what pass 2 accumulates
 
   struct TorqueSum {
     double t[3];
-    double heat[NCHANNEL - VORTEX];
+    double heat[SPIN - VORTEX + 1];
   };
 
 }    // namespace SPHDissipation
