@@ -14,12 +14,21 @@
 #ifndef LMP_SPH_DISSIPATION_BOUNDARY_H
 #define LMP_SPH_DISSIPATION_BOUNDARY_H
 
+#include "lmptype.h"
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   class Engine;
   struct Particle;
   struct Spin;
+
+  // a pair of a fluid and a boundary particle inside the support
+
+  struct BoundaryPair {
+    int fluid, wall;
+    bigint entry;    // of the pairs of the engine
+  };
 
   // Where the surface is, seen from a boundary particle w
 

@@ -14,6 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_BOUNDARY_STAGE_H
 #define LMP_SPH_DISSIPATION_BOUNDARY_STAGE_H
 
+#include "sph_dissipation_boundary.h"
 #include "sph_dissipation_stage.h"
 #include "sph_dissipation_wall_terms.h"
 
@@ -23,17 +24,9 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  class Boundary;
   class FluidModel;
   class PairTally;
   class SurfaceStage;
-
-  // a pair of a fluid and a boundary particle inside the support
-
-  struct BoundaryPair {
-    int fluid, wall;
-    bigint entry;    // of the pairs of the engine
-  };
 
   // Boundary particles get the velocity, volume, pressure and spin that act in the pair forces
 

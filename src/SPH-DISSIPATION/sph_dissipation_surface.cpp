@@ -18,7 +18,6 @@
 #include "math_extra.h"
 #include "memory.h"
 #include "sph_dissipation_boundary.h"
-#include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
