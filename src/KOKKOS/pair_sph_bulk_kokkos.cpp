@@ -420,9 +420,8 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::grow()
 
 template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::copy_coeffs()
 {
-  const LoopData &engine_data = engine->pairs();
   const Parameters &par = engine->parameters();
-  const int n = engine_data.ntypes_1;
+  const int n = par.ntypes_1;
   if (!types->extent(0)) {
     *types = Kokkos::View<TypeKokkos *, DeviceType>("sph:types", n);
     data->coeff = Kokkos::View<PairCoeff *, DeviceType>("sph:coeff", n * n);
@@ -430,18 +429,18 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::copy_coeffs()
   auto h_types = Kokkos::create_mirror_view(*types);
   auto h_coeff = Kokkos::create_mirror_view(data->coeff);
   for (int i = 1; i < n; i++) h_types(i) = {par.type[i].eos, par.type[i].zeta, par.type[i].keywords};
-  for (int k = 0; k < n * n; k++) h_coeff(k) = engine_data.coeff[k];
+  for (int k = 0; k < n * n; k++) h_coeff(k) = par.pair[k];
   Kokkos::deep_copy(*types, h_types);
   Kokkos::deep_copy(data->coeff, h_coeff);
 
   data->ntypes_1 = n;
-  data->typed = engine_data.uniform ? 0 : 1;
+  data->typed = par.uniform ? 0 : 1;
   data->bulk = par.bulk;
   data->types = *types;
   data->drag = par.drag;
-  data->support = engine_data.support;
-  data->weight_norm = engine_data.weight_norm;
-  data->slope_norm = engine_data.slope_norm;
+  data->support = par.support;
+  data->weight_norm = par.weight_norm;
+  data->slope_norm = par.slope_norm;
   data->self_weight = par.self_weight;
 
   data->each = (model->choice.volume == Volume::MASS) ? 1 : 0;

@@ -51,10 +51,10 @@ void LatticeStrain::run(const std::vector<double> &weight)
                                  r[1] * r[2], r[0] * r[2], r[0] * r[1]};
       const double dist = sqrt(product[0] + product[1] + product[2]);
       if (dist == 0.0) return;
-      const double q = dist / pairs.support;
+      const double q = dist / engine.parameters().support;
       const double from = std::max(q - DQ, 0.0), to = std::min(q + DQ, 1.0);
-      const double derivative =
-          pairs.slope_norm * (k.slope(to) - k.slope(from)) / (to - from) / (pairs.support * dist);
+      const double derivative = engine.parameters().slope_norm * (k.slope(to) - k.slope(from)) /
+          (to - from) / (engine.parameters().support * dist);
       for (const int one : {i, j}) {
         const double each = weight[one] * engine.weight(i + j - one) / engine.density[one].c;
         Sum &sum = my_sums[type[one]];

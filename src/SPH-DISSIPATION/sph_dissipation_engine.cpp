@@ -44,8 +44,9 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
     zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
     par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
-    noisy_loop(nullptr), drag_noise(nullptr), data(), threads(&one_thread), weights(nullptr), not_fluid(0),
-    nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
+    noisy_loop(nullptr), drag_noise(nullptr), data(), threads(&one_thread), weights(nullptr),
+    not_fluid(0), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0), imax(0),
+    pair_max(0)
 {
   choose_loops("auto");
 }
@@ -102,12 +103,7 @@ void Engine::setup(const Parameters &parameters)
                              par->volume);
   noisy_loop = nullptr;
   drag_noise = nullptr;
-  data.coeff = par->pair.data();
-  data.ntypes_1 = par->ntypes_1;
-  data.uniform = par->uniform;
-  data.support = par->support;
-  data.weight_norm = par->weight_norm;
-  data.slope_norm = par->slope_norm;
+  data.par = par;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -74,12 +74,7 @@ namespace SPHDissipation {
     ForceSum *force;             // owned and ghost, accumulated by pass 2
     TorqueSum *torque;           // owned and ghost, accumulated by pass 2 (micropolar)
 
-    double support;            // R
-    double weight_norm;        // W = weight_norm * shape(r/R)
-    double slope_norm;         // F = slope_norm * slope(r/R)
-    const PairCoeff *coeff;    // by types of i and j: coeff[type[i] * ntypes_1 + type[j]]
-    int ntypes_1;              // number of types + 1
-    bool uniform;              // the coefficients of type 1 hold for all pairs
+    const Parameters *par;
 
     // pairs of the ii-th atom: entries first[ii] ... first[ii] + count[ii] - 1; pass 1 begins with
     // entry begin

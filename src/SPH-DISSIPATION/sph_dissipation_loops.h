@@ -49,8 +49,10 @@ namespace SPHDissipation {
     template <class K, bool WEIGHTED> void density_loop(LoopData &data)
     {
       const Particle *const particle = data.particle;
-      const Vec support_sq = all(data.support * data.support);
-      const double support_inv = 1.0 / data.support;
+      const Parameters &par = *data.par;
+      const double weight_norm = par.weight_norm, slope_norm = par.slope_norm;
+      const Vec support_sq = all(par.support * par.support);
+      const double support_inv = 1.0 / par.support;
       bigint next = data.begin;
 
       for (int ii = 0; ii < data.inum; ii++) {
@@ -78,8 +80,8 @@ namespace SPHDissipation {
           if (jnum - jj < LANES) inside &= (1 << (jnum - jj)) - 1;
 
           const Vec q = square_root(rsq) * support_inv;
-          const Vec f = data.slope_norm * K::slope(q);
-          Vec sums[2] = {if_bits(inside, data.weight_norm * K::shape(q)),
+          const Vec f = slope_norm * K::slope(q);
+          Vec sums[2] = {if_bits(inside, weight_norm * K::shape(q)),
                          if_bits(inside, -f * approach)};
           if constexpr (WEIGHTED) {
             const Vec weight = gather(data.weight, j);
@@ -154,7 +156,7 @@ namespace SPHDissipation {
       }
       SPH_INLINE void load(const Row *table, const LoopData &data, int i, const int *j, int n)
       {
-        const Row *const row = table + data.type[i] * data.ntypes_1;
+        const Row *const row = table + data.type[i] * data.par->ntypes_1;
         double column[N][LANES];
         for (int l = 0; l < LANES; l++) {
           const double *const pair =
@@ -194,7 +196,9 @@ namespace SPHDissipation {
     void force_loop(LoopData &data)
     {
       const Particle *const particle = data.particle;
-      Coeffs<PairCoeff, Form> coeffs(data.coeff[data.ntypes_1 + 1]);
+      const PairCoeff *const table = data.par->pair.data();
+      const bool uniform = data.par->uniform;
+      Coeffs<PairCoeff, Form> coeffs(table[data.par->ntypes_1 + 1]);
       Noise noise(data);
 
       for (int ii = 0; ii < data.inum; ii++) {
@@ -246,8 +250,7 @@ namespace SPHDissipation {
           const Vec by_pressure = pair.central;
           Vec given = all(0.0);    // heat, to i by j
 
-          if ((Form::CENTRAL || Form::VECTOR) && !data.uniform)
-            coeffs.load(data.coeff, data, i, j, n - k);
+          if ((Form::CENTRAL || Form::VECTOR) && !uniform) coeffs.load(table, data, i, j, n - k);
           const Vec metric = metric_of<Form::BY_DISTANCE>(rsq);
           Vec inverse = all(0.0);
           pair.by_metric = all(0.0);

@@ -101,7 +101,7 @@ void NoiseStage::check_box() const
   const double heights[3] = {
       1.0 / sqrt(h_inv[0] * h_inv[0] + h_inv[5] * h_inv[5] + h_inv[4] * h_inv[4]),
       1.0 / sqrt(h_inv[1] * h_inv[1] + h_inv[3] * h_inv[3]), 1.0 / h_inv[2]};
-  const double support = engine.pairs().support;
+  const double support = engine.parameters().support;
   for (int d = 0; d < domain->dimension; d++)
     if (domain->periodicity[d] && heights[d] < 2.0 * support)
       error->all(FLERR, Error::NOLASTLINE,

@@ -114,7 +114,7 @@ SPH_INLINE Vec root_of(Vec slope, Vec metric, Vec inverse_central)
 
 template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseData &data)
 {
-  Coeffs<NoiseCoeff, NoiseUses<0, false>> coeff(data.coeff[pairs.ntypes_1 + 1]);
+  Coeffs<NoiseCoeff, NoiseUses<0, false>> coeff(data.coeff[pairs.par->ntypes_1 + 1]);
   const NoiseStep step(data);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
@@ -130,7 +130,7 @@ template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseD
       const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
       const Vec rsq = dx * dx + dy * dy + dz * dz;
       const Vec metric = metric_of<FR>(rsq);
-      if (!pairs.uniform) coeff.load(data.coeff, pairs, i, j, n - k);
+      if (!pairs.par->uniform) coeff.load(data.coeff, pairs, i, j, n - k);
       const PairCounter counter(step, data.tag[i], gather(data.tag, j));
       using Numbers = PairNumbers<ACROSS, false, true>;
       const Numbers random(counter.word, step.pair);
@@ -168,7 +168,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   Vec friction;     // factor of that of the pair, if ENERGY
 
   SPH_INLINE PairNoise(const LoopData &pairs) :
-      pairs(pairs), data(*pairs.noise), step(data), coeff(data.coeff[pairs.ntypes_1 + 1])
+      pairs(pairs), data(*pairs.noise), step(data), coeff(data.coeff[pairs.par->ntypes_1 + 1])
   {
   }
   SPH_INLINE void begin(int ii)
@@ -194,7 +194,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   SPH_INLINE void draw(const int *j, int n, Vec dx, Vec dy, Vec dz, Vec slope, Vec vv, Vec metric,
                        Vec by_metric, Vec inverse)
   {
-    if (!pairs.uniform) coeff.load(data.coeff, pairs, i, j, n);
+    if (!pairs.par->uniform) coeff.load(data.coeff, pairs, i, j, n);
     Vec z[Numbers::N];
     for (int c = 0; c < Numbers::N; c++) {
       if (!Numbers::is_used(c)) continue;

@@ -130,7 +130,7 @@ void OpenStage::sum_impacts(NeighList *list)
 
 void OpenStage::find_rows(NeighList *list)
 {
-  const double reach = engine.pairs().support + neighbor->skin;
+  const double reach = engine.parameters().support + neighbor->skin;
   rows.assign(zones.size(), {});
   for (int ii = 0; ii < list->inum; ii++)
     for (std::size_t k = 0; k < zones.size(); k++)

@@ -74,7 +74,7 @@ void FluidState::find_full_support()
 
   for (int i = 0; i < nlocal; i++) {
     const double *const a = &lopsided[3 * i];
-    const double limit = SURFACE * engine.density[i].c / pairs.support;
+    const double limit = SURFACE * engine.density[i].c / engine.parameters().support;
     if (!(atom->mask[i] & not_fluid) && a[0] * a[0] + a[1] * a[1] + a[2] * a[2] > limit * limit)
       surface[i] = 1.0;
   }
