@@ -221,8 +221,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::heating(double *heat, 
   if (!on_device) return Fluid::heating(heat, power);
   std::fill(power, power + NCHANNEL, 0.0);
   if (heat) std::fill(heat, heat + atom->nlocal + atom->nghost, 0.0);
-  const int nchannel = engine->has_spin() ? NCHANNEL : VORTEX;    // its own come last
-  for (int k = 0; k < nchannel; k++) {
+  for (int k = 0; k < NCHANNEL; k++) {
     const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
     for (int i = 0; i < atom->nlocal; i++) {
       if (atom->mask[i] & not_fluid()) continue;
@@ -292,7 +291,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
   reach(data->density, "sph:density", n);
   reach(data->zeta_term, "sph:zeta_term", n);
   if (spins) reach(data->spin, "sph:spin", n);
-  for (int k = 0; k < (spins ? NCHANNEL : VORTEX); k++) reach(data->heat[k], "sph:heat", n);
+  for (int k = 0; k < NCHANNEL; k++) reach(data->heat[k], "sph:heat", n);
   reach(data->weight, "sph:weight", data->each ? n : 1);
 }
 
@@ -302,26 +301,28 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
 
 template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
 {
-  const LoopData &engine_data = engine->pairs();
-  const int n = engine_data.ntypes_1;
+  const Parameters &par = engine->parameters();
+  const int n = par.ntypes_1;
   if (!types->extent(0)) {
     *types = Kokkos::View<TypeKokkos *, DeviceType>("sph:types", n);
     data->coeff = Kokkos::View<PairCoeff *, DeviceType>("sph:coeff", n * n);
   }
   auto h_types = Kokkos::create_mirror_view(*types);
   auto h_coeff = Kokkos::create_mirror_view(data->coeff);
-  for (int i = 1; i < n; i++) h_types(i) = {model->coeffs[i].eos, model->coeffs[i].zeta};
-  for (int k = 0; k < n * n; k++) h_coeff(k) = engine_data.coeff[k];
+  for (int i = 1; i < n; i++) h_types(i) = {par.type[i].eos, par.type[i].zeta, par.type[i].keywords};
+  for (int k = 0; k < n * n; k++) h_coeff(k) = par.pair[k];
   Kokkos::deep_copy(*types, h_types);
   Kokkos::deep_copy(data->coeff, h_coeff);
 
   data->ntypes_1 = n;
-  data->typed = engine_data.uniform ? 0 : 1;
-  data->bulk = model->choice.bulk;
-  data->support = engine_data.support;
-  data->weight_norm = engine_data.weight_norm;
-  data->slope_norm = engine_data.slope_norm;
-  data->self_weight = kernel_weight(model->choice.kernel, dim, 0.0, support);
+  data->typed = par.uniform ? 0 : 1;
+  data->bulk = par.bulk;
+  data->types = *types;
+  data->drag = par.drag;
+  data->support = par.support;
+  data->weight_norm = par.weight_norm;
+  data->slope_norm = par.slope_norm;
+  data->self_weight = par.self_weight;
 
   data->each = (model->choice.volume == Volume::MASS) ? 1 : 0;
   data->weight = decltype(data->weight)("sph:weight", 1);    // by mass it is set in each step
@@ -360,6 +361,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
   data->numneigh = k_list->d_numneigh;
   data->neighbors = k_list->d_neighbors;
   data->type = type;
+  data->mask = atomKK->k_mask.template view<DeviceType>();
+  data->not_fluid = not_fluid();
   data->f = atomKK->k_f.template view<DeviceType>();
   data->desph = avec.k_desph.template view<DeviceType>();
   if (engine->has_spin()) set_spins();
@@ -453,7 +456,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::find_bound()
   with_kernel(model->choice.kernel, [&](auto kernel) {
     Kokkos::parallel_for(
         "sph:bound", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-        BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, engine->shear_form(), bound});
+        BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, engine->parameters().shear, bound});
   });
 
   if (communicates_on_device()) {
@@ -603,21 +606,9 @@ template <class DeviceType> void FluidKokkos<DeviceType>::run_forces(bool virial
   if (pair->vflag_atom) data->vatom = decltype(data->vatom)("sph:vatom", atom->nlocal);
 
   with_kernel(model->choice.kernel, [&](auto kernel) {
-    typedef decltype(kernel) K;
-    switch (model->choice.shear) {
-      case Shear::MG:
-        return run_force_loop<K, Shear::MG>(virial);
-      case Shear::MG_FR:
-        return run_force_loop<K, Shear::MG_FR>(virial);
-      case Shear::MORRIS:
-        return run_force_loop<K, Shear::MORRIS>(virial);
-      case Shear::ESPANOL:
-        return run_force_loop<K, Shear::ESPANOL>(virial);
-      case Shear::MICROPOLAR:
-        return run_force_loop<K, Shear::MICROPOLAR>(virial);
-      default:
-        return run_force_loop<K, Shear::NONE>(virial);
-    }
+    with_form(model->choice.shear, [&](auto form) {
+      run_force_loop<decltype(kernel), decltype(form)>(virial);
+    });
   });
 
   if (!pair->vflag_atom) return;
@@ -629,13 +620,13 @@ template <class DeviceType> void FluidKokkos<DeviceType>::run_forces(bool virial
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
-template <class K, Shear SHEAR>
+template <class K, class Form>
 void FluidKokkos<DeviceType>::run_force_loop(bool virial)
 {
   if (model->choice.bulk == Bulk::VOLUME)
-    run_loop(ForceLoopKokkos<DeviceType, K, SHEAR, true>{*data}, virial);
+    run_loop(ForceLoopKokkos<DeviceType, K, Form, true>{*data}, virial);
   else
-    run_loop(ForceLoopKokkos<DeviceType, K, SHEAR, false>{*data}, virial);
+    run_loop(ForceLoopKokkos<DeviceType, K, Form, false>{*data}, virial);
 }
 
 /* ---------------------------------------------------------------------- */

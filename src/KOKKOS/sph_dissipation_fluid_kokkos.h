@@ -101,7 +101,7 @@ namespace SPHDissipation {
     void send_density();
     void send_boundary();
     template <class Loop> void run_loop(const Loop &, bool virial);
-    template <class K, Shear SHEAR> void run_force_loop(bool virial);
+    template <class K, class Form> void run_force_loop(bool virial);
   };
 
 }    // namespace SPHDissipation

@@ -19,15 +19,15 @@
 
 #include "kokkos_type.h"
 
-#include "sph_dissipation_coeffs.h"
-#include "sph_dissipation_kernel.h"
+#include "sph_dissipation_parameters.h"
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_rows.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-  // what the formulas of a pair need of numbers, see sph_dissipation_simd.h
+  // what the formulas of a pair need, see sph_dissipation_simd.h
 
+  typedef double Vec;
   SPH_INLINE double square_root(double a)
   {
     return Kokkos::sqrt(a);
@@ -44,6 +44,7 @@ namespace SPHDissipation {
   struct TypeKokkos {
     EosParams eos;
     double zeta;
+    TypeCoeffs keywords;
   };
 
   // Input, output and scratch space of the loops, as class LoopData of the CPU styles
@@ -66,7 +67,10 @@ namespace SPHDissipation {
     int ntypes_1;
     int typed;    // 0: the coefficients of all pairs are the same
 
-    typename AT::t_int_1d type;
+    typename AT::t_int_1d type, mask;
+    Kokkos::View<TypeKokkos *, DeviceType> types;
+    bool drag;        // of single particles
+    int not_fluid;    // groups whose particles have none
     typename AT::t_kkacc_1d_3 f, torque;    // torque: micropolar
     Kokkos::View<double *, Kokkos::LayoutRight, DeviceType> desph;
     Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> vatom;    // if it is asked for
@@ -108,7 +112,7 @@ namespace SPHDissipation {
 
   // pass 2, as force_loop() of the CPU styles
 
-  template <class DeviceType, class K, Shear SHEAR, bool VOLUME> struct ForceLoopKokkos {
+  template <class DeviceType, class K, class Form, bool VOLUME> struct ForceLoopKokkos {
     LoopDataKokkos<DeviceType> data;
 
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
@@ -130,92 +134,72 @@ namespace SPHDissipation {
 
     template <bool VIRIAL> KOKKOS_INLINE_FUNCTION void row(int ii, double *virial) const
     {
-      constexpr bool SPIN = (SHEAR == Shear::MICROPOLAR);
-      constexpr bool ALONG_R =
-          (SHEAR == Shear::MG || SHEAR == Shear::MG_FR || SHEAR == Shear::ESPANOL || SPIN);
-      constexpr bool ALONG_U = (SHEAR == Shear::MORRIS || SHEAR == Shear::ESPANOL || SPIN);
-
       const int i = data.ilist(ii);
       const Particle pi = data.particle(i);
-      const Spin spin_i = SPIN ? data.spin(i) : Spin();
+      const Spin spin_i = Form::SPINS ? data.spin(i) : Spin();
       const double support_sq = data.support * data.support;
       const double support_inv = 1.0 / data.support;
       const double zeta_term_i = data.zeta_term(i);
       const double weight_i = data.weight(i * data.each);
       const PairCoeff *const coeff_i = &data.coeff(data.type(i) * data.ntypes_1);
-      double total_f[3] = {0.0, 0.0, 0.0}, total_t[3] = {0.0, 0.0, 0.0};
-      double heat = 0.0, vortex_heat = 0.0, spin_heat = 0.0, divergence = 0.0;
+      double total_f[3] = {0.0, 0.0, 0.0}, total_t[3] = {0.0, 0.0, 0.0}, divergence = 0.0;
+      double heat[NCHANNEL] = {};
 
       const int jnum = data.numneigh(i);
       for (int jj = 0; jj < jnum; jj++) {
         const int j = data.neighbors(i, jj) & NEIGHMASK;
         const Particle &pj = data.particle(j);
-        const double r[3] = {pi.x[0] - pj.x[0], pi.x[1] - pj.x[1], pi.x[2] - pj.x[2]};
-        const double rsq = dot(r, r);
+        PairState pair;
+        for (int d = 0; d < 3; d++) pair.r[d] = pi.x[d] - pj.x[d];
+        const double rsq = dot(pair.r, pair.r);
         if (rsq >= support_sq) continue;
-        double u[3] = {pi.u[0] - pj.u[0], pi.u[1] - pj.u[1], pi.u[2] - pj.u[2]};
-        const double approach = dot(r, u);
+        for (int d = 0; d < 3; d++) pair.u[d] = pi.u[d] - pj.u[d];
         const double slope = data.slope_norm * K::slope(square_root(rsq) * support_inv);
-        const double vv_slope = volumes_slope(rsq, pi.vol, pj.vol, slope);
-        const PairCoeff &coeff = coeff_i[data.type(j * data.typed)];
+        pair.coeff = coeff_i[data.type(j * data.typed)].a;
+        pair.approach = dot(pair.r, pair.u);
+        pair.vv = volumes_slope(rsq, pi.vol, pj.vol, slope);
+        for (int c = 0; c < NCHANNEL; c++) pair.heat[c] = 0.0;
 
-        double central = pressing_term(pi.g, pj.g, slope) * weight_i * data.weight(j * data.each);
-        double by_metric = 0.0;
-        if constexpr (ALONG_R) {
-          by_metric = vv_slope / (metric_of<SHEAR == Shear::MG_FR>(rsq) + TINY);
-          const double drag = drag_along_r(coeff.along_r, by_metric, approach);
-          central -= drag;
-          heat += half_heat_along_r(drag, approach);
-        }
+        pair.central = pressing_term(pi.g, pj.g, slope) * weight_i * data.weight(j * data.each);
+        if constexpr (Form::CENTRAL)
+          pair.by_metric = pair.vv / (metric_of<Form::BY_DISTANCE>(rsq) + TINY);
+        Form::add_central(pair);
         if constexpr (VOLUME) {
-          central += volume_term(zeta_term_i, data.zeta_term(j), vv_slope);
-          divergence -= divergence_term(slope, approach) * pj.vol;
+          pair.central += volume_term(zeta_term_i, data.zeta_term(j), pair.vv);
+          divergence -= slope * pair.approach * pj.vol;
         }
-        double f[3] = {central * r[0], central * r[1], central * r[2]};
-        if constexpr (SPIN) slip_velocity(spin_i.w, data.spin(j).w, r, u);
-        if constexpr (ALONG_U) {
-          const double drag = coeff.along_u * vv_slope;
-          add_drag_along_u(drag, u, f);
-          const double heat_u = half_heat_along_u(0.5 * drag, u);
-          if constexpr (SPIN) {
-            const Spin &spin_j = data.spin(j);
-            double t[3], on_j[3];
-            half_torque(0.5 * drag, r, u, t);
-            const double s[3] = {spin_i.w[0] - spin_j.w[0], spin_i.w[1] - spin_j.w[1],
-                                 spin_i.w[2] - spin_j.w[2]};
-            const double along = dot(r, s);
-            const double drag1 = drag_along_r(coeff.xi1, by_metric, along);
-            const double drag2 = coeff.xi2 * vv_slope;
-            spin_torque(drag1, drag2, r, s, on_j);
-            for (int d = 0; d < 3; d++) total_t[d] += t[d] - on_j[d];
-            vortex_heat += heat_u;
-            spin_heat += half_heat_of_spins(drag1, drag2, along, s);
-          } else
-            heat += heat_u;
+        for (int d = 0; d < 3; d++) pair.f[d] = pair.central * pair.r[d];
+        if constexpr (Form::SPINS) {
+          const Spin &spin_j = data.spin(j);
+          slip_velocity(spin_i.w, spin_j.w, pair.r, pair.u);
+          for (int d = 0; d < 3; d++) pair.s[d] = spin_i.w[d] - spin_j.w[d];
         }
-        for (int d = 0; d < 3; d++) total_f[d] += f[d];
+        Form::add_vector(pair);
+        if constexpr (Form::SPINS)
+          for (int d = 0; d < 3; d++) total_t[d] += pair.t[d] - pair.spin[d];
+        for (int d = 0; d < 3; d++) total_f[d] += pair.f[d];
+        for (int c = 0; c < NCHANNEL; c++) heat[c] += pair.heat[c];
 
         if constexpr (VIRIAL) {    // half for each partner
-          virial[0] += 0.5 * r[0] * f[0];
-          virial[1] += 0.5 * r[1] * f[1];
-          virial[2] += 0.5 * r[2] * f[2];
-          virial[3] += 0.5 * r[0] * f[1];
-          virial[4] += 0.5 * r[0] * f[2];
-          virial[5] += 0.5 * r[1] * f[2];
+          virial[0] += 0.5 * pair.r[0] * pair.f[0];
+          virial[1] += 0.5 * pair.r[1] * pair.f[1];
+          virial[2] += 0.5 * pair.r[2] * pair.f[2];
+          virial[3] += 0.5 * pair.r[0] * pair.f[1];
+          virial[4] += 0.5 * pair.r[0] * pair.f[2];
+          virial[5] += 0.5 * pair.r[1] * pair.f[2];
         }
       }
 
-      const double bulk =
+      heat[BULK] =
           bulk_heat(data.bulk, zeta_term_i, pi.vol, weight_i, data.density(i).cdot, divergence);
+      if (data.drag && !(data.mask(i) & data.not_fluid))
+        Channels::add_drag(data.types(data.type(i)).keywords, pi.vol, pi.u, false, total_f, heat);
       for (int d = 0; d < 3; d++) data.f(i, d) += total_f[d];
-      data.heat[Channel::SHEAR](i) = heat;
-      data.heat[Channel::BULK](i) = bulk;
-      data.desph(i) += heat + bulk;
-      if constexpr (SPIN) {
+      if constexpr (Form::SPINS)
         for (int d = 0; d < 3; d++) data.torque(i, d) += total_t[d];
-        data.heat[Channel::VORTEX](i) = vortex_heat;
-        data.heat[Channel::SPIN](i) = spin_heat;
-        data.desph(i) += vortex_heat + spin_heat;
+      for (int c = 0; c < NCHANNEL; c++) {
+        data.heat[c](i) = heat[c];
+        data.desph(i) += heat[c];
       }
     }
   };

@@ -315,7 +315,7 @@ void ComputeSPHSpectrum::set_dissipation()
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_mapped(mapped, i)) continue;
     const double mu = mapped->model->viscosity(0, atom->type[i], atom->type[i]);
-    const double kappa = mapped->bulk_viscosity(atom->type[i]);
+    const double kappa = mapped->model->bulk_viscosity(atom->type[i]);
     own[0] = std::max(own[0], mu);
     own[1] = std::max(own[1], kappa);
     own[2] = std::max(own[2], -mu);

@@ -531,7 +531,7 @@ void FixSPHBulk::set_inertia_of(int i, double &inertia) const
 
 bool FixSPHBulk::has_torques() const
 {
-  return fluid && fluid->has_torques();
+  return fluid && fluid->model->has_torques();
 }
 
 /* ----------------------------------------------------------------------
@@ -599,7 +599,8 @@ void FixSPHBulk::integrate(Half half)
     double rest[2] = {0.0, 0.0};
     if (exact) {
       const double mass = atom->rmass[i];
-      rest[0] = rest_of_heat(atom->v[i], atom->vest[i], atom->f[i], fluid->own_force(i), 1.0 / mass);
+      rest[0] =
+          rest_of_heat(atom->v[i], atom->vest[i], atom->f[i], fluid->own_force(i), 1.0 / mass);
       if (spins)
         rest[1] =
             rest_of_heat(atom->omega[i], kept.omegaest[i], atom->torque[i], fluid->own_torque(i),

@@ -75,11 +75,11 @@ class FixSPHBulk : public Fix {
 
  protected:
   double dtv, dtf;
-  bool exact;                 // motion and heat exchange energy exactly, see integrate()
-  double shift_speed;         // scale and twice the limit of the velocity of particle shifting
-  int remap_v_flag;           // fix deform remaps velocities at periodic boundaries
-  int integrated_groups;      // bits of all groups with an integrator of this kind
-  bool first_instance;        // acts for the particles outside all these groups
+  bool exact;                      // motion and heat exchange energy exactly, see integrate()
+  double shift_speed;              // scale and twice the limit of the velocity of particle shifting
+  int remap_v_flag;                // fix deform remaps velocities at periodic boundaries
+  int integrated_groups;           // bits of all groups with an integrator of this kind
+  bool first_instance;             // acts for the particles outside all these groups
   SPHDissipation::Fluid *fluid;    // of the same name, if there is one
   void check_set_up();
   int nlocal_group() const;

@@ -22,8 +22,8 @@
 #include "pair.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_coeffs.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_steps.h"
 #include "sph_dissipation_viscous.h"
 #include "update.h"
 

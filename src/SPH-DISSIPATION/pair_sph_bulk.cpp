@@ -165,7 +165,7 @@ double PairSPHBulk::init_one(int i, int j)
 
 void *PairSPHBulk::extract(const char *name, int &ndim)
 {
-  return fluid->extract(name, ndim);
+  return fluid->model->extract(name, ndim);
 }
 
 /* ----------------------------------------------------------------------
@@ -192,7 +192,7 @@ void PairSPHBulk::write_restart_settings(FILE *fp)
 
 void PairSPHBulk::read_restart_settings(FILE *fp)
 {
-  fluid->model->read_settings(fp, fluid->default_shear());
+  fluid->model->read_settings(fp);
 }
 
 void PairSPHBulk::write_data(FILE *fp)

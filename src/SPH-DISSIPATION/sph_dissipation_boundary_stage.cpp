@@ -219,20 +219,20 @@ void BoundaryStage::repel(PairTally *tally)
 double BoundaryStage::energy(double *each_atom) const
 {
   if (!has_energy()) return 0.0;
-  const LoopData &all = engine.pairs();
+  const Parameters &par = engine.parameters();
   double total = 0.0;
   auto add = [&](int i, double energy) {
     total += energy;
     if (each_atom) each_atom[i] += energy;
   };
-  with_kernel(engine.kernel_form(), [&](auto k) {
+  with_kernel(engine.parameters().kernel, [&](auto k) {
     for (const auto &pair : pairs) {
       if (pair.fluid >= nforce()) continue;
       const Particle &w = engine.particle[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = engine.particle[pair.fluid].x[d] - w.x[d];
       const double kernel_weight =
-          all.weight_norm * k.shape(sqrt(inner_product(r, r)) / all.support);
+          par.weight_norm * k.shape(sqrt(inner_product(r, r)) / par.support);
       add(pair.fluid, engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * kernel_weight);
     }
     return 0;
@@ -265,17 +265,17 @@ void BoundaryStage::find_rows(NeighList *list)
 
 void BoundaryStage::set_near()
 {
-  const LoopData &all = engine.pairs();
+  const Parameters &par = engine.parameters();
   const int nall = atom->nlocal + atom->nghost;
-  const int dim = engine.dimension();
+  const int dim = engine.parameters().dim;
   near.resize(nall);
   contact.resize(has_energy() ? nall : 0);
   for (int i = 0; i < nall; i++) {
     if (!(atom->mask[i] & group_bits)) continue;
     const double volume = atom->vfrac[i];
-    near[i] = near_kernel(dim, all.support, all.weight_norm, volume);
+    near[i] = near_kernel(dim, par.support, par.weight_norm, volume);
     if (!has_energy()) continue;
-    const double radius = std::min(all.support, CONTACT * pow(volume, 1.0 / dim));
+    const double radius = std::min(par.support, CONTACT * pow(volume, 1.0 / dim));
     contact[i] = {volume * ContactKernel::norm(dim) / pow(radius, dim), 1.0 / radius};
   }
 }
@@ -303,10 +303,10 @@ void BoundaryStage::accumulate()
   memset(sum, 0, (atom->nlocal + atom->nghost) * sizeof(BoundarySum));
   const double *const rho = atom->rho;
   const bool has_spin = engine.has_spin();
-  const LoopData &all = engine.pairs();
+  const Parameters &par = engine.parameters();
   const bool repulsive = has_energy();
 
-  with_kernel(engine.kernel_form(), [&](auto k) {
+  with_kernel(engine.parameters().kernel, [&](auto k) {
     for (const auto &pair : pairs) {
       const Particle &f = engine.particle[pair.fluid];
       const Particle &w = engine.particle[pair.wall];
@@ -314,7 +314,7 @@ void BoundaryStage::accumulate()
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
       const double distance = sqrt(inner_product(r, r));
-      const double kernel_weight = all.weight_norm * k.shape(distance / all.support);
+      const double kernel_weight = par.weight_norm * k.shape(distance / par.support);
       BoundarySum &total = sum[pair.wall];
       const double height =
           add_fluid(f, w, r, kernel_weight, s, rho[pair.fluid], engine.weight(pair.fluid),

@@ -23,7 +23,6 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  class Boundary;
   class FluidModel;
   class PairTally;
 

@@ -53,10 +53,11 @@ void CrowdingStage::run()
   contact.resize(nall);
 
   const LoopData &pairs = engine.pairs();
-  const int dim = engine.dimension();
-  with_kernel(engine.kernel_form(), [&](auto k) {
+  const int dim = engine.parameters().dim;
+  with_kernel(engine.parameters().kernel, [&](auto k) {
     for (int i = 0; i < nall; i++)
-      contact[i] = contact_inverse<decltype(k)>(dim, pairs.support, engine.particle[i].vol);
+      contact[i] =
+          contact_inverse<decltype(k)>(dim, engine.parameters().support, engine.particle[i].vol);
 
     engine.visit_pairs([&](int i, int j, bigint entry) {
       const Particle &a = engine.particle[i], &b = engine.particle[j];
@@ -65,7 +66,7 @@ void CrowdingStage::run()
         r[d] = a.x[d] - b.x[d];
         rsq += r[d] * r[d];
       }
-      const double shape = k.shape(sqrt(rsq) / pairs.support);
+      const double shape = k.shape(sqrt(rsq) / engine.parameters().support);
       const double push_i = b.vol * crowding_push(pairs.slope[entry], shape, contact[i]);
       const double push_j = a.vol * crowding_push(pairs.slope[entry], shape, contact[j]);
       for (int d = 0; d < 3; d++) {

@@ -16,19 +16,11 @@
 #include "atom.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
-#include "sph_dissipation_model.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
-
-DensityStage::DensityStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                           const FluidModel &model) :
-    Stage(lmp, engine, exchange),
-    model(model)
-{
-}
 
 /* ----------------------------------------------------------------------
    particles of other styles keep their density
@@ -41,14 +33,14 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
   DensitySum *const density = engine.density;
   const Field sums = field(density, &density->c, 2);
   exchange.reverse({sums});
-  if (model.choice.eos == Eos::IDEAL)    // which needs the energy of ghost atoms
+  if (engine.parameters().eos == Eos::IDEAL)    // which needs the energy of ghost atoms
     exchange.forward({sums, {atom->esph, 1, 1}});
   else
     exchange.forward({sums});
 
   const double *const rmass = atom->rmass;
   const int *const type = atom->type;
-  const bool shared = model.shared;
+  const Parameters &par = engine.parameters();
   double *const rho = atom->rho;
   double *const drho = atom->drho;
   double *const vfrac = atom->vfrac;
@@ -56,7 +48,7 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
   engine.for_each(nall, [&](int i) {
     const double weight = engine.weight(i);
     engine.particle[i].vol = weight / density[i].c;
-    if (shared && model.coeffs[type[i]].other) return;
+    if (par.shared && par.type[type[i]].other) return;
     const double mass = rmass[i] / weight;
     rho[i] = mass * density[i].c;
     drho[i] = mass * density[i].cdot;

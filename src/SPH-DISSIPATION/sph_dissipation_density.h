@@ -19,21 +19,16 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  class FluidModel;
-
   // Pass 1: density c of the reference volumes w, for w = 1 of the number of particles, and its rate;
   // then the volume V = w/c, the mass density rho = m/V and its rate.  P1 (5), (6)
 
   class DensityStage : public Stage {
    public:
-    DensityStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
+    using Stage::Stage;
 
     // extrapolated velocity and spin, each nullptr where it is zero
 
     void run(NeighList *, double **vest, double **omegaest);
-
-   private:
-    const FluidModel &model;
   };
 
 }    // namespace SPHDissipation

@@ -38,13 +38,15 @@ template <class Row> static void add_row(Row &to, const Row &from)
 
 /* ---------------------------------------------------------------------- */
 
+static const Parameters NO_PARAMETERS;    // of an engine before its setup()
+
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
     zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
-    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), friction_loop(nullptr), data(),
-    threads(&one_thread), kernel(Kernel::WENDLAND_C2), dim(0), shear(Shear::NONE), bulk(Bulk::NONE),
-    volume(Volume::NUMBER), self_weight(0.0), weights(nullptr), nlocal_forces(-1),
-    nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
+    par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
+    noisy_loop(nullptr), drag_noise(nullptr), data(), threads(&one_thread), weights(nullptr),
+    not_fluid(0), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0), imax(0),
+    pair_max(0)
 {
   choose_loops("auto");
 }
@@ -92,44 +94,16 @@ bool Engine::choose_loops(const std::string &simd)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::setup(Kernel kernel_in, int n, double support, Shear shear_in, Bulk bulk_in,
-                   Volume volume_in, const std::vector<PairCoeff> &coeff_in,
-                   const std::vector<double> &rho0_in)
+void Engine::setup(const Parameters &parameters)
 {
-  const int ntypes = static_cast<int>(rho0_in.size()) - 1;
-  volume = volume_in;
-  rho0 = rho0_in;
-  kernel = kernel_in;
-  dim = n;
-  bulk = bulk_in;
-  shear = shear_in;
-  coeff = coeff_in;
-  density_loop = loops->density(kernel, volume);
-  rate_loop = loops->rates(volume);
-
-  data.coeff = coeff.data();
-  data.ntypes_1 = ntypes + 1;
-  data.uniform = true;
-  bool inviscid = true;
-  const PairCoeff &one = coeff[ntypes + 2];
-  for (int i = 1; i <= ntypes; i++)
-    for (int j = 1; j <= ntypes; j++) {
-      const PairCoeff &c = coeff[i * (ntypes + 1) + j];
-      if (c.along_r != one.along_r || c.along_u != one.along_u || c.xi1 != one.xi1 ||
-          c.xi2 != one.xi2)
-        data.uniform = false;
-      if (c.along_r != 0.0 || c.along_u != 0.0 || c.xi1 != 0.0 || c.xi2 != 0.0) inviscid = false;
-    }
-  force_loop =
-      loops->forces((inviscid && shear != Shear::MICROPOLAR) ? Shear::NONE : shear, bulk, volume);
-  friction_loop = force_loop;
-
-  data.support = support;
-  self_weight = kernel_weight(kernel, n, 0.0, support);
-  data.weight_norm = self_weight / with_kernel(kernel, [](auto k) {
-                       return k.shape(0.0);
-                     });
-  data.slope_norm = data.weight_norm / (support * support);
+  par = &parameters;
+  density_loop = loops->density(par->kernel, par->volume);
+  rate_loop = loops->rates(par->volume);
+  force_loop = loops->forces((par->inviscid && !par->spins()) ? Shear::NONE : par->shear, par->bulk,
+                             par->volume);
+  noisy_loop = nullptr;
+  drag_noise = nullptr;
+  data.par = par;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -137,7 +111,7 @@ void Engine::setup(Kernel kernel_in, int n, double support, Shear shear_in, Bulk
 void Engine::add_noise(const NoiseForm &form, const NoiseData *noise)
 {
   data.noise = noise;
-  force_loop = loops->noisy_forces(form, volume);
+  noisy_loop = loops->noisy_forces(form);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -153,7 +127,7 @@ void Engine::grow_atoms()
   particle = (Particle *) memory->smalloc(nrow * sizeof(Particle), "sph:particle");
   density = (DensitySum *) memory->smalloc(nrow * sizeof(DensitySum), "sph:density");
   force = (ForceSum *) memory->smalloc(nrow * sizeof(ForceSum), "sph:force");
-  if (shear == Shear::MICROPOLAR) {
+  if (has_spin()) {
     memory->sfree(spin);
     memory->sfree(torque);
     spin = (Spin *) memory->smalloc(nrow * sizeof(Spin), "sph:spin");
@@ -229,7 +203,8 @@ LoopData Engine::part(int thread) const
 
 void Engine::set_weights()
 {
-  if (volume == Volume::NUMBER) {
+  const bool by_mass = (par->volume == Volume::MASS);
+  if (!by_mass && par->bulk != Bulk::VOLUME && !par->thermal) {
     data.weight = nullptr;
     return;
   }
@@ -240,7 +215,7 @@ void Engine::set_weights()
   }
   const int nall = atom->nlocal + atom->nghost;
   for_each(nall, [&](int i) {
-    weights[i] = atom->rmass[i] / rho0[atom->type[i]];
+    weights[i] = by_mass ? atom->rmass[i] / par->type[atom->type[i]].eos.rho0 : 1.0;
     density[i].c *= weights[i];
   });
   std::fill_n(weights + nall, BLOCK, 0.0);
@@ -265,7 +240,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
       particle[i].x[d] = x[i][d];
       particle[i].u[d] = u[d];
     }
-    density[i].c = (i < nlocal) ? self_weight : 0.0;
+    density[i].c = (i < nlocal) ? par->self_weight : 0.0;
     density[i].cdot = 0.0;
   });
 
@@ -331,7 +306,7 @@ void Engine::run_density(Loop loop)
 void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 {
   data.tally = tally;
-  run_forces(list, force_loop, !tally && force_loop == friction_loop);
+  run_forces(list, noisy_loop ? noisy_loop : force_loop, !tally && !noisy_loop, false);
   nlocal_forces = atom->nlocal;
   nghost_forces = atom->nghost;
 }
@@ -341,16 +316,16 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 void Engine::accumulate_friction(NeighList *list)
 {
   data.tally = nullptr;
-  run_forces(list, friction_loop, true);
+  run_forces(list, force_loop, true, true);
 }
 
 /* ----------------------------------------------------------------------
    shared: among the threads
 ------------------------------------------------------------------------- */
 
-void Engine::run_forces(NeighList *list, Loop loop, bool shared)
+void Engine::run_forces(NeighList *list, Loop loop, bool shared, bool linear)
 {
-  const bool by_volume = (bulk == Bulk::VOLUME);
+  const bool by_volume = (par->bulk == Bulk::VOLUME);
   const int nall = atom->nlocal + atom->nghost;
   const bigint nrow = (bigint) nall + BLOCK;
   data.inum = list->inum;
@@ -367,29 +342,47 @@ void Engine::run_forces(NeighList *list, Loop loop, bool shared)
     if (has_spin()) memset(static_cast<void *>(own.torque), 0, nrow * sizeof(TorqueSum));
     loop(own);
   };
-  if (!shared || sums.empty()) return work(data);
+  if (!shared || sums.empty())
+    work(data);
+  else {
+    threads->run([&](int k) {
+      LoopData own = part(k);
+      if (k > 0) {
+        Sums &mine = sums[k - 1];
+        mine.force.resize(nrow);
+        if (by_volume) mine.divergence.resize(nrow);
+        if (has_spin()) mine.torque.resize(nrow);
+        own.force = mine.force.data();
+        own.divergence = mine.divergence.data();
+        own.torque = mine.torque.data();
+      }
+      work(own);
+    });
 
-  threads->run([&](int k) {
-    LoopData own = part(k);
-    if (k > 0) {
-      Sums &mine = sums[k - 1];
-      mine.force.resize(nrow);
-      if (by_volume) mine.divergence.resize(nrow);
-      if (has_spin()) mine.torque.resize(nrow);
-      own.force = mine.force.data();
-      own.divergence = mine.divergence.data();
-      own.torque = mine.torque.data();
-    }
-    work(own);
+    for_each(nall, [&](int i) {
+      for (const auto &other : sums) {
+        add_row(force[i], other.force[i]);
+        if (by_volume) divergence[i] += other.divergence[i];
+        if (has_spin()) add_row(torque[i], other.torque[i]);
+      }
+    });
+  }
+  if (!par->drag) return;
+  for_each(atom->nlocal, [&](int i) {
+    double heat[NCHANNEL] = {};
+    add_drag(i, linear, force[i].f, heat);
+    if (drag_noise && !linear)
+      for (int d = 0; d < 3; d++) force[i].f[d] += drag_noise[3 * i + d];
   });
+}
 
-  for_each(nall, [&](int i) {
-    for (const auto &other : sums) {
-      add_row(force[i], other.force[i]);
-      if (by_volume) divergence[i] += other.divergence[i];
-      if (has_spin()) add_row(torque[i], other.torque[i]);
-    }
-  });
+/* ---------------------------------------------------------------------- */
+
+void Engine::add_drag(int i, bool linear, double *force_of, double *heat) const
+{
+  const TypeParameters &type = par->type[atom->type[i]];
+  if (!par->drag || type.other || (atom->mask[i] & not_fluid)) return;
+  Channels::add_drag(type.keywords, particle[i].vol, particle[i].u, linear, force_of, heat);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -410,7 +403,7 @@ void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum 
   part.torque = torque_out;
   part.divergence = divergence_out;
   part.tally = nullptr;
-  force_loop(part);
+  (noisy_loop ? noisy_loop : force_loop)(part);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -15,8 +15,7 @@
 #define LMP_SPH_DISSIPATION_ENGINE_H
 
 #include "pointers.h"
-#include "sph_dissipation_coeffs.h"
-#include "sph_dissipation_kernel.h"
+#include "sph_dissipation_parameters.h"
 #include "sph_dissipation_rows.h"
 #include "sph_dissipation_threads.h"
 
@@ -48,6 +47,7 @@ namespace SPHDissipation {
 
   struct NoiseData;
   struct NoiseForm;
+  enum class NoiseChannel;
 
   // Pairs are worked off in blocks of as many as a vector has doubles; this is the widest one.  The
   // last block of a particle is filled up with spare particles, of which there are as many behind the
@@ -68,18 +68,13 @@ namespace SPHDissipation {
     const Spin *spin;            // owned and ghost (micropolar)
     const int *type;             // read if the coefficients differ between types
     const double *zeta_term;     // zeta cdot/c of each particle (bulk volume)
-    const double *weight;        // w, owned and ghost (volume mass); nullptr if all are 1
+    const double *weight;        // w, owned and ghost; nullptr if all are 1 and no loop reads it
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
     DensitySum *density;         // owned and ghost, accumulated by pass 1
     ForceSum *force;             // owned and ghost, accumulated by pass 2
     TorqueSum *torque;           // owned and ghost, accumulated by pass 2 (micropolar)
 
-    double support;            // R
-    double weight_norm;        // W = weight_norm * shape(r/R)
-    double slope_norm;         // F = slope_norm * slope(r/R)
-    const PairCoeff *coeff;    // by types of i and j: coeff[type[i] * ntypes_1 + type[j]]
-    int ntypes_1;              // number of types + 1
-    bool uniform;              // the coefficients of type 1 hold for all pairs
+    const Parameters *par;
 
     // pairs of the ii-th atom: entries first[ii] ... first[ii] + count[ii] - 1; pass 1 begins with
     // entry begin
@@ -104,9 +99,9 @@ namespace SPHDissipation {
     Loop (*density)(Kernel, Volume);
     Loop (*rates)(Volume);
     Loop (*forces)(Shear, Bulk, Volume);
-    Loop (*noisy_forces)(const NoiseForm &, Volume);
+    Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
-    void (*noise_pressure)(const NoiseData &, int n);    // of n particles
+    void (*particle_numbers)(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
@@ -153,12 +148,8 @@ namespace SPHDissipation {
     void set_threads(Threads *team) { threads = team; }    // which the caller keeps
     template <class Task> void for_each(int n, const Task &task) { threads->for_each(n, task); }
 
-    // choose the form of the loops; n = dimension of the kernel
-    // coeff = of the pair terms, for types 0 to ntypes of i, of j within
-    // rho0 = reference density by type, from 1, for the reference volumes m/rho0 (volume mass)
-    void setup(Kernel, int n, double support, Shear, Bulk, Volume,
-               const std::vector<PairCoeff> &coeff, const std::vector<double> &rho0);
-
+    // choose the loops; the parameters are read until the next call
+    void setup(const Parameters &);
     // pass 2 then adds the random forces and torques of the pairs, until setup() is called again; noise is read by each
     // pass 2
     void add_noise(const NoiseForm &, const NoiseData *noise);
@@ -173,16 +164,21 @@ namespace SPHDissipation {
     void accumulate_rates();
 
     // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller
-    // on owned and ghost atoms
+    // on owned and ghost atoms, and the drag of single particles
     void accumulate_forces(NeighList *, PairTally *);
 
-    // the same without noise
+    // the same without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *);
 
     // forces, torques, heat and divergence of those pairs alone, added to arrays with room for the
     // spare particles; after pass 2
     void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *, double *divergence);
 
+    // drag of an owned particle, added to its force and, by channel, to its heat, energy per time
+    void add_drag(int i, bool linear, double *force_of, double *heat) const;
+    // random force of each owned particle, added by each pass 2 until setup() is called again
+    void add_drag_noise(const double *forces) { drag_noise = forces; }
+    void set_not_fluid(int bits) { not_fluid = bits; }    // groups whose particles have no drag
     bool has_forces() const;    // force[] is of the owned and ghost atoms that are there now
 
     // the pairs inside the support that pass 1 has found, for the sums of other stages: function(i, j, entry) for each of
@@ -201,15 +197,10 @@ namespace SPHDissipation {
     }
     const LoopSet &loop_set() const { return *loops; }
 
-    int dimension() const { return dim; }    // of the kernel
-    Kernel kernel_form() const { return kernel; }
-    Shear shear_form() const { return shear; }
-    Bulk bulk_form() const { return bulk; }
+    const Parameters &parameters() const { return *par; }
     // reference volume of a particle, owned or ghost
     double weight(int i) const { return data.weight ? data.weight[i] : 1.0; }
-
-    bool has_spin() const { return shear == Shear::MICROPOLAR; }
-
+    bool has_spin() const { return par->spins(); }
     double memory_usage() const;
     const char *instruction_set() const { return loops->name; }
 
@@ -223,18 +214,13 @@ namespace SPHDissipation {
 
    private:
     const LoopSet *loops;
-    Loop density_loop, rate_loop, force_loop, friction_loop;    // the last one without noise
+    const Parameters *par;
+    Loop density_loop, rate_loop, force_loop;
+    Loop noisy_loop;    // force_loop with noise, or nullptr
+    const double *drag_noise;
     LoopData data;
     Threads one_thread, *threads;
-    std::vector<PairCoeff> coeff;
-    std::vector<double> rho0;    // by type
-    Kernel kernel;
-    int dim;    // of the kernel
-    Shear shear;
-    Bulk bulk;
-    Volume volume;
-    double self_weight;    // W(0)
-    double *weights;       // reference volumes of atoms (volume mass)
+    double *weights;    // reference volumes of atoms
 
     // rows first_row[k] ... first_row[k+1] - 1 of the neighbor list are those of thread k, whose pairs
     // begin with entry first_pair[k]; sums of the threads but the first one
@@ -249,6 +235,7 @@ namespace SPHDissipation {
     std::vector<bigint> first_pair;
     std::vector<Sums> sums;
 
+    int not_fluid;
     int nlocal_forces, nghost_forces;    // # of atoms that force[] is of
     int nmax, nmax_weights, imax;
     bigint pair_max;
@@ -258,7 +245,7 @@ namespace SPHDissipation {
     void grow_pairs(NeighList *);
     LoopData part(int thread) const;
     void run_density(Loop);
-    void run_forces(NeighList *, Loop, bool shared);
+    void run_forces(NeighList *, Loop, bool shared, bool linear);
   };
 
 }    // namespace SPHDissipation

@@ -45,7 +45,7 @@ namespace SPHDissipation {
                               LOOPS::choose_force_loop,
                               LOOPS::choose_noisy_force_loop,
                               LOOPS::choose_eta_loop,
-                              LOOPS::pressure_loop};
+                              LOOPS::particle_numbers};
 }
 }    // namespace LAMMPS_NS
 

@@ -28,6 +28,7 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_forces.h"
 #include "sph_dissipation_kernel.h"
 #include "sph_dissipation_limit.h"
@@ -54,17 +55,17 @@ static constexpr double ACCURATE_NOISE = 0.1;
 
 Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     Pointers(lmp), pair(pair), spins(spins), style(spins ? "sph/micropolar" : "sph/bulk"),
-    model(new FluidModel(lmp, style, viscosity_names(spins))), engine(new Engine(lmp)),
-    exchange(new Exchange(lmp, pair)), density(new DensityStage(lmp, *engine, *exchange, *model)),
+    model(new FluidModel(lmp, style, spins)), engine(new Engine(lmp)),
+    exchange(new Exchange(lmp, pair)), density(new DensityStage(lmp, *engine, *exchange)),
     limit(new LimitStage(lmp, *engine, *exchange)),
-    pressure(new PressureStage(lmp, *engine, *exchange, *model)),
+    pressure(new PressureStage(lmp, *engine, *exchange)),
     forces(new ForceStage(lmp, *engine, *exchange)), open(new OpenStage(lmp, *engine, *exchange)),
     boundary(new BoundaryStage(lmp, *engine, *exchange, *model, style)),
     crowding(new CrowdingStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, *model)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *model, *pressure, *boundary)),
     continued(false), dim(0), support(0.0), stale(false), set_up(false), announced(false),
-    changed(false), warned_step(0.0), noise_step(0.0), smallest_inertia(0.0)
+    changed(false), warned_step(0.0), noise_step(0.0)
 {
 }
 
@@ -76,7 +77,7 @@ Fluid::~Fluid() = default;
 
 void Fluid::settings(int narg, char **arg)
 {
-  model->settings(narg, arg, default_shear());
+  model->settings(narg, arg);
 
   int found = engine->choose_loops(model->simd), found_all;
   MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MIN, world);
@@ -180,24 +181,8 @@ void Fluid::derive_coeffs()
     changed = true;
   }
   viscous->forget_rates();
-  const int n = atom->ntypes;
-  std::vector<PairCoeff> pair_coeffs((n + 1) * (n + 1));
-  std::vector<double> rho0(n + 1);
-
-  for (int i = 1; i <= n; i++) {
-    model->mix(i);
-    for (int j = 1; j <= i; j++) {
-      if (has_type(i) && has_type(j)) check_pair(i, j);
-      pair_coeffs[i * (n + 1) + j] = pair_coeffs[j * (n + 1) + i] = pair_coefficients(i, j);
-    }
-    rho0[i] = model->coeffs[i].eos.rho0;
-    model->set_bulk(i, intrinsic_kappa_of(i, i));
-    if (model->choice.thermal) model->check_balance(i, intrinsic_kappa_of(i, i));
-  }
-
-  const Settings &choice = model->choice;
-  engine->setup(choice.kernel, dim, support, choice.shear, choice.bulk, choice.volume, pair_coeffs,
-                rho0);
+  model->derive(dim, support);
+  engine->setup(model->parameters());
 }
 
 /* ----------------------------------------------------------------------
@@ -209,16 +194,6 @@ void Fluid::adopt_changes()
   derive_coeffs();
   if (!update->setupflag && update->whichflag == 1 && modify->get_fix_by_style("^sph/dt").empty())
     check_time_step(coeff_table());
-}
-
-/* ----------------------------------------------------------------------
-   torques that begin during a run would meet particles whose inertia nobody has checked
-------------------------------------------------------------------------- */
-
-void *Fluid::extract(const char *name, int &ndim)
-{
-  if (model->is_viscosity(name) > 0 && !has_torques()) return nullptr;
-  return model->extract(name, ndim);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -271,6 +246,7 @@ bigint Fluid::sum_before_forces()
 
 void Fluid::sum_forces(PairTally *tally)
 {
+  engine->set_not_fluid(not_fluid());
   forces->run(pair->list, tally);
   if (!boundary->empty()) boundary->repel(tally);
 }
@@ -281,13 +257,13 @@ void Fluid::sum_forces(PairTally *tally)
 
 void Fluid::find_viscous_velocity()
 {
-  viscous->begin(not_fluid(), extrapolated_spin(), spin_inertia());
+  viscous->begin(not_fluid(), extrapolated_spin(), spins ? Fields::of(atom)->inertia : nullptr);
   sum_before_forces();
   if (neighbor->ago == 0 || viscous->has_old_rates())
     viscous->set_rate(coeff_table().fastest_rate());
   sum_forces(nullptr);
   const bool symmetric =
-      (boundary->empty() || model->choice.thermal) && engine->bulk_form() != Bulk::VOLUME;
+      (boundary->empty() || model->choice.thermal) && model->choice.bulk != Bulk::VOLUME;
   viscous->run(pair->list, (model->choice.limit != Limit::NO) ? limit->bound : nullptr, symmetric);
 }
 
@@ -385,7 +361,7 @@ void Fluid::report()
 {
   const CoeffTable table = coeff_table();
   if (!announced) {
-    for (int i = 1; i <= atom->ntypes; i++) model->warn_of_ignored(i, intrinsic_kappa_of(i, i));
+    model->warn_of_ignored();
     warned_step = noise_step = 0.0;
     FluidState state(lmp, *engine, *exchange, *model);
     state.run(1, not_fluid());
@@ -453,7 +429,7 @@ void Fluid::check_time_step(const CoeffTable &table)
 
 CoeffTable Fluid::coeff_table()
 {
-  find_smallest_inertia();
+  const double inertia = smallest_inertia();
   const int n = atom->ntypes;
   const Eos eos = model->choice.eos;
   std::vector<double> mine(2 * (n + 1), 0.0), all(2 * (n + 1));
@@ -479,14 +455,34 @@ CoeffTable Fluid::coeff_table()
     for (int j = i; j <= n; j++) {
       const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
       if (a.other || b.other) continue;
-      const double zeta = 0.5 * (a.zeta + b.zeta);
       const double rho = std::min(a.eos.rho0 / thinness[i], b.eos.rho0 / thinness[j]);
-      Columns steps = viscous_steps(i, j, hsq, rho);
-      steps.insert(steps.begin() + 1, {"bulk", bulk_step(hsq, zeta / rho)});
-      table.add_row(i, j, table_columns(i, j, zeta + intrinsic_kappa_of(i, j), zeta),
-                    acoustic_step(h, std::max(speed[i], speed[j])), steps);
+      table.add_row(i, j, model->pair_fluid(i, j), {hsq, rho, rho * inertia},
+                    acoustic_step(h, std::max(speed[i], speed[j])));
     }
   return table;
+}
+
+/* ----------------------------------------------------------------------
+   per mass, of all particles that have one
+------------------------------------------------------------------------- */
+
+double Fluid::smallest_inertia() const
+{
+  double mine = UNLIMITED_STEP, smallest;
+  if (spins) {
+    const double *const inertia = Fields::of(atom)->inertia;
+    for (int i = 0; i < atom->nlocal; i++)
+      if (inertia[i] > 0.0 && has_type(atom->type[i])) mine = std::min(mine, inertia[i]);
+  }
+  MPI_Allreduce(&mine, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
+  return smallest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double **Fluid::extrapolated_spin() const
+{
+  return spins ? Fields::of(atom)->omegaest : nullptr;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -83,8 +83,6 @@ namespace SPHDissipation {
     void coeff(int narg, char **arg);
     void init();
     void derive_anew() { stale = true; }
-    void *extract(const char *name, int &ndim);
-    Shear default_shear() const;
     Exchange &messages() const { return *exchange; }    // whose packing the pair style hands on
     virtual double memory_usage() const;                // bytes
 
@@ -136,8 +134,6 @@ namespace SPHDissipation {
     bool has_type(int type) const;           // its particles are of this fluid
     int dimension() const { return dim; }    // of the kernel
     double support_radius() const { return support; }
-    double bulk_viscosity(int type) const;    // in effect in the last force computation
-    bool has_torques() const;                 // any vortex or spin viscosity
 
     // of the fluid as it is now: largest stable time steps; time in which a particle falls by the length
     // that stability knows, at least
@@ -165,7 +161,6 @@ namespace SPHDissipation {
     bool changed;          // other coefficients, or motions of walls, than those of the last forces
     double warned_step;    // the time step that the last warning was about
     double noise_step;     // the time step that was announced with the noise
-    double smallest_inertia;    // per mass, of all particles that have one; limits the time step
 
     void check_setup();
     void find_own_types();
@@ -175,21 +170,8 @@ namespace SPHDissipation {
     void find_viscous_velocity();
     void check_time_step(const CoeffTable &);
     double stability_length() const;
+    double smallest_inertia() const;
     void announce_noise(double rate);
-
-    // what depends on the viscosities that a fluid has
-
-    static std::vector<std::string> viscosity_names(bool spins);
-    PairCoeff pair_coefficients(int i, int j) const;
-    double intrinsic_kappa_of(int i, int j) const;
-    void check_pair(int i, int j) const;
-    Columns table_columns(int i, int j, double kappa, double zeta) const;
-    Columns viscous_steps(int i, int j, double hsq, double rho) const;
-
-    // fields of particles that rotate; nullptr without spins
-
-    const double *spin_inertia() const;    // per mass
-    void find_smallest_inertia();
   };
 
 }    // namespace SPHDissipation

@@ -16,7 +16,7 @@
 #include "comm.h"
 #include "error.h"
 #include "lammps.h"
-#include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_channels.h"
 #include "tokenizer.h"
 #include "utils.h"
 

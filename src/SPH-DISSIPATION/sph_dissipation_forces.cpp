@@ -20,6 +20,7 @@
 #include "sph_dissipation_particle_terms.h"
 
 #include <algorithm>
+#include <iterator>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -45,13 +46,19 @@ void ForceStage::run(NeighList *list, PairTally *tally)
     for (int d = 0; d < 3; d++) f[i][d] += total.f[d];
     desph[i] += total.heat + bulk_heat(i);
   });
+  if (engine.parameters().drag)
+    engine.for_each(atom->nlocal, [&](int i) {
+      double channel[NCHANNEL] = {};
+      add_drag_heat(i, channel);
+      for (const double heat : channel) desph[i] += heat;
+    });
 
   if (!engine.has_spin()) return;
   double **torque = atom->torque;
   engine.for_each(n, [&](int i) {
     const TorqueSum &total = engine.torque[i];
     for (int d = 0; d < 3; d++) torque[i][d] += total.t[d];
-    desph[i] += total.heat_vortex + total.heat_spin;
+    for (const double heat : total.heat) desph[i] += heat;
   });
 }
 
@@ -72,9 +79,18 @@ void ForceStage::collect()
 
 double ForceStage::bulk_heat(int i) const
 {
-  if (engine.bulk_form() != Bulk::VOLUME && i >= atom->nlocal) return 0.0;
-  return SPHDissipation::bulk_heat(engine.bulk_form(), engine.zeta_term[i], engine.particle[i].vol,
-                                   engine.weight(i), engine.density[i].cdot, engine.divergence[i]);
+  if (engine.parameters().bulk != Bulk::VOLUME && i >= atom->nlocal) return 0.0;
+  return SPHDissipation::bulk_heat(engine.parameters().bulk, engine.zeta_term[i],
+                                   engine.particle[i].vol, engine.weight(i), engine.density[i].cdot,
+                                   engine.divergence[i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ForceStage::add_drag_heat(int i, double *channel) const
+{
+  double force[3] = {0.0, 0.0, 0.0};
+  engine.add_drag(i, false, force, channel);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -88,9 +104,9 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
     if (atom->mask[i] & not_fluid) continue;
     double channel[NCHANNEL] = {engine.force[i].heat, bulk_heat(i)};
     if (engine.has_spin()) {
-      channel[VORTEX] = engine.torque[i].heat_vortex;
-      channel[SPIN] = engine.torque[i].heat_spin;
+      std::copy(engine.torque[i].heat, std::end(engine.torque[i].heat), channel + VORTEX);
     }
+    if (i < atom->nlocal) add_drag_heat(i, channel);
     for (int k = 0; k < NCHANNEL; k++) {
       if (heat) heat[i] += channel[k];
       power[k] += channel[k];

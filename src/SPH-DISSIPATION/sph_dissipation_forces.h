@@ -44,6 +44,7 @@ namespace SPHDissipation {
    private:
     int nforce() const;    // atoms that forces act on
     double bulk_heat(int) const;
+    void add_drag_heat(int, double *channel) const;
   };
 
 }    // namespace SPHDissipation

@@ -52,7 +52,7 @@ void LimitStage::run()
   const LoopData &pairs = engine.pairs();
   const Particle *const particle = engine.particle;
   const int *const type = atom->type;
-  const Shear shear = engine.shear_form();
+  const Parameters &par = engine.parameters();
 
   engine.visit_pairs([&](int i, int j, bigint entry) {
     double rsq = 0.0;
@@ -61,8 +61,8 @@ void LimitStage::run()
       rsq += del * del;
     }
     if (rsq == 0.0) return;
-    const PairCoeff &c = pairs.coeff[type[i] * pairs.ntypes_1 + type[j]];
-    const double pair = bound_of_pair(shear, c, pairs.slope[entry], rsq);
+    const PairCoeff &c = par.pair[type[i] * par.ntypes_1 + type[j]];
+    const double pair = bound_of_pair(par.shear, c, pairs.slope[entry], rsq);
     const double ratio = particle[i].vol * engine.weight(j) / (particle[j].vol * engine.weight(i));
     bound[i] += ratio * ratio * particle[j].vol * pair;
     bound[j] += particle[i].vol * pair / (ratio * ratio);

@@ -49,8 +49,10 @@ namespace SPHDissipation {
     template <class K, bool WEIGHTED> void density_loop(LoopData &data)
     {
       const Particle *const particle = data.particle;
-      const Vec support_sq = all(data.support * data.support);
-      const double support_inv = 1.0 / data.support;
+      const Parameters &par = *data.par;
+      const double weight_norm = par.weight_norm, slope_norm = par.slope_norm;
+      const Vec support_sq = all(par.support * par.support);
+      const double support_inv = 1.0 / par.support;
       bigint next = data.begin;
 
       for (int ii = 0; ii < data.inum; ii++) {
@@ -78,8 +80,8 @@ namespace SPHDissipation {
           if (jnum - jj < LANES) inside &= (1 << (jnum - jj)) - 1;
 
           const Vec q = square_root(rsq) * support_inv;
-          const Vec f = data.slope_norm * K::slope(q);
-          Vec sums[2] = {if_bits(inside, data.weight_norm * K::shape(q)),
+          const Vec f = slope_norm * K::slope(q);
+          Vec sums[2] = {if_bits(inside, weight_norm * K::shape(q)),
                          if_bits(inside, -f * approach)};
           if constexpr (WEIGHTED) {
             const Vec weight = gather(data.weight, j);
@@ -144,32 +146,26 @@ namespace SPHDissipation {
       }
     }
 
-    // coefficients of the pair terms of a block of pairs
-
-    struct Coeff {
-      Vec along_r, along_u, xi1, xi2;
-
-      SPH_INLINE Coeff(const PairCoeff &pair) :
-          along_r(all(pair.along_r)), along_u(all(pair.along_u)), xi1(all(pair.xi1)),
-          xi2(all(pair.xi2))
+    // Coefficients of a block of pairs, N numbers of the row of two types, of which a loop uses some
+    template <class Row, class Used> struct Coeffs {
+      static constexpr int N = WIDTH<Row>;
+      Vec a[N];
+      SPH_INLINE Coeffs(const Row &pair)
       {
+        for (int k = 0; k < N; k++) a[k] = all(numbers(&pair)[k]);
       }
-      SPH_INLINE void load(const LoopData &data, int i, const int *j, int n)
+      SPH_INLINE void load(const Row *table, const LoopData &data, int i, const int *j, int n)
       {
-        const PairCoeff *const coeff = data.coeff + data.type[i] * data.ntypes_1;
-        double column[4][LANES];
+        const Row *const row = table + data.type[i] * data.par->ntypes_1;
+        double column[N][LANES];
         for (int l = 0; l < LANES; l++) {
-          const PairCoeff &pair =
-              coeff[(l < n) ? data.type[j[l]] : 1];    // a spare one has no type
-          column[0][l] = pair.along_r;
-          column[1][l] = pair.along_u;
-          column[2][l] = pair.xi1;
-          column[3][l] = pair.xi2;
+          const double *const pair =
+              numbers(row + ((l < n) ? data.type[j[l]] : 1));    // a spare one has no type
+          for (int k = 0; k < N; k++)
+            if (Used::uses(k)) column[k][l] = pair[k];
         }
-        along_r = LOOPS::load(column[0]);
-        along_u = LOOPS::load(column[1]);
-        xi1 = LOOPS::load(column[2]);
-        xi2 = LOOPS::load(column[3]);
+        for (int k = 0; k < N; k++)
+          if (Used::uses(k)) a[k] = LOOPS::load(column[k]);
       }
     };
 
@@ -190,159 +186,145 @@ namespace SPHDissipation {
 
 #include "sph_dissipation_noise_loops.h"
 
-    // pass 2: pressure, shear and bulk forces and the heating of shear (half to each partner)
+    // pass 2: forces and torques of the pressure and of the channels, and their heat, half to each partner
+    // Form: the terms of the pairs
     // VOLUME: the bulk form P1 (64) with its own pair weights, and D_i = -sum_j V_j F r_ij.u_ij, by
     // which it heats; the form P1 (18) acts through g and heats by cdot
-    // MICROPOLAR: torques, too; half of the torque of a pair force to each partner, P3 (12), (18)
     // Noise: random forces and torques of the pairs; Noise::ENERGY: what they do to the motion comes out of the heat
 
-    template <Shear SHEAR, bool VOLUME, bool WEIGHTED, class Noise = NoNoise>
+    template <class Form, bool VOLUME, bool WEIGHTED, class Noise = NoNoise>
     void force_loop(LoopData &data)
     {
-      constexpr bool SPIN = (SHEAR == Shear::MICROPOLAR);
-      constexpr bool ALONG_R =
-          (SHEAR == Shear::MG || SHEAR == Shear::MG_FR || SHEAR == Shear::ESPANOL || SPIN);
-      constexpr bool ALONG_U = (SHEAR == Shear::MORRIS || SHEAR == Shear::ESPANOL || SPIN);
-
       const Particle *const particle = data.particle;
-      Coeff coeff(data.coeff[data.ntypes_1 + 1]);
+      const PairCoeff *const table = data.par->pair.data();
+      const bool uniform = data.par->uniform;
+      Coeffs<PairCoeff, Form> coeffs(table[data.par->ntypes_1 + 1]);
       Noise noise(data);
 
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         noise.begin(ii);
         const Particle pi = particle[i];
-        const Spin spin_i = SPIN ? data.spin[i] : Spin();
+        const Spin spin_i = Form::SPINS ? data.spin[i] : Spin();
         const double zeta_term_i = VOLUME ? data.zeta_term[i] : 0.0;
         const int n = data.count[ii];
         const int *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
-
         Vec total_f[4] = {all(0.0), all(0.0), all(0.0), all(0.0)};
         Vec total_t[4] = {all(0.0), all(0.0), all(0.0), all(0.0)};
         Vec total_spin = all(0.0), total_flux = all(0.0);
 
         for (int k = 0; k < n; k += LANES) {
           const int *const j = neighbor + k;
+          PairState pair;
+          pair.coeff = coeffs.a;
           Vec pj[8];
           load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
           load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
-          const Vec r[3] = {pi.x[0] - pj[0], pi.x[1] - pj[1], pi.x[2] - pj[2]};
-          Vec u[3] = {pi.u[0] - pj[3], pi.u[1] - pj[4], pi.u[2] - pj[5]};
+          for (int d = 0; d < 3; d++) {
+            pair.r[d] = pi.x[d] - pj[d];
+            pair.u[d] = pi.u[d] - pj[3 + d];
+          }
           const Vec vol = pj[6], g = pj[7];
           for (int l = 0; l < LANES; l++) {
             prefetch(particle + j[l + AHEAD]);
-            if constexpr (SPIN) {    // without, the force is in the cache anyway
+            if constexpr (Form::SPINS) {    // without, the force is in the cache anyway
               prefetch(data.spin + j[l + AHEAD]);
               prefetch(data.force + j[l + AHEAD]);
               prefetch(data.torque + j[l + AHEAD]);
             }
           }
           const Vec slope = load(slope_of + k);
-          const Vec rsq = dot(r, r);
-          const Vec vv_slope = volumes_slope(rsq, pi.vol, vol, slope);
-          const Vec approach = dot(r, u);
-          Vec heat = all(0.0);
-          Vec central = pressing_term(pi.g, g, slope), pressing = slope;
+          const Vec rsq = dot(pair.r, pair.r);
+          pair.vv = volumes_slope(rsq, pi.vol, vol, slope);
+          pair.approach = dot(pair.r, pair.u);
+          pair.heat[SHEAR] = all(0.0);
+
+          pair.central = pressing_term(pi.g, g, slope);
+          Vec pressing = slope;
           if constexpr (WEIGHTED) {
             const Vec weights = data.weight[i] * gather(data.weight, j);
-            central *= weights;
+            pair.central *= weights;
             pressing *= weights;
           }
-
-          const Vec by_pressure = central;
+          const Vec by_pressure = pair.central;
           Vec given = all(0.0);    // heat, to i by j
 
-          if ((ALONG_R || ALONG_U) && !data.uniform) coeff.load(data, i, j, n - k);
-
-          const Vec metric = metric_of<SHEAR == Shear::MG_FR>(rsq);
-          Vec by_metric = all(0.0), inverse = all(0.0);
+          if ((Form::CENTRAL || Form::VECTOR) && !uniform) coeffs.load(table, data, i, j, n - k);
+          const Vec metric = metric_of<Form::BY_DISTANCE>(rsq);
+          Vec inverse = all(0.0);
+          pair.by_metric = all(0.0);
           if constexpr (Noise::VECTOR) {
             inverse = 1.0 / (rsq + TINY);
-            by_metric = vv_slope * inverse;
-          } else if constexpr (ALONG_R || Noise::ON)
-            by_metric = vv_slope / (metric + TINY);
-
+            pair.by_metric = pair.vv * inverse;
+          } else if constexpr (Form::CENTRAL || Noise::ON)
+            pair.by_metric = pair.vv / (metric + TINY);
           if constexpr (Noise::ON) {
-            noise.draw(j, n - k, r[0], r[1], r[2], slope, vv_slope, metric, by_metric, inverse);
-            central += noise.central;
+            noise.draw(j, n - k, pair.r[0], pair.r[1], pair.r[2], slope, pair.vv, metric,
+                       pair.by_metric, inverse);
+            pair.central += noise.central;
           }
-          Vec vv_drag = vv_slope, by_drag = by_metric;
+          const Vec vv_slope = pair.vv;
           if constexpr (Noise::ENERGY) {
-            vv_drag *= noise.friction;
-            by_drag *= noise.friction;
+            pair.vv *= noise.friction;
+            pair.by_metric *= noise.friction;
           }
-
-          if constexpr (ALONG_R) {
-            const Vec drag = drag_along_r(coeff.along_r, by_drag, approach);
-            central -= drag;
-            heat = half_heat_along_r(drag, approach);
-          }
+          Form::add_central(pair);
           if constexpr (VOLUME) {
-            central += volume_term(zeta_term_i, gather(data.zeta_term, j), vv_slope);
-            const Vec flux = divergence_term(slope, approach);
+            pair.central += volume_term(zeta_term_i, gather(data.zeta_term, j), vv_slope);
+            const Vec flux = slope * pair.approach;
             total_flux += flux * vol;
             add_column<1>(data.divergence, j, -pi.vol * flux);
           }
-          Vec f[3] = {central * r[0], central * r[1], central * r[2]};
-          if constexpr (Noise::ON) noise.add_force(f[0], f[1], f[2]);
-          Vec w[4];
-          if constexpr (SPIN) {
+          for (int d = 0; d < 3; d++) pair.f[d] = pair.central * pair.r[d];
+          if constexpr (Noise::ON) noise.add_force(pair.f[0], pair.f[1], pair.f[2]);
+          if constexpr (Form::SPINS) {
+            Vec w[4];
             load_4_columns<WIDTH<Spin>>(numbers(data.spin), j, w);
-            slip_velocity(spin_i.w, w, r, u);
+            slip_velocity(spin_i.w, w, pair.r, pair.u);
+            for (int d = 0; d < 3; d++) pair.s[d] = spin_i.w[d] - w[d];
           }
-          if constexpr (ALONG_U) {
-            const Vec drag = coeff.along_u * vv_drag;
-            const Vec half_drag = 0.5 * drag;
-            add_drag_along_u(drag, u, f);
-            const Vec heat_u = half_heat_along_u(half_drag, u);
-            if constexpr (SPIN) {
-              Vec t[3], spin[3];
-              half_torque(half_drag, r, u, t);
-              const Vec s[3] = {spin_i.w[0] - w[0], spin_i.w[1] - w[1], spin_i.w[2] - w[2]};
-              const Vec along = dot(r, s);
-              const Vec drag1 = drag_along_r(coeff.xi1, by_drag, along);
-              const Vec drag2 = coeff.xi2 * vv_drag;
-              spin_torque(drag1, drag2, r, s, spin);
-              Vec heat_spin = half_heat_of_spins(drag1, drag2, along, s);
-              if constexpr (Noise::ENERGY) heat_spin -= 0.5 * noise.spin_power(s[0], s[1], s[2]);
-              if constexpr (Noise::ON) noise.add_torque(t, spin);
-              if constexpr (Noise::ENERGY) given = noise.given_by_torque(t, spin);
-              const Vec on_j[4] = {t[0] + spin[0], t[1] + spin[1], t[2] + spin[2], heat_u};
-              add_4_columns<WIDTH<TorqueSum>>(numbers(data.torque), j, on_j);
-              add_column<WIDTH<TorqueSum>>(numbers(data.torque) + 4, j, heat_spin);
-              for (int d = 0; d < 3; d++) total_t[d] += t[d] - spin[d];
-              total_t[3] += heat_u;
-              total_spin += heat_spin;
-            } else
-              heat += heat_u;
-          }
+          Form::add_vector(pair);
 
-          for (int d = 0; d < 3; d++) total_f[d] += f[d];
+          if constexpr (Form::SPINS) {
+            Vec *const t = pair.t, *const spin = pair.spin;
+            if constexpr (Noise::ENERGY)
+              pair.heat[DIFFUSION] -= 0.5 * noise.spin_power(pair.s[0], pair.s[1], pair.s[2]);
+            if constexpr (Noise::ON) noise.add_torque(t, spin);
+            if constexpr (Noise::ENERGY) given = noise.given_by_torque(t, spin);
+            const Vec on_j[4] = {t[0] + spin[0], t[1] + spin[1], t[2] + spin[2], pair.heat[VORTEX]};
+            add_4_columns<WIDTH<TorqueSum>>(numbers(data.torque), j, on_j);
+            add_column<WIDTH<TorqueSum>>(numbers(data.torque) + 4, j, pair.heat[DIFFUSION]);
+            for (int d = 0; d < 3; d++) total_t[d] += t[d] - spin[d];
+            total_t[3] += pair.heat[VORTEX];
+            total_spin += pair.heat[DIFFUSION];
+          }
+          Vec heat = pair.heat[SHEAR];
+          for (int d = 0; d < 3; d++) total_f[d] += pair.f[d];
           Vec heat_j = heat;
           if constexpr (Noise::ENERGY) {
-            const Vec work = 0.5 * noise.power(approach, u[0], u[1], u[2]);
-            const Vec viscous[3] = {f[0] - by_pressure * r[0], f[1] - by_pressure * r[1],
-                                    f[2] - by_pressure * r[2]};
+            const Vec work = 0.5 * noise.power(pair.approach, pair.u[0], pair.u[1], pair.u[2]);
+            const Vec viscous[3] = {pair.f[0] - by_pressure * pair.r[0],
+                                    pair.f[1] - by_pressure * pair.r[1],
+                                    pair.f[2] - by_pressure * pair.r[2]};
             given += noise.given(viscous, rsq, pressing);
             heat -= work - given;
             heat_j -= work + given;
           }
           total_f[3] += heat;
-          const Vec on_j[4] = {-f[0], -f[1], -f[2], heat_j};
+          const Vec on_j[4] = {-pair.f[0], -pair.f[1], -pair.f[2], heat_j};
           add_4_columns<WIDTH<ForceSum>>(numbers(data.force), j, on_j);
-
-          if (data.tally) tally_block(data.tally, i, j, n - k, f, r);
+          if (data.tally) tally_block(data.tally, i, j, n - k, pair.f, pair.r);
         }
 
         ForceSum &fi = data.force[i];
         for (int d = 0; d < 3; d++) fi.f[d] += sum(total_f[d]);
         fi.heat += sum(total_f[3]);
-        if constexpr (SPIN) {
+        if constexpr (Form::SPINS) {
           TorqueSum &ti = data.torque[i];
           for (int d = 0; d < 3; d++) ti.t[d] += sum(total_t[d]);
-          ti.heat_vortex += sum(total_t[3]);
-          ti.heat_spin += sum(total_spin);
+          ti.heat[0] += sum(total_t[3]);
+          ti.heat[1] += sum(total_spin);
         }
         if constexpr (VOLUME) data.divergence[i] -= sum(total_flux);
       }
@@ -366,24 +348,6 @@ namespace SPHDissipation {
       }
     }
 
-    template <bool VOLUME, bool WEIGHTED> Loop choose_shear(Shear shear)
-    {
-      switch (shear) {
-        case Shear::MG:
-          return force_loop<Shear::MG, VOLUME, WEIGHTED>;
-        case Shear::MG_FR:
-          return force_loop<Shear::MG_FR, VOLUME, WEIGHTED>;
-        case Shear::MORRIS:
-          return force_loop<Shear::MORRIS, VOLUME, WEIGHTED>;
-        case Shear::ESPANOL:
-          return force_loop<Shear::ESPANOL, VOLUME, WEIGHTED>;
-        case Shear::MICROPOLAR:
-          return force_loop<Shear::MICROPOLAR, VOLUME, WEIGHTED>;
-        default:
-          return force_loop<Shear::NONE, VOLUME, WEIGHTED>;
-      }
-    }
-
     inline Loop choose_density_loop(Kernel kernel, Volume volume)
     {
       return (volume == Volume::MASS) ? choose_kernel<true>(kernel) : choose_kernel<false>(kernel);
@@ -394,63 +358,42 @@ namespace SPHDissipation {
       return (volume == Volume::MASS) ? rate_loop<true> : rate_loop<false>;
     }
 
-    template <bool WEIGHTED> Loop choose_bulk(Shear shear, Bulk bulk)
-    {
-      return (bulk == Bulk::VOLUME) ? choose_shear<true, WEIGHTED>(shear)
-                                    : choose_shear<false, WEIGHTED>(shear);
-    }
+    // The loops of the bulk form volume and of the noise have weights, which are 1 with volume number
 
     inline Loop choose_force_loop(Shear shear, Bulk bulk, Volume volume)
     {
-      return (volume == Volume::MASS) ? choose_bulk<true>(shear, bulk)
-                                      : choose_bulk<false>(shear, bulk);
+      Loop loop = nullptr;
+      with_form(shear, [&](auto form) {
+        using F = decltype(form);
+        loop = (bulk == Bulk::VOLUME)  ? force_loop<F, true, true>
+            : (volume == Volume::MASS) ? force_loop<F, false, true>
+                                       : force_loop<F, false, false>;
+      });
+      return loop;
     }
 
     // with noise: forms that only act along e, and all in one dimension, have no numbers across; there is no noise for
     // the bulk form volume
 
-    template <Shear SHEAR, bool WEIGHTED, NoiseKind KIND> Loop choose_noise_of(int dim)
+    template <class F, NoiseKind KIND> Loop choose_noise(int dim)
     {
-      constexpr bool SPIN = (SHEAR == Shear::MICROPOLAR);
-      if constexpr (SHEAR != Shear::MG && SHEAR != Shear::MG_FR) {
-        if (dim == 3) return force_loop<SHEAR, false, WEIGHTED, PairNoise<3, SPIN, KIND>>;
-        if (dim == 2 || SPIN) return force_loop<SHEAR, false, WEIGHTED, PairNoise<2, SPIN, KIND>>;
+      if constexpr (F::VECTOR) {
+        if (dim == 3) return force_loop<F, false, true, PairNoise<3, F::SPINS, KIND>>;
+        if (dim == 2 || F::SPINS) return force_loop<F, false, true, PairNoise<2, F::SPINS, KIND>>;
       }
-      if constexpr (!SPIN) return force_loop<SHEAR, false, WEIGHTED, PairNoise<0, false, KIND>>;
+      if constexpr (!F::SPINS) return force_loop<F, false, true, PairNoise<0, false, KIND>>;
     }
 
-    template <bool WEIGHTED, NoiseKind KIND> Loop choose_noise(const NoiseForm &form)
+    inline Loop choose_noisy_force_loop(const NoiseForm &form)
     {
-      switch (form.shear) {
-        case Shear::MG_FR:
-          return choose_noise_of<Shear::MG_FR, WEIGHTED, KIND>(form.dim);
-        case Shear::MORRIS:
-          return choose_noise_of<Shear::MORRIS, WEIGHTED, KIND>(form.dim);
-        case Shear::ESPANOL:
-          return choose_noise_of<Shear::ESPANOL, WEIGHTED, KIND>(form.dim);
-        case Shear::MICROPOLAR:
-          return choose_noise_of<Shear::MICROPOLAR, WEIGHTED, KIND>(form.dim);
-        default:
-          return choose_noise_of<Shear::MG, WEIGHTED, KIND>(form.dim);
-      }
-    }
-
-    template <bool WEIGHTED> Loop choose_noise_kind(const NoiseForm &form)
-    {
-      switch (form.kind) {
-        case NoiseKind::DIRECTED:
-          return choose_noise<WEIGHTED, NoiseKind::DIRECTED>(form);
-        case NoiseKind::ENERGY:
-          return choose_noise<WEIGHTED, NoiseKind::ENERGY>(form);
-        default:
-          return choose_noise<WEIGHTED, NoiseKind::PLAIN>(form);
-      }
-    }
-
-    inline Loop choose_noisy_force_loop(const NoiseForm &form, Volume volume)
-    {
-      return (volume == Volume::MASS) ? choose_noise_kind<true>(form)
-                                      : choose_noise_kind<false>(form);
+      Loop loop = nullptr;
+      with_form(form.shear, [&](auto terms) {
+        using F = decltype(terms);
+        loop = (form.kind == NoiseKind::DIRECTED) ? choose_noise<F, NoiseKind::DIRECTED>(form.dim)
+            : (form.kind == NoiseKind::ENERGY)    ? choose_noise<F, NoiseKind::ENERGY>(form.dim)
+                                                  : choose_noise<F, NoiseKind::PLAIN>(form.dim);
+      });
+      return loop;
     }
 
     inline NoiseLoop choose_eta_loop(const NoiseForm &form)

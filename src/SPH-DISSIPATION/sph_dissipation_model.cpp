@@ -30,30 +30,22 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-Settings::Settings() :
-    kernel(Kernel::WENDLAND_C2), eos(Eos::LINEAR), shear(Shear::MG), bulk(Bulk::DENSITY), dim(0),
-    limit(Limit::NO), volume(Volume::NUMBER), thermal(false), temperature(0.0),
-    own_temperatures(false), heat_capacity(0.0), seed(0)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 TypeCoeff::TypeCoeff() :
-    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0), other(0), zeta(0.0)
+    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0), other(0)
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
-FluidModel::FluidModel(LAMMPS *lmp, const std::string &style,
-                       const std::vector<std::string> &viscosities) :
-    Pointers(lmp),
-    simd("auto"), coeffs(nullptr), shared(false), style(style), viscosity_names(viscosities),
+FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
+    Pointers(lmp), simd("auto"), coeffs(nullptr), shared(false), style(style), spins(spins),
     pair_viscosity(nullptr), viscosity_set(nullptr)
 {
-  for (const auto &name : viscosity_names) variables.push_back({name, nullptr, nullptr});
+  for (int k = 0; k < nviscosity(); k++)
+    variables.push_back({VISCOSITY_NAMES[k], nullptr, nullptr});
   for (const auto &name : {"c0", "kappa", "pb"}) variables.push_back({name, nullptr, nullptr});
+  for (const auto *one = TYPE_KEYWORDS; one->name; one++)
+    variables.push_back({one->name, nullptr, nullptr});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -119,11 +111,11 @@ static bool choose(Choice &choice, const std::string &word,
    global settings
 ------------------------------------------------------------------------- */
 
-void FluidModel::settings(int narg, char **arg, Shear default_shear)
+void FluidModel::settings(int narg, char **arg)
 {
   choice = Settings();
   simd = "auto";
-  choice.shear = default_shear;
+  if (spins) choice.shear = Shear::MICROPOLAR;
 
   for (int iarg = 0, nwords; iarg < narg; iarg += nwords) {
     const std::string keyword = arg[iarg];
@@ -132,7 +124,7 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
     nwords = energy ? 4 : (keyword == "temp") ? 3 : 2;
     if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "bulk" &&
         keyword != "volume" && keyword != "limit" && keyword != "simd" && keyword != "temp" &&
-        (keyword != "shear" || default_shear != Shear::MG))
+        (keyword != "shear" || spins))
       error->all(FLERR, place(arg[iarg]), "Unknown pair_style {} keyword: {}", style, keyword);
     if (iarg + nwords > narg)
       utils::missing_cmd_args(
@@ -219,8 +211,16 @@ void FluidModel::settings(int narg, char **arg, Shear default_shear)
    words of pair_coeff that belong to a type
 ------------------------------------------------------------------------- */
 
+static const TypeKeyword *keyword_of_channel(const std::string &word)
+{
+  for (const auto *one = TYPE_KEYWORDS; one->name; one++)
+    if (word == one->name) return one;
+  return nullptr;
+}
+
 static bool is_type_keyword(const std::string &word)
 {
+  if (keyword_of_channel(word)) return true;
   for (const auto &keyword : {"rho0", "c0", "kappa", "rc", "pb", "gamma", "cv"})
     if (word == keyword) return true;
   return false;
@@ -265,7 +265,7 @@ void FluidModel::coeff(int narg, char **arg, int **setflag)
 int FluidModel::is_viscosity(const std::string &word) const
 {
   for (int k = 0; k < nviscosity(); k++)
-    if (word == viscosity_names[k]) return k;
+    if (word == VISCOSITY_NAMES[k]) return k;
   return -1;
 }
 
@@ -295,13 +295,20 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
     one.viscosity[k] = utils::numeric(FLERR, arg[5 + k], false, lmp);
   one.rc = positive("rc", arg[nvalues - 1]);
 
-  for (int iarg = nvalues; iarg < narg; iarg += 2) {
+  for (int iarg = nvalues, nwords; iarg < narg; iarg += nwords) {
     const std::string keyword = arg[iarg];
-    if (keyword != "pb" && keyword != "gamma" && keyword != "cv")
+    const TypeKeyword *const own = keyword_of_channel(keyword);
+    nwords = own ? 1 + own->count : 2;
+    if (!own && keyword != "pb" && keyword != "gamma" && keyword != "cv")
       error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
                  keyword);
-    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
-    if (keyword == "pb")
+    if (iarg + nwords > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
+    if (own) {
+      for (int k = 0; k < own->count; k++)
+        one.keywords.a[own->first + k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
+      if (const char *violated = inadmissible(one.keywords))
+        error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff {}, not {}", violated, arg[iarg + 1]);
+    } else if (keyword == "pb")
       one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     else if (keyword == "cv") {
       if (!choice.own_temperatures)

@@ -15,38 +15,13 @@
 #define LMP_SPH_DISSIPATION_MODEL_H
 
 #include "pointers.h"
-#include "sph_dissipation_coeffs.h"
-#include "sph_dissipation_eos.h"
-#include "sph_dissipation_kernel.h"
+#include "sph_dissipation_parameters.h"
 
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-
-  // negative coefficients of the bulk term beyond the bound of a particle: let be, count, cut off
-
-  enum class Limit { NO, COUNT, YES };
-
-  // choices of the pair_style command
-
-  struct Settings {
-    Settings();
-
-    Kernel kernel;
-    Eos eos;
-    Shear shear;
-    Bulk bulk;
-    int dim;    // 0: dimension of the simulation
-    Limit limit;
-    Volume volume;
-    bool thermal;             // thermal noise
-    double temperature;       // of it
-    bool own_temperatures;    // each particle has that of its internal energy instead
-    double heat_capacity;     // per mass, of types that have none of their own
-    int seed;
-  };
 
   // the step of the last random numbers, and what is added to a step to get numbers that no step before had
 
@@ -58,17 +33,16 @@ namespace SPHDissipation {
 
   struct TypeCoeff {
     TypeCoeff();
-    static constexpr int MAXVISCOSITY = 4;
 
     EosParams eos;
-    double viscosity[MAXVISCOSITY];    // mu, and what a derived style adds
+    double viscosity[NVISCOSITY];
+    TypeCoeffs keywords;    // of TYPE_KEYWORDS
     double kappa;
     double rc;
     double gamma;     // 0: default of the equation of state
     double cv;        // heat capacity per mass; 0: that of the pair style
     int intrinsic;    // 1: kappa is what the shear term gives
     int other;        // 1: its particles belong to another style of pair_style hybrid
-    double zeta;      // coefficient of the bulk term
   };
 
   // The fluids as the commands of a pair style describe them: the choices of pair_style, the
@@ -77,14 +51,13 @@ namespace SPHDissipation {
 
   class FluidModel : protected Pointers {
    public:
-    FluidModel(class LAMMPS *, const std::string &style,
-               const std::vector<std::string> &viscosities);
+    FluidModel(class LAMMPS *, const std::string &style, bool spins);
     ~FluidModel() override;
     void allocate();
 
-    // arguments of the commands; without keyword shear the shear form is default_shear
+    // arguments of the commands
 
-    void settings(int narg, char **arg, Shear default_shear);
+    void settings(int narg, char **arg);
     void coeff(int narg, char **arg, int **setflag);
 
     // dimension of the kernel and support radius of all types; errors if there is none that fits
@@ -100,30 +73,30 @@ namespace SPHDissipation {
     void *extract(const char *name, int &dim);
     bool adopt();
 
-    // exponent of the equation of state of type i, its viscosities with types up to i; call for types
-    // in ascending order
+    // Set parameters from what the commands and adopt() have set, of a kernel of dimension dim with this
+    // support radius; errors if a fluid would not dissipate
 
-    void mix(int i);
+    void derive(int dim, double support);
+    const Parameters &parameters() const { return par; }
 
-    // coefficient of the bulk term of type i, whose shear term gives the bulk viscosity intrinsic
+    // of a pair of types: what its coefficients follow from, the bulk viscosity that its pair terms give
 
-    void set_bulk(int i, double intrinsic);
-    void check_balance(int i, double intrinsic) const;    // of its noise and its friction
-    void warn_of_ignored(int i,
-                         double intrinsic) const;    // kappa without bulk term, gamma of linear
+    PairFluid pair_fluid(int i, int j) const;
+    double intrinsic_kappa(int i, int j) const;
+    double bulk_viscosity(int type) const;    // in effect
+    void warn_of_ignored() const;             // kappa without bulk term, gamma of linear
 
     void write_settings(FILE *) const;
-    void read_settings(FILE *, Shear default_shear);
+    void read_settings(FILE *);
     void write_coeffs(FILE *, int **setflag) const;
     void read_coeffs(FILE *, int **setflag);
     void write_data(FILE *) const;
     void write_data_all(FILE *) const;
 
-    // k = 0 is the shear viscosity, more follow in the order of their names
-
     double viscosity(int k, int i, int j) const { return variables[k].value[i][j]; }
-    int is_viscosity(const std::string &name) const;    // its k, or -1
-    double heat_capacity(int type) const;               // per mass
+    int nviscosity() const { return number_of_viscosities(spins); }
+    bool has_torques() const;                // any of the viscosities of spins
+    double heat_capacity(int type) const;    // per mass
     bool is_mixed(int i, int j) const { return !viscosity_set[0][i][j]; }
 
     Settings choice;
@@ -142,18 +115,22 @@ namespace SPHDissipation {
       double **known;
     };
 
-    enum { C0, KAPPA, PB };    // the variables after the viscosities
+    enum { C0, KAPPA, PB, NOTHER };    // the variables after the viscosities, before TYPE_KEYWORDS
 
     const std::string style;
-    const std::vector<std::string> viscosity_names;
+    const bool spins;
+    Parameters par;
     std::vector<Variable> variables;
     double ***pair_viscosity;    // by viscosity and type pair: what pair_coeff gave
     int ***viscosity_set;        // 1 if it did, 0 if the value is mixed from the types
 
-    int nviscosity() const { return static_cast<int>(viscosity_names.size()); }
+    int is_viscosity(const std::string &name) const;    // its number, or -1
     double &type_value(int, int);
     double pair_value(int, int, int);
     void publish(int, int);
+    void mix(int);
+    void check_pair(int, int) const;
+    void check_balance(int) const;
     int type_coeff(int, char **, int, int, int, int, int **);
     int fluid_coeff(int, char **, int, int, int, int, int **);
     int unlike_coeff(int, char **, int, int, int, int, int **);

@@ -17,15 +17,16 @@
 #include "comm.h"
 #include "error.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 // first number of the settings in a restart file; the settings of older versions begin with one
-// below 10.  A new one for every change of what is stored.
+// below 10.  A new one for every change of what is stored, which a coefficient of a channel is, too.
 
-static constexpr int FORMAT = 1004;
+static constexpr int FORMAT = 1004 + (NTYPECOEFF << 16);
 
 /* ----------------------------------------------------------------------
    numbers to and from a restart file; proc 0 reads and checks, all get them
@@ -112,7 +113,7 @@ void FluidModel::write_settings(FILE *fp) const
    proc 0 reads choices from restart file, bcasts
 ------------------------------------------------------------------------- */
 
-void FluidModel::read_settings(FILE *fp, Shear default_shear)
+void FluidModel::read_settings(FILE *fp)
 {
   Reader read(lmp, fp, style);
   const int format = read.format();
@@ -123,7 +124,6 @@ void FluidModel::read_settings(FILE *fp, Shear default_shear)
 
   // the micropolar shear term belongs to a style of its own
 
-  const bool spins = (default_shear == Shear::MICROPOLAR);
   const int first_shear = static_cast<int>(spins ? Shear::MICROPOLAR : Shear::NONE);
   const int last_shear = static_cast<int>(spins ? Shear::MICROPOLAR : Shear::ESPANOL);
   choice.kernel = static_cast<Kernel>(read.integer("kernel", 0, static_cast<int>(Kernel::LUCY)));
@@ -158,6 +158,7 @@ void FluidModel::write_coeffs(FILE *fp, int **setflag) const
            {type.eos.rho0, type.eos.c0, type.eos.pb, type.gamma, type.cv, type.kappa, type.rc})
         put(fp, value);
       put(fp, type.intrinsic);
+      for (int k = 0; k < NTYPECOEFF; k++) put(fp, type.keywords.a[k]);
       for (int k = 0; k < nviscosity(); k++) put(fp, type.viscosity[k]);
     }
     for (int j = i + 1; j <= atom->ntypes; j++)
@@ -188,15 +189,16 @@ void FluidModel::read_coeffs(FILE *fp, int **setflag)
       type.kappa = read.number("kappa");
       type.rc = read.number("rc", true);
       type.intrinsic = read.integer("flag of intrinsic kappa", 0, 1);
-      for (int k = 0; k < nviscosity(); k++)
-        type.viscosity[k] = read.number(viscosity_names[k].c_str());
+      for (int k = 0; k < NTYPECOEFF; k++)
+        type.keywords.a[k] = read.number("coefficient of a channel");
+      for (int k = 0; k < nviscosity(); k++) type.viscosity[k] = read.number(VISCOSITY_NAMES[k]);
     }
     for (int j = i + 1; j <= atom->ntypes; j++)
       for (int k = 0; k < nviscosity(); k++) {
         const int set = read.integer("flag of two types", 0, 1);
         viscosity_set[k][i][j] = viscosity_set[k][j][i] = set;
         if (!set) continue;
-        pair_viscosity[k][i][j] = pair_viscosity[k][j][i] = read.number(viscosity_names[k].c_str());
+        pair_viscosity[k][i][j] = pair_viscosity[k][j][i] = read.number(VISCOSITY_NAMES[k]);
         setflag[i][j] = 1;
       }
   }
@@ -222,7 +224,7 @@ void FluidModel::write_data_all(FILE *fp) const
     for (int j = i + 1; j <= atom->ntypes; j++) {
       utils::print(fp, "{} {}", i, j);
       for (int k = 0; k < nviscosity(); k++)
-        utils::print(fp, " {} {:.17g}", viscosity_names[k], viscosity(k, i, j));
+        utils::print(fp, " {} {:.17g}", VISCOSITY_NAMES[k], viscosity(k, i, j));
       utils::print(fp, "\n");
     }
   }
@@ -240,6 +242,15 @@ std::string FluidModel::type_line(int i) const
   for (int k = 1; k < nviscosity(); k++) line += fmt::format(" {:.17g}", c.viscosity[k]);
   line += fmt::format(" {:.17g} pb {:.17g}", c.rc, c.eos.pb);
   if (c.cv > 0.0 && choice.own_temperatures) line += fmt::format(" cv {:.17g}", c.cv);
+  for (const auto *one = TYPE_KEYWORDS; one->name; one++) {
+    const double *const a = c.keywords.a + one->first;
+    if (std::all_of(a, a + one->count, [](double value) {
+          return value == 0.0;
+        }))
+      continue;
+    line += fmt::format(" {}", one->name);
+    for (int k = 0; k < one->count; k++) line += fmt::format(" {:.17g}", a[k]);
+  }
   if (c.gamma > 0.0) line += fmt::format(" gamma {:.17g}", c.gamma);
   return line;
 }

@@ -23,6 +23,44 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
+/* ---------------------------------------------------------------------- */
+
+void FluidModel::derive(int dim, double support)
+{
+  const int n = atom->ntypes;
+  static_cast<Settings &>(par) = choice;
+  par.drag = false;
+  par.set_kernel(choice.kernel, dim, support);
+  par.ntypes_1 = n + 1;
+  par.type.assign(n + 1, TypeParameters());
+  par.pair.assign((n + 1) * (n + 1), PairCoeff());
+  for (int i = 1; i <= n; i++) {
+    mix(i);
+    for (int j = 1; j <= i; j++) {
+      if (!coeffs[i].other && !coeffs[j].other) check_pair(i, j);
+      par.pair[i * (n + 1) + j] = par.pair[j * (n + 1) + i] = pair_coefficients(pair_fluid(i, j));
+    }
+    TypeCoeff &type = coeffs[i];
+    const double intrinsic = intrinsic_kappa(i, i);
+    TypeParameters &derived = par.type[i];
+    if (!type.intrinsic && choice.bulk != Bulk::NONE)
+      derived.zeta = bulk_coefficient(type.kappa, intrinsic);
+    if (type.intrinsic) type.kappa = intrinsic;
+    publish(nviscosity() + KAPPA, i);
+    derived.eos = type.eos;
+    derived.heat_capacity = heat_capacity(i);
+    derived.keywords = type.keywords;
+    derived.other = type.other;
+    if (Channels::drag(type.keywords) > 0.0) par.drag = true;
+    if (choice.thermal) check_balance(i);
+  }
+  par.set_uniform();
+  if (par.drag && choice.own_temperatures)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {} temp energy cannot be used with a drag of single particles", style);
+  par.shared = shared;
+}
+
 /* ----------------------------------------------------------------------
    exponent of the equation of state of type i, its viscosities with types up to i
 ------------------------------------------------------------------------- */
@@ -35,33 +73,74 @@ void FluidModel::mix(int i)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}", type.eos.gamma,
                i);
-
   for (int k = 0; k < static_cast<int>(variables.size()); k++)
     if (k != nviscosity() + KAPPA) publish(k, i);
 }
 
-/* ----------------------------------------------------------------------
-   coefficient of the bulk term of type i, whose shear term gives bulk viscosity intrinsic
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void FluidModel::set_bulk(int i, double intrinsic)
+PairFluid FluidModel::pair_fluid(int i, int j) const
 {
-  TypeCoeff &type = coeffs[i];
-  const bool none = (type.intrinsic || choice.bulk == Bulk::NONE);
-  type.zeta = none ? 0.0 : bulk_coefficient(type.kappa, intrinsic);
-  if (type.intrinsic) type.kappa = intrinsic;
-  publish(nviscosity() + KAPPA, i);
+  PairFluid fluid = {choice.shear,
+                     par.dim,
+                     kernel_mean_radius(par.kernel, par.dim, par.support),
+                     {},
+                     0.5 * (par.type[i].zeta + par.type[j].zeta),
+                     {}};
+  for (int k = 0; k < NTYPECOEFF; k++)
+    fluid.type.a[k] = std::max(par.type[i].keywords.a[k], par.type[j].keywords.a[k]);
+  for (int k = 0; k < nviscosity(); k++) fluid.viscosity[k] = viscosity(k, i, j);
+  return fluid;
+}
+
+double FluidModel::intrinsic_kappa(int i, int j) const
+{
+  return SPHDissipation::intrinsic_kappa(pair_fluid(i, j));
+}
+
+double FluidModel::bulk_viscosity(int type) const
+{
+  return (choice.bulk == Bulk::NONE) ? intrinsic_kappa(type, type) : coeffs[type].kappa;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FluidModel::has_torques() const
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = 1; j <= atom->ntypes; j++)
+      for (int k = MU_R; k < nviscosity(); k++)
+        if (viscosity(k, i, j) != 0.0) return true;
+  return false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidModel::check_pair(int i, int j) const
+{
+  if (choice.shear == Shear::NONE && viscosity(MU, i, j) != 0.0)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair_coeff mu must be 0 with shear none, not {} for types {} {}",
+               viscosity(MU, i, j), j, i);
+  const char *const violated = inadmissible(pair_fluid(i, j));
+  if (!violated) return;
+  std::string values;
+  for (int k = 0; k < nviscosity(); k++)
+    values += fmt::format(" {} = {}", VISCOSITY_NAMES[k], viscosity(k, i, j));
+  error->all(FLERR, Error::NOLASTLINE, "Pair_coeff {}, not{} of types {} {}", violated, values, j,
+             i);
 }
 
 /* ----------------------------------------------------------------------
    a negative coefficient, but for round-off, has a noise only up to the bound of each particle
 ------------------------------------------------------------------------- */
 
-void FluidModel::check_balance(int i, double intrinsic) const
+void FluidModel::check_balance(int i) const
 {
   constexpr double ROUNDOFF = 1.0e-12;
   const TypeCoeff &type = coeffs[i];
-  if (type.other || type.zeta >= -ROUNDOFF * std::fabs(intrinsic)) return;
+  const double intrinsic = intrinsic_kappa(i, i);
+  if (type.other || par.type[i].zeta >= -ROUNDOFF * std::fabs(intrinsic)) return;
   if (choice.own_temperatures)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} temp energy cannot be used with kappa {} of type {}, below the {} of "
@@ -83,22 +162,27 @@ double FluidModel::heat_capacity(int type) const
 
 /* ---------------------------------------------------------------------- */
 
-void FluidModel::warn_of_ignored(int i, double intrinsic) const
+void FluidModel::warn_of_ignored() const
 {
-  const TypeCoeff &type = coeffs[i];
-  if (type.other || comm->me) return;
-  if (choice.eos == Eos::LINEAR && type.gamma > 0.0)
-    error->warning(FLERR, "Pair_coeff gamma {} of type {} is ignored with eos linear", type.gamma,
-                   i);
-  if (choice.bulk != Bulk::NONE || type.kappa == intrinsic) return;
-  error->warning(FLERR,
-                 "Pair_coeff kappa {} of type {} is ignored with bulk none: the shear "
-                 "term gives kappa {}",
-                 type.kappa, i, intrinsic);
+  if (comm->me) return;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    const TypeCoeff &type = coeffs[i];
+    if (type.other) continue;
+    if (choice.eos == Eos::LINEAR && type.gamma > 0.0)
+      error->warning(FLERR, "Pair_coeff gamma {} of type {} is ignored with eos linear", type.gamma,
+                     i);
+    const double intrinsic = intrinsic_kappa(i, i);
+    if (choice.bulk != Bulk::NONE || type.kappa == intrinsic) continue;
+    error->warning(FLERR,
+                   "Pair_coeff kappa {} of type {} is ignored with bulk none: the shear "
+                   "term gives kappa {}",
+                   type.kappa, i, intrinsic);
+  }
 }
 
 /* ----------------------------------------------------------------------
-   what another command may vary; nothing that would have no effect
+   what another command may vary; nothing that would have no effect, and no torques that begin during a run,
+   which would meet particles whose inertia nobody has checked
 ------------------------------------------------------------------------- */
 
 void *FluidModel::extract(const char *name, int &dim)
@@ -108,6 +192,7 @@ void *FluidModel::extract(const char *name, int &dim)
   if (choice.shear == Shear::NONE && strcmp(name, "mu") == 0) return nullptr;
   if (choice.bulk == Bulk::NONE && strcmp(name, "kappa") == 0) return nullptr;
   if (choice.eos == Eos::IDEAL && strcmp(name, "c0") == 0) return nullptr;
+  if (is_viscosity(name) > MU && !has_torques()) return nullptr;
   for (const auto &one : variables)
     if (one.name == name) return one.value;
   return nullptr;
@@ -126,8 +211,10 @@ double &FluidModel::type_value(int k, int i)
       return type.eos.c0;
     case KAPPA:
       return type.kappa;
-    default:
+    case PB:
       return type.eos.pb;
+    default:
+      return type.keywords.a[TYPE_KEYWORDS[k - nviscosity() - NOTHER].first];
   }
 }
 
@@ -184,6 +271,9 @@ bool FluidModel::adopt()
         error->all(FLERR, Error::NOLASTLINE,
                    "Pair style {}: kappa of type {} is intrinsic and cannot be changed", style, i);
       type_value(k, i) = one.value[i][i];
+      if (const char *violated = inadmissible(coeffs[i].keywords))
+        error->all(FLERR, Error::NOLASTLINE, "Pair style {}: {}, not {} of type {}", style,
+                   violated, one.value[i][i], i);
     }
 
     for (int i = 1; i <= atom->ntypes; i++)

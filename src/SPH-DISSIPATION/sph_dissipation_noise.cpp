@@ -45,10 +45,12 @@ NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, FluidMod
 void NoiseStage::run(const double *bound, int not_fluid, bool continued)
 {
   if (neighbor->ago == 0) check_box();
-  const bool energy = model.choice.own_temperatures;
-  form = {engine.shear_form(), engine.dimension(), energy ? NoiseKind::ENERGY : NoiseKind::PLAIN};
+  const bool energy = engine.parameters().own_temperatures;
+  form = {engine.parameters().shear, engine.parameters().dim,
+          energy ? NoiseKind::ENERGY : NoiseKind::PLAIN};
   for (int type = 1; type <= atom->ntypes; type++)
-    if (!energy && bound && !model.coeffs[type].other && model.coeffs[type].zeta < 0.0)
+    if (!energy && bound && !engine.parameters().type[type].other &&
+        engine.parameters().type[type].zeta < 0.0)
       form.kind = NoiseKind::DIRECTED;
   if (energy && not_fluid)
     error->all(FLERR, Error::NOLASTLINE,
@@ -57,8 +59,9 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
 
   // the force of a step is that of an impulse over its time
 
-  const double factor = 2.0 * force->boltz * (energy ? 1.0 : model.choice.temperature) / update->dt;
-  data.seed = static_cast<std::uint64_t>(model.choice.seed);
+  const double factor =
+      2.0 * force->boltz * (energy ? 1.0 : engine.parameters().temperature) / update->dt;
+  data.seed = static_cast<std::uint64_t>(engine.parameters().seed);
   count_step();
   data.step = static_cast<std::uint64_t>(update->ntimestep + model.clock.offset);
   data.type = atom->type;
@@ -66,6 +69,7 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   set_tags();
   if (energy) set_temperatures(continued);
   add_pressure(factor, not_fluid);
+  if (engine.parameters().drag) add_drag(factor, not_fluid);
   if (!set_coeffs(factor) && !energy) return;    // who pays for a random pressure is known by pairs
   if (form.kind == NoiseKind::DIRECTED) set_shares(bound, not_fluid);
   const LoopData &pairs = engine.pairs();
@@ -97,7 +101,7 @@ void NoiseStage::check_box() const
   const double heights[3] = {
       1.0 / sqrt(h_inv[0] * h_inv[0] + h_inv[5] * h_inv[5] + h_inv[4] * h_inv[4]),
       1.0 / sqrt(h_inv[1] * h_inv[1] + h_inv[3] * h_inv[3]), 1.0 / h_inv[2]};
-  const double support = engine.pairs().support;
+  const double support = engine.parameters().support;
   for (int d = 0; d < domain->dimension; d++)
     if (domain->periodicity[d] && heights[d] < 2.0 * support)
       error->all(FLERR, Error::NOLASTLINE,
@@ -116,7 +120,6 @@ void NoiseStage::set_tags()
   std::copy_n(atom->tag, nall, tag.begin());
   std::fill_n(tag.begin() + nall, BLOCK, 0.0);
   data.tag = tag.data();
-  data.pressure = pressure.data();
 }
 
 /* ----------------------------------------------------------------------
@@ -125,13 +128,14 @@ void NoiseStage::set_tags()
 
 double NoiseStage::heat_of(int i) const
 {
-  const TypeCoeff &type = model.coeffs[atom->type[i]];
-  return atom->esph[i] - atom->rmass[i] * elastic_energy(model.choice.eos, type.eos, atom->rho[i]);
+  const TypeParameters &type = engine.parameters().type[atom->type[i]];
+  return atom->esph[i] -
+      atom->rmass[i] * elastic_energy(engine.parameters().eos, type.eos, atom->rho[i]);
 }
 
 double NoiseStage::internal_temperature(int i) const
 {
-  return heat_of(i) / (atom->rmass[i] * model.heat_capacity(atom->type[i]));
+  return heat_of(i) / (atom->rmass[i] * engine.parameters().type[atom->type[i]].heat_capacity);
 }
 
 /* ----------------------------------------------------------------------
@@ -151,8 +155,8 @@ void NoiseStage::set_temperatures(bool continued)
   int without = 0, without_all;
   for (int i = 0; i < nall; i++) {
     const int type = atom->type[i];
-    if (model.coeffs[type].other) continue;
-    const double capacity = atom->rmass[i] * model.heat_capacity(type);
+    if (engine.parameters().type[type].other) continue;
+    const double capacity = atom->rmass[i] * engine.parameters().type[type].heat_capacity;
     row[i].softness = force->boltz / capacity;
     row[i].mobility = update->dt * force->ftm2v / atom->rmass[i];
     if (i >= nlocal) continue;
@@ -188,24 +192,23 @@ void NoiseStage::set_temperatures(bool continued)
 
 bool NoiseStage::set_coeffs(double factor)
 {
-  const LoopData &pairs = engine.pairs();
-  const bool by_r = (form.shear == Shear::MG_FR);
+  const Parameters &par = engine.parameters();
   const double share = (form.kind == NoiseKind::DIRECTED) ? 0.5 : 1.0;
   bool any = false;
-  coeff.assign(pairs.ntypes_1 * pairs.ntypes_1, NoiseCoeff());
-  for (int i = 1; i < pairs.ntypes_1; i++)
-    for (int j = 1; j < pairs.ntypes_1; j++) {
-      const PairCoeff &pair = pairs.coeff[i * pairs.ntypes_1 + j];
-      NoiseCoeff &noise = coeff[i * pairs.ntypes_1 + j];
-      const double central = std::max(pair.along_r + (by_r ? 0.0 : pair.along_u), 0.0);
-      const double spin_along = std::max(pair.xi1 + pair.xi2, 0.0);
-      noise.central = sqrt(share * factor * central);
-      noise.transverse = sqrt(factor * pair.along_u);
-      noise.spin_along = sqrt(factor * spin_along);
-      noise.spin_across = sqrt(factor * pair.xi2);
-      noise.inverse_central = (central > 0.0) ? 1.0 / central : 0.0;
-      if (central > 0.0 || pair.along_u > 0.0 || spin_along > 0.0 || pair.xi2 > 0.0) any = true;
-    }
+  coeff.assign(par.pair.size(), NoiseCoeff());
+  for (std::size_t k = 0; k < par.pair.size(); k++) {
+    PairFriction friction = pair_friction(par.shear, par.pair[k]);
+    friction.along = std::max(friction.along, 0.0);
+    friction.spin_along = std::max(friction.spin_along, 0.0);
+    coeff[k].central = sqrt(share * factor * friction.along);
+    coeff[k].transverse = sqrt(factor * friction.across);
+    coeff[k].spin_along = sqrt(factor * friction.spin_along);
+    coeff[k].spin_across = sqrt(factor * friction.spin_across);
+    coeff[k].inverse_central = (friction.along > 0.0) ? 1.0 / friction.along : 0.0;
+    if (friction.along > 0.0 || friction.across > 0.0 || friction.spin_along > 0.0 ||
+        friction.spin_across > 0.0)
+      any = true;
+  }
   data.coeff = coeff.data();
   return any;
 }
@@ -214,7 +217,7 @@ bool NoiseStage::set_coeffs(double factor)
 
 bool NoiseStage::is_negative(int i) const
 {
-  return form.kind == NoiseKind::DIRECTED && model.coeffs[atom->type[i]].zeta < 0.0;
+  return form.kind == NoiseKind::DIRECTED && engine.parameters().type[atom->type[i]].zeta < 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -224,11 +227,11 @@ bool NoiseStage::is_negative(int i) const
 void NoiseStage::add_pressure(double factor, int not_fluid)
 {
   const int nall = atom->nlocal + atom->nghost;
-  engine.loop_set().noise_pressure(data, nall);
+  engine.loop_set().particle_numbers(data, NoiseChannel::PRESSURE, nall, 1, pressure.data());
   std::vector<double> amplitude(atom->ntypes + 1, 0.0);
   for (int type = 1; type <= atom->ntypes; type++)
-    if (!model.coeffs[type].other)
-      amplitude[type] = sqrt(factor * std::max(model.coeffs[type].zeta, 0.0));
+    if (!engine.parameters().type[type].other)
+      amplitude[type] = sqrt(factor * std::max(engine.parameters().type[type].zeta, 0.0));
   for (int i = 0; i < nall; i++) {
     const double strength = amplitude[atom->type[i]];
     if (!(strength > 0.0) || (atom->mask[i] & not_fluid)) continue;
@@ -244,6 +247,26 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
     } else
       particle.g += random * c_inv * c_inv;
   }
+}
+
+/* ----------------------------------------------------------------------
+   random force of each owned particle, sqrt(2 kT b V/dt) xi, of the drags b of single particles
+------------------------------------------------------------------------- */
+
+void NoiseStage::add_drag(double factor, int not_fluid)
+{
+  const Parameters &par = engine.parameters();
+  const int nlocal = atom->nlocal, n = nlocal + BLOCK;
+  drag.resize(3 * n);
+  drag_force.assign(3 * nlocal, 0.0);
+  engine.loop_set().particle_numbers(data, NoiseChannel::DRAG, nlocal, 3, drag.data());
+  for (int i = 0; i < nlocal; i++) {
+    const TypeParameters &type = par.type[atom->type[i]];
+    if (type.other || (atom->mask[i] & not_fluid)) continue;
+    const double strength = sqrt(factor * Channels::drag(type.keywords) * engine.particle[i].vol);
+    for (int d = 0; d < par.dim; d++) drag_force[3 * i + d] = strength * drag[d * n + i];
+  }
+  engine.add_drag_noise(drag_force.data());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -264,7 +287,7 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
   exchange.reverse({{eta.data(), 1, 1}});
 
   for (int i = 0; i < nlocal; i++) {
-    const TypeCoeff &type = model.coeffs[atom->type[i]];
+    const TypeParameters &type = engine.parameters().type[atom->type[i]];
     if (type.other || (atom->mask[i] & not_fluid) || !is_negative(i)) continue;
     const double zeta = beyond_bound(type.zeta, bound[i]) ? zeta_at_bound(bound[i]) : type.zeta;
     if (!(zeta < 0.0)) continue;    // no bound: a pair without friction
@@ -282,7 +305,7 @@ double NoiseStage::memory_usage() const
 {
   return static_cast<double>(row.capacity() * sizeof(NoiseRow)) +
       static_cast<double>((spin_mobility.capacity() + tag.capacity() + reach.capacity() +
-                           share.capacity() + eta.capacity() + pressure.capacity() +
-                           random.capacity()) *
+                           share.capacity() + eta.capacity() + drag.capacity() +
+                           drag_force.capacity() + pressure.capacity() + random.capacity()) *
                           sizeof(double));
 }

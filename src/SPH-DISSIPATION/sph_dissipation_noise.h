@@ -62,7 +62,7 @@ namespace SPHDissipation {
     std::vector<NoiseCoeff> coeff;
     std::vector<NoiseRow> row;
     std::vector<double> spin_mobility;
-    std::vector<double> tag, reach, share, eta, pressure, random;
+    std::vector<double> tag, reach, share, eta, pressure, random, drag, drag_force;
 
     void check_box() const;
     void set_tags();
@@ -72,6 +72,7 @@ namespace SPHDissipation {
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);
+    void add_drag(double factor, int not_fluid);
     void set_shares(const double *bound, int not_fluid);
   };
 

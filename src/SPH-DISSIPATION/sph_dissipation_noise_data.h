@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_NOISE_DATA_H
 #define LMP_SPH_DISSIPATION_NOISE_DATA_H
 
-#include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_channels.h"
 
 #include <cstdint>
 
@@ -24,7 +24,7 @@ namespace SPHDissipation {
   // Random numbers belong to a pair or a particle, the step, and a channel: the keys of the generator
   // are the seed and the channel, its counter the two IDs and the number of the step.
 
-  enum class NoiseChannel { PRESSURE, PAIR };
+  enum class NoiseChannel { PRESSURE, PAIR, DRAG };
 
   // of the pairs of two types: what the random numbers are multiplied with, in units of
   // sqrt(F V_i V_j), with F r instead of F for mg/fr
@@ -59,7 +59,6 @@ namespace SPHDissipation {
     const int *type;            // read if the coefficients differ between types
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
     double *eta;                // sums of the numbers of a particle, accumulated
-    double *pressure;           // number of each particle
     double *random;             // for the numbers of the pairs of one particle
   };
 

@@ -60,12 +60,11 @@ template <int ACROSS, bool SPIN, bool DIRECTED> struct PairNumbers {
 // keys and part of the counter that are the same for all pairs
 
 struct NoiseStep {
-  PhiloxKeys pair, pressure;
+  PhiloxKeys pair;
   std::uint64_t low, high;
 
   NoiseStep(const NoiseData &data) :
-      pair(keys_of(data, NoiseChannel::PAIR)), pressure(keys_of(data, NoiseChannel::PRESSURE)),
-      low(data.step & 0xffffffff), high(data.step >> 32)
+      pair(keys_of(data, NoiseChannel::PAIR)), low(data.step & 0xffffffff), high(data.step >> 32)
   {
   }
   static PhiloxKeys keys_of(const NoiseData &data, NoiseChannel channel)
@@ -94,32 +93,13 @@ struct PairCounter {
   }
 };
 
-struct NoiseCoeffs {
-  Vec central, transverse, spin_along, spin_across, inverse_central;
+// numbers of NoiseCoeff
 
-  SPH_INLINE NoiseCoeffs(const NoiseCoeff &pair) :
-      central(all(pair.central)), transverse(all(pair.transverse)),
-      spin_along(all(pair.spin_along)), spin_across(all(pair.spin_across)),
-      inverse_central(all(pair.inverse_central))
+enum { CENTRAL, TRANSVERSE, SPIN_ALONG, SPIN_ACROSS, INVERSE_CENTRAL };
+template <int ACROSS, bool SPIN> struct NoiseUses {
+  static constexpr bool uses(int k)
   {
-  }
-  SPH_INLINE void load(const LoopData &pairs, const NoiseData &data, int i, const int *j, int n)
-  {
-    const NoiseCoeff *const coeff = data.coeff + data.type[i] * pairs.ntypes_1;
-    double column[5][LANES];
-    for (int l = 0; l < LANES; l++) {
-      const NoiseCoeff &pair = coeff[(l < n) ? data.type[j[l]] : 1];    // a spare one has no type
-      column[0][l] = pair.central;
-      column[1][l] = pair.transverse;
-      column[2][l] = pair.spin_along;
-      column[3][l] = pair.spin_across;
-      column[4][l] = pair.inverse_central;
-    }
-    central = LOOPS::load(column[0]);
-    transverse = LOOPS::load(column[1]);
-    spin_along = LOOPS::load(column[2]);
-    spin_across = LOOPS::load(column[3]);
-    inverse_central = LOOPS::load(column[4]);
+    return k == CENTRAL || k == INVERSE_CENTRAL || (k == TRANSVERSE && ACROSS > 0) || SPIN;
   }
 };
 
@@ -134,7 +114,7 @@ SPH_INLINE Vec root_of(Vec slope, Vec metric, Vec inverse_central)
 
 template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseData &data)
 {
-  NoiseCoeffs coeff(data.coeff[pairs.ntypes_1 + 1]);
+  Coeffs<NoiseCoeff, NoiseUses<0, false>> coeff(data.coeff[pairs.par->ntypes_1 + 1]);
   const NoiseStep step(data);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
@@ -150,14 +130,14 @@ template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseD
       const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
       const Vec rsq = dx * dx + dy * dy + dz * dz;
       const Vec metric = metric_of<FR>(rsq);
-      if (!pairs.uniform) coeff.load(pairs, data, i, j, n - k);
+      if (!pairs.par->uniform) coeff.load(data.coeff, pairs, i, j, n - k);
       const PairCounter counter(step, data.tag[i], gather(data.tag, j));
       using Numbers = PairNumbers<ACROSS, false, true>;
       const Numbers random(counter.word, step.pair);
       const Vec forth = random.z[Numbers::ALONG], back = random.z[Numbers::BACK];
       const Vec mean = 0.5 * (forth + back);
       const Vec odd = 0.5 * counter.sign * (forth - back);
-      const Vec root = root_of(load(slope_of + k), metric, coeff.inverse_central);
+      const Vec root = root_of(load(slope_of + k), metric, coeff.a[INVERSE_CENTRAL]);
       total += gather(data.reach, j) * root * (mean + odd);
       add_column<1>(data.eta, j, data.reach[i] * root * (mean - odd));
     }
@@ -188,7 +168,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   Vec friction;     // factor of that of the pair, if ENERGY
 
   SPH_INLINE PairNoise(const LoopData &pairs) :
-      pairs(pairs), data(*pairs.noise), step(data), coeff(data.coeff[pairs.ntypes_1 + 1])
+      pairs(pairs), data(*pairs.noise), step(data), coeff(data.coeff[pairs.par->ntypes_1 + 1])
   {
   }
   SPH_INLINE void begin(int ii)
@@ -214,7 +194,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   SPH_INLINE void draw(const int *j, int n, Vec dx, Vec dy, Vec dz, Vec slope, Vec vv, Vec metric,
                        Vec by_metric, Vec inverse)
   {
-    if (!pairs.uniform) coeff.load(pairs, data, i, j, n);
+    if (!pairs.par->uniform) coeff.load(data.coeff, pairs, i, j, n);
     Vec z[Numbers::N];
     for (int c = 0; c < Numbers::N; c++) {
       if (!Numbers::is_used(c)) continue;
@@ -237,18 +217,18 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
     if constexpr (DIRECTED || !VECTOR) {
       Vec along = z[Numbers::ALONG];
       if constexpr (DIRECTED) {
-        const Vec root = root_of(slope, metric, coeff.inverse_central);
+        const Vec root = root_of(slope, metric, coeff.a[INVERSE_CENTRAL]);
         along += z[Numbers::BACK] -
             root * (gather(data.reach, j) * data.share[i] + data.reach[i] * gather(data.share, j));
       }
       const Vec by_r = square_root(by_metric);
-      central = coeff.central * by_r * along;
+      central = coeff.a[CENTRAL] * by_r * along;
       if constexpr (ACROSS == 2) {
-        const Vec across = coeff.transverse * by_r * z[1];
+        const Vec across = coeff.a[TRANSVERSE] * by_r * z[1];
         rest[0] = -across * dy;
         rest[1] = across * dx;
         torque[2] = -0.5 * across * metric;
-        if constexpr (SPIN) spin[2] = coeff.spin_across * square_root(vv) * z[2];
+        if constexpr (SPIN) spin[2] = coeff.a[SPIN_ACROSS] * square_root(vv) * z[2];
       }
     }
 
@@ -256,8 +236,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
 
     if constexpr (VECTOR) {
       const Vec strength = square_root(vv);
-      const Vec across = strength * coeff.transverse;
-      const Vec along = DIRECTED ? -across : strength * coeff.central - across;
+      const Vec across = strength * coeff.a[TRANSVERSE];
+      const Vec along = DIRECTED ? -across : strength * coeff.a[CENTRAL] - across;
       const Vec part = along * inverse * (dx * z[0] + dy * z[1] + dz * z[2]);
       if constexpr (DIRECTED)
         central += part;
@@ -268,8 +248,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
         torque[0] = -0.5 * (dy * rest[2] - dz * rest[1]);
         torque[1] = -0.5 * (dz * rest[0] - dx * rest[2]);
         torque[2] = -0.5 * (dx * rest[1] - dy * rest[0]);
-        const Vec spin_across = strength * coeff.spin_across;
-        const Vec remainder = (strength * coeff.spin_along - spin_across) * inverse *
+        const Vec spin_across = strength * coeff.a[SPIN_ACROSS];
+        const Vec remainder = (strength * coeff.a[SPIN_ALONG] - spin_across) * inverse *
             (dx * z[4] + dy * z[5] + dz * z[6]);
         spin[0] = spin_across * z[4] + remainder * dx;
         spin[1] = spin_across * z[5] + remainder * dy;
@@ -344,23 +324,27 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   const LoopData &pairs;
   const NoiseData &data;
   const NoiseStep step;
-  NoiseCoeffs coeff;
+  Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN>> coeff;
   int i;
   double *next;    // of the numbers of i
   enum { TEMPERATURE, SOFTNESS, MOBILITY, PRESSURE, NROW };
   Vec other[NROW], other_spin_mobility;    // of j
 };
 
-// one number of each of n particles, and of some behind them
+// count random numbers of each of n particles, and of some behind them, the next number after the ones of all particles
+// and BLOCK more
 
-inline void pressure_loop(const NoiseData &data, int n)
+inline void particle_numbers(const NoiseData &data, NoiseChannel channel, int n, int count,
+                             double *numbers)
 {
   const NoiseStep step(data);
+  const PhiloxKeys keys = NoiseStep::keys_of(data, channel);
   for (int k = 0; k < n; k += LANES) {
     const Words tag = words(load(data.tag + k));
     const Words counter[4] = {tag, shifted<32>(tag), all_words(step.low), all_words(step.high)};
     Words random[4];
-    philox(counter, step.pressure, random);
-    store(data.pressure + k, uniform(random[0]));
+    philox(counter, keys, random);
+    for (int c = 0; c < count; c++)
+      store(numbers + c * static_cast<bigint>(n + BLOCK) + k, uniform(random[c]));
   }
 }

@@ -49,7 +49,7 @@ void OpenImpact::add(const Spin &spin, const TorqueSum &sum)
     torque[d] += sum.t[d];
     power += sum.t[d] * spin.w[d];
   }
-  power += sum.heat_vortex + sum.heat_spin;
+  for (const double heat : sum.heat) power += heat;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -85,7 +85,7 @@ void OpenStage::run()
 
 void OpenStage::set_state(int i, double rho, double pressure)
 {
-  if (engine.bulk_form() == Bulk::DENSITY) pressure += engine.zeta_term[i];
+  if (engine.parameters().bulk == Bulk::DENSITY) pressure += engine.zeta_term[i];
   SPHDissipation::set_state(engine.particle[i], atom->rmass[i], rho, pressure, engine.weight(i));
   atom->rho[i] = rho;
   atom->vfrac[i] = engine.particle[i].vol;
@@ -141,7 +141,7 @@ void OpenStage::sum_impacts(NeighList *list)
 
 void OpenStage::find_rows(NeighList *list)
 {
-  const double reach = engine.pairs().support + neighbor->skin;
+  const double reach = engine.parameters().support + neighbor->skin;
   rows.assign(zones.size(), {});
   for (int ii = 0; ii < list->inum; ii++)
     for (std::size_t k = 0; k < zones.size(); k++)
@@ -158,7 +158,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   const LoopData &all = engine.pairs();
   const double zone = static_cast<double>(k + 1);
   const Particle *const particle = engine.particle;
-  const bool by_volume = (engine.bulk_form() == Bulk::VOLUME);
+  const bool by_volume = (engine.parameters().bulk == Bulk::VOLUME);
 
   // with newton off, what a pair of two processors gives to the ghost atom is known to its owner
 

@@ -39,7 +39,6 @@ namespace SPHDissipation {
   // state, as it enters or leaves.  The fix hands itself to OpenStage::add() in its init() and takes itself
   // back when it is deleted.
 
-
   class OpenZone {
    public:
     virtual int zone_bit() const = 0;     // bit of the group of its particles

@@ -11,13 +11,12 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The terms of one pair of particles i and j or, in the loops of the CPU, of a vector of them: each
-// formula stands here once.  Included in more than one namespace, as sph_dissipation_kernel_shapes.h,
-// which must have square_root(a) and if_positive(a, b), see sph_dissipation_simd.h.
+// The pairs of particles i and j that the loops work off, in vectors on the CPU, one by one on a device.
+// Included in more than one namespace, as sph_dissipation_kernel_shapes.h, which must have a type Vec,
+// square_root(a) and if_positive(a, b), see sph_dissipation_simd.h.
 //
-// r = r_i - r_j, u = u_i - u_j, approach = r.u, slope = F, vv = F V_i V_j; P1, P2, P3: see
-// sph_dissipation_coeffs.h.  Forces are those on i, opposite on j; of the heat of a pair half goes to
-// each.
+// r = r_i - r_j, u = u_i - u_j, slope = F; P1, P2, P3: see sph_dissipation_channels.h.  Forces are those on
+// i, opposite on j; of the heat of a pair half goes to each.
 
 // added to r and r^2 before dividing: two particles at the same point, r = 0, exert no force on each
 // other
@@ -43,38 +42,14 @@ template <class Real> SPH_INLINE Real pressing_term(double g_i, Real g_j, Real s
   return (g_i + g_j) * slope;
 }
 
-// bulk term of the form volume, P1 (64): F V_i V_j (zeta_i cdot_i/c_i + zeta_j cdot_j/c_j) r; it heats
-// by zeta cdot/c V D with D_i = -sum_j V_j F r.u
+// metric of the drag along e: r or r^2
 
-template <class Real> SPH_INLINE Real volume_term(double zeta_term_i, Real zeta_term_j, Real vv)
+template <bool BY_DISTANCE, class Real> SPH_INLINE Real metric_of(Real rsq)
 {
-  return (zeta_term_i + zeta_term_j) * vv;
-}
-
-template <class Real> SPH_INLINE Real divergence_term(Real slope, Real approach)
-{
-  return slope * approach;
-}
-
-// What stands before a drag along r, a F V_i V_j/metric (u.r) r, with the metric r^2, P2 (41), P3 (12),
-// or r, P1 (15): by_metric = F V_i V_j/metric
-
-template <bool FR, class Real> SPH_INLINE Real metric_of(Real rsq)
-{
-  if constexpr (FR)
+  if constexpr (BY_DISTANCE)
     return square_root(rsq);
   else
     return rsq;
-}
-
-template <class Real> SPH_INLINE Real drag_along_r(Real coefficient, Real by_metric, Real along)
-{
-  return coefficient * by_metric * along;
-}
-
-template <class Real> SPH_INLINE Real half_heat_along_r(Real drag, Real along)
-{
-  return 0.5 * drag * along;
 }
 
 // u* = u - (w_i + w_j)/2 x r with the spins w: the velocity of slip at the point of contact, P3 (12)
@@ -90,40 +65,35 @@ SPH_INLINE void slip_velocity(const double *w_i, const Real *w_j, const Real *r,
   u[2] = u[2] - mx * r[1] + my * r[0];
 }
 
-// drag along u, or u* of a micropolar fluid: -a F V_i V_j u, with drag = a F V_i V_j, subtracted from
-// the force; its half of the heat
+// what the terms of the channels read of a pair, and what they add to
 
-template <class Real> SPH_INLINE void add_drag_along_u(Real drag, const Real *u, Real *force)
-{
-  for (int d = 0; d < 3; d++) force[d] -= drag * u[d];
-}
+struct PairState {
+  const Vec *coeff;    // of its types, by enum Coefficient
+  Vec r[3];
+  Vec u[3];         // in add_vector(), with spins, the velocity of slip
+  Vec s[3];         // difference of the spins
+  Vec approach;     // r.u
+  Vec vv;           // F V_i V_j
+  Vec by_metric;    // F V_i V_j / metric
 
-template <class Real> SPH_INLINE Real half_heat_along_u(Real half_drag, const Real *u)
-{
-  return half_drag * dot(u, u);
-}
+  Vec central;           // force on i along r, times 1/r
+  Vec f[3];              // force on i
+  Vec t[3];              // torque on both
+  Vec spin[3];           // torque on j, opposite on i
+  Vec heat[NCHANNEL];    // half of the heat, by channel
+};
 
-// half of the torque of that force for each particle, the same on both: 1/2 a F V_i V_j r x u*, P3 (18)
+// Term of a channel, with the coefficients FIRST to LAST.  First come the terms along r, then all others.
 
-template <class Real>
-SPH_INLINE void half_torque(Real half_drag, const Real *r, const Real *u, Real *torque)
-{
-  torque[0] = half_drag * (r[1] * u[2] - r[2] * u[1]);
-  torque[1] = half_drag * (r[2] * u[0] - r[0] * u[2]);
-  torque[2] = half_drag * (r[0] * u[1] - r[1] * u[0]);
-}
+template <int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTerm {
+  static constexpr int FIRST = FIRST_COEFF, LAST = LAST_COEFF;
+  static constexpr bool CENTRAL = false, VECTOR = false;    // has add_central(), add_vector()
+  static constexpr bool BY_DISTANCE = false;                // its metric is r
+  static constexpr bool SPINS = false;
+  template <class Pair> static SPH_INLINE void add_central(Pair &) {}
+  template <class Pair> static SPH_INLINE void add_vector(Pair &) {}
+};
 
-// spin diffusion, P3 (18), with s = w_i - w_j: the torque F V_i V_j [xi1 (s.e) e + xi2 s] on j,
-// opposite on i, and half of the heat; drag1 = drag_along_r(xi1, by_metric, s.r), drag2 = xi2 F V_i V_j
-
-template <class Real>
-SPH_INLINE void spin_torque(Real drag1, Real drag2, const Real *r, const Real *s, Real *on_j)
-{
-  for (int d = 0; d < 3; d++) on_j[d] = drag1 * r[d] + drag2 * s[d];
-}
-
-template <class Real>
-SPH_INLINE Real half_heat_of_spins(Real drag1, Real drag2, Real along, const Real *s)
-{
-  return 0.5 * (drag1 * along + drag2 * dot(s, s));
-}
+#define CHANNEL_TERMS
+#include "sph_dissipation_channels.h"
+#undef CHANNEL_TERMS

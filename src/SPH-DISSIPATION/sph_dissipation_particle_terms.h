@@ -16,7 +16,7 @@
 
 // Between the passes: what follows for one particle from its density.  No LAMMPS include.
 
-#include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_channels.h"
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_rows.h"
 
@@ -61,15 +61,6 @@ namespace SPHDissipation {
     const double zeta_term = zeta * rate;
     const double total = (bulk == Bulk::DENSITY) ? p + zeta_term : p;
     return {zeta_term, pressure_term(total, vol, weight), p * vol * rate};
-  }
-
-  // heat of the bulk term: zeta V (cdot/c)^2 (density), zeta V cdot/c D with the divergence D summed by
-  // pairs (volume)
-
-  SPH_FUNCTION double bulk_heat(Bulk bulk, double zeta_term, double vol, double weight, double cdot,
-                                double divergence)
-  {
-    return zeta_term * vol * ((bulk == Bulk::VOLUME) ? divergence : cdot * vol / weight);
   }
 
 }    // namespace SPHDissipation

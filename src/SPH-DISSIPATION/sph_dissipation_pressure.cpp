@@ -15,7 +15,6 @@
 
 #include "atom.h"
 #include "sph_dissipation_engine.h"
-#include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
 
 using namespace LAMMPS_NS;
@@ -23,24 +22,16 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-PressureStage::PressureStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                             const FluidModel &model) :
-    Stage(lmp, engine, exchange),
-    model(model)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 bool PressureStage::is_beyond(int i, const double *bound) const
 {
-  return bound && beyond_bound(model.coeffs[atom->type[i]].zeta, bound[i]);
+  return bound && beyond_bound(engine.parameters().type[atom->type[i]].zeta, bound[i]);
 }
 
 double PressureStage::bulk_coefficient(int i, const double *bound) const
 {
-  if (model.choice.limit == Limit::YES && is_beyond(i, bound)) return zeta_at_bound(bound[i]);
-  return model.coeffs[atom->type[i]].zeta;
+  const Parameters &par = engine.parameters();
+  if (par.limit == Limit::YES && is_beyond(i, bound)) return zeta_at_bound(bound[i]);
+  return par.type[atom->type[i]].zeta;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -55,19 +46,18 @@ bigint PressureStage::run(const double *bound, int not_fluid)
   double *const desph = atom->desph;
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
-  const TypeCoeff *const coeffs = model.coeffs;
-  const Eos eos = model.choice.eos;
+  const Parameters &par = engine.parameters();
 
   engine.for_each(nall, [&](int i) {
     Particle &particle = engine.particle[i];
-    const TypeCoeff &coeff = coeffs[type[i]];
-    if (coeff.other || (mask[i] & not_fluid)) {
+    const TypeParameters &of_type = par.type[type[i]];
+    if (of_type.other || (mask[i] & not_fluid)) {
       engine.zeta_term[i] = particle.g = 0.0;
       return;
     }
 
     const ParticleTerms terms =
-        particle_terms(eos, coeff.eos, model.choice.bulk, bulk_coefficient(i, bound), particle.vol,
+        particle_terms(par.eos, of_type.eos, par.bulk, bulk_coefficient(i, bound), particle.vol,
                        engine.weight(i), engine.density[i].cdot, rho[i], esph[i] / rmass[i]);
     engine.zeta_term[i] = terms.zeta_term;
     particle.g = terms.g;
@@ -77,7 +67,7 @@ bigint PressureStage::run(const double *bound, int not_fluid)
   bigint nbeyond = 0;
   if (bound)
     for (int i = 0; i < nlocal; i++)
-      if (!coeffs[type[i]].other && !(mask[i] & not_fluid) && is_beyond(i, bound)) nbeyond++;
+      if (!par.type[type[i]].other && !(mask[i] & not_fluid) && is_beyond(i, bound)) nbeyond++;
   return nbeyond;
 }
 
@@ -87,11 +77,12 @@ bigint PressureStage::run(const double *bound, int not_fluid)
 
 void PressureStage::set_bulk_term(const double *bound, int not_fluid) const
 {
-  const bool by_density = (model.choice.bulk == Bulk::DENSITY);
+  const Parameters &par = engine.parameters();
+  const bool by_density = (par.bulk == Bulk::DENSITY);
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     Particle &particle = engine.particle[i];
     engine.zeta_term[i] = particle.g = 0.0;
-    if (model.coeffs[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
+    if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
     engine.zeta_term[i] = bulk_coefficient(i, bound) * engine.density[i].cdot / engine.density[i].c;
     if (by_density) particle.g = pressure_term(engine.zeta_term[i], particle.vol, engine.weight(i));
   }
@@ -101,12 +92,12 @@ void PressureStage::set_bulk_term(const double *bound, int not_fluid) const
 
 double PressureStage::elastic_energy(double *each_atom, int not_fluid) const
 {
+  const Parameters &par = engine.parameters();
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (model.coeffs[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
+    if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
     const double energy = atom->rmass[i] *
-        SPHDissipation::elastic_energy(model.choice.eos, model.coeffs[atom->type[i]].eos,
-                                       atom->rho[i]);
+        SPHDissipation::elastic_energy(par.eos, par.type[atom->type[i]].eos, atom->rho[i]);
     total += energy;
     if (each_atom) each_atom[i] += energy;
   }

@@ -19,14 +19,12 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  class FluidModel;
-
   // Pressure and bulk term of all particles of the fluid, of volume and density as pass 1 left them:
   // what pass 2 multiplies with F r_ij, and the work of the pressure.  P1 (12), (18)
 
   class PressureStage : public Stage {
    public:
-    PressureStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
+    using Stage::Stage;
 
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles,
     // which get zero.  Returns the number of owned particles whose coefficient is beyond the bound.
@@ -42,8 +40,6 @@ namespace SPHDissipation {
     double elastic_energy(double *each_atom, int not_fluid) const;
 
    private:
-    const FluidModel &model;
-
     bool is_beyond(int i, const double *bound) const;
     double bulk_coefficient(int i, const double *bound) const;    // in effect
   };

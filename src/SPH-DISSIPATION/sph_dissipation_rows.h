@@ -16,6 +16,8 @@
 
 // What the pair loops read of each particle, and what they sum up for it.  No LAMMPS include.
 
+#include "sph_dissipation_channels.h"
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
@@ -51,16 +53,12 @@ namespace SPHDissipation {
     double unused;    // rows are read by fours
   };
 
-  // torque and heat of the vortex and of the spin diffusion term: what pass 2 accumulates
+  // torque, and heat of the channels from VORTEX to DIFFUSION: what pass 2 accumulates
 
   struct TorqueSum {
     double t[3];
-    double heat_vortex, heat_spin;
+    double heat[DIFFUSION - VORTEX + 1];
   };
-
-  // where the fluid turns motion into heat
-
-  enum Channel { SHEAR, BULK, VORTEX, SPIN, NCHANNEL };
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

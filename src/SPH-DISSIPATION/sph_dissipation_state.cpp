@@ -75,7 +75,7 @@ void FluidState::find_full_support()
 
   for (int i = 0; i < nlocal; i++) {
     const double *const a = &lopsided[3 * i];
-    const double limit = SURFACE * engine.density[i].c / pairs.support;
+    const double limit = SURFACE * engine.density[i].c / engine.parameters().support;
     if (!(atom->mask[i] & not_fluid) && a[0] * a[0] + a[1] * a[1] + a[2] * a[2] > limit * limit)
       surface[i] = 1.0;
   }
@@ -227,7 +227,7 @@ double FluidState::longest_wave() const
   MPI_Allreduce(edge, all, 6, MPI_DOUBLE, MPI_MIN, world);
 
   double length = 0.0;
-  for (int d = 0; d < engine.dimension(); d++)
+  for (int d = 0; d < engine.parameters().dim; d++)
     length =
         std::max(length, domain->periodicity[d] ? domain->prd[d] : -(all[2 * d] + all[2 * d + 1]));
   return length;
@@ -248,7 +248,7 @@ void LatticeStrain::run(const std::vector<double> &weight)
   const int n = atom->ntypes + 1;
   std::vector<Sum> my_sums(n, Sum());
 
-  with_kernel(engine.kernel_form(), [&](auto k) {
+  with_kernel(engine.parameters().kernel, [&](auto k) {
     engine.visit_pairs([&](int i, int j, bigint entry) {
       if (weight[i] + weight[j] == 0.0) return;
       double r[3];
@@ -257,10 +257,10 @@ void LatticeStrain::run(const std::vector<double> &weight)
                                  r[1] * r[2], r[0] * r[2], r[0] * r[1]};
       const double dist = sqrt(product[0] + product[1] + product[2]);
       if (dist == 0.0) return;
-      const double q = dist / pairs.support;
+      const double q = dist / engine.parameters().support;
       const double from = std::max(q - DQ, 0.0), to = std::min(q + DQ, 1.0);
-      const double derivative =
-          pairs.slope_norm * (k.slope(to) - k.slope(from)) / (to - from) / (pairs.support * dist);
+      const double derivative = engine.parameters().slope_norm * (k.slope(to) - k.slope(from)) /
+          (to - from) / (engine.parameters().support * dist);
       for (const int one : {i, j}) {
         const double each = weight[one] * engine.weight(i + j - one) / engine.density[one].c;
         Sum &sum = my_sums[type[one]];
@@ -288,7 +288,7 @@ double LatticeStrain::largest(int type) const
 {
   constexpr int MOST = 2;
   const Sum &sum = sums[type];
-  const int most_z = (engine.dimension() == 2) ? 0 : MOST;
+  const int most_z = (engine.parameters().dim == 2) ? 0 : MOST;
   std::vector<std::array<double, 3>> directions;
   for (int l = -MOST; l <= MOST; l++)
     for (int m = -MOST; m <= MOST; m++)
@@ -328,7 +328,7 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
   constexpr double REGULAR = 0.001;        // spread of the density; disordered particles yield
   constexpr double ELASTIC_PART = 0.25;    // of the viscosity
 
-  const bool shears = (engine.dimension() > 1) && !evened_out;
+  const bool shears = (engine.parameters().dim > 1) && !evened_out;
   LatticeStrain strain(lmp, engine, exchange);
   double length = 0.0;
   if (shears) {

@@ -108,7 +108,7 @@ void SurfaceStage::begin()
 
 void SurfaceStage::find(int bits)
 {
-  const int dim = engine.dimension();
+  const int dim = engine.parameters().dim;
   std::vector<int> owned, all, outer;
   double spacing = 0.0;
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
@@ -120,7 +120,7 @@ void SurfaceStage::find(int bits)
     if (i < atom->nlocal) owned.push_back(i);
   }
 
-  const double support = engine.pairs().support;
+  const double support = engine.parameters().support;
   const double radius = (spacing > 0.0) ? std::min(support, CUTOFF * spacing) : support;
   find_outer_layer(Cells(atom->x, all, radius), owned);
   const Field normal = field(surface, surface->normal, 3),
@@ -156,8 +156,8 @@ void SurfaceStage::find_sides(const std::vector<BoundaryPair> &pairs)
 
 void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &owned)
 {
-  const double support = engine.pairs().support;
-  const int dim = engine.dimension();
+  const double support = engine.parameters().support;
+  const int dim = engine.parameters().dim;
   for (const int i : owned) {
     Surface &s = surface[i];
     const double width = WIDTH * s.spacing;
@@ -188,7 +188,7 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
 
 void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
 {
-  const double support = engine.pairs().support;
+  const double support = engine.parameters().support;
   std::vector<Surface> found;
   found.reserve(owned.size());
   for (const int i : owned) {

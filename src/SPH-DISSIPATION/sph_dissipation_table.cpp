@@ -17,6 +17,8 @@
 #include "utils.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -51,14 +53,27 @@ std::string CoeffTable::text(double dt) const
 
 /* ---------------------------------------------------------------------- */
 
-void CoeffTable::add_row(int i, int j, const Columns &values, double acoustic_of_pair,
-                         const Columns &viscous_steps)
+void CoeffTable::add_row(int i, int j, const PairFluid &fluid, const PairInertia &inertia,
+                         double acoustic_of_pair)
 {
+  typedef std::vector<std::pair<std::string, double>> Columns;
+  const bool spins = (fluid.shear == Shear::MICROPOLAR);
+  const PairCoeff coeff = pair_coefficients(fluid);
+  Columns values, steps = {{"acoustic", acoustic_of_pair}};
   std::vector<double> numbers;
-  for (const auto &step : viscous_steps) numbers.push_back(step.second);
 
-  Columns steps = {{"acoustic", acoustic_of_pair}};
-  steps.insert(steps.end(), viscous_steps.begin(), viscous_steps.end());
+  for (int k = 0; k < number_of_viscosities(spins); k++) {
+    values.emplace_back(VISCOSITY_NAMES[k], fluid.viscosity[k]);
+    if (k == MU) values.emplace_back("kappa", fluid.zeta + intrinsic_kappa(fluid));
+  }
+  values.emplace_back("zeta", fluid.zeta);
+  Channels::visit(spins, [&](auto channel) {
+    channel.add_columns(fluid, coeff, [&](const char *name, double value) {
+      values.emplace_back(name, value);
+    });
+    numbers.push_back(SPHDissipation::viscous_step(channel.rate(fluid, coeff, inertia)));
+    steps.emplace_back(channel.NAME, numbers.back());
+  });
   steps.emplace_back("all", combined_step(acoustic_of_pair, numbers));
   smallest = std::min(smallest, steps.back().second);
   acoustic = std::min(acoustic, acoustic_of_pair);

@@ -14,22 +14,13 @@
 #ifndef LMP_SPH_DISSIPATION_TABLE_H
 #define LMP_SPH_DISSIPATION_TABLE_H
 
-#include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_channels.h"
+#include "sph_dissipation_steps.h"
 
-#include <initializer_list>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-
-  // heads and values of columns
-
-  class Columns : public std::vector<std::pair<std::string, double>> {
-   public:
-    Columns(std::initializer_list<value_type> columns) : vector(columns) {}
-  };
 
   // Table of the coefficients and the largest stable time steps of the pairs of types, as it goes to
   // the log: a row each, the same columns in all rows.
@@ -38,10 +29,8 @@ namespace SPHDissipation {
    public:
     CoeffTable() : smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP), viscous(UNLIMITED_STEP) {}
 
-    // values = viscosities and coefficients, viscous_steps = time steps of the viscous terms
-
-    void add_row(int i, int j, const Columns &values, double acoustic_of_pair,
-                 const Columns &viscous_steps);
+    // of types i and j, with the largest stable time step for their sound
+    void add_row(int i, int j, const PairFluid &, const PairInertia &, double acoustic_step);
     // with lines on the accuracy of these steps, and on what dt needs
     std::string text(double dt) const;
     double smallest_step() const { return smallest; }    // with all terms together, of all rows

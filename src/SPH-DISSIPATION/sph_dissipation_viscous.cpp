@@ -280,7 +280,7 @@ void ViscousStage::set_velocities(const Unknowns &values)
 void ViscousStage::set_bulk_term()
 {
   DensitySum *const density = engine.density;
-  if (engine.bulk_form() != Bulk::NONE) {
+  if (engine.parameters().bulk != Bulk::NONE) {
     engine.accumulate_rates();
     const Field cdot = field(density, &density->cdot, 1);
     exchange.reverse({cdot});
@@ -364,7 +364,7 @@ void ViscousStage::sum(double *values, int n) const
 
 double ViscousStage::scale_sq() const
 {
-  const double distance = DBL_EPSILON * engine.pairs().support;
+  const double distance = DBL_EPSILON * engine.parameters().support;
   const double rest = (update->dt > 0.0) ? distance / (update->dt * settings.tolerance) : 0.0;
   double total = 0.0;
   for (std::size_t k = 0; k < x.size(); k++) {
@@ -497,7 +497,7 @@ double ViscousStage::estimated_rate()
 {
   constexpr int NITERATION = 12;
   constexpr double WAVES[6] = {391.7, 577.3, 733.1, 811.9, 929.3, 1117.7};    // per support radius
-  const double unit = 1.0 / engine.pairs().support;
+  const double unit = 1.0 / engine.parameters().support;
   const std::size_t n = mass.size();
   Unknowns u(n), drag(n);
   for (std::size_t k = 0; k < n; k++) {

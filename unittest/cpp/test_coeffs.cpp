@@ -6,7 +6,8 @@
    version 2. See the LICENSE file in the top-level directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_coeffs.h"
+#include "sph_dissipation_channels.h"
+#include "sph_dissipation_steps.h"
 
 #include "configuration.h"
 #include "dense_reference.h"
@@ -150,6 +151,36 @@ TEST(Coeffs, admissible_range)
 
 /* ---------------------------------------------------------------------- */
 
+// largest stable time step of one channel alone
+
+template <class Channel>
+static double step_of(const PairFluid &fluid, const PairCoeff &coeff, const PairInertia &inertia)
+{
+  return viscous_step(Channel::rate(fluid, coeff, inertia));
+}
+
+static double shear_step(Shear shear, double hsq, double nu)
+{
+  return step_of<ShearChannel>({shear, 2, 1.0, {nu}, 0.0}, {}, {hsq, 1.0, 1.0});
+}
+
+static double bulk_step(double hsq, double zeta_over_rho)
+{
+  return step_of<BulkChannel>({Shear::MG, 2, 1.0, {}, zeta_over_rho}, {}, {hsq, 1.0, 1.0});
+}
+
+static double vortex_step(double rho_inertia, double zeta2)
+{
+  PairCoeff coeff = {};
+  coeff.a[ZETA2] = zeta2;
+  return step_of<VortexChannel>({}, coeff, {1.0, 1.0, rho_inertia});
+}
+
+static double micropolar_step(int n, double hsq, double inertia, double along_r, double along_u)
+{
+  return viscous_step(rate_of_terms(n, hsq, inertia, along_r, along_u));
+}
+
 TEST(TimeStep, limits_as_numbers)
 {
   // h = R/2 for the kernel whose stability length is the reference
@@ -231,10 +262,12 @@ static std::array<double, 2> products_of_spin(DenseReference::Model model,
     model.spins = {fluid};
     const DenseReference::Matrix R = DenseReference::System(model, box, particles).micropolar().R;
     const int nspin = static_cast<int>(particles.spin.size());
-    const PairCoeff coeff = micropolar_coefficients(n, 1.0, fluid.mu_r, fluid.gamma1, fluid.gamma2);
+    const PairCoeff coeff = pair_coefficients(
+        {Shear::MICROPOLAR, n, 1.0,
+         {1.0, double(fluid.mu_r), double(fluid.gamma1), double(fluid.gamma2)}, 0.0});
     products[diffusion] = largest_rate(R.bottomRightCorner(nspin, nspin)) *
-        (diffusion ? micropolar_step(n, hsq, 1.0, coeff.xi1, coeff.xi2)
-                   : vortex_step(1.0, coeff.along_u));
+        (diffusion ? micropolar_step(n, hsq, 1.0, coeff.a[XI1], coeff.a[XI2])
+                   : vortex_step(1.0, coeff.a[ZETA2]));
   }
   return products;
 }

@@ -1,0 +1,88 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// Bulk viscosity: a term of each particle in the rate of its volume, which acts through its pressure.
+// Included by sph_dissipation_channels.h, which has the notation.
+
+#ifdef CHANNEL_TERMS
+
+// F V_i V_j (zeta_i cdot_i/c_i + zeta_j cdot_j/c_j) r of the form volume, P1 (64)
+template <class Real> SPH_INLINE Real volume_term(double zeta_term_i, Real zeta_term_j, Real vv)
+{
+  return (zeta_term_i + zeta_term_j) * vv;
+}
+
+#else
+
+#ifndef LMP_SPH_DISSIPATION_CHANNEL_BULK_H
+#define LMP_SPH_DISSIPATION_CHANNEL_BULK_H
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // density: f_i = zeta sum_j (V_i^3 cdot_i + V_j^3 cdot_j) F r_ij             P1 (18)
+  // volume:  f_i = zeta sum_j (V_i cdot_i + V_j cdot_j) F r_ij V_i V_j         P1 (64)
+  enum class Bulk { NONE, DENSITY, VOLUME };
+
+  inline const char *bulk_name(Bulk bulk)
+  {
+    return (bulk == Bulk::DENSITY) ? "density" : (bulk == Bulk::VOLUME) ? "volume" : "none";
+  }
+
+  // coefficient of the bulk term, for intrinsic = what the pair terms bring with them; P1 (67)
+  inline double bulk_coefficient(double kappa, double intrinsic)
+  {
+    return kappa - intrinsic;
+  }
+
+  // heat of a particle, energy per time: zeta V (cdot/c)^2 (density); zeta V cdot/c D with the divergence
+  // D_i = -sum_j V_j F r.u (volume)
+  SPH_FUNCTION double bulk_heat(Bulk bulk, double zeta_term, double vol, double weight, double cdot,
+                                double divergence)
+  {
+    return zeta_term * vol * ((bulk == Bulk::VOLUME) ? divergence : cdot * vol / weight);
+  }
+
+  // A negative coefficient dissipates, with the drag of the pairs, as long as zeta B >= -1/2 with the bound
+  // B_i = sum_j (c_j/c_i)^2 V_j F r^2 / a_ij, where a_ij is the central weight of a pair (theory page).
+  // What a pair of slope F and square distance rsq > 0 adds to it, times (c_j/c_i)^2 V_j:
+  SPH_FUNCTION double bound_of_pair(Shear shear, const PairCoeff &coeff, double slope, double rsq)
+  {
+    return slope * rsq / central_weight(shear, coeff, sqrt(rsq));
+  }
+  SPH_FUNCTION bool beyond_bound(double zeta, double bound)
+  {
+    return zeta * bound < -0.5;
+  }
+  SPH_FUNCTION double zeta_at_bound(double bound)
+  {
+    return -0.5 / bound;
+  }
+
+  // fastest mode, in units of zeta/(rho h^2), found as those of shear_rate()
+  constexpr double BULK_RATE = 1.6;
+
+  struct BulkChannel : BaseChannel {
+    static constexpr const char *NAME = "bulk";
+
+    static double rate(const PairFluid &fluid, const PairCoeff &, const PairInertia &inertia)
+    {
+      return BULK_RATE * std::fabs(fluid.zeta / inertia.rho) / inertia.hsq;
+    }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

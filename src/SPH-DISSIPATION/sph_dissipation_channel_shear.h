@@ -1,0 +1,185 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// Shear viscosity: drag between the velocities of two particles.  The forms of the shear force are sums of
+// two terms, one along e and one along u, with the coefficients that shear_factor() gives.
+// Included by sph_dissipation_channels.h, which has the notation.
+
+#ifdef CHANNEL_TERMS
+
+// -a F V_i V_j/metric (u.r) r with the metric r^2, P2 (41), P3 (12), or r, P1 (15)
+template <bool BY_R> struct AlongR : PairTerm<ALONG_R> {
+  static constexpr bool CENTRAL = true, BY_DISTANCE = BY_R;
+  template <class Pair> static SPH_INLINE void add_central(Pair &pair)
+  {
+    const auto drag = pair.coeff[ALONG_R] * pair.by_metric * pair.approach;
+    pair.central -= drag;
+    pair.heat[SHEAR] += 0.5 * drag * pair.approach;
+  }
+};
+
+// -a F V_i V_j u
+struct AlongU : PairTerm<ALONG_U> {
+  static constexpr bool VECTOR = true;
+  template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
+  {
+    const auto drag = pair.coeff[ALONG_U] * pair.vv;
+    for (int d = 0; d < 3; d++) pair.f[d] -= drag * pair.u[d];
+    pair.heat[SHEAR] += 0.5 * drag * dot(pair.u, pair.u);
+  }
+};
+
+#else
+
+#ifndef LMP_SPH_DISSIPATION_CHANNEL_SHEAR_H
+#define LMP_SPH_DISSIPATION_CHANNEL_SHEAR_H
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // mg:      f_i = -2 (n+2) mu sum_j F (u.e) e V_i V_j        P2 (41)
+  // mg/fr:   f_i = -eta sum_j F r (u.e) e V_i V_j             P1 (15), (49)
+  // morris:  f_i = -2 mu sum_j F u V_i V_j                    Laplacian of the velocity
+  // espanol: f_i = -a sum_j F [u + (u.e) e] V_i V_j           P. Espanol, M. Revenga, Phys. Rev. E 67,
+  //                                                           026705 (2003), with bulk term zero
+  // micropolar: f_i = -sum_j F V_i V_j [zeta1 (e.u*) e + zeta2 u*], u* = u - Omega_mean x r   P3 (12)
+  enum class Shear { NONE, MG, MG_FR, MORRIS, ESPANOL, MICROPOLAR };
+
+  inline const char *shear_name(Shear shear)
+  {
+    return (shear == Shear::MG)        ? "mg"
+        : (shear == Shear::MG_FR)      ? "mg/fr"
+        : (shear == Shear::MORRIS)     ? "morris"
+        : (shear == Shear::ESPANOL)    ? "espanol"
+        : (shear == Shear::MICROPOLAR) ? "micropolar"
+                                       : "none";
+  }
+
+  // prefactor of the shear term per unit mu, in dimension n; mean_radius = integral of r W
+  inline double shear_factor(Shear shear, int n, double mean_radius)
+  {
+    switch (shear) {
+      case Shear::MG:
+        return 2.0 * (n + 2);
+      case Shear::MG_FR:
+        return 2.0 * n * (n + 2) / ((n + 1) * mean_radius);
+      case Shear::MORRIS:
+        return 2.0;
+      case Shear::ESPANOL:
+        return 2.0 * (n + 2) / (n + 3);
+      default:
+        return 0.0;
+    }
+  }
+
+  // bulk viscosity that the shear term brings with it: lambda = mu for mg and
+  // lambda = -mu for Morris, kappa = lambda + 2 mu/n; P1 (66).  The form of Espanol and Revenga
+  // is the sum of mg with mu/(n+3) and Morris with mu (n+2)/(n+3).
+  inline double intrinsic_kappa(Shear shear, int n, double mu)
+  {
+    switch (shear) {
+      case Shear::MG:
+      case Shear::MG_FR:
+      case Shear::MICROPOLAR:
+        return (1.0 + 2.0 / n) * mu;
+      case Shear::MORRIS:
+        return (2.0 / n - 1.0) * mu;
+      case Shear::ESPANOL:
+        return (2.0 / n - (n + 1.0) / (n + 3.0)) * mu;
+      default:
+        return 0.0;
+    }
+  }
+
+  // Largest eigenvalues of the friction matrix on lattices of 1, 2, 3 dimensions, for all kernels, in order
+  // and in disorder, and next to walls (Morris), in units of nu/h^2
+  inline double shear_rate(Shear shear)
+  {
+    switch (shear) {
+      case Shear::MG:
+        return 21.0;
+      case Shear::MG_FR:
+        return 17.0;
+      case Shear::MORRIS:
+        return 8.0;
+      case Shear::ESPANOL:
+        return 10.0;
+      default:
+        return 0.0;
+    }
+  }
+
+  // rate of two terms, along e and along the difference itself, which act on what has this inertia per volume
+  inline double rate_of_terms(int n, double hsq, double inertia, double along_r, double along_u)
+  {
+    const double mg = std::max(along_r, 0.0) / shear_factor(Shear::MG, n, 1.0);
+    const double morris = along_u / shear_factor(Shear::MORRIS, n, 1.0);
+    return (shear_rate(Shear::MG) * mg + shear_rate(Shear::MORRIS) * morris) / (inertia * hsq);
+  }
+
+  // prefactor of (u.e)^2 in the dissipation of a pair at distance r, in units of F V_i V_j, of all channels
+  SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
+  {
+    return (shear == Shear::MG_FR) ? coeff.a[ALONG_R] * r
+                                   : coeff.a[ALONG_R] + coeff.a[ALONG_U] + coeff.a[ZETA2];
+  }
+
+  struct ShearChannel : BaseChannel {
+    static constexpr const char *NAME = "shear";
+
+    // micropolar: mu = zeta1/(2(n+2)) + zeta2/4, mu_r = zeta2/4; P3 (29)-(32) with the bulk term
+    static void add_coefficients(const PairFluid &fluid, PairCoeff &coeff)
+    {
+      const double mu = fluid.viscosity[MU];
+      if (fluid.shear == Shear::MICROPOLAR) {
+        coeff.a[ALONG_R] += 2.0 * (fluid.dim + 2) * (mu - fluid.viscosity[MU_R]);
+        return;
+      }
+      const double drag = shear_factor(fluid.shear, fluid.dim, fluid.mean_radius) * mu;
+      if (fluid.shear != Shear::MORRIS) coeff.a[ALONG_R] += drag;
+      if (fluid.shear == Shear::MORRIS || fluid.shear == Shear::ESPANOL) coeff.a[ALONG_U] += drag;
+    }
+    static void add_friction(const PairCoeff &coeff, PairFriction &friction)
+    {
+      friction.along += coeff.a[ALONG_R] + coeff.a[ALONG_U];
+      friction.across += coeff.a[ALONG_U];
+    }
+    template <class Add>
+    static void add_columns(const PairFluid &fluid, const PairCoeff &coeff, Add &&add)
+    {
+      if (fluid.shear == Shear::MICROPOLAR)
+        add("zeta1", coeff.a[ALONG_R]);
+      else
+        add("shear_coeff", std::max(coeff.a[ALONG_R], coeff.a[ALONG_U]));
+    }
+    static double intrinsic_kappa(const PairFluid &fluid)
+    {
+      return SPHDissipation::intrinsic_kappa(fluid.shear, fluid.dim, fluid.viscosity[MU]);
+    }
+    static const char *inadmissible(const PairFluid &fluid)
+    {
+      return (fluid.viscosity[MU] >= 0.0) ? nullptr : "mu must be >= 0";
+    }
+    static double rate(const PairFluid &fluid, const PairCoeff &coeff, const PairInertia &inertia)
+    {
+      if (fluid.shear == Shear::MICROPOLAR)
+        return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho, coeff.a[ALONG_R], coeff.a[ZETA2]);
+      return shear_rate(fluid.shear) * fluid.viscosity[MU] / inertia.rho / inertia.hsq;
+    }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

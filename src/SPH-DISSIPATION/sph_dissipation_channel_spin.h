@@ -1,0 +1,83 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// Spin viscosities gamma1, gamma2 of a micropolar fluid: diffusion of the spin between particles.
+// Included by sph_dissipation_channels.h, which has the notation.
+
+#ifdef CHANNEL_TERMS
+
+// torque F V_i V_j [xi1 (s.e) e + xi2 s] on j, opposite on i, with s = w_i - w_j; P3 (18)
+struct SpinDiffusion : PairTerm<XI1, XI2> {
+  static constexpr bool VECTOR = true, SPINS = true;
+  template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
+  {
+    const auto along = dot(pair.r, pair.s);
+    const auto drag1 = pair.coeff[XI1] * pair.by_metric * along;
+    const auto drag2 = pair.coeff[XI2] * pair.vv;
+    for (int d = 0; d < 3; d++) pair.spin[d] = drag1 * pair.r[d] + drag2 * pair.s[d];
+    pair.heat[DIFFUSION] = 0.5 * (drag1 * along + drag2 * dot(pair.s, pair.s));
+  }
+};
+
+#else
+
+#ifndef LMP_SPH_DISSIPATION_CHANNEL_SPIN_H
+#define LMP_SPH_DISSIPATION_CHANNEL_SPIN_H
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  struct SpinChannel : BaseChannel {
+    static constexpr const char *NAME = "spin";
+    static constexpr bool SPINS = true;
+
+    // inverse of gamma1 = xi1/10 + xi2/2, gamma2 = xi1/10 - xi2/2 (n = 3), gamma1 = -gamma2 = xi2/2 (n = 2)
+    static void add_coefficients(const PairFluid &fluid, PairCoeff &coeff)
+    {
+      const double gamma1 = fluid.viscosity[GAMMA1], gamma2 = fluid.viscosity[GAMMA2];
+      if (fluid.dim == 3) coeff.a[XI1] += 5.0 * (gamma1 + gamma2);
+      coeff.a[XI2] += gamma1 - gamma2;
+    }
+    static void add_friction(const PairCoeff &coeff, PairFriction &friction)
+    {
+      friction.spin_along += coeff.a[XI1] + coeff.a[XI2];
+      friction.spin_across += coeff.a[XI2];
+    }
+    template <class Add>
+    static void add_columns(const PairFluid &, const PairCoeff &coeff, Add &&add)
+    {
+      add("xi1", coeff.a[XI1]);
+      add("xi2", coeff.a[XI2]);
+    }
+
+    // xi1 + xi2 >= 0, too; one spin viscosity in two dimensions
+    static const char *inadmissible(const PairFluid &fluid)
+    {
+      const double gamma1 = fluid.viscosity[GAMMA1], gamma2 = fluid.viscosity[GAMMA2];
+      const bool flat = (fluid.dim == 2);
+      if (flat && gamma2 != -gamma1) return "gamma2 must be -gamma1 in 2d";
+      if (!(gamma1 - gamma2 >= 0.0)) return "gamma1 - gamma2 must be >= 0";
+      if (!(flat || 6.0 * gamma1 + 4.0 * gamma2 >= 0.0)) return "6 gamma1 + 4 gamma2 must be >= 0";
+      return nullptr;
+    }
+    static double rate(const PairFluid &fluid, const PairCoeff &coeff, const PairInertia &inertia)
+    {
+      return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho_inertia, coeff.a[XI1], coeff.a[XI2]);
+    }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,87 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// Vortex viscosity mu_r of a micropolar fluid: drag along the velocity of slip at the point of contact,
+// which couples spin and flow.
+// Included by sph_dissipation_channels.h, which has the notation.
+
+#ifdef CHANNEL_TERMS
+
+// -a F V_i V_j u* and half of its torque for each particle, the same on both: 1/2 a F V_i V_j r x u*, P3 (18)
+struct Slip : PairTerm<ZETA2> {
+  static constexpr bool VECTOR = true, SPINS = true;
+  template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
+  {
+    const auto drag = pair.coeff[ZETA2] * pair.vv;
+    const auto half = 0.5 * drag;
+    const auto *const r = pair.r, *const u = pair.u;
+    for (int d = 0; d < 3; d++) pair.f[d] -= drag * u[d];
+    pair.t[0] = half * (r[1] * u[2] - r[2] * u[1]);
+    pair.t[1] = half * (r[2] * u[0] - r[0] * u[2]);
+    pair.t[2] = half * (r[0] * u[1] - r[1] * u[0]);
+    pair.heat[VORTEX] = half * dot(u, u);
+  }
+};
+
+#else
+
+#ifndef LMP_SPH_DISSIPATION_CHANNEL_VORTEX_H
+#define LMP_SPH_DISSIPATION_CHANNEL_VORTEX_H
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // relaxation of the spin to the vorticity, in units of zeta2/(rho I)
+  constexpr double VORTEX_RATE = 1.0;
+
+  struct VortexChannel : BaseChannel {
+    static constexpr const char *NAME = "vortex";
+    static constexpr bool SPINS = true;
+
+    static void add_coefficients(const PairFluid &fluid, PairCoeff &coeff)    // P3 (29)-(32)
+    {
+      coeff.a[ZETA2] += 4.0 * fluid.viscosity[MU_R];
+    }
+    static void add_friction(const PairCoeff &coeff, PairFriction &friction)
+    {
+      friction.along += coeff.a[ZETA2];
+      friction.across += coeff.a[ZETA2];
+    }
+    template <class Add>
+    static void add_columns(const PairFluid &, const PairCoeff &coeff, Add &&add)
+    {
+      add("zeta2", coeff.a[ZETA2]);
+    }
+    static double intrinsic_kappa(const PairFluid &fluid)    // lambda = mu - mu_r
+    {
+      return -fluid.viscosity[MU_R];
+    }
+    static const char *inadmissible(const PairFluid &fluid)    // along_r + zeta2 >= 0, too
+    {
+      const double mu_r = fluid.viscosity[MU_R];
+      if (!(mu_r >= 0.0)) return "mu_r must be >= 0";
+      if (!(fluid.dim * mu_r <= (fluid.dim + 2) * fluid.viscosity[MU] * (1.0 + 1.0e-14)))
+        return "mu_r must be <= mu (1 + 2/n)";
+      return nullptr;
+    }
+    static double rate(const PairFluid &, const PairCoeff &coeff, const PairInertia &inertia)
+    {
+      return VORTEX_RATE * coeff.a[ZETA2] / inertia.rho_inertia;
+    }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,281 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// The dissipative channels of a fluid.  Its dissipation function is a sum of terms, and a term is a rate,
+// a coefficient, and a weight: each channel has them in a header of its own, and stands here in the lists
+// that everything else goes through.
+//
+// mu = shear viscosity, kappa = bulk viscosity, stress = 2 mu dev(E) + kappa tr(E), both in
+// pressure * time (in dimension n = 1 kappa is the longitudinal viscosity).
+//
+// Micropolar fluid: mu_r = vortex (microrotation) viscosity in the units of mu, gamma1 and gamma2 =
+// spin viscosities in units of mu * length^2,
+//   rho du/dt = ... + (mu + mu_r) lap u + (mu + lambda - mu_r) grad div u + 2 mu_r curl Omega,
+//   rho I dOmega/dt = -2 mu_r (2 Omega - curl u) + gamma1 lap Omega + (gamma1 + gamma2) grad div Omega.
+//
+// P1 = Bonet Avalos, Antuono, Colagrossi, Souto-Iglesias, Phys. Rev. E 101, 013302 (2020)
+// P2 = Colagrossi, Durante, Souto-Iglesias, Bonet Avalos, constitutive properties of the SPH bulk
+//      viscosity
+// P3 = Souto-Iglesias, Bonet Avalos, Antuono, Colagrossi, SPHERIC 2022; Phys. Rev. E 104, 015315
+//      (2021)
+//
+// This header and those of the channels have two parts, as the headers of LAMMPS's styles.  With
+// CHANNEL_TERMS: the terms of a pair, for the loops, which include it in more than one namespace.
+// Without: all else.  No LAMMPS include.
+
+#ifdef CHANNEL_TERMS
+
+#include "sph_dissipation_channel_bulk.h"
+#include "sph_dissipation_channel_shear.h"
+#include "sph_dissipation_channel_spin.h"
+#include "sph_dissipation_channel_vortex.h"
+
+// the terms that the loops of each form of the shear force have
+template <Shear SHEAR, class... Term> struct Form {
+  static constexpr Shear shear = SHEAR;
+  static constexpr bool CENTRAL = (Term::CENTRAL || ...);
+  static constexpr bool VECTOR = (Term::VECTOR || ...);
+  static constexpr bool BY_DISTANCE = (Term::BY_DISTANCE || ...);
+  static constexpr bool SPINS = (Term::SPINS || ...);
+  static constexpr bool uses(int coefficient)
+  {
+    return ((coefficient >= Term::FIRST && coefficient <= Term::LAST) || ...);
+  }
+  template <class Pair> static SPH_INLINE void add_central(Pair &pair)
+  {
+    (Term::add_central(pair), ...);
+  }
+  template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
+  {
+    (Term::add_vector(pair), ...);
+  }
+};
+
+// call function(Form()) of that form
+template <class Function> void with_form(Shear shear, Function &&function)
+{
+  switch (shear) {
+    case Shear::MG:
+      return function(Form<Shear::MG, AlongR<false>>());
+    case Shear::MG_FR:
+      return function(Form<Shear::MG_FR, AlongR<true>>());
+    case Shear::MORRIS:
+      return function(Form<Shear::MORRIS, AlongU>());
+    case Shear::ESPANOL:
+      return function(Form<Shear::ESPANOL, AlongR<false>, AlongU>());
+    case Shear::MICROPOLAR:
+      return function(Form<Shear::MICROPOLAR, AlongR<false>, Slip, SpinDiffusion>());
+    default:
+      return function(Form<Shear::NONE>());
+  }
+}
+
+#else
+
+#ifndef LMP_SPH_DISSIPATION_CHANNELS_H
+#define LMP_SPH_DISSIPATION_CHANNELS_H
+
+#include "sph_dissipation_function.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // where the fluid turns motion into heat: order of compute sph/dissipation
+  enum Channel { SHEAR, BULK, VORTEX, DIFFUSION, NCHANNEL };    // diffusion of the spin
+
+  // viscosities of the pairs of types, in the order of pair_coeff
+  enum Viscosity { MU, MU_R, GAMMA1, GAMMA2, NVISCOSITY };
+  constexpr const char *VISCOSITY_NAMES[] = {"mu", "mu_r", "gamma1", "gamma2"};
+  inline int number_of_viscosities(bool spins)
+  {
+    return spins ? NVISCOSITY : MU_R;
+  }
+
+  // Coefficients of the pair terms of two types:
+  //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
+  //   tau_i = 1/2 sum_j F V_i V_j zeta2 r x u* - sum_j F V_i V_j [xi1 (e.dOmega) e + xi2 dOmega]
+  // with F r instead of F before along_r for mg/fr
+  enum Coefficient { ALONG_R, ALONG_U, ZETA2, XI1, XI2, NCOEFF };
+  struct PairCoeff {
+    double a[NCOEFF];
+  };
+
+  // Coefficients of single types, by keyword of pair_coeff, each with its values one after another; another command
+  // may vary the first of them.  The keyword with no name ends the list.
+  enum TypeCoefficient { NTYPECOEFF };
+  struct TypeKeyword {
+    const char *name;
+    int first, count;    // of enum TypeCoefficient
+  };
+  constexpr TypeKeyword TYPE_KEYWORDS[] = {{nullptr, NTYPECOEFF, 0}};
+  struct TypeCoeffs {
+    double a[NTYPECOEFF + 1] = {};
+  };
+
+  // Friction of a pair as a tensor, in units of F V_i V_j (mg/fr: F r V_i V_j): on the velocity of slip and
+  // on the difference of the spins, along e and across it.  The noise is its root.
+  struct PairFriction {
+    double along, across, spin_along, spin_across;
+  };
+
+  enum class Shear;
+
+  // what the coefficients of a pair of types follow from
+  struct PairFluid {
+    Shear shear;
+    int dim;               // of the kernel
+    double mean_radius;    // integral of r W
+    double viscosity[NVISCOSITY];
+    double zeta;        // coefficient of the bulk term, mean of the types
+    TypeCoeffs type;    // the larger ones of both types
+  };
+
+  // inertia of the motion that a channel damps, for its fastest rate
+  struct PairInertia {
+    double hsq;    // square of the length that stability knows, see stability_length_squared()
+    double rho;    // of velocities
+    double rho_inertia;    // of spins
+  };
+
+  // drag of a single particle against a stream, force -b V (u - stream)
+  struct Drag {
+    double b = 0.0;    // pressure * time / length^2
+    double stream[3] = {0.0, 0.0, 0.0};
+  };
+
+  // What a channel does not have is as here
+  struct BaseChannel {
+    static constexpr bool SPINS = false;    // it needs particles that spin
+    // what it puts into the coefficients of a pair; the same as a tensor, for the noise
+    static void add_coefficients(const PairFluid &, PairCoeff &) {}
+    static void add_friction(const PairCoeff &, PairFriction &) {}
+    // call add(name, value) for each column of coefficients in the table of the log
+    template <class Add> static void add_columns(const PairFluid &, const PairCoeff &, Add &&) {}
+    // bulk viscosity that it brings with it
+    static double intrinsic_kappa(const PairFluid &) { return 0.0; }
+    // the inequality that the viscosities of a pair, or the coefficients of a type, violate, or nullptr
+    static const char *inadmissible(const PairFluid &) { return nullptr; }
+    static const char *inadmissible_type(const TypeCoeffs &) { return nullptr; }
+    // rate of its fastest mode, 1/time
+    static double rate(const PairFluid &, const PairCoeff &, const PairInertia &) { return 0.0; }
+
+    // of single particles: force, heat, and noise follow from it
+    SPH_FUNCTION static Drag drag(const TypeCoeffs &) { return {}; }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+// clang-format off
+#include "sph_dissipation_channel_shear.h"
+#include "sph_dissipation_channel_bulk.h"
+#include "sph_dissipation_channel_vortex.h"
+#include "sph_dissipation_channel_spin.h"
+// clang-format on
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // The list of the channels, in the order of enum Channel.  Each of them has a NAME, of its time step in the
+  // table of the log, and the members of BaseChannel; its terms, in the other part of its header, derive
+  // from PairTerm.
+  template <class... One> struct ChannelList {
+    template <class Function> static void visit(bool spins, Function &&function)
+    {
+      ((One::SPINS && !spins ? void() : function(One())), ...);
+    }
+    // sum of the coefficients of drag
+    SPH_FUNCTION static double drag(const TypeCoeffs &type) { return (One::drag(type).b + ...); }
+
+    // add the drag of a particle of volume vol and velocity u to its force and, by channel, to its heat, energy
+    // per time; linear: relative to rest instead of the stream
+    SPH_FUNCTION static void add_drag(const TypeCoeffs &type, double vol, const double *u,
+                                      bool linear, double *force, double *heat)
+    {
+      int channel = 0;
+      (add_drag(One::drag(type), vol, u, linear, force, heat[channel++]), ...);
+    }
+    SPH_FUNCTION static void add_drag(const Drag &drag, double vol, const double *u, bool linear,
+                                      double *force, double &heat)
+    {
+      for (int d = 0; d < 3; d++) {
+        const double slip = u[d] - (linear ? 0.0 : drag.stream[d]);
+        force[d] -= drag.b * vol * slip;
+        heat += drag.b * vol * slip * slip;
+      }
+    }
+  };
+  using Channels = ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel>;
+
+  inline PairCoeff pair_coefficients(const PairFluid &fluid)
+  {
+    PairCoeff coeff = {};
+    Channels::visit(fluid.shear == Shear::MICROPOLAR, [&](auto channel) {
+      channel.add_coefficients(fluid, coeff);
+    });
+    return coeff;
+  }
+  inline PairFriction pair_friction(Shear shear, const PairCoeff &coeff)
+  {
+    PairFriction friction = {};
+    Channels::visit(shear == Shear::MICROPOLAR, [&](auto channel) {
+      channel.add_friction(coeff, friction);
+    });
+    return friction;
+  }
+
+  // bulk viscosity that the pair terms bring with them; P1 (66)
+  inline double intrinsic_kappa(const PairFluid &fluid)
+  {
+    double kappa = 0.0;
+    Channels::visit(fluid.shear == Shear::MICROPOLAR, [&](auto channel) {
+      kappa += channel.intrinsic_kappa(fluid);
+    });
+    return kappa;
+  }
+
+  // the inequality that coefficients by keyword violate, or nullptr
+  inline const char *inadmissible(const TypeCoeffs &type)
+  {
+    const char *violated = nullptr;
+    Channels::visit(true, [&](auto channel) {
+      if (!violated) violated = channel.inadmissible_type(type);
+    });
+    return violated;
+  }
+
+  // the inequality that the viscosities violate, or nullptr if the fluid dissipates: those of a type,
+  // 2 mu |dev E|^2 + kappa (tr E)^2 >= 0, and all those of a pair of types
+  inline const char *inadmissible(double mu, double kappa)
+  {
+    if (!(mu >= 0.0)) return "mu must be >= 0";
+    if (!(kappa >= 0.0)) return "kappa must be >= 0";
+    return nullptr;
+  }
+  inline const char *inadmissible(const PairFluid &fluid)
+  {
+    const char *violated = nullptr;
+    Channels::visit(fluid.shear == Shear::MICROPOLAR, [&](auto channel) {
+      if (!violated) violated = channel.inadmissible(fluid);
+    });
+    return violated;
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

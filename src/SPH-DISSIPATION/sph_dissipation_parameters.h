@@ -1,0 +1,116 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_PARAMETERS_H
+#define LMP_SPH_DISSIPATION_PARAMETERS_H
+
+// What the loops, the stages, the noise, and the device read of the fluid.  No LAMMPS include.
+
+#include "sph_dissipation_channels.h"
+#include "sph_dissipation_eos.h"
+#include "sph_dissipation_kernel.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // number: c_i = sum_j W, V_i = 1/c_i                                         P1 (5)
+  // mass:   c_i = sum_j w_j W, V_i = w_i/c_i with the reference volume w_i = m_i/rho0 of particle i
+  enum class Volume { NUMBER, MASS };
+
+  inline const char *volume_name(Volume volume)
+  {
+    return (volume == Volume::MASS) ? "mass" : "number";
+  }
+
+  // negative coefficients of the bulk term beyond the bound of a particle: let be, count, cut off
+
+  enum class Limit { NO, COUNT, YES };
+
+  // choices of the pair_style command
+
+  struct Settings {
+    Kernel kernel = Kernel::WENDLAND_C2;
+    Eos eos = Eos::LINEAR;
+    Shear shear = Shear::MG;
+    Bulk bulk = Bulk::DENSITY;
+    int dim = 0;    // 0: dimension of the simulation
+    Limit limit = Limit::NO;
+    Volume volume = Volume::NUMBER;
+    bool thermal = false;             // thermal noise
+    double temperature = 0.0;         // of it
+    bool own_temperatures = false;    // each particle has that of its internal energy instead
+    double heat_capacity = 0.0;       // per mass, of types that have none of their own
+    int seed = 0;
+  };
+
+  // of a type
+
+  struct TypeParameters {
+    EosParams eos;
+    double zeta = 0.0;             // coefficient of the bulk term
+    double heat_capacity = 0.0;    // per mass
+    TypeCoeffs keywords;           // of the channels
+    int other = 1;                 // its particles belong to another style of pair_style hybrid
+  };
+
+  // What pair_style and pair_coeff have set and what follows from it, for one run or until a coefficient is
+  // changed.  FluidModel::derive() makes it; all others read it.
+
+  struct Parameters : Settings {
+    double support = 0.0;                // R
+    double self_weight = 0.0;            // W(0)
+    double weight_norm = 0.0;            // W = weight_norm * shape(r/R)
+    double slope_norm = 0.0;             // F = slope_norm * slope(r/R)
+    int ntypes_1 = 1;                    // number of types + 1
+    std::vector<TypeParameters> type;    // by type, from 1
+    std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
+    bool uniform = true;                 // the coefficients of type 1 hold for all pairs
+    bool inviscid = true;                // they are zero
+    bool drag = false;                   // of single particles, of any type
+    bool shared = false;                 // there are types of other styles
+
+    bool spins() const { return shear == Shear::MICROPOLAR; }
+    void set_kernel(Kernel, int dim, double support);
+    void set_uniform();    // uniform and inviscid, from pair
+  };
+
+  inline void Parameters::set_kernel(Kernel kernel_in, int dim_in, double support_in)
+  {
+    kernel = kernel_in;
+    dim = dim_in;
+    support = support_in;
+    self_weight = kernel_weight(kernel, dim, 0.0, support);
+    weight_norm = self_weight / with_kernel(kernel, [](auto k) {
+                    return k.shape(0.0);
+                  });
+    slope_norm = weight_norm / (support * support);
+  }
+
+  inline void Parameters::set_uniform()
+  {
+    uniform = inviscid = true;
+    for (int i = 1; i < ntypes_1; i++)
+      for (int j = 1; j < ntypes_1; j++)
+        for (int k = 0; k < NCOEFF; k++) {
+          const double a = pair[i * ntypes_1 + j].a[k];
+          if (a != pair[ntypes_1 + 1].a[k]) uniform = false;
+          if (a != 0.0) inviscid = false;
+        }
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

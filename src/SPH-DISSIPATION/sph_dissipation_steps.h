@@ -1,0 +1,67 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_STEPS_H
+#define LMP_SPH_DISSIPATION_STEPS_H
+
+// Largest stable time steps, from the rates of the channels.  No LAMMPS include.
+
+#include <algorithm>
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // effective smoothing length for stability: the h of a Wendland C2 kernel (support 2h) with the
+  // same integral of F, which sets the damping rate of the shortest waves
+
+  inline double stability_length_squared(double slope_integral)
+  {
+    return 3.5 / slope_integral;
+  }
+
+  // The forces see the velocity extrapolated to the end of the step, for which a mode of damping rate g is
+  // stable for g dt < 1.  SAFETY is the part of its inverse that each step is.
+
+  constexpr double UNLIMITED_STEP = 1.0e300;
+  constexpr double SAFETY = 0.9;
+
+  inline double viscous_step(double rate)
+  {
+    return (rate > 0.0) ? SAFETY / rate : UNLIMITED_STEP;
+  }
+
+  // Sound: linear waves are stable up to several times this step, but the energy of a fluid far from
+  // equilibrium is not right even at it; J. J. Monaghan, Rep. Prog. Phys. 68, 1703 (2005)
+
+  constexpr double ACOUSTIC = 0.25;
+
+  inline double acoustic_step(double h, double speed)
+  {
+    return (speed > 0.0) ? ACOUSTIC * h / speed : UNLIMITED_STEP;
+  }
+
+  // all limits together: the rates of the viscous terms add
+
+  inline double combined_step(double acoustic, const std::vector<double> &viscous)
+  {
+    double rate = 0.0;
+    for (const double step : viscous)
+      if (step < UNLIMITED_STEP) rate += 1.0 / step;
+    return (rate > 0.0) ? std::min(acoustic, 1.0 / rate) : acoustic;
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,81 @@
+"""The source files stand in layers, and include those of their own layer and of lower ones only: the table of the design
+page says which file is in which layer."""
+
+import re
+from fnmatch import fnmatch
+from functools import lru_cache
+from pathlib import Path
+
+import pytest
+from helpers import ROOT
+
+SOURCES = ROOT / "src" / "SPH-DISSIPATION"
+PAGE = ROOT / "doc" / "src" / "design_sph_dissipation.rst"
+LAYERS = ("styles", "fluid", "stages", "engine", "physics")
+
+
+@lru_cache
+def patterns():
+    """Names of files, without extension, by layer; from the table "layers" of the page."""
+    text = PAGE.read_text()
+    found = {}
+    for layer in LAYERS:
+        row = re.search(rf"^   \* - {layer}$(.*?)(?=^   \* - |^\S)", text, re.M | re.S)
+        assert row, f"the design page has no row for the layer {layer}"
+        found[layer] = re.findall(r"``([\w*]+)``", row[1])
+    return found
+
+
+def layer_of(name):
+    stem = Path(name).stem
+    return [layer for layer in LAYERS if any(fnmatch(stem, one) for one in patterns()[layer])]
+
+
+def files():
+    return sorted(path.name for path in SOURCES.iterdir() if path.suffix in (".h", ".cpp"))
+
+
+@lru_cache
+def includes(name):
+    return re.findall(r'^\s*#include "([^"]+)"', (SOURCES / name).read_text(), re.M)
+
+
+def test_each_file_is_in_one_layer():
+    wrong = {name: layer_of(name) for name in files() if len(layer_of(name)) != 1}
+    assert not wrong
+    for layer, names in patterns().items():
+        for one in names:
+            assert any(fnmatch(Path(name).stem, one) for name in files()), f"{layer}: no file {one}"
+
+
+def test_arrows_point_downwards():
+    upwards = [(name, other) for name in files() for other in includes(name) if other in files()
+               and LAYERS.index(layer_of(other)[0]) < LAYERS.index(layer_of(name)[0])]
+    assert not upwards
+
+
+def test_physics_knows_nothing_of_lammps():
+    foreign = [(name, other) for name in files() if layer_of(name) == ["physics"] for other in includes(name)
+               if other not in files()]
+    assert not foreign
+
+
+def test_no_cycle():
+    """A header and its source file count as one."""
+    graph = {}
+    for name in files():
+        graph.setdefault(Path(name).stem, set()).update(
+            Path(other).stem for other in includes(name) if other in files() and Path(other).stem != Path(name).stem)
+    done = {}
+
+    def visit(stem, path):
+        assert done.get(stem) != "open", f"cycle: {' -> '.join(path[path.index(stem):] + [stem])}"
+        if stem in done:
+            return
+        done[stem] = "open"
+        for other in sorted(graph[stem]):
+            visit(other, path + [stem])
+        done[stem] = "closed"
+
+    for stem in graph:
+        visit(stem, [])
