@@ -17,7 +17,7 @@ import reference
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, pyplot      # noqa: E402
+from run_lammps import Example, pyplot, save      # noqa: E402
 
 # Errors of an independent implementation of the method (numpy, no neighbor lists) with this
 # kernel, support and time integration.  Reached means: not more than 10 % above.

@@ -18,7 +18,7 @@ from scipy.optimize import least_squares
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from lattice_sums import Lattice, period  # noqa: E402
-from run_lammps import Example, pyplot  # noqa: E402
+from run_lammps import Example, pyplot, save  # noqa: E402
 
 KAPPAS = [0, 0.41, 1.67, 2.7, 10, 100, 1000]      # bulk over shear viscosity
 DAMPING = 0.25                                    # damping ratio of the sound waves: c0 is chosen for that
