@@ -194,14 +194,14 @@ template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::shift_on_device()
 {
-  auto crowding = dynamic_cast<FluidKokkos<DeviceType> *>(fluid)->crowding_on_device();
+  auto gradient = dynamic_cast<FluidKokkos<DeviceType> *>(fluid)->gradient_on_device();
   auto x = atomKK->k_x.template view<DeviceType>();
   auto mask = atomKK->k_mask.template view<DeviceType>();
   const double speed = shift_speed, support = fluid->support_radius(), dt = dtv;
   const int bit = groupbit;
   Kokkos::parallel_for(
       "sph:shift", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
-        if (mask(i) & bit) shift_particle(speed, support, dt, &crowding(i, 0), &x(i, 0));
+        if (mask(i) & bit) shift_particle(speed, support, dt, &gradient(i, 0), &x(i, 0));
       });
 }
 

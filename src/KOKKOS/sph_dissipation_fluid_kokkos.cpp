@@ -24,14 +24,13 @@
 #include "sph_dissipation_boundary_kokkos.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_crowding.h"
-#include "sph_dissipation_density.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_loops_kokkos.h"
 #include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
+#include "sph_dissipation_stages.h"
 #include "sph_dissipation_sums_kokkos.h"
 #include "sph_dissipation_threads_kokkos.h"
 
@@ -266,7 +265,7 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
     boundary_device->run(*data, model->choice.kernel, dim, pair->list->inum);
     send_boundary();
   }
-  if (crowding->wanted) find_crowding();
+  if (shift->wanted) find_gradient();
   run_forces(tally);
   atomKK->modified(pair->execution_space, FLUID_MODIFIED);
 
@@ -309,7 +308,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
   }
   auto h_types = Kokkos::create_mirror_view(*types);
   auto h_coeff = Kokkos::create_mirror_view(data->coeff);
-  for (int i = 1; i < n; i++) h_types(i) = {par.type[i].eos, par.type[i].zeta, par.type[i].keywords};
+  for (int i = 1; i < n; i++)
+    h_types(i) = {par.type[i].eos, par.type[i].zeta, par.type[i].keywords};
   for (int k = 0; k < n * n; k++) h_coeff(k) = par.pair[k];
   Kokkos::deep_copy(*types, h_types);
   Kokkos::deep_copy(data->coeff, h_coeff);
@@ -493,15 +493,15 @@ template <class DeviceType> int FluidKokkos<DeviceType>::beyond_bound_of_limit()
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::find_crowding()
+template <class DeviceType> void FluidKokkos<DeviceType>::find_gradient()
 {
-  if ((int) crowding_of.extent(0) < atom->nmax) {
-    crowding_of = {};
-    crowding_of = decltype(crowding_of)(Kokkos::NoInit("sph:crowding"), atom->nmax);
+  if ((int) gradient_of.extent(0) < atom->nmax) {
+    gradient_of = {};
+    gradient_of = decltype(gradient_of)(Kokkos::NoInit("sph:gradient"), atom->nmax);
   }
   with_kernel(model->choice.kernel, [&](auto kernel) {
-    Kokkos::parallel_for("sph:crowding", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-                         CrowdingLoopKokkos<DeviceType, decltype(kernel)>{*data, dim, crowding_of});
+    Kokkos::parallel_for("sph:gradient", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
+                         ShiftLoopKokkos<DeviceType, decltype(kernel)>{*data, dim, gradient_of});
   });
 }
 
@@ -652,7 +652,7 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
       (sizeof(Particle) + sizeof(DensitySum) + 3 * sizeof(double));
   return bytes + (double) data->weight.extent(0) * sizeof(double) +
       boundary_device->memory_usage() +
-      (double) (bound.size() + crowding_of.size()) * sizeof(double);
+      (double) (bound.size() + gradient_of.size()) * sizeof(double);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -59,8 +59,8 @@ namespace SPHDissipation {
     void announce() override;
     double memory_usage() const override;
 
-    typedef Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> Crowding;
-    Crowding crowding_on_device() const { return crowding_of; }    // of owned particles
+    typedef Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> Gradient;
+    Gradient gradient_on_device() const { return gradient_of; }    // of owned particles
 
     // of compute(); public because CUDA asks for it of functions with lambdas
 
@@ -69,7 +69,7 @@ namespace SPHDissipation {
     void set_state();
     void find_bound();
     int beyond_bound_of_limit() const;
-    void find_crowding();
+    void find_gradient();
     void run_density();
     void run_forces(bool virial);
 
@@ -88,7 +88,7 @@ namespace SPHDissipation {
     std::unique_ptr<LoopDataKokkos<DeviceType>> data;
     std::unique_ptr<Kokkos::View<TypeKokkos *, DeviceType>> types;
     Kokkos::View<double *, DeviceType> bound;    // of the limit, see LimitStage
-    Crowding crowding_of;
+    Gradient gradient_of;
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
 
     bool has_own_forces() const override;

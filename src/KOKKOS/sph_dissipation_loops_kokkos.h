@@ -69,8 +69,8 @@ namespace SPHDissipation {
 
     typename AT::t_int_1d type, mask;
     Kokkos::View<TypeKokkos *, DeviceType> types;
-    bool drag;        // of single particles
-    int not_fluid;    // groups whose particles have none
+    bool drag;                              // of single particles
+    int not_fluid;                          // groups whose particles have none
     typename AT::t_kkacc_1d_3 f, torque;    // torque: micropolar
     Kokkos::View<double *, Kokkos::LayoutRight, DeviceType> desph;
     Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> vatom;    // if it is asked for

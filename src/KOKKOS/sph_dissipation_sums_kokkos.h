@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 #define LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 
-// Further sums over the pairs of each particle: as classes LimitStage and CrowdingStage of the CPU styles
+// Further sums over the pairs of each particle: as classes LimitStage and ShiftStage of the CPU styles
 
 #include "sph_dissipation_loops_kokkos.h"
 #include "sph_dissipation_shift_terms.h"
@@ -62,10 +62,10 @@ namespace SPHDissipation {
     }
   };
 
-  template <class DeviceType, class K> struct CrowdingLoopKokkos {
+  template <class DeviceType, class K> struct ShiftLoopKokkos {
     LoopDataKokkos<DeviceType> data;
     int dim;
-    Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> crowding;
+    Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> gradient;
 
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
     {
@@ -75,10 +75,10 @@ namespace SPHDissipation {
       for_neighbors(data, i, [&](int j, const double *r, double rsq) {
         const double q = Kokkos::sqrt(rsq) / data.support;
         const double push = data.particle(j).vol *
-            crowding_push(data.slope_norm * K::slope(q), K::shape(q), contact);
+            concentration_push(data.slope_norm * K::slope(q), K::shape(q), contact);
         for (int d = 0; d < 3; d++) sum[d] += push * r[d];
       });
-      for (int d = 0; d < 3; d++) crowding(i, d) = sum[d];
+      for (int d = 0; d < 3; d++) gradient(i, d) = sum[d];
     }
   };
 

@@ -20,7 +20,7 @@
 #include "memory.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_fluid.h"
-#include "sph_dissipation_forces.h"
+#include "sph_dissipation_stages.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;

@@ -22,13 +22,12 @@
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_crowding.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_integrate.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_shift_terms.h"
-#include "sph_dissipation_suffix.h"
+#include "sph_dissipation_stages.h"
 #include "sph_dissipation_viscous.h"
 #include "sph_dissipation_viscous_keywords.h"
 #include "update.h"
@@ -42,6 +41,13 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
+
+// the style of which another one, with the suffix of an accelerator package of LAMMPS, is a variant
+
+static std::string without_suffix(const std::string &style)
+{
+  return style.substr(0, style.find("/kk"));
+}
 
 namespace {
 
@@ -180,7 +186,7 @@ void FixSPHBulk::init()
                  "Fix {} shift needs the forces of pair style {}, which pair_modify compute no "
                  "leaves out",
                  style, style);
-    fluid->crowding->wanted = true;
+    fluid->shift->wanted = true;
   }
 
   init_viscous();
@@ -661,7 +667,7 @@ void FixSPHBulk::shift_particles()
   const int nlocal = nlocal_group();
   for (int i = 0; i < nlocal; i++)
     if (atom->mask[i] & groupbit)
-      shift_particle(shift_speed, support, dtv, fluid->crowding->crowding[i], atom->x[i]);
+      shift_particle(shift_speed, support, dtv, fluid->shift->gradient[i], atom->x[i]);
 }
 
 /* ----------------------------------------------------------------------

@@ -23,19 +23,15 @@
 #include "pair_hybrid.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_crowding.h"
-#include "sph_dissipation_density.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
-#include "sph_dissipation_forces.h"
 #include "sph_dissipation_kernel.h"
-#include "sph_dissipation_limit.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_noise.h"
 #include "sph_dissipation_open_stage.h"
-#include "sph_dissipation_pressure.h"
+#include "sph_dissipation_stages.h"
 #include "sph_dissipation_state.h"
 #include "sph_dissipation_viscous.h"
 #include "update.h"
@@ -61,7 +57,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     pressure(new PressureStage(lmp, *engine, *exchange)),
     forces(new ForceStage(lmp, *engine, *exchange)), open(new OpenStage(lmp, *engine, *exchange)),
     boundary(new BoundaryStage(lmp, *engine, *exchange, *model, style)),
-    crowding(new CrowdingStage(lmp, *engine, *exchange)),
+    shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, *model)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *model, *pressure, *boundary)),
     continued(false), dim(0), support(0.0), stale(false), set_up(false), announced(false),
@@ -105,7 +101,7 @@ void Fluid::coeff(int narg, char **arg)
 
 void Fluid::init()
 {
-  crowding->wanted = continued = false;
+  shift->wanted = continued = false;
   viscous->configure(ViscousSettings(), 0, style);
   check_setup();
   derive_coeffs();
@@ -208,7 +204,7 @@ bigint Fluid::compute(PairTally *tally)
   else if (viscous->active())
     find_viscous_velocity();
   const bigint nbeyond = sum_before_forces();
-  if (crowding->wanted) crowding->run();
+  if (shift->wanted) shift->run();
   sum_forces(tally);
   if (!open->empty()) open->sum_impacts(pair->list);
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
@@ -369,7 +365,7 @@ void Fluid::report()
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", style, model->summary(dim, support),
                      engine->instruction_set(), table.text(update->dt), state.table());
     check_sizes(lmp, style, *model, not_fluid());
-    state.warn(style, crowding->wanted);
+    state.warn(style, shift->wanted);
   }
   announced = true;
   if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
@@ -528,6 +524,6 @@ bool Fluid::has_type(int type) const
 double Fluid::memory_usage() const
 {
   return engine->memory_usage() + limit->memory_usage() + open->memory_usage() +
-      boundary->memory_usage() + crowding->memory_usage() + noise->memory_usage() +
+      boundary->memory_usage() + shift->memory_usage() + noise->memory_usage() +
       viscous->memory_usage();
 }

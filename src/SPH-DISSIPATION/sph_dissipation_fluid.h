@@ -28,7 +28,7 @@ class Pair;
 namespace SPHDissipation {
 
   class BoundaryStage;
-  class CrowdingStage;
+  class ShiftStage;
   class DensityStage;
   class Engine;
   class Exchange;
@@ -72,7 +72,7 @@ namespace SPHDissipation {
 
     const std::unique_ptr<OpenStage> open;
     const std::unique_ptr<BoundaryStage> boundary;
-    const std::unique_ptr<CrowdingStage> crowding;
+    const std::unique_ptr<ShiftStage> shift;
     const std::unique_ptr<NoiseStage> noise;
     const std::unique_ptr<ViscousStage> viscous;
 

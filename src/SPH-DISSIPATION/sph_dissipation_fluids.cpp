@@ -50,8 +50,8 @@ static bool read_line(FILE *fp, std::string &line)
    the fluid of one line
 ------------------------------------------------------------------------- */
 
-static Fluid fluid_of_line(LAMMPS *lmp, const std::string &where,
-                           const std::vector<std::string> &words)
+static FluidLine fluid_of_line(LAMMPS *lmp, const std::string &where,
+                               const std::vector<std::string> &words)
 {
   Error *error = lmp->error;
   if (words.size() != NCOLUMN)
@@ -63,7 +63,7 @@ static Fluid fluid_of_line(LAMMPS *lmp, const std::string &where,
     value[k] = utils::is_double(words[k]) ? strtod(words[k].c_str(), nullptr) : NAN;
     if (!std::isfinite(value[k])) error->one(FLERR, "{}: '{}' is not a number", where, words[k]);
   }
-  const Fluid fluid = {value[1], value[2], value[3], value[4], value[5]};
+  const FluidLine fluid = {value[1], value[2], value[3], value[4], value[5]};
 
   if (!(fluid.rho > 0.0)) error->one(FLERR, "{}: rho must be > 0, not {}", where, words[2]);
   if (!(fluid.c > 0.0)) error->one(FLERR, "{}: c must be > 0, not {}", where, words[3]);
@@ -74,10 +74,10 @@ static Fluid fluid_of_line(LAMMPS *lmp, const std::string &where,
 
 /* ---------------------------------------------------------------------- */
 
-Fluid SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const std::string &name)
+FluidLine SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const std::string &name)
 {
   Error *error = lmp->error;
-  Fluid fluid = {};
+  FluidLine fluid = {};
 
   if (lmp->comm->me == 0) {
     FILE *fp = utils::open_potential(file, lmp, nullptr);
@@ -95,7 +95,7 @@ Fluid SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const std
       number++;
       const auto words = Tokenizer(utils::trim_comment(line)).as_vector();
       if (words.empty()) continue;
-      const Fluid one = fluid_of_line(lmp, fmt::format("{}:{}", file, number), words);
+      const FluidLine one = fluid_of_line(lmp, fmt::format("{}:{}", file, number), words);
       if (line_of.count(words[0]))
         error->one(FLERR, "{}:{}: fluid {} stands already in line {}", file, number, words[0],
                    line_of[words[0]]);
@@ -108,6 +108,6 @@ Fluid SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const std
       error->one(FLERR, "No fluid {} in file {}, which has:{}", name, file, known);
   }
 
-  MPI_Bcast(&fluid, sizeof(Fluid), MPI_BYTE, 0, lmp->world);
+  MPI_Bcast(&fluid, sizeof(FluidLine), MPI_BYTE, 0, lmp->world);
   return fluid;
 }

@@ -23,7 +23,7 @@ namespace SPHDissipation {
 
   // one line of a file of fluids, in the units that the file declares
 
-  struct Fluid {
+  struct FluidLine {
     double temperature;
     double rho;      // density
     double c;        // sound speed
@@ -35,7 +35,7 @@ namespace SPHDissipation {
   // ranks, rank 0 reads.  Errors name the file and the line: a word that is not a number, a value
   // that no fluid can have, a missing column, a name that stands twice or not at all, other units.
 
-  Fluid read_fluid(LAMMPS *, const std::string &file, const std::string &name);
+  FluidLine read_fluid(LAMMPS *, const std::string &file, const std::string &name);
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

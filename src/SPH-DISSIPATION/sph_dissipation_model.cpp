@@ -349,7 +349,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
 
 int FluidModel::fluid_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi, int **setflag)
 {
-  const Fluid fluid = read_fluid(lmp, arg[2], arg[3]);
+  const FluidLine fluid = read_fluid(lmp, arg[2], arg[3]);
   std::vector<std::string> words = {arg[0], arg[1]};
   for (double value : {fluid.rho, fluid.c, fluid.mu, fluid.kappa})
     words.push_back(fmt::format("{:.17g}", value));

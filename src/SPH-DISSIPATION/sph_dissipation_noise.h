@@ -15,7 +15,7 @@
 #define LMP_SPH_DISSIPATION_NOISE_H
 
 #include "sph_dissipation_noise_data.h"
-#include "sph_dissipation_stage.h"
+#include "sph_dissipation_stages.h"
 
 #include <cstdint>
 #include <vector>

@@ -15,7 +15,7 @@
 #define LMP_SPH_DISSIPATION_OPEN_STAGE_H
 
 #include "sph_dissipation_engine.h"
-#include "sph_dissipation_stage.h"
+#include "sph_dissipation_stages.h"
 
 #include <vector>
 

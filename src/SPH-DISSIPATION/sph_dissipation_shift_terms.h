@@ -33,27 +33,27 @@ namespace SPHDissipation {
     return 1.0 / K::shape((q < 0.9) ? q : 0.9);
   }
 
-  // weight of a pair of slope F and this shape of the kernel in the crowding
+  // weight of a pair of slope F and this shape of the kernel in the gradient
   //   sum_j V_j F [1 + 0.2 (W/W(spacing))^4] r_ij,
   // whose second term keeps particles from pairing
 
-  SPH_FUNCTION double crowding_push(double slope, double shape, double contact)
+  SPH_FUNCTION double concentration_push(double slope, double shape, double contact)
   {
     constexpr double PAIRING = 0.2;
     const double close = shape * contact * shape * contact;
     return slope * (1.0 + PAIRING * close * close);
   }
 
-  // displacement in a time dt: Fickian, with the velocity U R crowding, at most U/2
+  // displacement in a time dt: Fickian, with the velocity U R gradient, at most U/2
 
-  SPH_FUNCTION void shift_particle(double speed, double support, double dt, const double *crowding,
+  SPH_FUNCTION void shift_particle(double speed, double support, double dt, const double *gradient,
                                    double *x)
   {
     const double scale = speed * support;
     const double wanted = scale *
-        sqrt(crowding[0] * crowding[0] + crowding[1] * crowding[1] + crowding[2] * crowding[2]);
+        sqrt(gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2]);
     const double limit = (wanted > 0.5 * speed) ? 0.5 * speed / wanted : 1.0;
-    for (int d = 0; d < 3; d++) x[d] += dt * limit * scale * crowding[d];
+    for (int d = 0; d < 3; d++) x[d] += dt * limit * scale * gradient[d];
   }
 
 }    // namespace SPHDissipation

@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_STATE_H
 #define LMP_SPH_DISSIPATION_STATE_H
 
-#include "sph_dissipation_stage.h"
+#include "sph_dissipation_stages.h"
 
 #include <string>
 #include <vector>

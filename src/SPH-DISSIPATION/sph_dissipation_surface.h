@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_SURFACE_H
 #define LMP_SPH_DISSIPATION_SURFACE_H
 
-#include "sph_dissipation_stage.h"
+#include "sph_dissipation_stages.h"
 
 #include <vector>
 

@@ -13,7 +13,7 @@
 
 #include "sph_dissipation_table.h"
 
-#include "sph_dissipation_rkl2.h"
+#include "sph_dissipation_solvers.h"
 #include "utils.h"
 
 #include <algorithm>

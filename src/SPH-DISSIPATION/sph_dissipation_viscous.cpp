@@ -23,8 +23,8 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_integrate.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_pressure.h"
-#include "sph_dissipation_rkl2.h"
+#include "sph_dissipation_stages.h"
+#include "sph_dissipation_solvers.h"
 #include "update.h"
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 #include "sph_dissipation_viscous_keywords.h"
 
 #include "error.h"
-#include "sph_dissipation_rkl2.h"
+#include "sph_dissipation_solvers.h"
 #include "utils.h"
 
 using namespace LAMMPS_NS;

@@ -15,7 +15,7 @@
 #define LMP_SPH_DISSIPATION_VISCOUS_KEYWORDS_H
 
 #include "pointers.h"
-#include "sph_dissipation_viscous_settings.h"
+#include "sph_dissipation_viscous.h"
 
 #include <string>
 

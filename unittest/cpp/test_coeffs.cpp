@@ -27,7 +27,7 @@
 
 using namespace LAMMPS_NS::SPHDissipation;
 
-static constexpr Shear SHEAR[] = {Shear::MG, Shear::MG_FR, Shear::MORRIS, Shear::ESPANOL};
+static constexpr Shear FORMS[] = {Shear::MG, Shear::MG_FR, Shear::MORRIS, Shear::ESPANOL};
 
 /* ---------------------------------------------------------------------- */
 
@@ -91,7 +91,7 @@ static long double continuum_force(Shear shear, Kernel kernel, int n, bool longi
 TEST(Coeffs, shear_and_intrinsic_bulk_viscosity_of_the_continuum)
 {
   for (const Kernel kernel : {Kernel::WENDLAND_C2, Kernel::CUBIC, Kernel::WENDLAND_C6}) {
-    for (const Shear shear : SHEAR) {
+    for (const Shear shear : FORMS) {
       for (int n = 1; n <= 3; n++) {
         SCOPED_TRACE(std::string(shear_name(shear)) + " n = " + std::to_string(n));
         if (n > 1) { EXPECT_NEAR(continuum_force(shear, kernel, n, false), 2.0, 1e-13); }
@@ -293,7 +293,7 @@ TEST(TimeStep, viscous_limits_against_damping_rates)
             stability_length_squared(kernel_slope_integral(kernel, n, model.support));
 
         std::vector<double> products;
-        for (const Shear shear : SHEAR)
+        for (const Shear shear : FORMS)
           products.push_back(largest_rate(system.shear(shear_name(shear)).R) *
                              shear_step(shear, hsq, 1.0));
         products.push_back(largest_rate(system.bulk("density", "none").R) * bulk_step(hsq, 1.0));

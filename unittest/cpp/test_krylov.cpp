@@ -8,8 +8,7 @@
 
 // Solvers of (M + h Gamma) x = b against Eigen, and the stages of RKL2 against the exponential
 
-#include "sph_dissipation_krylov.h"
-#include "sph_dissipation_rkl2.h"
+#include "sph_dissipation_solvers.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

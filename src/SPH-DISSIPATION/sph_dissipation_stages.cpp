@@ -1,0 +1,355 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_stages.h"
+
+#include "atom.h"
+#include "force.h"
+#include "memory.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
+#include "sph_dissipation_particle_terms.h"
+#include "sph_dissipation_shift_terms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   particles of other styles keep their density
+------------------------------------------------------------------------- */
+
+void DensityStage::run(NeighList *list, double **vest, double **omegaest)
+{
+  engine.accumulate_density(list, vest, omegaest);
+
+  DensitySum *const density = engine.density;
+  const Field sums = field(density, &density->c, 2);
+  exchange.reverse({sums});
+  if (engine.parameters().eos == Eos::IDEAL)    // which needs the energy of ghost atoms
+    exchange.forward({sums, {atom->esph, 1, 1}});
+  else
+    exchange.forward({sums});
+
+  const double *const rmass = atom->rmass;
+  const int *const type = atom->type;
+  const Parameters &par = engine.parameters();
+  double *const rho = atom->rho;
+  double *const drho = atom->drho;
+  double *const vfrac = atom->vfrac;
+  const int nall = atom->nlocal + atom->nghost;
+  engine.for_each(nall, [&](int i) {
+    const double weight = engine.weight(i);
+    engine.particle[i].vol = weight / density[i].c;
+    if (par.shared && par.type[type[i]].other) return;
+    const double mass = rmass[i] / weight;
+    rho[i] = mass * density[i].c;
+    drho[i] = mass * density[i].cdot;
+    vfrac[i] = engine.particle[i].vol;
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+LimitStage::LimitStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
+    Stage(lmp, engine, exchange), bound(nullptr), nmax(0)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+LimitStage::~LimitStage()
+{
+  memory->destroy(bound);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LimitStage::run()
+{
+  if (nmax < atom->nmax) {
+    nmax = atom->nmax;
+    memory->destroy(bound);
+    memory->create(bound, nmax, "sph:bound");
+  }
+  std::fill_n(bound, atom->nlocal + atom->nghost, 0.0);
+
+  const LoopData &pairs = engine.pairs();
+  const Particle *const particle = engine.particle;
+  const int *const type = atom->type;
+  const Parameters &par = engine.parameters();
+
+  engine.visit_pairs([&](int i, int j, bigint entry) {
+    double rsq = 0.0;
+    for (int d = 0; d < 3; d++) {
+      const double del = particle[i].x[d] - particle[j].x[d];
+      rsq += del * del;
+    }
+    if (rsq == 0.0) return;
+    const PairCoeff &c = par.pair[type[i] * par.ntypes_1 + type[j]];
+    const double pair = bound_of_pair(par.shear, c, pairs.slope[entry], rsq);
+    const double ratio = particle[i].vol * engine.weight(j) / (particle[j].vol * engine.weight(i));
+    bound[i] += ratio * ratio * particle[j].vol * pair;
+    bound[j] += particle[i].vol * pair / (ratio * ratio);
+  });
+
+  exchange.reverse({{bound, 1, 1}});
+  exchange.forward({{bound, 1, 1}});
+}
+
+/* ---------------------------------------------------------------------- */
+
+double LimitStage::memory_usage() const
+{
+  return (double) nmax * sizeof(double);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool PressureStage::is_beyond(int i, const double *bound) const
+{
+  return bound && beyond_bound(engine.parameters().type[atom->type[i]].zeta, bound[i]);
+}
+
+double PressureStage::bulk_coefficient(int i, const double *bound) const
+{
+  const Parameters &par = engine.parameters();
+  if (par.limit == Limit::YES && is_beyond(i, bound)) return zeta_at_bound(bound[i]);
+  return par.type[atom->type[i]].zeta;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bigint PressureStage::run(const double *bound, int not_fluid)
+{
+  const double *const rmass = atom->rmass;
+  const double *const rho = atom->rho;
+  const double *const esph = atom->esph;
+  const int *const type = atom->type;
+  const int *const mask = atom->mask;
+  double *const desph = atom->desph;
+  const int nlocal = atom->nlocal;
+  const int nall = nlocal + atom->nghost;
+  const Parameters &par = engine.parameters();
+
+  engine.for_each(nall, [&](int i) {
+    Particle &particle = engine.particle[i];
+    const TypeParameters &of_type = par.type[type[i]];
+    if (of_type.other || (mask[i] & not_fluid)) {
+      engine.zeta_term[i] = particle.g = 0.0;
+      return;
+    }
+
+    const ParticleTerms terms =
+        particle_terms(par.eos, of_type.eos, par.bulk, bulk_coefficient(i, bound), particle.vol,
+                       engine.weight(i), engine.density[i].cdot, rho[i], esph[i] / rmass[i]);
+    engine.zeta_term[i] = terms.zeta_term;
+    particle.g = terms.g;
+    if (i < nlocal) desph[i] += terms.work;
+  });
+
+  bigint nbeyond = 0;
+  if (bound)
+    for (int i = 0; i < nlocal; i++)
+      if (!par.type[type[i]].other && !(mask[i] & not_fluid) && is_beyond(i, bound)) nbeyond++;
+  return nbeyond;
+}
+
+/* ----------------------------------------------------------------------
+   the volume of a particle of an open zone is prescribed, its c is not
+------------------------------------------------------------------------- */
+
+void PressureStage::set_bulk_term(const double *bound, int not_fluid) const
+{
+  const Parameters &par = engine.parameters();
+  const bool by_density = (par.bulk == Bulk::DENSITY);
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+    Particle &particle = engine.particle[i];
+    engine.zeta_term[i] = particle.g = 0.0;
+    if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
+    engine.zeta_term[i] = bulk_coefficient(i, bound) * engine.density[i].cdot / engine.density[i].c;
+    if (by_density) particle.g = pressure_term(engine.zeta_term[i], particle.vol, engine.weight(i));
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PressureStage::elastic_energy(double *each_atom, int not_fluid) const
+{
+  const Parameters &par = engine.parameters();
+  double total = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
+    const double energy = atom->rmass[i] *
+        SPHDissipation::elastic_energy(par.eos, par.type[atom->type[i]].eos, atom->rho[i]);
+    total += energy;
+    if (each_atom) each_atom[i] += energy;
+  }
+  return total;
+}
+
+/* ---------------------------------------------------------------------- */
+
+ShiftStage::ShiftStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
+    Stage(lmp, engine, exchange), wanted(false), gradient(nullptr), nmax(0)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+ShiftStage::~ShiftStage()
+{
+  memory->destroy(gradient);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ShiftStage::run()
+{
+  const int nall = atom->nlocal + atom->nghost;
+  if (nmax < atom->nmax) {
+    nmax = atom->nmax;
+    memory->destroy(gradient);
+    memory->create(gradient, nmax, 3, "sph:gradient");
+  }
+  std::fill_n(&gradient[0][0], 3 * (std::size_t) nall, 0.0);
+  contact.resize(nall);
+
+  const LoopData &pairs = engine.pairs();
+  const int dim = engine.parameters().dim;
+  with_kernel(engine.parameters().kernel, [&](auto k) {
+    for (int i = 0; i < nall; i++)
+      contact[i] =
+          contact_inverse<decltype(k)>(dim, engine.parameters().support, engine.particle[i].vol);
+
+    engine.visit_pairs([&](int i, int j, bigint entry) {
+      const Particle &a = engine.particle[i], &b = engine.particle[j];
+      double r[3], rsq = 0.0;
+      for (int d = 0; d < 3; d++) {
+        r[d] = a.x[d] - b.x[d];
+        rsq += r[d] * r[d];
+      }
+      const double shape = k.shape(sqrt(rsq) / engine.parameters().support);
+      const double push_i = b.vol * concentration_push(pairs.slope[entry], shape, contact[i]);
+      const double push_j = a.vol * concentration_push(pairs.slope[entry], shape, contact[j]);
+      for (int d = 0; d < 3; d++) {
+        gradient[i][d] += push_i * r[d];
+        gradient[j][d] -= push_j * r[d];
+      }
+    });
+    return 0;
+  });
+
+  exchange.reverse({{&gradient[0][0], 3, 3}});
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ShiftStage::memory_usage() const
+{
+  return (double) nmax * 3 * sizeof(double) + (double) contact.capacity() * sizeof(double);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int ForceStage::nforce() const
+{
+  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ForceStage::run(NeighList *list, PairTally *tally)
+{
+  engine.accumulate_forces(list, tally);
+
+  double **f = atom->f;
+  double *const desph = atom->desph;
+  const int n = nforce();
+  engine.for_each(n, [&](int i) {
+    const ForceSum &total = engine.force[i];
+    for (int d = 0; d < 3; d++) f[i][d] += total.f[d];
+    desph[i] += total.heat + bulk_heat(i);
+  });
+  if (engine.parameters().drag)
+    engine.for_each(atom->nlocal, [&](int i) {
+      double channel[NCHANNEL] = {};
+      add_drag_heat(i, channel);
+      for (const double heat : channel) desph[i] += heat;
+    });
+
+  if (!engine.has_spin()) return;
+  double **torque = atom->torque;
+  engine.for_each(n, [&](int i) {
+    const TorqueSum &total = engine.torque[i];
+    for (int d = 0; d < 3; d++) torque[i][d] += total.t[d];
+    for (const double heat : total.heat) desph[i] += heat;
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ForceStage::collect()
+{
+  const Field f = field(engine.force, engine.force->f, 3);
+  if (engine.has_spin())
+    exchange.reverse({f, field(engine.torque, engine.torque->t, 3)});
+  else
+    exchange.reverse({f});
+}
+
+/* ----------------------------------------------------------------------
+   of the particle itself (density); summed by pairs, also on ghost atoms (volume)
+------------------------------------------------------------------------- */
+
+double ForceStage::bulk_heat(int i) const
+{
+  if (engine.parameters().bulk != Bulk::VOLUME && i >= atom->nlocal) return 0.0;
+  return SPHDissipation::bulk_heat(engine.parameters().bulk, engine.zeta_term[i],
+                                   engine.particle[i].vol, engine.weight(i), engine.density[i].cdot,
+                                   engine.divergence[i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ForceStage::add_drag_heat(int i, double *channel) const
+{
+  double force[3] = {0.0, 0.0, 0.0};
+  engine.add_drag(i, false, force, channel);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ForceStage::heating(double *heat, double *power, int not_fluid) const
+{
+  std::fill(power, power + NCHANNEL, 0.0);
+  const int n = nforce();
+  for (int i = 0; i < n; i++) {
+    if (heat) heat[i] = 0.0;
+    if (atom->mask[i] & not_fluid) continue;
+    double channel[NCHANNEL] = {engine.force[i].heat, bulk_heat(i)};
+    if (engine.has_spin()) {
+      std::copy(engine.torque[i].heat, std::end(engine.torque[i].heat), channel + VORTEX);
+    }
+    if (i < atom->nlocal) add_drag_heat(i, channel);
+    for (int k = 0; k < NCHANNEL; k++) {
+      if (heat) heat[i] += channel[k];
+      power[k] += channel[k];
+    }
+  }
+}

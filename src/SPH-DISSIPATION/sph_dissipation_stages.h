@@ -1,0 +1,156 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_STAGES_H
+#define LMP_SPH_DISSIPATION_STAGES_H
+
+#include "pointers.h"
+#include "sph_dissipation_rows.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+class NeighList;
+
+namespace SPHDissipation {
+
+  class Engine;
+  class Exchange;
+  class PairTally;
+
+  // A stage of the force computation: sums of its own over the pairs that pass 1 of the engine has
+  // found, and what it sends to ghost atoms or gets back from them.  Fluid::compute() lists the stages
+  // in their order.
+
+  class Stage : protected Pointers {
+   public:
+    Stage(class LAMMPS *lmp, Engine &engine, Exchange &exchange) :
+        Pointers(lmp), engine(engine), exchange(exchange)
+    {
+    }
+    ~Stage() override = default;
+
+    virtual double memory_usage() const { return 0.0; }    // bytes
+
+   protected:
+    Engine &engine;
+    Exchange &exchange;
+  };
+
+  // Pass 1: density c of the reference volumes w, for w = 1 of the number of particles, and its rate;
+  // then the volume V = w/c, the mass density rho = m/V and its rate.  P1 (5), (6)
+
+  class DensityStage : public Stage {
+   public:
+    using Stage::Stage;
+
+    // extrapolated velocity and spin, each nullptr where it is zero
+
+    void run(NeighList *, double **vest, double **omegaest);
+  };
+
+  // How negative the coefficient of the bulk term of a particle may be:
+  //   B_i = sum_j (c_j/c_i)^2 V_j F r^2 / a_ij,
+  // where a_ij F V_i V_j is what the shear term puts before (u.e)^2.  The total dissipation is
+  // non-negative for any velocities if zeta_i B_i >= -1/2 for all particles (theory page).
+
+  class LimitStage : public Stage {
+   public:
+    LimitStage(class LAMMPS *, Engine &, Exchange &);
+    ~LimitStage() override;
+
+    void run();    // with the volumes of particles set
+    double memory_usage() const override;
+
+    double *bound;    // B of owned and ghost atoms
+
+   private:
+    int nmax;
+  };
+
+  // Pressure and bulk term of all particles of the fluid, of volume and density as pass 1 left them:
+  // what pass 2 multiplies with F r_ij, and the work of the pressure.  P1 (12), (18)
+
+  class PressureStage : public Stage {
+   public:
+    using Stage::Stage;
+
+    // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles,
+    // which get zero.  Returns the number of owned particles whose coefficient is beyond the bound.
+
+    bigint run(const double *bound, int not_fluid);
+
+    // the bulk term alone, of the rates that pass 1 has left: what the passes leave of Gamma u
+
+    void set_bulk_term(const double *bound, int not_fluid) const;
+
+    // elastic energy of owned particles; each_atom = what it is added to, or nullptr
+
+    double elastic_energy(double *each_atom, int not_fluid) const;
+
+   private:
+    bool is_beyond(int i, const double *bound) const;
+    double bulk_coefficient(int i, const double *bound) const;    // in effect
+  };
+
+  // Minus the gradient of the concentration of the particles, for particle shifting:
+  //   gradient_i = sum_j V_j F r_ij [1 + 0.2 (W_ij/W(V_i^(1/n)))^4]  (1/length)
+  // points to where there are fewer.  The second term keeps particles from pairing, P. N. Sun et al., Comput.
+  // Methods Appl. Mech. Eng. 315, 25 (2017).
+
+  class ShiftStage : public Stage {
+   public:
+    ShiftStage(class LAMMPS *, Engine &, Exchange &);
+    ~ShiftStage() override;
+
+    bool wanted;    // by a fix that shifts particles, from its init(), in every run
+
+    void run();    // with the volumes of particles set
+    double memory_usage() const override;
+
+    double **gradient;    // of owned atoms
+
+   private:
+    int nmax;
+    std::vector<double> contact;    // 1/W(V^(1/n)) of atoms, in units of the norm of the kernel
+  };
+
+  // Pass 2: forces, torques and heating of owned atoms and the contributions to ghost atoms, onto
+  // the arrays of LAMMPS, which sums up those of the ghosts itself
+
+  class ForceStage : public Stage {
+   public:
+    using Stage::Stage;
+
+    void run(NeighList *, PairTally *);    // tally of each pair, or nullptr
+
+    // what ghosts have got onto the force and torque of their owners in the engine, too
+
+    void collect();
+
+    // Heat of the dissipative forces, energy per time: of each owned and ghost atom as this rank
+    // summed it (with newton on, the sums of ghosts belong to their owners), heat may be nullptr; by
+    // channel, the sum on this rank.  not_fluid = bits of the groups of particles that are left out
+
+    void heating(double *heat, double *power, int not_fluid) const;
+
+   private:
+    int nforce() const;    // atoms that forces act on
+    double bulk_heat(int) const;
+    void add_drag_heat(int, double *channel) const;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
