@@ -19,6 +19,7 @@
 #include "kokkos_type.h"
 #include "pointers.h"
 
+#include "sph_dissipation_boundary.h"
 #include "sph_dissipation_loops_kokkos.h"
 #include "sph_dissipation_wall_terms.h"
 

@@ -19,10 +19,8 @@
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
-#include "sph_dissipation_boundary.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
-#include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
 #include "update.h"
 
@@ -45,9 +43,9 @@ typedef WendlandC2 ContactKernel;
 /* ---------------------------------------------------------------------- */
 
 BoundaryStage::BoundaryStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                             const FluidModel &model, const std::string &style) :
+                             const std::string &style) :
     Stage(lmp, engine, exchange),
-    sum(nullptr), model(model), style(style), group_bits(0), rows_bits(0), nmax(0),
+    sum(nullptr), style(style), group_bits(0), rows_bits(0), nmax(0),
     surface(lmp, engine, exchange), surface_step(-1)
 {
 }
@@ -83,7 +81,7 @@ void BoundaryStage::set_reference_volume()
 {
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     if (!(atom->mask[i] & group_bits)) continue;
-    set_state(i, model.coeffs[atom->type[i]].eos.rho0, 0.0, 0.0);
+    set_state(i, engine.parameters().type[atom->type[i]].eos.rho0, 0.0, 0.0);
     atom->drho[i] = 0.0;
   }
 }
@@ -156,7 +154,7 @@ void BoundaryStage::extend()
 
 bool BoundaryStage::has_energy() const
 {
-  return model.choice.thermal && !model.choice.own_temperatures;
+  return engine.parameters().thermal && !engine.parameters().own_temperatures;
 }
 
 double BoundaryStage::over(int i) const
@@ -166,7 +164,7 @@ double BoundaryStage::over(int i) const
 
 double BoundaryStage::stiffness() const
 {
-  return 2.0 * HARDNESS * force->boltz * model.choice.temperature;
+  return 2.0 * HARDNESS * force->boltz * engine.parameters().temperature;
 }
 
 int BoundaryStage::nforce() const

@@ -14,6 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_BOUNDARY_STAGE_H
 #define LMP_SPH_DISSIPATION_BOUNDARY_STAGE_H
 
+#include "sph_dissipation_boundary.h"
 #include "sph_dissipation_surface.h"
 #include "sph_dissipation_wall_terms.h"
 
@@ -23,15 +24,13 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  class FluidModel;
   class PairTally;
 
   // Boundary particles get the velocity, volume, pressure and spin that act in the pair forces
 
   class BoundaryStage : public Stage {
    public:
-    BoundaryStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &,
-                  const std::string &style);
+    BoundaryStage(class LAMMPS *, Engine &, Exchange &, const std::string &style);
     ~BoundaryStage() override;
 
     void add(Boundary *);       // no effect if it is there
@@ -80,8 +79,7 @@ namespace SPHDissipation {
    private:
     BoundarySum *sum;                   // of owned and ghost atoms
     std::vector<BoundaryPair> pairs;    // of this step
-    const FluidModel &model;
-    const std::string style;    // of the pair style, for messages
+    const std::string style;            // of the pair style, for messages
     std::vector<Boundary *> boundaries;
     int group_bits;
 

@@ -56,12 +56,12 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     limit(new LimitStage(lmp, *engine, *exchange)),
     pressure(new PressureStage(lmp, *engine, *exchange)),
     forces(new ForceStage(lmp, *engine, *exchange)), open(new OpenStage(lmp, *engine, *exchange)),
-    boundary(new BoundaryStage(lmp, *engine, *exchange, *model, style)),
+    boundary(new BoundaryStage(lmp, *engine, *exchange, style)),
     shift(new ShiftStage(lmp, *engine, *exchange)),
-    noise(new NoiseStage(lmp, *engine, *exchange, *model)),
-    viscous(new ViscousStage(lmp, *engine, *exchange, *model, *pressure, *boundary)),
-    continued(false), dim(0), support(0.0), stale(false), set_up(false), announced(false),
-    changed(false), warned_step(0.0), noise_step(0.0)
+    noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
+    viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)), continued(false),
+    dim(0), support(0.0), stale(false), set_up(false), announced(false), changed(false),
+    warned_step(0.0), noise_step(0.0)
 {
 }
 

@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_MODEL_H
 
 #include "pointers.h"
+#include "sph_dissipation_noise_data.h"
 #include "sph_dissipation_parameters.h"
 
 #include <string>
@@ -22,12 +23,6 @@
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-
-  // the step of the last random numbers, and what is added to a step to get numbers that no step before had
-
-  struct NoiseClock {
-    bigint step = -1, offset = 0;
-  };
 
   // what pair_coeff I I sets and what follows from it
 

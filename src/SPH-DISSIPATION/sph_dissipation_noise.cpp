@@ -23,7 +23,6 @@
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
-#include "sph_dissipation_model.h"
 #include "update.h"
 
 #include <algorithm>
@@ -35,8 +34,8 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, FluidModel &model) :
-    Stage(lmp, engine, exchange), model(model), form(), data()
+NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
+    Stage(lmp, engine, exchange), clock(clock), form(), data()
 {
 }
 
@@ -63,7 +62,7 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
       2.0 * force->boltz * (energy ? 1.0 : engine.parameters().temperature) / update->dt;
   data.seed = static_cast<std::uint64_t>(engine.parameters().seed);
   count_step();
-  data.step = static_cast<std::uint64_t>(update->ntimestep + model.clock.offset);
+  data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
   data.type = atom->type;
 
   set_tags();
@@ -86,7 +85,6 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
 void NoiseStage::count_step()
 {
   if (input->command && strcmp(input->command, "rerun") == 0) return;
-  NoiseClock &clock = model.clock;
   if (update->ntimestep < clock.step) clock.offset += clock.step - update->ntimestep;
   clock.step = update->ntimestep;
 }

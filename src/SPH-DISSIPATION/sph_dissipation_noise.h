@@ -23,8 +23,6 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  class FluidModel;
-
   // Thermal noise: random forces and torques of the pairs, and a random pressure of each particle.  The
   // impulses of a step have the covariance 2 kB T Gamma dt, where Gamma is the friction matrix of all
   // viscous terms together (theory page).
@@ -41,7 +39,7 @@ namespace SPHDissipation {
 
   class NoiseStage : public Stage {
    public:
-    NoiseStage(class LAMMPS *, Engine &, Exchange &, FluidModel &);
+    NoiseStage(class LAMMPS *, Engine &, Exchange &, NoiseClock &);
 
     // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and has it add the rest.
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure
@@ -56,7 +54,7 @@ namespace SPHDissipation {
     double memory_usage() const override;
 
    private:
-    FluidModel &model;
+    NoiseClock &clock;
     NoiseForm form;
     NoiseData data;
     std::vector<NoiseCoeff> coeff;

@@ -26,6 +26,12 @@ namespace SPHDissipation {
 
   enum class NoiseChannel { PRESSURE, PAIR, DRAG };
 
+  // the step of the last random numbers, and what is added to a step to get numbers that no step before had
+
+  struct NoiseClock {
+    std::int64_t step = -1, offset = 0;
+  };
+
   // of the pairs of two types: what the random numbers are multiplied with, in units of
   // sqrt(F V_i V_j), with F r instead of F for mg/fr
 

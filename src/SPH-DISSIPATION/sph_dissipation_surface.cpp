@@ -17,11 +17,11 @@
 #include "math_const.h"
 #include "math_extra.h"
 #include "memory.h"
-#include "sph_dissipation_boundary.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_extension.h"
+#include "sph_dissipation_wall_terms.h"
 
 #include <algorithm>
 #include <cmath>

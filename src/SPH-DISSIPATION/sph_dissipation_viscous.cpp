@@ -22,9 +22,8 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_integrate.h"
-#include "sph_dissipation_model.h"
-#include "sph_dissipation_stages.h"
 #include "sph_dissipation_solvers.h"
+#include "sph_dissipation_stages.h"
 #include "update.h"
 
 #include <algorithm>
@@ -37,11 +36,11 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const FluidModel &model,
+ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
                            const PressureStage &pressure, BoundaryStage &boundary) :
     Stage(lmp, engine, exchange),
-    statistics(), model(model), pressure(pressure), boundary(boundary), groups(0), known_rate(0.0),
-    rate(0.0), outdated(true), warned(false), list(nullptr), bound(nullptr), omegaest(nullptr),
+    statistics(), pressure(pressure), boundary(boundary), groups(0), known_rate(0.0), rate(0.0),
+    outdated(true), warned(false), list(nullptr), bound(nullptr), omegaest(nullptr),
     symmetric(true), prescribed(0), width(3), h(0.0), mean()
 {
 }
@@ -165,7 +164,7 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
 bool ViscousStage::is_unknown(int i) const
 {
   return (atom->mask[i] & groups) && !(atom->mask[i] & prescribed) &&
-      !model.coeffs[atom->type[i]].other;
+      !engine.parameters().type[atom->type[i]].other;
 }
 
 /* ----------------------------------------------------------------------

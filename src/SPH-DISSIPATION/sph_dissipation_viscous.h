@@ -69,7 +69,6 @@ namespace SPHDissipation {
   };
 
   class BoundaryStage;
-  class FluidModel;
   class PressureStage;
 
   // Large viscosities.  In the step from the middle of one to the middle of the next, v- to v+ with the
@@ -90,8 +89,7 @@ namespace SPHDissipation {
 
   class ViscousStage : public Stage {
    public:
-    ViscousStage(class LAMMPS *, Engine &, Exchange &, const FluidModel &, const PressureStage &,
-                 BoundaryStage &);
+    ViscousStage(class LAMMPS *, Engine &, Exchange &, const PressureStage &, BoundaryStage &);
 
     // of all integrators of the fluid, and bits of their groups; style = of the fluid, for messages
 
@@ -138,7 +136,6 @@ namespace SPHDissipation {
     double scale_sq() const;
 
    private:
-    const FluidModel &model;
     const PressureStage &pressure;
     BoundaryStage &boundary;
     ViscousSettings settings;

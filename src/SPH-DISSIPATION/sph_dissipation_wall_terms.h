@@ -18,7 +18,6 @@
 // one of them: S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012), and the extension of
 // velocity and spin behind the surface.  No LAMMPS include.
 
-#include "sph_dissipation_boundary.h"
 #include "sph_dissipation_extension.h"
 #include "sph_dissipation_function.h"
 
@@ -26,6 +25,38 @@
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+
+  // Where the surface is, seen from a boundary particle w
+
+  struct Surface {
+    double normal[3];    // toward the fluid; zero: unknown
+    double depth;        // distance of w from the surface
+    double spacing;      // of the particles
+    double omega[3];     // angular velocity of the rigid body that w belongs to
+  };
+
+  // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
+  // particles f of V_f W(r_wf) times the quantity, S. Adami et al., J. Comput. Phys. 231, 7057 (2012)
+  // of a fluid particle: filled is the part of a support of a few particle spacings, or of its own if
+  // that is smaller, that boundary particles fill
+  // relative: to the velocity that the rigid body of w has at f; d: distance of f from the surface
+
+  struct BoundarySum {
+    double weight;        // 1
+    double r[3];          // x_w - x_f
+    double rho;           // density
+    double pressure;      // p + zeta cdot/c (bulk density), p (otherwise)
+    double zeta_term;     // zeta cdot/c
+    double filled;        // fluid particles only
+    double occupied;      // the same of a smaller support, with thermal noise; fluid particles only
+    double d, d3;         // d, d^3
+    double d4, d5, d6;    // d^4, d^5, d^6
+    double u[3];          // relative velocity
+    double ud3[3];        // relative velocity times d^3
+    double ud4[3];        // relative velocity times d^4
+    double wd3[3];        // relative spin times d^3 (micropolar)
+    double wd4[3];        // relative spin times d^4 (micropolar)
+  };
 
   SPH_FUNCTION double inner_product(const double *a, const double *b)
   {
