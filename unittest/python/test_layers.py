@@ -7,8 +7,8 @@ from functools import lru_cache
 from pathlib import Path
 
 import pytest
-from helpers import ROOT
 
+ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ROOT / "src" / "SPH-DISSIPATION"
 PAGE = ROOT / "doc" / "src" / "design_sph_dissipation.rst"
 LAYERS = ("styles", "fluid", "stages", "engine", "physics")
@@ -79,3 +79,27 @@ def test_no_cycle():
 
     for stem in graph:
         visit(stem, [])
+
+
+def walks():
+    """The stations (file, names) of each walk, from the tables of the section "A stranger's walk"."""
+    section = re.search(r"^A stranger's walk\n-+\n(.*?)^[^\n]+\n-{3,}\n", PAGE.read_text(), re.M | re.S)[1]
+    return [[(file, re.findall(r"``([\w:]+(?:\(\))?)``", names))
+             for file, names in re.findall(r"^   \* - ``([\w.]+)``\n     - (.*?)\n     - ", table, re.M | re.S)]
+            for table in section.split(".. list-table::")[1:]]
+
+
+def test_walks_are_short():
+    assert [len({file for file, _ in walk}) for walk in walks()] == [4, 3]
+
+
+@pytest.mark.parametrize(("file", "name"), [(file, name) for walk in walks() for file, names in walk for name in names])
+def test_station_is_in_its_file(file, name):
+    text = (SOURCES / file).read_text()
+    *owner, last = name.removesuffix("()").split("::")
+    structs = owner if name.endswith("()") else [last]
+    if file.endswith(".h"):
+        assert all(re.search(rf"\b(?:struct|class) {one}\b[^;]*?{{", text) for one in structs)
+    if name.endswith("()"):
+        function = name.removesuffix("()") if file.endswith(".cpp") else last
+        assert re.search(rf"\b{function}\([^;{{}}]*\)[^;{{}}]*\n? *{{", text), f"{file} does not define {name}"
