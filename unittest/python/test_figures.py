@@ -191,4 +191,4 @@ def test_files_named_are_there(document):
     named = set(re.findall(r"\]\((?!http)([^)#]+)\)", text)) | set(re.findall(r"`((?:src|doc|unittest|tools|examples)/[\w./-]+)`", text))
     assert len(named) > 10
     for name in sorted(named):
-        assert (ROOT / name).exists(), name
+        assert (ROOT / name).exists() or "NAME" in name, name    # NAME: for the reader to choose

@@ -42,6 +42,7 @@ def refused(lammps, message, inlet=INLET, outlet=OUTLET, ranks=(1, 4), run="run 
     ("velocity 0.1 0 0 order 2", "order must be 0 or 1"),
     ("velocity 0.1 0 0 region nowhere", "region nowhere does not exist"),
     ("velocity v_none 0 0", "Variable none for .*sph/open does not exist"),
+    ("velocity v_ 0 0", "Variable +for .*sph/open does not exist"),
     ("velocity v_word 0 0", "neither of equal style nor of atom style"),
     ("velocity v_nan 0 0", "variable nan is -?nan"),
     ("velocity v_nanatom 0 0", "variable nanatom is -?nan for particle"),
