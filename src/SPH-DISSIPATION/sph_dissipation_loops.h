@@ -12,7 +12,8 @@
 ------------------------------------------------------------------------- */
 
 // The two pair loops, compiled once per instruction set: a source file includes what stands
-// below, switches the compiler to the instruction set, defines LOOPS and includes this file.
+// below, switches the compiler to the instruction set, defines LOOPS, their namespace, LOOPS_SET and its
+// LOOPS_NAME, and includes this file.
 // Nothing else may be included after the switch, or inline functions of other headers would be
 // compiled for a processor that a user may not have.
 
@@ -427,5 +428,14 @@ namespace SPHDissipation {
     }
 
   }    // namespace LOOPS
+
+  const LoopSet LOOPS_SET = {LOOPS_NAME,
+                             LOOPS::choose_density_loop,
+                             LOOPS::choose_rate_loop,
+                             LOOPS::choose_force_loop,
+                             LOOPS::choose_noisy_force_loop,
+                             LOOPS::choose_eta_loop,
+                             LOOPS::particle_numbers};
+
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS
