@@ -263,6 +263,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.ilist = list->ilist;
   data.numneigh = list->numneigh;
   data.firstneigh = list->firstneigh;
+  data.type = atom->type;
   data.particle = particle;
   data.spare = nall;
   data.density = density;
@@ -329,7 +330,6 @@ void Engine::run_forces(NeighList *list, Loop loop, bool shared, bool linear)
   const int nall = atom->nlocal + atom->nghost;
   const bigint nrow = (bigint) nall + BLOCK;
   data.inum = list->inum;
-  data.type = atom->type;
   data.zeta_term = zeta_term;
   data.divergence = divergence;
   data.force = force;

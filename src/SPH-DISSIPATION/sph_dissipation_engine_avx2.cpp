@@ -29,6 +29,8 @@
 #pragma GCC target("avx2,fma")
 #endif
 #define LOOPS loops_of_avx2
+#define LOOPS_SET loops_avx2
+#define LOOPS_NAME "avx2"
 #define LOOPS_AVX2
 #include "sph_dissipation_loops.h"
 #ifdef __clang__
@@ -36,17 +38,5 @@
 #else
 #pragma GCC pop_options
 #endif
-
-namespace LAMMPS_NS {
-namespace SPHDissipation {
-  const LoopSet loops_avx2 = {"avx2",
-                              LOOPS::choose_density_loop,
-                              LOOPS::choose_rate_loop,
-                              LOOPS::choose_force_loop,
-                              LOOPS::choose_noisy_force_loop,
-                              LOOPS::choose_eta_loop,
-                              LOOPS::particle_numbers};
-}
-}    // namespace LAMMPS_NS
 
 #endif

@@ -30,6 +30,8 @@
 #pragma GCC target("avx2,fma,avx512f,avx512dq,avx512vl,prefer-vector-width=512")
 #endif
 #define LOOPS loops_of_avx512
+#define LOOPS_SET loops_avx512
+#define LOOPS_NAME "avx512"
 #define LOOPS_AVX512
 #include "sph_dissipation_loops.h"
 #ifdef __clang__
@@ -37,17 +39,5 @@
 #else
 #pragma GCC pop_options
 #endif
-
-namespace LAMMPS_NS {
-namespace SPHDissipation {
-  const LoopSet loops_avx512 = {"avx512",
-                                LOOPS::choose_density_loop,
-                                LOOPS::choose_rate_loop,
-                                LOOPS::choose_force_loop,
-                                LOOPS::choose_noisy_force_loop,
-                                LOOPS::choose_eta_loop,
-                                LOOPS::particle_numbers};
-}
-}    // namespace LAMMPS_NS
 
 #endif

@@ -21,16 +21,6 @@
 // the pair loops without vectors, for every processor and compiler
 
 #define LOOPS loops_of_plain
+#define LOOPS_SET loops_plain
+#define LOOPS_NAME "plain"
 #include "sph_dissipation_loops.h"
-
-namespace LAMMPS_NS {
-namespace SPHDissipation {
-  const LoopSet loops_plain = {"plain",
-                               LOOPS::choose_density_loop,
-                               LOOPS::choose_rate_loop,
-                               LOOPS::choose_force_loop,
-                               LOOPS::choose_noisy_force_loop,
-                               LOOPS::choose_eta_loop,
-                               LOOPS::particle_numbers};
-}
-}    // namespace LAMMPS_NS

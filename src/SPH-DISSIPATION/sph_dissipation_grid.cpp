@@ -147,11 +147,12 @@ void ParticleGrid::weigh_row(const Smoothing &smoothing, double volume, double f
 }
 
 /* ----------------------------------------------------------------------
-   1, r, r r of the particles around each point, r = particle - point in support radii
+   call function(i, point, n, ry, rz) for each particle i and row of n points in its support, with their weights set;
+   r = particle - point in support radii, rx = -offset
 ------------------------------------------------------------------------- */
 
-template <class KernelShape>
-void ParticleGrid::sum_moments(const Smoothing &smoothing, double **values)
+template <class KernelShape, class Function>
+void ParticleGrid::weigh_rows(const Smoothing &smoothing, double **values, Function &&function)
 {
   double **x = atom->x;
   const int nall = atom->nlocal + atom->nghost;
@@ -161,56 +162,68 @@ void ParticleGrid::sum_moments(const Smoothing &smoothing, double **values)
     near_rows(x[i], smoothing.support, [&](bigint point, int n, const double *r) {
       const double ry = -r[1] * scale, rz = -r[2] * scale;
       weigh_row<KernelShape>(smoothing, values[i][0], r[0] * scale, ry * ry + rz * rz, n);
-      const double *const w = weight.data(), *const away = offset.data();
-      double *const one = moments[0].data() + point;
-      for (int m = 0; m < n; m++) one[m] += w[m];
-      if (!smoothing.linear) return;
-
-      auto add = [&](int k, auto &&factor) {
-        double *const sum = moments[k].data() + point;
-        for (int m = 0; m < n; m++) sum[m] += w[m] * factor(-away[m]);
-      };
-      add(1, [](double rx) {
-        return rx;
-      });
-      add(2, [=](double) {
-        return ry;
-      });
-      if (dim == 2) {
-        add(3, [](double rx) {
-          return rx * rx;
-        });
-        add(4, [=](double) {
-          return ry * ry;
-        });
-        add(5, [=](double rx) {
-          return rx * ry;
-        });
-      } else {
-        add(3, [=](double) {
-          return rz;
-        });
-        add(4, [](double rx) {
-          return rx * rx;
-        });
-        add(5, [=](double) {
-          return ry * ry;
-        });
-        add(6, [=](double) {
-          return rz * rz;
-        });
-        add(7, [=](double rx) {
-          return rx * ry;
-        });
-        add(8, [=](double rx) {
-          return rx * rz;
-        });
-        add(9, [=](double) {
-          return ry * rz;
-        });
-      }
+      function(i, point, n, ry, rz);
     });
   }
+}
+
+/* ----------------------------------------------------------------------
+   1, r, r r of the particles around each point, r = particle - point in support radii
+------------------------------------------------------------------------- */
+
+template <class KernelShape>
+void ParticleGrid::sum_moments(const Smoothing &smoothing, double **values)
+{
+  weigh_rows<KernelShape>(smoothing, values, [&](int, bigint point, int n, double ry, double rz) {
+    const double *const w = weight.data(), *const away = offset.data();
+    double *const one = moments[0].data() + point;
+    for (int m = 0; m < n; m++) one[m] += w[m];
+    if (!smoothing.linear) return;
+
+    auto add = [&](int k, auto &&factor) {
+      double *const sum = moments[k].data() + point;
+      for (int m = 0; m < n; m++) sum[m] += w[m] * factor(-away[m]);
+    };
+    add(1, [](double rx) {
+      return rx;
+    });
+    add(2, [=](double) {
+      return ry;
+    });
+    if (dim == 2) {
+      add(3, [](double rx) {
+        return rx * rx;
+      });
+      add(4, [=](double) {
+        return ry * ry;
+      });
+      add(5, [=](double rx) {
+        return rx * ry;
+      });
+    } else {
+      add(3, [=](double) {
+        return rz;
+      });
+      add(4, [](double rx) {
+        return rx * rx;
+      });
+      add(5, [=](double) {
+        return ry * ry;
+      });
+      add(6, [=](double) {
+        return rz * rz;
+      });
+      add(7, [=](double rx) {
+        return rx * ry;
+      });
+      add(8, [=](double rx) {
+        return rx * rz;
+      });
+      add(9, [=](double) {
+        return ry * rz;
+      });
+    }
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -271,30 +284,22 @@ bigint ParticleGrid::solve(bool linear)
 template <class KernelShape>
 void ParticleGrid::sum_fields(const Smoothing &smoothing, double **values, int nfield)
 {
-  double **x = atom->x;
-  const int nall = atom->nlocal + atom->nghost;
-  const double scale = 1.0 / smoothing.support;
-  for (int i = 0; i < nall; i++) {
-    if (!(values[i][0] > 0.0)) continue;
-    near_rows(x[i], smoothing.support, [&](bigint point, int n, const double *r) {
-      const double ry = -r[1] * scale, rz = -r[2] * scale;
-      weigh_row<KernelShape>(smoothing, values[i][0], r[0] * scale, ry * ry + rz * rz, n);
-      double *const w = weight.data();
-      const double *const rx = offset.data();
-      const double *const a0 = moments[0].data() + point;
-      if (smoothing.linear) {
-        const double *const ax = moments[1].data() + point, *const ay = moments[2].data() + point;
-        const double *const az = moments[dim].data() + point;    // in 2d times rz = 0
-        for (int m = 0; m < n; m++) w[m] *= a0[m] - ax[m] * rx[m] + ay[m] * ry + az[m] * rz;
-      } else
-        for (int m = 0; m < n; m++) w[m] *= a0[m];
-      for (int k = 0; k < nfield; k++) {
-        double *const sum = fields[k].data() + point;
-        const double value = values[i][1 + k];
-        for (int m = 0; m < n; m++) sum[m] += w[m] * value;
-      }
-    });
-  }
+  weigh_rows<KernelShape>(smoothing, values, [&](int i, bigint point, int n, double ry, double rz) {
+    double *const w = weight.data();
+    const double *const rx = offset.data();
+    const double *const a0 = moments[0].data() + point;
+    if (smoothing.linear) {
+      const double *const ax = moments[1].data() + point, *const ay = moments[2].data() + point;
+      const double *const az = moments[dim].data() + point;    // in 2d times rz = 0
+      for (int m = 0; m < n; m++) w[m] *= a0[m] - ax[m] * rx[m] + ay[m] * ry + az[m] * rz;
+    } else
+      for (int m = 0; m < n; m++) w[m] *= a0[m];
+    for (int k = 0; k < nfield; k++) {
+      double *const sum = fields[k].data() + point;
+      const double value = values[i][1 + k];
+      for (int m = 0; m < n; m++) sum[m] += w[m] * value;
+    }
+  });
 }
 
 /* ---------------------------------------------------------------------- */

@@ -72,6 +72,8 @@ namespace SPHDissipation {
     std::vector<double> weight, offset;    // of the points of one row around a particle
 
     template <class Function> void near_rows(const double *, double, Function &&);
+    template <class KernelShape, class Function>
+    void weigh_rows(const Smoothing &, double **, Function &&);
     template <class KernelShape> void sum_moments(const Smoothing &, double **);
     template <class KernelShape> void sum_fields(const Smoothing &, double **, int);
     template <class KernelShape> void weigh_row(const Smoothing &, double, double, double, int);

@@ -12,7 +12,8 @@
 ------------------------------------------------------------------------- */
 
 // The two pair loops, compiled once per instruction set: a source file includes what stands
-// below, switches the compiler to the instruction set, defines LOOPS and includes this file.
+// below, switches the compiler to the instruction set, defines LOOPS, their namespace, LOOPS_SET and its
+// LOOPS_NAME, and includes this file.
 // Nothing else may be included after the switch, or inline functions of other headers would be
 // compiled for a processor that a user may not have.
 
@@ -186,6 +187,51 @@ namespace SPHDissipation {
 
 #include "sph_dissipation_noise_loops.h"
 
+    // positions and velocities of a block of pairs; volume and g of the neighbors
+
+    SPH_INLINE void load_pair(PairState &pair, const Particle &pi, const Particle *particle,
+                              const int *j, Vec slope, Vec &vol, Vec &g)
+    {
+      Vec pj[8];
+      load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
+      load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
+      for (int d = 0; d < 3; d++) {
+        pair.r[d] = pi.x[d] - pj[d];
+        pair.u[d] = pi.u[d] - pj[3 + d];
+      }
+      vol = pj[6];
+      g = pj[7];
+      pair.vv = volumes_slope(dot(pair.r, pair.r), pi.vol, vol, slope);
+      pair.approach = dot(pair.r, pair.u);
+      pair.heat[SHEAR] = all(0.0);
+    }
+
+    template <class Form> SPH_INLINE void fetch_ahead(const LoopData &data, const int *j)
+    {
+      for (int l = 0; l < LANES; l++) {
+        prefetch(data.particle + j[l + AHEAD]);
+        if constexpr (Form::SPINS) {    // without, the force is in the cache anyway
+          prefetch(data.spin + j[l + AHEAD]);
+          prefetch(data.force + j[l + AHEAD]);
+          prefetch(data.torque + j[l + AHEAD]);
+        }
+      }
+    }
+
+    // torques and their heat to the neighbors and to the totals of the particle
+
+    SPH_INLINE void add_torques(const LoopData &data, const int *j, const PairState &pair,
+                                Vec *total_t, Vec &total_spin)
+    {
+      const Vec *const t = pair.t, *const spin = pair.spin;
+      const Vec on_j[4] = {t[0] + spin[0], t[1] + spin[1], t[2] + spin[2], pair.heat[VORTEX]};
+      add_4_columns<WIDTH<TorqueSum>>(numbers(data.torque), j, on_j);
+      add_column<WIDTH<TorqueSum>>(numbers(data.torque) + 4, j, pair.heat[DIFFUSION]);
+      for (int d = 0; d < 3; d++) total_t[d] += t[d] - spin[d];
+      total_t[3] += pair.heat[VORTEX];
+      total_spin += pair.heat[DIFFUSION];
+    }
+
     // pass 2: forces and torques of the pressure and of the channels, and their heat, half to each partner
     // Form: the terms of the pairs
     // VOLUME: the bulk form P1 (64) with its own pair weights, and D_i = -sum_j V_j F r_ij.u_ij, by
@@ -218,27 +264,11 @@ namespace SPHDissipation {
           const int *const j = neighbor + k;
           PairState pair;
           pair.coeff = coeffs.a;
-          Vec pj[8];
-          load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
-          load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
-          for (int d = 0; d < 3; d++) {
-            pair.r[d] = pi.x[d] - pj[d];
-            pair.u[d] = pi.u[d] - pj[3 + d];
-          }
-          const Vec vol = pj[6], g = pj[7];
-          for (int l = 0; l < LANES; l++) {
-            prefetch(particle + j[l + AHEAD]);
-            if constexpr (Form::SPINS) {    // without, the force is in the cache anyway
-              prefetch(data.spin + j[l + AHEAD]);
-              prefetch(data.force + j[l + AHEAD]);
-              prefetch(data.torque + j[l + AHEAD]);
-            }
-          }
           const Vec slope = load(slope_of + k);
+          Vec vol, g;
+          load_pair(pair, pi, particle, j, slope, vol, g);
+          fetch_ahead<Form>(data, j);
           const Vec rsq = dot(pair.r, pair.r);
-          pair.vv = volumes_slope(rsq, pi.vol, vol, slope);
-          pair.approach = dot(pair.r, pair.u);
-          pair.heat[SHEAR] = all(0.0);
 
           pair.central = pressing_term(pi.g, g, slope);
           Vec pressing = slope;
@@ -287,17 +317,11 @@ namespace SPHDissipation {
           Form::add_vector(pair);
 
           if constexpr (Form::SPINS) {
-            Vec *const t = pair.t, *const spin = pair.spin;
             if constexpr (Noise::ENERGY)
               pair.heat[DIFFUSION] -= 0.5 * noise.spin_power(pair.s[0], pair.s[1], pair.s[2]);
-            if constexpr (Noise::ON) noise.add_torque(t, spin);
-            if constexpr (Noise::ENERGY) given = noise.given_by_torque(t, spin);
-            const Vec on_j[4] = {t[0] + spin[0], t[1] + spin[1], t[2] + spin[2], pair.heat[VORTEX]};
-            add_4_columns<WIDTH<TorqueSum>>(numbers(data.torque), j, on_j);
-            add_column<WIDTH<TorqueSum>>(numbers(data.torque) + 4, j, pair.heat[DIFFUSION]);
-            for (int d = 0; d < 3; d++) total_t[d] += t[d] - spin[d];
-            total_t[3] += pair.heat[VORTEX];
-            total_spin += pair.heat[DIFFUSION];
+            if constexpr (Noise::ON) noise.add_torque(pair.t, pair.spin);
+            if constexpr (Noise::ENERGY) given = noise.given_by_torque(pair.t, pair.spin);
+            add_torques(data, j, pair, total_t, total_spin);
           }
           Vec heat = pair.heat[SHEAR];
           for (int d = 0; d < 3; d++) total_f[d] += pair.f[d];
@@ -404,5 +428,14 @@ namespace SPHDissipation {
     }
 
   }    // namespace LOOPS
+
+  const LoopSet LOOPS_SET = {LOOPS_NAME,
+                             LOOPS::choose_density_loop,
+                             LOOPS::choose_rate_loop,
+                             LOOPS::choose_force_loop,
+                             LOOPS::choose_noisy_force_loop,
+                             LOOPS::choose_eta_loop,
+                             LOOPS::particle_numbers};
+
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

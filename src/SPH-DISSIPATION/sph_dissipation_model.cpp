@@ -129,70 +129,17 @@ void FluidModel::settings(int narg, char **arg)
     if (iarg + nwords > narg)
       utils::missing_cmd_args(
           FLERR, "pair_style " + style + " " + keyword + (energy ? " energy" : ""), error);
-    const std::string word = arg[iarg + 1];
-    auto unknown = [&](const char *what) {
-      error->all(FLERR, place(arg[iarg + 1]), "Unknown {} {} for pair_style {}", what, word, style);
-    };
-
-    if (keyword == "kernel") {
-      std::vector<std::pair<std::string, Kernel>> kernels;
-      for (auto k : {Kernel::WENDLAND_C2, Kernel::WENDLAND_C4, Kernel::WENDLAND_C6, Kernel::CUBIC,
-                     Kernel::QUINTIC, Kernel::LUCY})
-        kernels.emplace_back(kernel_name(k), k);
-      if (!choose(choice.kernel, word, kernels)) unknown("kernel");
-    } else if (keyword == "eos") {
-      if (!choose(choice.eos, word,
-                  {{"linear", Eos::LINEAR}, {"tait", Eos::TAIT}, {"ideal", Eos::IDEAL}}))
-        unknown("eos");
-    } else if (keyword == "shear") {
-      if (!choose(choice.shear, word,
-                  {{"mg", Shear::MG},
-                   {"mg/fr", Shear::MG_FR},
-                   {"morris", Shear::MORRIS},
-                   {"espanol", Shear::ESPANOL},
-                   {"none", Shear::NONE}}))
-        unknown("shear form");
-    } else if (keyword == "bulk") {
-      if (!choose(choice.bulk, word,
-                  {{"density", Bulk::DENSITY}, {"volume", Bulk::VOLUME}, {"none", Bulk::NONE}}))
-        unknown("bulk form");
-    } else if (keyword == "volume") {
-      if (!choose(choice.volume, word, {{"number", Volume::NUMBER}, {"mass", Volume::MASS}}))
-        unknown("volume");
-    } else if (keyword == "limit") {
-      if (!choose(choice.limit, word,
-                  {{"no", Limit::NO}, {"count", Limit::COUNT}, {"yes", Limit::YES}}))
-        unknown("limit");
-    } else if (keyword == "simd") {
-      if (word != "auto" && word != "none" && word != "avx2" && word != "avx512") unknown("simd");
-      simd = word;
-    } else if (keyword == "temp") {
-      choice.thermal = true;
-      choice.own_temperatures = energy;
-      if (energy) {
-        choice.heat_capacity = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-        if (!(choice.heat_capacity > 0.0) || !std::isfinite(choice.heat_capacity))
-          error->all(FLERR, place(arg[iarg + 2]),
-                     "Pair_style {} temp energy: the heat capacity must be > 0, not {}", style,
-                     arg[iarg + 2]);
-      } else {
-        choice.temperature = utils::numeric(FLERR, word, false, lmp);
-        if (!(choice.temperature >= 0.0))
-          error->all(FLERR, place(arg[iarg + 1]), "Pair_style {} temp must be >= 0, not {}", style,
-                     word);
-      }
-      const char *const seed = arg[iarg + nwords - 1];
-      choice.seed = utils::inumeric(FLERR, seed, false, lmp);
-      if (choice.seed <= 0)
-        error->all(FLERR, place(seed), "Pair_style {} temp: the seed must be > 0, not {}", style,
-                   seed);
-    } else {
-      choice.dim = utils::inumeric(FLERR, word, false, lmp);
+    if (keyword == "temp")
+      set_temperature(arg + iarg + 1, energy);
+    else if (keyword == "dim") {
+      choice.dim = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
       if (choice.dim < 1 || choice.dim > 3)
         error->all(FLERR, place(arg[iarg + 1]), "Pair_style {} dim must be 1, 2, or 3, not {}",
-                   style, word);
-    }
+                   style, arg[iarg + 1]);
+    } else
+      set_choice(keyword, arg[iarg + 1]);
   }
+
   if (choice.limit != Limit::NO && choice.bulk != Bulk::DENSITY)
     error->all(FLERR, "Pair_style {} limit requires bulk density", style);
   if (choice.thermal && choice.bulk == Bulk::VOLUME)
@@ -205,6 +152,72 @@ void FluidModel::settings(int narg, char **arg)
                "Pair_style {} temp cannot be used with eos ideal: the heat of the viscous forces, "
                "without end at a given temperature, would raise its pressure",
                style);
+}
+
+/* ----------------------------------------------------------------------
+   the setting of a keyword whose values are words
+------------------------------------------------------------------------- */
+
+void FluidModel::set_choice(const std::string &keyword, const char *word)
+{
+  bool known = false;
+  std::string what = keyword;
+  if (keyword == "kernel") {
+    std::vector<std::pair<std::string, Kernel>> kernels;
+    for (auto k : {Kernel::WENDLAND_C2, Kernel::WENDLAND_C4, Kernel::WENDLAND_C6, Kernel::CUBIC,
+                   Kernel::QUINTIC, Kernel::LUCY})
+      kernels.emplace_back(kernel_name(k), k);
+    known = choose(choice.kernel, word, kernels);
+  } else if (keyword == "eos") {
+    known = choose(choice.eos, word,
+                   {{"linear", Eos::LINEAR}, {"tait", Eos::TAIT}, {"ideal", Eos::IDEAL}});
+  } else if (keyword == "shear") {
+    what = "shear form";
+    known = choose(choice.shear, word,
+                   {{"mg", Shear::MG},
+                    {"mg/fr", Shear::MG_FR},
+                    {"morris", Shear::MORRIS},
+                    {"espanol", Shear::ESPANOL},
+                    {"none", Shear::NONE}});
+  } else if (keyword == "bulk") {
+    what = "bulk form";
+    known = choose(choice.bulk, word,
+                   {{"density", Bulk::DENSITY}, {"volume", Bulk::VOLUME}, {"none", Bulk::NONE}});
+  } else if (keyword == "volume") {
+    known = choose(choice.volume, word, {{"number", Volume::NUMBER}, {"mass", Volume::MASS}});
+  } else if (keyword == "limit") {
+    known = choose(choice.limit, word,
+                   {{"no", Limit::NO}, {"count", Limit::COUNT}, {"yes", Limit::YES}});
+  } else {
+    simd = word;
+    known = (simd == "auto" || simd == "none" || simd == "avx2" || simd == "avx512");
+  }
+  if (!known) error->all(FLERR, place(word), "Unknown {} {} for pair_style {}", what, word, style);
+}
+
+/* ----------------------------------------------------------------------
+   temp T seed, or temp energy cv seed: words = what follows temp
+------------------------------------------------------------------------- */
+
+void FluidModel::set_temperature(char **words, bool energy)
+{
+  choice.thermal = true;
+  choice.own_temperatures = energy;
+  const char *const value = words[energy ? 1 : 0], *const seed = words[energy ? 2 : 1];
+  const double number = utils::numeric(FLERR, value, false, lmp);
+  if (energy) {
+    choice.heat_capacity = number;
+    if (!(number > 0.0) || !std::isfinite(number))
+      error->all(FLERR, place(value),
+                 "Pair_style {} temp energy: the heat capacity must be > 0, not {}", style, value);
+  } else {
+    choice.temperature = number;
+    if (!(number >= 0.0))
+      error->all(FLERR, place(value), "Pair_style {} temp must be >= 0, not {}", style, value);
+  }
+  choice.seed = utils::inumeric(FLERR, seed, false, lmp);
+  if (choice.seed <= 0)
+    error->all(FLERR, place(seed), "Pair_style {} temp: the seed must be > 0, not {}", style, seed);
 }
 
 /* ----------------------------------------------------------------------

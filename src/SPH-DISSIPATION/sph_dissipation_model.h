@@ -129,6 +129,8 @@ namespace SPHDissipation {
     int type_coeff(int, char **, int, int, int, int, int **);
     int fluid_coeff(int, char **, int, int, int, int, int **);
     int unlike_coeff(int, char **, int, int, int, int, int **);
+    void set_choice(const std::string &keyword, const char *word);
+    void set_temperature(char **words, bool energy);
     int place(const char *) const;
     std::string type_line(int) const;
   };

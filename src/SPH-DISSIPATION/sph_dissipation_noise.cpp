@@ -63,7 +63,6 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   data.seed = static_cast<std::uint64_t>(engine.parameters().seed);
   count_step();
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
-  data.type = atom->type;
 
   set_tags();
   if (energy) set_temperatures(continued);

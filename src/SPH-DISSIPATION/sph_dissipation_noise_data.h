@@ -62,7 +62,6 @@ namespace SPHDissipation {
     const NoiseRow *row;            // if ENERGY
     const double *spin_mobility;    // dt/J, if ENERGY with spins
     std::uint64_t seed, step;
-    const int *type;            // read if the coefficients differ between types
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
     double *eta;                // sums of the numbers of a particle, accumulated
     double *random;             // for the numbers of the pairs of one particle

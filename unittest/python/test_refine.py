@@ -477,7 +477,6 @@ BAD = [("fix R all sph/refine 1", "Illegal fix sph/refine"),
        ("fix R all sph/refine 1 volume 0.01", "144 particles are to become smaller than a volume of 0.017"),
        ("fix R all sph/refine 1 spacing 2.5", "hardly any neighbors"),
        ("fix R all sph/refine 1 volume v_none", "Variable none"),
-       ("fix R all sph/refine 1 volume v_", "Variable +for"),
        ("variable a string b\nfix R all sph/refine 1 volume v_a", "neither of equal style"),
        ('variable a atom "x-100.0"\nfix R all sph/refine 1 volume v_a', "for particle"),
        ("fix R all sph/refine 1 volume 1.0 split 0.5", "split must be > 1"),
@@ -490,7 +489,8 @@ BAD = [("fix R all sph/refine 1", "Illegal fix sph/refine"),
        ("fix R all sph/refine 1 volume 1.0\nfix S all sph/refine 1 volume 2.0", "both have 144 particles"),
        ("pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0\nfix R all sph/refine 1 volume 1.0", "volume number"),
        ("pair_style zero 3.0\npair_coeff * *\nfix R all sph/refine 1 volume 1.0", "requires pair style sph/bulk"),
-       ("neigh_modify once yes\nfix R all sph/refine 1 volume 1.0", "once must be no")]
+       ("neigh_modify once yes\nfix R all sph/refine 1 volume 1.0", "once must be no"),
+       ("fix R all sph/refine 1 volume v_", "Variable  for Fix sph/refine does not exist")]
 
 
 @pytest.mark.parametrize("line, words", BAD)
