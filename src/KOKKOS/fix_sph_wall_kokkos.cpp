@@ -20,7 +20,6 @@
 #include "neighbor.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_masks_kokkos.h"
-#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_wall_motion.h"
 
 #include <algorithm>
@@ -197,20 +196,11 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
   const WallVelocity now = motion->velocity();
   const WallCondition wall = *condition;
   const FromPoint<DeviceType> from_point(atomKK, domain);
-  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
-  auto rho = avec.k_rho.template view<DeviceType>();
-  auto vfrac = avec.k_vfrac.template view<DeviceType>();
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  auto rmass = atomKK->k_rmass.template view<DeviceType>();
+  const ParticleRows rows = data;
   auto all = boundary.particles;
   auto surface = boundary.surface;
   auto sums = boundary.sum;
-  auto particle = data.particle;
-  auto zeta_term = data.zeta_term;
-  auto weight = data.weight;
-  auto spin = data.spin;
-  const bool has_spin = data.spin.extent(0);
-  const int each = data.each;
+  auto *const spin = data.spin;
   const int bit = groupbit;
 
   atomKK->sync(execution_space, IMAGE_MASK);
@@ -218,20 +208,14 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
       "sph:wall_set", Kokkos::RangePolicy<DeviceType>(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
         const int i = all(k);
         const BoundarySum &sum = sums(k);
-        if (!(mask(i) & bit)) return;
-        if (has_spin) now.angular(spin(i).w);
+        if (!(rows.mask[i] & bit)) return;
+        double *const w = spin ? spin[i].w : nullptr;
+        if (w) now.angular(w);
         if (!(sum.weight > 0.0)) return;
         double r[3], acceleration[3];
         from_point(i, now.point, r);
         now.acceleration_at(r, acceleration);
-
-        Particle &p = particle(i);
-        rho(i) = sum.rho / sum.weight;
-        set_state(p, rmass(i), rho(i), wall_pressure(sum, wall.gravity, acceleration),
-                  weight(i * each));
-        vfrac(i) = p.vol;
-        zeta_term(i) = sum.zeta_term / sum.weight;
-        extend_motion(wall, surface(k), sum, p.u, has_spin ? spin(i).w : nullptr);
+        extend_fluid(rows, i, wall, surface(k), sum, acceleration, w);
       });
 }
 

@@ -14,11 +14,11 @@
 #include "sph_dissipation_boundary_kokkos.h"
 
 #include "atom_kokkos.h"
-#include "atom_vec_sph_bulk_kokkos.h"
 #include "neighbor.h"
 #include "pair.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_sums_kokkos.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -37,14 +37,13 @@ BoundaryStageKokkos<DeviceType>::BoundaryStageKokkos(LAMMPS *lmp, Pair *pair,
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
-void BoundaryStageKokkos<DeviceType>::run(LoopDataKokkos<DeviceType> &data, Kernel form, int dim,
-                                          int inum)
+void BoundaryStageKokkos<DeviceType>::run(LoopDataKokkos<DeviceType> &data, int inum)
 {
   const bool found = (neighbor->ago == 0 || bits != stage.bits());
-  with_kernel(form, [&](auto kernel) {
+  with_kernel(data.par.kernel, [&](auto kernel) {
     typedef decltype(kernel) K;
     if (found) {
-      find_particles(data, dim);
+      find_particles(data);
       find_rows(data, inum);
       find_surface<K>(data);
       boundaries.clear();
@@ -64,18 +63,17 @@ void BoundaryStageKokkos<DeviceType>::run(LoopDataKokkos<DeviceType> &data, Kern
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
-void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<DeviceType> &data,
-                                                     int dim)
+void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<DeviceType> &data)
 {
   bits = stage.bits();
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   const int some = bits;
-  auto mask = ((AtomKokkos *) atom)->k_mask.template view<DeviceType>();
+  const ParticleRows fluid = data;
   auto all_of = [&](int n) {
     int found = 0;
     Kokkos::parallel_reduce(
         "sph:boundary", Range(0, n),
-        KOKKOS_LAMBDA(int i, int &total) { total += (mask(i) & some) ? 1 : 0; }, found);
+        KOKKOS_LAMBDA(int i, int &total) { total += (fluid.mask[i] & some) ? 1 : 0; }, found);
     return found;
   };
   boundary.nowned = all_of(nlocal);
@@ -92,16 +90,15 @@ void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<Device
 
   auto particles = boundary.particles;
   auto near = boundary.near;
-  auto particle = data.particle;
-  const double support = data.support, weight_norm = data.weight_norm;
   Kokkos::parallel_scan(
       "sph:boundary", Range(0, nall), KOKKOS_LAMBDA(int i, int &k, bool last) {
-        const bool is_boundary = mask(i) & some;
+        const bool is_boundary = fluid.mask[i] & some;
         if (last) {
           number(i) = is_boundary ? k : -1;
           if (is_boundary) {
             particles(k) = i;
-            near(k) = near_kernel(dim, support, weight_norm, particle(i).vol);
+            near(k) = near_kernel(fluid.par.dim, fluid.par.support, fluid.par.weight_norm,
+                                  fluid.particle[i].vol);
           }
         }
         if (is_boundary) k++;
@@ -152,25 +149,14 @@ void BoundaryStageKokkos<DeviceType>::find_surface(const LoopDataKokkos<DeviceTy
                                                                   boundary.nowned);
   auto particles = boundary.particles;
   auto number = boundary.number;
-  auto particle = data.particle;
-  auto numneigh = data.numneigh;
-  auto neighbors = data.neighbors;
-  const double support = data.support, slope_norm = data.slope_norm;
+  auto loop = data;
   Kokkos::parallel_for(
       "sph:boundary_side", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
-        const int i = particles(k);
-        const double *const x = particle(i).x;
-        const int jnum = numneigh(i);
-        for (int jj = 0; jj < jnum; jj++) {
-          const int j = neighbors(i, jj) & NEIGHMASK;
-          if (number(j) >= 0) continue;
-          double r[3];
-          for (int d = 0; d < 3; d++) r[d] = particle(j).x[d] - x[d];
-          const double rsq = inner_product(r, r);
-          if (rsq >= support * support) continue;
-          const double slope = slope_norm * K::slope(Kokkos::sqrt(rsq) / support);
-          for (int d = 0; d < 3; d++) side(k, d) += slope * r[d];
-        }
+        for_neighbors(loop, particles(k), [&](int j, const double *r, double rsq) {
+          if (number(j) >= 0) return;
+          const double slope = loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support);
+          for (int d = 0; d < 3; d++) side(k, d) -= slope * r[d];
+        });
       });
   const auto h_side = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), side);
 
@@ -203,29 +189,20 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
   auto surface = boundary.surface;
   auto sum = boundary.sum;
   auto loop = data;
-  const bool has_spin = data.spin.extent(0);
-  auto rho = AtomVecSPHBulkKokkos::of(atom).k_rho.template view<DeviceType>();
   Kokkos::parallel_for(
       "sph:boundary_sum", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
-        const int i = particles(k);
-        const Particle w = loop.particle(i);
+        const Particle w = loop.particle[particles(k)];
         const Surface s = surface(k);
         BoundarySum total = {};
-        const int jnum = loop.numneigh(i);
-        for (int jj = 0; jj < jnum; jj++) {
-          const int j = loop.neighbors(i, jj) & NEIGHMASK;
-          if (number(j) >= 0) continue;
-          const Particle &f = loop.particle(j);
-          double r[3];
-          for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-          const double rsq = inner_product(r, r);
-          if (rsq >= loop.support * loop.support) continue;
+        for_neighbors(loop, particles(k), [&](int j, const double *r, double rsq) {
+          if (number(j) >= 0) return;
+          const Particle &f = loop.particle[j];
           const double kernel_weight =
-              loop.weight_norm * K::shape(Kokkos::sqrt(rsq) / loop.support);
-          const double height = add_fluid(f, w, r, kernel_weight, s, rho(j),
-                                          loop.weight(j * loop.each), loop.zeta_term(j), total);
-          if (has_spin) add_fluid_spin(loop.spin(j).w, f.vol * kernel_weight, height, s, total);
-        }
+              loop.par.weight_norm * K::shape(Kokkos::sqrt(rsq) / loop.par.support);
+          const double height = add_fluid(f, w, r, kernel_weight, s, loop.rho[j],
+                                          loop.weight[j * loop.each], loop.zeta_term[j], total);
+          if (loop.spin) add_fluid_spin(loop.spin[j].w, f.vol * kernel_weight, height, s, total);
+        });
         sum(k) = total;
       });
 }
@@ -241,26 +218,16 @@ void BoundaryStageKokkos<DeviceType>::check(const LoopDataKokkos<DeviceType> &da
   auto list = rows;
   auto number = boundary.number;
   auto near = boundary.near;
-  auto particle = data.particle;
-  auto numneigh = data.numneigh;
-  auto neighbors = data.neighbors;
+  auto loop = data;
   int first;
   Kokkos::parallel_reduce(
       "sph:boundary_check", Range(0, nrows),
       KOKKOS_LAMBDA(int k, int &smallest) {
         const int i = list(k);
-        const double *const x = particle(i).x;
         double filled = 0.0;
-        const int jnum = numneigh(i);
-        for (int jj = 0; jj < jnum; jj++) {
-          const int j = neighbors(i, jj) & NEIGHMASK;
-          if (number(j) < 0) continue;
-          const NearKernel wall = near(number(j));
-          double r[3];
-          for (int d = 0; d < 3; d++) r[d] = particle(j).x[d] - x[d];
-          const double q = Kokkos::sqrt(inner_product(r, r)) * wall.scale;
-          if (q < 1.0) filled += wall.norm * K::shape(q);
-        }
+        for_neighbors(loop, i, [&](int j, const double *, double rsq) {
+          if (number(j) >= 0) filled += near(number(j)).template at<K>(Kokkos::sqrt(rsq));
+        });
         if (filled > INSIDE_WALL && i < smallest) smallest = i;
       },
       Kokkos::Min<int>(first));

@@ -60,13 +60,13 @@ namespace SPHDissipation {
 
     // after the pressures, before pass 2: sets what owned boundary particles bring into it, for the
     // pair style to send to ghosts
-    void run(LoopDataKokkos<DeviceType> &, Kernel, int dim, int inum);
+    void run(LoopDataKokkos<DeviceType> &, int inum);
 
     double memory_usage() const;
 
     // public because CUDA asks for it of functions with lambdas
 
-    void find_particles(const LoopDataKokkos<DeviceType> &, int dim);
+    void find_particles(const LoopDataKokkos<DeviceType> &);
     void find_rows(const LoopDataKokkos<DeviceType> &, int inum);
     template <class K> void find_surface(const LoopDataKokkos<DeviceType> &);
     template <class K> void sum_fluid(const LoopDataKokkos<DeviceType> &);

@@ -18,6 +18,7 @@
 // the package's own fields, which the pack and unpack functions of AtomVecKokkos do not know.
 
 #include "kokkos_type.h"
+#include "sph_dissipation_exchange.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -34,6 +35,10 @@ namespace SPHDissipation {
     {
       base[n] = first;
       stride[n++] = step;
+    }
+    void add(const Field &field)
+    {
+      for (int d = 0; d < field.width; d++) add(field.first + d, static_cast<int>(field.stride));
     }
     template <class View> void add(const View &view)
     {

@@ -23,13 +23,11 @@
 #include "pair.h"
 #include "sph_dissipation_boundary_kokkos.h"
 #include "sph_dissipation_boundary_stage.h"
-#include "sph_dissipation_checks.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_loops_kokkos.h"
 #include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_sums_kokkos.h"
 #include "sph_dissipation_threads_kokkos.h"
@@ -49,7 +47,7 @@ template <class DeviceType>
 FluidKokkos<DeviceType>::FluidKokkos(LAMMPS *lmp, Pair *pair, bool spins) :
     Fluid(lmp, pair, spins), on_device(true), copied(false), threads(new ThreadsKokkos),
     kokkos_list(nullptr), host_list(new NeighList(lmp)), nlocal_device(-1), nghost_device(-1),
-    data(new LoopDataKokkos<DeviceType>), types(new Kokkos::View<TypeKokkos *, DeviceType>),
+    data(new LoopDataKokkos<DeviceType>()),
     boundary_device(new BoundaryStageKokkos<DeviceType>(lmp, pair, *boundary))
 {
   atomKK = (AtomKokkos *) atom;
@@ -243,36 +241,15 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
     return nbeyond;
   }
 
-  if (stale) {
-    adopt_changes();
-    copied = false;
-  }
-  if (neighbor->ago == 0) {
-    atomKK->sync(Host, RMASS_MASK | TAG_MASK | TYPE_MASK);
-    check_masses(lmp, style, *model);
-  }
-  if (!copied) copy_coeffs();
-  grow();
-
-  atomKK->sync(pair->execution_space, FLUID_READ);
-  set_particles();
-  run_density();
-  send_density();
-  const bool limited = (model->choice.limit != Limit::NO);
-  if (limited) find_bound();
-  set_state();
-  if (!boundary->empty()) {
-    boundary_device->run(*data, model->choice.kernel, dim, pair->list->inum);
-    send_boundary();
-  }
-  if (shift->wanted) find_gradient();
-  run_forces(tally);
+  if (stale) copied = false;
+  if (neighbor->ago == 0) atomKK->sync(Host, RMASS_MASK | TAG_MASK | TYPE_MASK);
+  const bigint nbeyond = Fluid::compute(tally);
   atomKK->modified(pair->execution_space, FLUID_MODIFIED);
 
   if (pair->eflag_either) atomKK->sync(Host, ENERGY);
   nlocal_device = atom->nlocal;
   nghost_device = atom->nghost;
-  return limited ? beyond_bound_of_limit() : 0;
+  return nbeyond;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -280,18 +257,21 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
 template <class DeviceType> void FluidKokkos<DeviceType>::grow()
 {
   auto reach = [](auto &view, const char *name, int n) {
-    if ((int) view.extent(0) >= n) return;
-    view = std::decay_t<decltype(view)>();    // frees the old one first
-    view = std::decay_t<decltype(view)>(Kokkos::NoInit(name), n);
+    if ((int) view.extent(0) < n) {
+      view = std::decay_t<decltype(view)>();    // frees the old one first
+      view = std::decay_t<decltype(view)>(Kokkos::NoInit(name), n);
+    }
+    return view.data();
   };
   const int n = atom->nmax;
-  const bool spins = engine->has_spin();
-  reach(data->particle, "sph:particle", n);
-  reach(data->density, "sph:density", n);
-  reach(data->zeta_term, "sph:zeta_term", n);
-  if (spins) reach(data->spin, "sph:spin", n);
-  for (int k = 0; k < NCHANNEL; k++) reach(data->heat[k], "sph:heat", n);
-  reach(data->weight, "sph:weight", data->each ? n : 1);
+  data->particle = reach(particle, "sph:particle", n);
+  data->density = reach(density_sum, "sph:density", n);
+  data->zeta_term = reach(zeta_term, "sph:zeta_term", n);
+  data->spin = engine->has_spin() ? reach(spin, "sph:spin", n) : nullptr;
+  for (auto &heat : data->heat) reach(heat, "sph:heat", n);
+  data->weight = reach(weight, "sph:weight", data->each ? n : 1);
+  if (model->choice.limit != Limit::NO) reach(bound_of, "sph:bound", n);
+  if (shift->wanted) reach(gradient_of, "sph:gradient", n);
 }
 
 /* ----------------------------------------------------------------------
@@ -300,33 +280,21 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
 
 template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
 {
+  auto copy = [](const auto &from, auto &view, const char *name) {
+    view = std::decay_t<decltype(view)>(Kokkos::NoInit(name), from.size());
+    auto on_host = Kokkos::create_mirror_view(view);
+    std::copy(from.begin(), from.end(), on_host.data());
+    Kokkos::deep_copy(view, on_host);
+    return view.data();
+  };
   const Parameters &par = engine->parameters();
-  const int n = par.ntypes_1;
-  if (!types->extent(0)) {
-    *types = Kokkos::View<TypeKokkos *, DeviceType>("sph:types", n);
-    data->coeff = Kokkos::View<PairCoeff *, DeviceType>("sph:coeff", n * n);
-  }
-  auto h_types = Kokkos::create_mirror_view(*types);
-  auto h_coeff = Kokkos::create_mirror_view(data->coeff);
-  for (int i = 1; i < n; i++)
-    h_types(i) = {par.type[i].eos, par.type[i].zeta, par.type[i].keywords};
-  for (int k = 0; k < n * n; k++) h_coeff(k) = par.pair[k];
-  Kokkos::deep_copy(*types, h_types);
-  Kokkos::deep_copy(data->coeff, h_coeff);
-
-  data->ntypes_1 = n;
+  data->par = par;
+  data->types = copy(par.type, types, "sph:types");
+  data->coeff = copy(par.pair, pair_coeff, "sph:coeff");
   data->typed = par.uniform ? 0 : 1;
-  data->bulk = par.bulk;
-  data->types = *types;
-  data->drag = par.drag;
-  data->support = par.support;
-  data->weight_norm = par.weight_norm;
-  data->slope_norm = par.slope_norm;
-  data->self_weight = par.self_weight;
-
-  data->each = (model->choice.volume == Volume::MASS) ? 1 : 0;
-  data->weight = decltype(data->weight)("sph:weight", 1);    // by mass it is set in each step
-  Kokkos::deep_copy(data->weight, 1.0);
+  data->each = (par.volume == Volume::MASS) ? 1 : 0;
+  weight = Array<double>("sph:weight", 1);    // by mass it is set in each step
+  Kokkos::deep_copy(weight, 1.0);
   copied = true;
 }
 
@@ -337,34 +305,36 @@ template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
 template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
 {
   const auto &avec = AtomVecSPHBulkKokkos::of(atom);
-  auto x = atomKK->k_x.template view<DeviceType>();
-  auto vest = avec.k_vest.template view<DeviceType>();
-  auto type = atomKK->k_type.template view<DeviceType>();
-  auto rmass = atomKK->k_rmass.template view<DeviceType>();
-  auto particle = data->particle;
-  auto weight = data->weight;
-  auto coeffs = *types;
-  const bool weighted = data->each;
-
-  Kokkos::parallel_for(
-      "sph:particles", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
-        for (int d = 0; d < 3; d++) {
-          particle(i).x[d] = x(i, d);
-          particle(i).u[d] = vest(i, d);
-        }
-        if (weighted) weight(i) = rmass(i) / coeffs(type(i)).eos.rho0;
-      });
-
   auto *k_list = static_cast<NeighListKokkos<DeviceType> *>(pair->list);
   data->ilist = k_list->d_ilist;
   data->numneigh = k_list->d_numneigh;
   data->neighbors = k_list->d_neighbors;
-  data->type = type;
-  data->mask = atomKK->k_mask.template view<DeviceType>();
+  data->nlocal = atom->nlocal;
+  data->type = atomKK->k_type.template view<DeviceType>().data();
+  data->mask = atomKK->k_mask.template view<DeviceType>().data();
+  data->rmass = atomKK->k_rmass.template view<DeviceType>().data();
+  data->esph = avec.k_esph.template view<DeviceType>().data();
+  data->rho = avec.k_rho.template view<DeviceType>().data();
+  data->drho = avec.k_drho.template view<DeviceType>().data();
+  data->vfrac = avec.k_vfrac.template view<DeviceType>().data();
+  data->desph = avec.k_desph.template view<DeviceType>().data();
   data->not_fluid = not_fluid();
   data->f = atomKK->k_f.template view<DeviceType>();
-  data->desph = avec.k_desph.template view<DeviceType>();
+
+  auto x = atomKK->k_x.template view<DeviceType>();
+  auto vest = avec.k_vest.template view<DeviceType>();
+  const ParticleRows rows = *data;
+  auto weights = weight;
+  Kokkos::parallel_for(
+      "sph:particles", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+      KOKKOS_LAMBDA(int i) {
+        for (int d = 0; d < 3; d++) {
+          rows.particle[i].x[d] = x(i, d);
+          rows.particle[i].u[d] = vest(i, d);
+        }
+        rows.desph[i] = 0.0;
+        if (rows.each) weights(i) = rows.reference_volume(i);
+      });
   if (engine->has_spin()) set_spins();
 }
 
@@ -372,242 +342,165 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_spins()
 {
-  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
-  auto omegaest = avec.k_omegaest.template view<DeviceType>();
-  auto spin = data->spin;
+  auto omegaest = AtomVecSPHBulkKokkos::of(atom).k_omegaest.template view<DeviceType>();
+  auto spins_of = spin;
   data->torque = atomKK->k_torque.template view<DeviceType>();
 
   Kokkos::parallel_for(
       "sph:spins", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
       KOKKOS_LAMBDA(int i) {
-        for (int d = 0; d < 3; d++) spin(i).w[d] = omegaest(i, d);
+        for (int d = 0; d < 3; d++) spins_of(i).w[d] = omegaest(i, d);
       });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   width doubles of each particle in an array on the device, from its double number first on; none if the
+   array is empty
+------------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::run_density()
+template <class DeviceType> template <class T> struct FluidKokkos<DeviceType>::Part {
+  Kokkos::View<T *, Kokkos::LayoutRight, DeviceType> array;
+  int first, width;
+
+  Field in(T *copy) const
+  {
+    return {reinterpret_cast<double *>(copy) + first, sizeof(T) / sizeof(double),
+            array.extent(0) ? width : 0};
+  }
+};
+
+/* ----------------------------------------------------------------------
+   LAMMPS has some kinds of communication on the host, whatever the pair style is
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class... T>
+void FluidKokkos<DeviceType>::send_to_ghosts(const Part<T> &...part)
 {
+  if (pair->execution_space == Device && !lmp->kokkos->forward_pair_comm_legacy &&
+      comm->style != Comm::TILED) {
+    sent = ColumnsKokkos();
+    (sent.add(part.in(part.array.data())), ...);
+    return comm->forward_comm(pair, sent.n);
+  }
+  auto send = [&](const auto &...copy) {
+    exchange->forward({part.in(copy.data())...});
+    (Kokkos::deep_copy(part.array, copy), ...);
+  };
+  send(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), part.array)...);
+}
+
+/* ----------------------------------------------------------------------
+   the ideal gas needs the energy of ghost atoms
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
+{
+  if (!on_device) return Fluid::sum_density();
+  if (!copied) copy_coeffs();
+  grow();
+  atomKK->sync(pair->execution_space, FLUID_READ);
+  set_particles();
   with_kernel(model->choice.kernel, [&](auto kernel) {
     typedef decltype(kernel) K;
     Kokkos::parallel_for("sph:density", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
                          DensityLoopKokkos<DeviceType, K>{*data});
   });
-}
 
-/* ----------------------------------------------------------------------
-   to the ghosts; LAMMPS has some kinds of communication on the host, whatever the pair style is
-------------------------------------------------------------------------- */
+  Part<double> energy = {{}, 0, 1};
+  if (model->choice.eos == Eos::IDEAL)
+    energy.array = AtomVecSPHBulkKokkos::of(atom).k_esph.template view<DeviceType>();
+  send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy);
 
-template <class DeviceType> bool FluidKokkos<DeviceType>::communicates_on_device() const
-{
-  return pair->execution_space == Device && !lmp->kokkos->forward_pair_comm_legacy &&
-      comm->style != Comm::TILED;
+  const ParticleRows rows = *data;
+  Kokkos::parallel_for(
+      "sph:volume", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+      KOKKOS_LAMBDA(int i) { rows.set_density(i); });
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::send_density()
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_bound()
 {
-  const bool ideal = (model->choice.eos == Eos::IDEAL);    // which needs the energy of ghost atoms
-
-  if (communicates_on_device()) {
-    auto *const rows = reinterpret_cast<double *>(data->density.data());
-    sent = ColumnsKokkos();
-    for (int k : {0, 1}) sent.add(rows + k, 2);
-    if (ideal) {
-      const auto &avec = AtomVecSPHBulkKokkos::of(atom);
-      sent.add(avec.k_esph.template view<DeviceType>());
-    }
-    comm->forward_comm(pair, sent.n);
-    return;
-  }
-
-  auto copy = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->density);
-  const Field sums = field(copy.data(), &copy.data()->c, 2);
-  if (ideal) {
-    atomKK->sync(Host, ESPH_MASK);
-    exchange->forward({sums, {atom->esph, 1, 1}});
-    atomKK->modified(Host, ESPH_MASK);
-    atomKK->sync(pair->execution_space, ESPH_MASK);
-  } else
-    exchange->forward({sums});
-  Kokkos::deep_copy(data->density, copy);
-}
-
-/* ----------------------------------------------------------------------
-   of the limit, from the volumes of the densities, for owned and ghost atoms
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void FluidKokkos<DeviceType>::find_bound()
-{
-  auto particle = data->particle;
-  auto density_of = data->density;
-  auto weight = data->weight;
-  const int each = data->each;
-  Kokkos::parallel_for(
-      "sph:volume", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) { particle(i).vol = weight(i * each) / density_of(i).c; });
-
-  if ((int) bound.extent(0) < atom->nmax) {
-    bound = {};
-    bound = decltype(bound)(Kokkos::NoInit("sph:bound"), atom->nmax);
-  }
+  if (!on_device) return Fluid::sum_bound();
   with_kernel(model->choice.kernel, [&](auto kernel) {
-    Kokkos::parallel_for(
-        "sph:bound", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-        BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, engine->parameters().shear, bound});
+    Kokkos::parallel_for("sph:bound", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
+                         BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, bound_of.data()});
   });
-
-  if (communicates_on_device()) {
-    sent = ColumnsKokkos();
-    sent.add(bound);
-    comm->forward_comm(pair, sent.n);
-    return;
-  }
-  auto copy = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), bound);
-  exchange->forward({{copy.data(), 1, 1}});
-  Kokkos::deep_copy(bound, copy);
+  send_to_ghosts(Part<double>{bound_of, 0, 1});
 }
 
-/* ----------------------------------------------------------------------
-   # of particles of the fluid that are beyond it
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-template <class DeviceType> int FluidKokkos<DeviceType>::beyond_bound_of_limit() const
+template <class DeviceType> void FluidKokkos<DeviceType>::set_reference_volume()
 {
-  auto bounds = bound;
-  auto coeffs = *types;
-  auto type = data->type;
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  const int except = not_fluid();
+  if (!on_device) return Fluid::set_reference_volume();
+  const ParticleRows rows = *data;
+  const int bits = boundary->bits();
+  Kokkos::parallel_for(
+      "sph:reference", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+      KOKKOS_LAMBDA(int i) { rows.set_reference_volume(i, bits); });
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> bigint FluidKokkos<DeviceType>::set_pressure()
+{
+  if (!on_device) return Fluid::set_pressure();
+  const ParticleRows rows = *data;
+  const int bits = boundary->bits();
+  const double *const bounds = (model->choice.limit != Limit::NO) ? bound_of.data() : nullptr;
+  Kokkos::parallel_for(
+      "sph:pressure", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+      KOKKOS_LAMBDA(int i) { rows.set_pressure(i, bounds, bits); });
+
   int count = 0;
-  Kokkos::parallel_reduce(
-      "sph:beyond", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
-      KOKKOS_LAMBDA(int i, int &sum) {
-        if (!(mask(i) & except) && beyond_bound(coeffs(type(i)).zeta, bounds(i))) sum++;
-      },
-      count);
+  if (bounds)
+    Kokkos::parallel_reduce(
+        "sph:beyond", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
+        KOKKOS_LAMBDA(int i, int &sum) {
+          if (rows.is_fluid(i, bits) && rows.is_beyond(i, bounds)) sum++;
+        },
+        count);
   return count;
 }
 
+/* ----------------------------------------------------------------------
+   ghosts of the fluid get what they have already
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
+{
+  if (!on_device) return Fluid::set_boundary();
+  boundary_device->run(*data, pair->list->inum);
+  Part<Spin> spins_of = {{}, 0, 3};
+  if (engine->has_spin()) spins_of.array = spin;
+  send_to_ghosts(Part<Particle>{particle, 3, 5},    // u, vol and g
+                 Part<double>{zeta_term, 0, 1}, spins_of);
+}
+
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::find_gradient()
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_gradient()
 {
-  if ((int) gradient_of.extent(0) < atom->nmax) {
-    gradient_of = {};
-    gradient_of = decltype(gradient_of)(Kokkos::NoInit("sph:gradient"), atom->nmax);
-  }
+  if (!on_device) return Fluid::sum_gradient();
   with_kernel(model->choice.kernel, [&](auto kernel) {
     Kokkos::parallel_for("sph:gradient", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-                         ShiftLoopKokkos<DeviceType, decltype(kernel)>{*data, dim, gradient_of});
+                         ShiftLoopKokkos<DeviceType, decltype(kernel)>{*data, gradient_of});
   });
 }
 
-/* ----------------------------------------------------------------------
-   what the boundary has set of owned particles; ghosts of the fluid get what they have already
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void FluidKokkos<DeviceType>::send_boundary()
-{
-  static constexpr int FIRST = 3, WIDTH = 5;    // u, vol and g of Particle
-  static constexpr int ROW = sizeof(Particle) / sizeof(double);
-
-  if (communicates_on_device()) {
-    auto *const rows = reinterpret_cast<double *>(data->particle.data());
-    sent = ColumnsKokkos();
-    for (int k = FIRST; k < FIRST + WIDTH; k++) sent.add(rows + k, ROW);
-    sent.add(data->zeta_term);
-    if (engine->has_spin()) {
-      auto *const spins = reinterpret_cast<double *>(data->spin.data());
-      for (int k : {0, 1, 2}) sent.add(spins + k, sizeof(Spin) / sizeof(double));
-    }
-    comm->forward_comm(pair, sent.n);
-    return;
-  }
-
-  auto particle = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->particle);
-  auto zeta_term = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->zeta_term);
-  const Field state = field(particle.data(), particle.data()->u, WIDTH);
-  const Field bulk_term = {zeta_term.data(), 1, 1};
-  if (engine->has_spin()) {
-    auto spin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), data->spin);
-    exchange->forward({state, bulk_term, field(spin.data(), spin.data()->w, 3)});
-    Kokkos::deep_copy(data->spin, spin);
-  } else
-    exchange->forward({state, bulk_term});
-  Kokkos::deep_copy(data->particle, particle);
-  Kokkos::deep_copy(data->zeta_term, zeta_term);
-}
-
-/* ----------------------------------------------------------------------
-   volume, density, pressure and bulk term of owned and ghost atoms; boundary particles, most of whose
-   neighbors are not there, have the reference density of their type
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void FluidKokkos<DeviceType>::set_state()
-{
-  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
-  auto rmass = atomKK->k_rmass.template view<DeviceType>();
-  auto rho = avec.k_rho.template view<DeviceType>();
-  auto drho = avec.k_drho.template view<DeviceType>();
-  auto vfrac = avec.k_vfrac.template view<DeviceType>();
-  auto esph = avec.k_esph.template view<DeviceType>();
-  auto desph = data->desph;
-  auto type = data->type;
-  auto particle = data->particle;
-  auto density_of = data->density;
-  auto weight_of = data->weight;
-  auto zeta_term = data->zeta_term;
-  auto coeffs = *types;
-  const int each = data->each;
-  const Eos eos = model->choice.eos;
-  const Bulk bulk = model->choice.bulk;
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  const int boundary_bits = boundary->bits();
-  const bool limited = (model->choice.limit == Limit::YES);
-  auto bounds = bound;
-
-  Kokkos::parallel_for(
-      "sph:state", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
-        if (mask(i) & boundary_bits) {
-          rho(i) = coeffs(type(i)).eos.rho0;
-          SPHDissipation::set_state(particle(i), rmass(i), rho(i), 0.0, weight_of(i * each));
-          vfrac(i) = particle(i).vol;
-          drho(i) = zeta_term(i) = desph(i) = 0.0;
-          return;
-        }
-        const double weight = weight_of(i * each);
-        const double mass = rmass(i) / weight;
-        const double vol = weight / density_of(i).c;
-        rho(i) = mass * density_of(i).c;
-        drho(i) = mass * density_of(i).cdot;
-        vfrac(i) = vol;
-        const TypeKokkos &coeff = coeffs(type(i));
-        const double zeta = (limited && beyond_bound(coeff.zeta, bounds(i)))
-            ? zeta_at_bound(bounds(i))
-            : coeff.zeta;
-        const ParticleTerms terms = particle_terms(eos, coeff.eos, bulk, zeta, vol, weight,
-                                                   density_of(i).cdot, rho(i), esph(i) / rmass(i));
-        particle(i).vol = vol;
-        particle(i).g = terms.g;
-        zeta_term(i) = terms.zeta_term;
-        desph(i) = terms.work;
-      });
-}
-
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::run_forces(bool virial)
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(PairTally *tally)
 {
+  if (!on_device) return Fluid::sum_forces(tally);
   data->vatom = {};
   if (pair->vflag_atom) data->vatom = decltype(data->vatom)("sph:vatom", atom->nlocal);
 
   with_kernel(model->choice.kernel, [&](auto kernel) {
     with_form(model->choice.shear, [&](auto form) {
-      run_force_loop<decltype(kernel), decltype(form)>(virial);
+      run_force_loop<decltype(kernel), decltype(form)>(tally);
     });
   });
 
@@ -647,12 +540,14 @@ void FluidKokkos<DeviceType>::run_loop(const Loop &loop, bool tally)
 
 template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
 {
-  double bytes = Fluid::memory_usage();
-  bytes += (double) data->particle.extent(0) *
-      (sizeof(Particle) + sizeof(DensitySum) + 3 * sizeof(double));
-  return bytes + (double) data->weight.extent(0) * sizeof(double) +
-      boundary_device->memory_usage() +
-      (double) (bound.size() + gradient_of.size()) * sizeof(double);
+  const auto bytes = [](const auto &...view) {
+    return (... +
+            ((double) view.size() *
+             sizeof(typename std::decay_t<decltype(view)>::non_const_value_type)));
+  };
+  return Fluid::memory_usage() + boundary_device->memory_usage() +
+      bytes(particle, density_sum, spin, zeta_term, weight, bound_of, gradient_of) +
+      (double) NCHANNEL * bytes(data->heat[0]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -17,6 +17,8 @@
 #include "sph_dissipation_columns_kokkos.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_parameters.h"
+#include "sph_dissipation_rows.h"
 
 #include <vector>
 
@@ -28,7 +30,6 @@ namespace SPHDissipation {
   class Threads;
   template <class DeviceType> class BoundaryStageKokkos;
   template <class DeviceType> struct LoopDataKokkos;
-  struct TypeKokkos;
 
   // the fields of particles that the forces read and modify; the atom style leaves out those that it
   // does not have
@@ -62,16 +63,17 @@ namespace SPHDissipation {
     typedef Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> Gradient;
     Gradient gradient_on_device() const { return gradient_of; }    // of owned particles
 
-    // of compute(); public because CUDA asks for it of functions with lambdas
+    // on the device where that computes; public because CUDA asks for it of functions with lambdas
 
+    void sum_density() override;
+    void sum_bound() override;
+    void set_reference_volume() override;
+    bigint set_pressure() override;
+    void set_boundary() override;
+    void sum_gradient() override;
+    void sum_forces(PairTally *) override;
     void set_particles();
     void set_spins();
-    void set_state();
-    void find_bound();
-    int beyond_bound_of_limit() const;
-    void find_gradient();
-    void run_density();
-    void run_forces(bool virial);
 
    private:
     static constexpr uint64_t ENERGY = SPH_RHO_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK;
@@ -85,9 +87,17 @@ namespace SPHDissipation {
     std::vector<int *> host_firstneigh;
     int nlocal_device, nghost_device;    // # of atoms of the last computation on the device
 
+    // what data refers to, on the device
+
+    template <class T> using Array = Kokkos::View<T *, DeviceType>;
     std::unique_ptr<LoopDataKokkos<DeviceType>> data;
-    std::unique_ptr<Kokkos::View<TypeKokkos *, DeviceType>> types;
-    Kokkos::View<double *, DeviceType> bound;    // of the limit, see LimitStage
+    Array<TypeParameters> types;
+    Array<PairCoeff> pair_coeff;
+    Array<Particle> particle;
+    Array<DensitySum> density_sum;
+    Array<Spin> spin;
+    Array<double> zeta_term, weight;
+    Array<double> bound_of;    // of the limit, see LimitStage
     Gradient gradient_of;
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
 
@@ -97,9 +107,8 @@ namespace SPHDissipation {
     void refer_to_list();
     void grow();
     void copy_coeffs();
-    bool communicates_on_device() const;
-    void send_density();
-    void send_boundary();
+    template <class T> struct Part;
+    template <class... T> void send_to_ghosts(const Part<T> &...);
     template <class Loop> void run_loop(const Loop &, bool virial);
     template <class K, class Form> void run_force_loop(bool virial);
   };

@@ -39,44 +39,22 @@ namespace SPHDissipation {
 
 #include "sph_dissipation_pair_terms.h"
 
-  // coefficients of a type
-
-  struct TypeKokkos {
-    EosParams eos;
-    double zeta;
-    TypeCoeffs keywords;
-  };
-
   // Input, output and scratch space of the loops, as class LoopData of the CPU styles
 
-  template <class DeviceType> struct LoopDataKokkos {
+  template <class DeviceType> struct LoopDataKokkos : ParticleRows {
     typedef ArrayTypes<DeviceType> AT;
 
     typename AT::t_int_1d ilist, numneigh;
     typename AT::t_neighbors_2d neighbors;
 
-    Kokkos::View<Particle *, DeviceType> particle;
-    Kokkos::View<Spin *, DeviceType> spin;    // micropolar
-    Kokkos::View<DensitySum *, DeviceType> density;
-    Kokkos::View<double *, DeviceType>
-        weight;    // reference volume w of particle i: weight(i * each)
-    int each;      // 0: it is the same for all, 1
-    Kokkos::View<double *, DeviceType> zeta_term;         // zeta cdot/c
+    Spin *spin;                                           // micropolar, else nullptr
     Kokkos::View<double *, DeviceType> heat[NCHANNEL];    // of owned particles
-    Kokkos::View<PairCoeff *, DeviceType> coeff;    // coeff(type[i] * ntypes_1 + type[j * typed])
-    int ntypes_1;
-    int typed;    // 0: the coefficients of all pairs are the same
+    const PairCoeff *coeff;    // coeff[type[i] * par.ntypes_1 + type[j * typed]]
+    int typed;                 // 0: the coefficients of all pairs are the same
 
-    typename AT::t_int_1d type, mask;
-    Kokkos::View<TypeKokkos *, DeviceType> types;
-    bool drag;                              // of single particles
-    int not_fluid;                          // groups whose particles have none
+    int not_fluid;                          // groups whose particles have no drag
     typename AT::t_kkacc_1d_3 f, torque;    // torque: micropolar
-    Kokkos::View<double *, Kokkos::LayoutRight, DeviceType> desph;
     Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> vatom;    // if it is asked for
-
-    Bulk bulk;
-    double support, weight_norm, slope_norm, self_weight;
   };
 
   // pass 1: c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij
@@ -87,26 +65,26 @@ namespace SPHDissipation {
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
     {
       const int i = data.ilist(ii);
-      const Particle pi = data.particle(i);
-      const double support_sq = data.support * data.support;
-      const double support_inv = 1.0 / data.support;
-      double c = data.self_weight * data.weight(i * data.each), cdot = 0.0;
+      const Particle pi = data.particle[i];
+      const double support_sq = data.par.support * data.par.support;
+      const double support_inv = 1.0 / data.par.support;
+      double c = data.par.self_weight * data.weight[i * data.each], cdot = 0.0;
 
       const int jnum = data.numneigh(i);
       for (int jj = 0; jj < jnum; jj++) {
         const int j = data.neighbors(i, jj) & NEIGHMASK;
-        const Particle &pj = data.particle(j);
+        const Particle &pj = data.particle[j];
         const double dx = pi.x[0] - pj.x[0], dy = pi.x[1] - pj.x[1], dz = pi.x[2] - pj.x[2];
         const double rsq = dx * dx + dy * dy + dz * dz;
         if (rsq >= support_sq) continue;
         const double approach =
             dx * (pi.u[0] - pj.u[0]) + dy * (pi.u[1] - pj.u[1]) + dz * (pi.u[2] - pj.u[2]);
         const double q = Kokkos::sqrt(rsq) * support_inv;
-        const double weight = data.weight(j * data.each);
-        c += weight * data.weight_norm * K::shape(q);
-        cdot -= weight * data.slope_norm * K::slope(q) * approach;
+        const double weight = data.weight[j * data.each];
+        c += weight * data.par.weight_norm * K::shape(q);
+        cdot -= weight * data.par.slope_norm * K::slope(q) * approach;
       }
-      data.density(i) = {c, cdot};
+      data.density[i] = {c, cdot};
     }
   };
 
@@ -135,42 +113,42 @@ namespace SPHDissipation {
     template <bool VIRIAL> KOKKOS_INLINE_FUNCTION void row(int ii, double *virial) const
     {
       const int i = data.ilist(ii);
-      const Particle pi = data.particle(i);
-      const Spin spin_i = Form::SPINS ? data.spin(i) : Spin();
-      const double support_sq = data.support * data.support;
-      const double support_inv = 1.0 / data.support;
-      const double zeta_term_i = data.zeta_term(i);
-      const double weight_i = data.weight(i * data.each);
-      const PairCoeff *const coeff_i = &data.coeff(data.type(i) * data.ntypes_1);
+      const Particle pi = data.particle[i];
+      const Spin spin_i = Form::SPINS ? data.spin[i] : Spin();
+      const double support_sq = data.par.support * data.par.support;
+      const double support_inv = 1.0 / data.par.support;
+      const double zeta_term_i = data.zeta_term[i];
+      const double weight_i = data.weight[i * data.each];
+      const PairCoeff *const coeff_i = &data.coeff[data.type[i] * data.par.ntypes_1];
       double total_f[3] = {0.0, 0.0, 0.0}, total_t[3] = {0.0, 0.0, 0.0}, divergence = 0.0;
       double heat[NCHANNEL] = {};
 
       const int jnum = data.numneigh(i);
       for (int jj = 0; jj < jnum; jj++) {
         const int j = data.neighbors(i, jj) & NEIGHMASK;
-        const Particle &pj = data.particle(j);
+        const Particle &pj = data.particle[j];
         PairState pair;
         for (int d = 0; d < 3; d++) pair.r[d] = pi.x[d] - pj.x[d];
         const double rsq = dot(pair.r, pair.r);
         if (rsq >= support_sq) continue;
         for (int d = 0; d < 3; d++) pair.u[d] = pi.u[d] - pj.u[d];
-        const double slope = data.slope_norm * K::slope(square_root(rsq) * support_inv);
-        pair.coeff = coeff_i[data.type(j * data.typed)].a;
+        const double slope = data.par.slope_norm * K::slope(square_root(rsq) * support_inv);
+        pair.coeff = coeff_i[data.type[j * data.typed]].a;
         pair.approach = dot(pair.r, pair.u);
         pair.vv = volumes_slope(rsq, pi.vol, pj.vol, slope);
         for (int c = 0; c < NCHANNEL; c++) pair.heat[c] = 0.0;
 
-        pair.central = pressing_term(pi.g, pj.g, slope) * weight_i * data.weight(j * data.each);
+        pair.central = pressing_term(pi.g, pj.g, slope) * weight_i * data.weight[j * data.each];
         if constexpr (Form::CENTRAL)
           pair.by_metric = pair.vv / (metric_of<Form::BY_DISTANCE>(rsq) + TINY);
         Form::add_central(pair);
         if constexpr (VOLUME) {
-          pair.central += volume_term(zeta_term_i, data.zeta_term(j), pair.vv);
+          pair.central += volume_term(zeta_term_i, data.zeta_term[j], pair.vv);
           divergence -= slope * pair.approach * pj.vol;
         }
         for (int d = 0; d < 3; d++) pair.f[d] = pair.central * pair.r[d];
         if constexpr (Form::SPINS) {
-          const Spin &spin_j = data.spin(j);
+          const Spin &spin_j = data.spin[j];
           slip_velocity(spin_i.w, spin_j.w, pair.r, pair.u);
           for (int d = 0; d < 3; d++) pair.s[d] = spin_i.w[d] - spin_j.w[d];
         }
@@ -191,15 +169,15 @@ namespace SPHDissipation {
       }
 
       heat[BULK] =
-          bulk_heat(data.bulk, zeta_term_i, pi.vol, weight_i, data.density(i).cdot, divergence);
-      if (data.drag && !(data.mask(i) & data.not_fluid))
-        Channels::add_drag(data.types(data.type(i)).keywords, pi.vol, pi.u, false, total_f, heat);
+          bulk_heat(data.par.bulk, zeta_term_i, pi.vol, weight_i, data.density[i].cdot, divergence);
+      if (data.par.drag && !(data.mask[i] & data.not_fluid))
+        Channels::add_drag(data.types[data.type[i]].keywords, pi.vol, pi.u, false, total_f, heat);
       for (int d = 0; d < 3; d++) data.f(i, d) += total_f[d];
       if constexpr (Form::SPINS)
         for (int d = 0; d < 3; d++) data.torque(i, d) += total_t[d];
       for (int c = 0; c < NCHANNEL; c++) {
         data.heat[c](i) = heat[c];
-        data.desph(i) += heat[c];
+        data.desph[i] += heat[c];
       }
     }
   };

@@ -28,54 +28,51 @@ namespace SPHDissipation {
   KOKKOS_FORCEINLINE_FUNCTION void for_neighbors(const LoopDataKokkos<DeviceType> &data, int i,
                                                  const Function &function)
   {
-    const Particle &pi = data.particle(i);
+    const Particle &pi = data.particle[i];
     const int jnum = data.numneigh(i);
     for (int jj = 0; jj < jnum; jj++) {
       const int j = data.neighbors(i, jj) & NEIGHMASK;
-      const Particle &pj = data.particle(j);
+      const Particle &pj = data.particle[j];
       const double r[3] = {pi.x[0] - pj.x[0], pi.x[1] - pj.x[1], pi.x[2] - pj.x[2]};
       const double rsq = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-      if (rsq < data.support * data.support) function(j, r, rsq);
+      if (rsq < data.par.support * data.par.support) function(j, r, rsq);
     }
   }
 
   template <class DeviceType, class K> struct BoundLoopKokkos {
     LoopDataKokkos<DeviceType> data;
-    Shear shear;
-    Kokkos::View<double *, DeviceType> bound;
+    double *bound;
 
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
     {
       const int i = data.ilist(ii);
-      const double vol_i = data.particle(i).vol, weight_i = data.weight(i * data.each);
-      const PairCoeff *const coeff = &data.coeff(data.type(i) * data.ntypes_1);
+      const double vol_i = data.particle[i].vol, weight_i = data.weight[i * data.each];
+      const PairCoeff *const coeff = &data.coeff[data.type[i] * data.par.ntypes_1];
       double sum = 0.0;
       for_neighbors(data, i, [&](int j, const double *, double rsq) {
-        if (rsq == 0.0) return;
-        const double slope = data.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.support);
-        const double vol_j = data.particle(j).vol;
-        const double ratio = vol_i * data.weight(j * data.each) / (vol_j * weight_i);
-        sum += ratio * ratio * vol_j *
-            bound_of_pair(shear, coeff[data.type(j * data.typed)], slope, rsq);
+        const double slope = data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
+        sum += bound_of_pair(data.par.shear, coeff[data.type[j * data.typed]], slope, rsq, vol_i,
+                             weight_i, data.particle[j].vol, data.weight[j * data.each])
+                   .i;
       });
-      bound(i) = sum;
+      bound[i] = sum;
     }
   };
 
   template <class DeviceType, class K> struct ShiftLoopKokkos {
     LoopDataKokkos<DeviceType> data;
-    int dim;
     Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> gradient;
 
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
     {
       const int i = data.ilist(ii);
-      const double contact = contact_inverse<K>(dim, data.support, data.particle(i).vol);
+      const double contact =
+          contact_inverse<K>(data.par.dim, data.par.support, data.particle[i].vol);
       double sum[3] = {0.0, 0.0, 0.0};
       for_neighbors(data, i, [&](int j, const double *r, double rsq) {
-        const double q = Kokkos::sqrt(rsq) / data.support;
-        const double push = data.particle(j).vol *
-            concentration_push(data.slope_norm * K::slope(q), K::shape(q), contact);
+        const double q = Kokkos::sqrt(rsq) / data.par.support;
+        const double push = concentration_push(
+            data.particle[j].vol, data.par.slope_norm * K::slope(q), K::shape(q), contact);
         for (int d = 0; d < 3; d++) sum[d] += push * r[d];
       });
       for (int d = 0; d < 3; d++) gradient(i, d) = sum[d];

@@ -291,7 +291,6 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
     double *const spin = stage.spin(i);
     if (spin) now.angular(spin);
     if (!(sum.weight > 0.0)) continue;
-    const double norm = 1.0 / sum.weight;
 
     double r[3], acceleration[3];
     from_point(i, now, r);
@@ -304,12 +303,9 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
       const EosParams &eos = model.coeffs[atom->type[i]].eos;
       stage.set_state(
           i, eos.rho0,
-          surface_pressure(surfaces[i], eos.rho0, eos.pb, condition->gravity, acceleration), 0.0);
-    } else {
-      stage.set_state(i, sum.rho * norm, wall_pressure(sum, condition->gravity, acceleration),
-                      sum.zeta_term * norm);
-      extend_motion(*condition, surfaces[i], sum, stage.velocity(i), spin);
-    }
+          surface_pressure(surfaces[i], eos.rho0, eos.pb, condition->gravity, acceleration));
+    } else
+      stage.extend_fluid(i, *condition, surfaces[i], sum, acceleration);
   }
 }
 

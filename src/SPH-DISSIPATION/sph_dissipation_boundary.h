@@ -35,7 +35,7 @@ namespace SPHDissipation {
     virtual void move_surface(Surface *, bool before) = 0;
 
     // set what its owned particles bring into the pair forces, from the sums over the fluid around
-    // them: BoundaryStage::set_state(), velocity() and, if there are spins, spin()
+    // them: BoundaryStage::set_state() or extend_fluid() and, if there are spins, spin()
 
     virtual void set_boundary(BoundaryStage &, const Surface *, const BoundarySum *) = 0;
 

@@ -79,26 +79,23 @@ void BoundaryStage::remove(Boundary *boundary)
 
 void BoundaryStage::set_reference_volume()
 {
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
-    if (!(atom->mask[i] & group_bits)) continue;
-    set_state(i, engine.parameters().type[atom->type[i]].eos.rho0, 0.0, 0.0);
-    atom->drho[i] = 0.0;
-  }
+  const ParticleRows &rows = engine.rows();
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) rows.set_reference_volume(i, group_bits);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void BoundaryStage::set_state(int i, double rho, double pressure, double zeta_term)
+void BoundaryStage::set_state(int i, double rho, double pressure)
 {
-  SPHDissipation::set_state(engine.particle[i], atom->rmass[i], rho, pressure, engine.weight(i));
-  engine.zeta_term[i] = zeta_term;
-  atom->rho[i] = rho;
-  atom->vfrac[i] = engine.particle[i].vol;
+  engine.rows().set_state(i, rho, pressure);
+  engine.zeta_term[i] = 0.0;
 }
 
-double *BoundaryStage::velocity(int i)
+void BoundaryStage::extend_fluid(int i, const WallCondition &condition, const Surface &surface_of,
+                                 const BoundarySum &sum_of, const double *acceleration)
 {
-  return engine.particle[i].u;
+  SPHDissipation::extend_fluid(engine.rows(), i, condition, surface_of, sum_of, acceleration,
+                               spin(i));
 }
 
 double *BoundaryStage::spin(int i)
@@ -319,14 +316,8 @@ void BoundaryStage::accumulate()
                     engine.zeta_term[pair.fluid], total);
       if (has_spin)
         add_fluid_spin(engine.spin[pair.fluid].w, f.vol * kernel_weight, height, s, total);
-      const NearKernel &wall = near[pair.wall];
-      const double q = distance * wall.scale;
-      if (q < 1.0) sum[pair.fluid].filled += wall.norm * k.shape(q);
-      if (!repulsive) continue;
-      const NearKernel &touching = contact[pair.wall];
-      const double q_touching = distance * touching.scale;
-      if (q_touching < 1.0)
-        sum[pair.fluid].occupied += touching.norm * ContactKernel::shape(q_touching);
+      sum[pair.fluid].filled += near[pair.wall].at<decltype(k)>(distance);
+      if (repulsive) sum[pair.fluid].occupied += contact[pair.wall].at<ContactKernel>(distance);
     }
     return 0;
   });

@@ -38,8 +38,7 @@ namespace SPHDissipation {
     bool empty() const { return boundaries.empty(); }
     int bits() const { return group_bits; }    // of the groups of all boundaries
 
-    // after the densities: the particles have none of their own, for most of their neighbors are not
-    // there, but the reference density of their type
+    // after the densities: see ParticleRows::set_reference_volume()
     void set_reference_volume();
 
     // after the pressures, before pass 2
@@ -58,12 +57,13 @@ namespace SPHDissipation {
 
     double energy(double *each_atom) const;
 
-    // From Boundary::set_boundary(), of one of its owned particles: density, pressure with the bulk
-    // term (bulk density) or without (otherwise), and bulk term, from which volume and P/c^2 follow;
-    // velocity and spin in the pair forces, to be set, where spin is nullptr without spins
+    // From Boundary::set_boundary(), of one of its owned particles: density and pressure without bulk term,
+    // from which volume and P/c^2 follow; or all that the fluid around it brings, with its sums;
+    // spin in the pair forces, to be set before, nullptr without spins
 
-    void set_state(int i, double rho, double pressure, double zeta_term);
-    double *velocity(int i);
+    void set_state(int i, double rho, double pressure);
+    void extend_fluid(int i, const WallCondition &, const Surface &, const BoundarySum &,
+                      const double *acceleration);
     double *spin(int i);
 
     // what run() consists of, for another one that does the sums elsewhere: the surfaces of the

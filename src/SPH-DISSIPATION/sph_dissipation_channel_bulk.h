@@ -55,10 +55,18 @@ namespace SPHDissipation {
 
   // A negative coefficient dissipates, with the drag of the pairs, as long as zeta B >= -1/2 with the bound
   // B_i = sum_j (c_j/c_i)^2 V_j F r^2 / a_ij, where a_ij is the central weight of a pair (theory page).
-  // What a pair of slope F and square distance rsq > 0 adds to it, times (c_j/c_i)^2 V_j:
-  SPH_FUNCTION double bound_of_pair(Shear shear, const PairCoeff &coeff, double slope, double rsq)
+  // What a pair of slope F and square distance rsq adds to it, for volumes and reference volumes V, w:
+  struct PairBound {
+    double i, j;
+  };
+  SPH_FUNCTION PairBound bound_of_pair(Shear shear, const PairCoeff &coeff, double slope,
+                                       double rsq, double vol_i, double weight_i, double vol_j,
+                                       double weight_j)
   {
-    return slope * rsq / central_weight(shear, coeff, sqrt(rsq));
+    if (rsq == 0.0) return {0.0, 0.0};
+    const double pair = slope * rsq / central_weight(shear, coeff, sqrt(rsq));
+    const double ratio = vol_i * weight_j / (vol_j * weight_i);
+    return {ratio * ratio * vol_j * pair, vol_i * pair / (ratio * ratio)};
   }
   SPH_FUNCTION bool beyond_bound(double zeta, double bound)
   {

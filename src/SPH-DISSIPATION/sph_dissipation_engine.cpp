@@ -44,9 +44,9 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
     zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
     par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
-    noisy_loop(nullptr), drag_noise(nullptr), data(), threads(&one_thread), weights(nullptr),
-    not_fluid(0), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0), imax(0),
-    pair_max(0)
+    noisy_loop(nullptr), drag_noise(nullptr), data(), atom_rows(), threads(&one_thread),
+    weights(nullptr), not_fluid(0), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0),
+    imax(0), pair_max(0)
 {
   choose_loops("auto");
 }
@@ -197,6 +197,17 @@ LoopData Engine::part(int thread) const
   return part;
 }
 
+/* ---------------------------------------------------------------------- */
+
+void Engine::set_rows()
+{
+  static constexpr double ONE = 1.0;
+  atom_rows = {*par,       par->type.data(), atom->nlocal, particle,
+               density,    zeta_term,        &ONE,         0,
+               atom->type, atom->mask,       atom->rmass,  atom->esph,
+               atom->rho,  atom->drho,       atom->vfrac,  atom->desph};
+}
+
 /* ----------------------------------------------------------------------
    reference volumes of owned and ghost atoms; the first term of each sum, the particle itself
 ------------------------------------------------------------------------- */
@@ -215,11 +226,12 @@ void Engine::set_weights()
   }
   const int nall = atom->nlocal + atom->nghost;
   for_each(nall, [&](int i) {
-    weights[i] = by_mass ? atom->rmass[i] / par->type[atom->type[i]].eos.rho0 : 1.0;
+    weights[i] = by_mass ? atom_rows.reference_volume(i) : 1.0;
     density[i].c *= weights[i];
   });
   std::fill_n(weights + nall, BLOCK, 0.0);
-  data.weight = weights;
+  data.weight = atom_rows.weight = weights;
+  atom_rows.each = 1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -257,6 +269,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     if (has_spin()) spin[i] = Spin();
   }
 
+  set_rows();
   set_weights();
 
   data.inum = list->inum;

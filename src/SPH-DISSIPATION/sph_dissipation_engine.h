@@ -15,8 +15,7 @@
 #define LMP_SPH_DISSIPATION_ENGINE_H
 
 #include "pointers.h"
-#include "sph_dissipation_parameters.h"
-#include "sph_dissipation_rows.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_threads.h"
 
 #include <string>
@@ -198,6 +197,8 @@ namespace SPHDissipation {
     const LoopSet &loop_set() const { return *loops; }
 
     const Parameters &parameters() const { return *par; }
+    // what is between the passes, of owned and ghost atoms; from pass 1 until atoms move to other processors
+    const ParticleRows &rows() const { return atom_rows; }
     // reference volume of a particle, owned or ghost
     double weight(int i) const { return data.weight ? data.weight[i] : 1.0; }
     bool has_spin() const { return par->spins(); }
@@ -219,6 +220,7 @@ namespace SPHDissipation {
     Loop noisy_loop;    // force_loop with noise, or nullptr
     const double *drag_noise;
     LoopData data;
+    ParticleRows atom_rows;
     Threads one_thread, *threads;
     double *weights;    // reference volumes of atoms
 
@@ -241,6 +243,7 @@ namespace SPHDissipation {
     bigint pair_max;
 
     void grow_atoms();
+    void set_rows();
     void set_weights();
     void grow_pairs(NeighList *);
     LoopData part(int thread) const;

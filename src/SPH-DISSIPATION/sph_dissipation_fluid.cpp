@@ -204,7 +204,7 @@ bigint Fluid::compute(PairTally *tally)
   else if (viscous->active())
     find_viscous_velocity();
   const bigint nbeyond = sum_before_forces();
-  if (shift->wanted) shift->run();
+  if (shift->wanted) sum_gradient();
   sum_forces(tally);
   if (!open->empty()) open->sum_impacts(pair->list);
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
@@ -218,24 +218,63 @@ bigint Fluid::compute(PairTally *tally)
 
 bigint Fluid::sum_before_forces()
 {
-  // a minimization has no velocities: what is minimized is the energy of the equation of state
-
-  const bool at_rest = (update->whichflag == 2);
-  density->run(pair->list, at_rest ? nullptr : atom->vest, at_rest ? nullptr : extrapolated_spin());
+  sum_density();
 
   // noise needs the bound of the limit for the volumes that act in its pairs, those of walls as well
 
-  const bool limited = (model->choice.limit != Limit::NO);
   const bool walls = !boundary->empty();
-  if (walls && model->choice.thermal) boundary->set_reference_volume();
-  if (limited) limit->run();
-  if (walls && !model->choice.thermal) boundary->set_reference_volume();
-  const double *const bound = limited ? limit->bound : nullptr;
-  const bigint nbeyond = pressure->run(bound, boundary->bits());
+  if (walls && model->choice.thermal) set_reference_volume();
+  if (model->choice.limit != Limit::NO) sum_bound();
+  if (walls && !model->choice.thermal) set_reference_volume();
+  const bigint nbeyond = set_pressure();
   if (!open->empty()) open->run();
-  if (walls) boundary->run(pair->list);
-  if (model->choice.thermal) noise->run(bound, boundary->bits(), continued);
+  if (walls) set_boundary();
+  if (model->choice.thermal) noise->run(bound(), boundary->bits(), continued);
   return nbeyond;
+}
+
+/* ----------------------------------------------------------------------
+   a minimization has no velocities: what is minimized is the energy of the equation of state
+------------------------------------------------------------------------- */
+
+void Fluid::sum_density()
+{
+  const bool at_rest = (update->whichflag == 2);
+  density->run(pair->list, at_rest ? nullptr : atom->vest, at_rest ? nullptr : extrapolated_spin());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::sum_bound()
+{
+  limit->run();
+}
+
+const double *Fluid::bound() const
+{
+  return (model->choice.limit != Limit::NO) ? limit->bound : nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::set_reference_volume()
+{
+  boundary->set_reference_volume();
+}
+
+bigint Fluid::set_pressure()
+{
+  return pressure->run(bound(), boundary->bits());
+}
+
+void Fluid::set_boundary()
+{
+  boundary->run(pair->list);
+}
+
+void Fluid::sum_gradient()
+{
+  shift->run();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -260,7 +299,7 @@ void Fluid::find_viscous_velocity()
   sum_forces(nullptr);
   const bool symmetric =
       (boundary->empty() || model->choice.thermal) && model->choice.bulk != Bulk::VOLUME;
-  viscous->run(pair->list, (model->choice.limit != Limit::NO) ? limit->bound : nullptr, symmetric);
+  viscous->run(pair->list, bound(), symmetric);
 }
 
 /* ---------------------------------------------------------------------- */

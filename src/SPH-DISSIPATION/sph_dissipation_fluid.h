@@ -150,6 +150,17 @@ namespace SPHDissipation {
 
     virtual void on_host(const std::function<void()> &task) { task(); }
 
+    // what compute() consists of, on the host; another one may do each of them elsewhere.  set_pressure()
+    // returns the number of owned particles that are beyond the bound of the limit
+
+    virtual void sum_density();
+    virtual void sum_bound();
+    virtual void set_reference_volume();    // of boundary particles
+    virtual bigint set_pressure();
+    virtual void set_boundary();
+    virtual void sum_gradient();    // of the concentration, for shifting
+    virtual void sum_forces(PairTally *);
+
     virtual bool has_own_forces() const;    // on this processor
     void report();
     void adopt_changes();
@@ -166,7 +177,7 @@ namespace SPHDissipation {
     void find_own_types();
     void derive_coeffs();
     bigint sum_before_forces();
-    void sum_forces(PairTally *);
+    const double *bound() const;    // of the limit, nullptr without
     void find_viscous_velocity();
     void check_time_step(const CoeffTable &);
     double stability_length() const;

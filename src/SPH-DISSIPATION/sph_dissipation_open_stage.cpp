@@ -19,7 +19,6 @@
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "sph_dissipation_exchange.h"
-#include "sph_dissipation_particle_terms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,9 +85,7 @@ void OpenStage::run()
 void OpenStage::set_state(int i, double rho, double pressure)
 {
   if (engine.parameters().bulk == Bulk::DENSITY) pressure += engine.zeta_term[i];
-  SPHDissipation::set_state(engine.particle[i], atom->rmass[i], rho, pressure, engine.weight(i));
-  atom->rho[i] = rho;
-  atom->vfrac[i] = engine.particle[i].vol;
+  engine.rows().set_state(i, rho, pressure);
 }
 
 /* ---------------------------------------------------------------------- */

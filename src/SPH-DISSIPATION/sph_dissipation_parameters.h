@@ -65,28 +65,34 @@ namespace SPHDissipation {
     int other = 1;                 // its particles belong to another style of pair_style hybrid
   };
 
-  // What pair_style and pair_coeff have set and what follows from it, for one run or until a coefficient is
-  // changed.  FluidModel::derive() makes it; all others read it.
+  // what belongs to all types: a device copies it as a whole
 
-  struct Parameters : Settings {
-    double support = 0.0;                // R
-    double self_weight = 0.0;            // W(0)
-    double weight_norm = 0.0;            // W = weight_norm * shape(r/R)
-    double slope_norm = 0.0;             // F = slope_norm * slope(r/R)
-    int ntypes_1 = 1;                    // number of types + 1
-    std::vector<TypeParameters> type;    // by type, from 1
-    std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
-    bool uniform = true;                 // the coefficients of type 1 hold for all pairs
-    bool inviscid = true;                // they are zero
-    bool drag = false;                   // of single particles, of any type
-    bool shared = false;                 // there are types of other styles
+  struct Constants : Settings {
+    double support = 0.0;        // R
+    double self_weight = 0.0;    // W(0)
+    double weight_norm = 0.0;    // W = weight_norm * shape(r/R)
+    double slope_norm = 0.0;     // F = slope_norm * slope(r/R)
+    int ntypes_1 = 1;            // number of types + 1
+    bool uniform = true;         // the coefficients of type 1 hold for all pairs
+    bool inviscid = true;        // they are zero
+    bool drag = false;           // of single particles, of any type
+    bool shared = false;         // there are types of other styles
 
     bool spins() const { return shear == Shear::MICROPOLAR; }
     void set_kernel(Kernel, int dim, double support);
+  };
+
+  // What pair_style and pair_coeff have set and what follows from it, for one run or until a coefficient is
+  // changed.  FluidModel::derive() makes it; all others read it.
+
+  struct Parameters : Constants {
+    std::vector<TypeParameters> type;    // by type, from 1
+    std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
+
     void set_uniform();    // uniform and inviscid, from pair
   };
 
-  inline void Parameters::set_kernel(Kernel kernel_in, int dim_in, double support_in)
+  inline void Constants::set_kernel(Kernel kernel_in, int dim_in, double support_in)
   {
     kernel = kernel_in;
     dim = dim_in;

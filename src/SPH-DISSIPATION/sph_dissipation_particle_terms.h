@@ -16,8 +16,7 @@
 
 // Between the passes: what follows for one particle from its density.  No LAMMPS include.
 
-#include "sph_dissipation_channels.h"
-#include "sph_dissipation_eos.h"
+#include "sph_dissipation_parameters.h"
 #include "sph_dissipation_rows.h"
 
 namespace LAMMPS_NS {
@@ -32,36 +31,103 @@ namespace SPHDissipation {
     return total * c_inv * c_inv;
   }
 
-  // a particle whose mass density rho and pressure P are prescribed, where density and volume do not
-  // follow from pass 1
+  // Owned and ghost particles, on the host or on a device: rows of the loops, and arrays of LAMMPS.  A
+  // function is about particle i; the stages of the host and those of the device call it for each of them.
+  // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles
 
-  SPH_FUNCTION void set_state(Particle &particle, double mass, double rho, double total,
-                              double weight)
-  {
-    particle.vol = mass / rho;
-    particle.g = pressure_term(total, particle.vol, weight);
-  }
+  struct ParticleRows {
+    Constants par;
+    const TypeParameters *types;    // by type, from 1
+    int nlocal;
 
-  struct ParticleTerms {
-    double zeta_term;    // zeta cdot/c
-    double g;            // (p + zeta cdot/c) / c^2 (bulk density), p/c^2 (otherwise)
-    double work;         // of the pressure, energy per time
+    Particle *particle;
+    DensitySum *density;     // of pass 1
+    double *zeta_term;       // zeta cdot/c
+    const double *weight;    // reference volume w of particle i: weight[i * each]
+    int each;                // 0: it is 1 for all, 1
+
+    const int *type, *mask;
+    const double *rmass, *esph;
+    double *rho, *drho, *vfrac;
+    double *desph;    // zero when the step begins
+
+    // w of the form volume mass
+
+    SPH_FUNCTION double reference_volume(int i) const { return rmass[i] / types[type[i]].eos.rho0; }
+
+    // volume V = w/c, mass density rho = m/V and its rate; particles of other styles keep their density.
+    // P1 (5), (6)
+
+    SPH_FUNCTION void set_density(int i) const
+    {
+      const double w = weight[i * each];
+      const double vol = w / density[i].c;
+      particle[i].vol = vol;
+      if (par.shared && types[type[i]].other) return;
+      const double mass = rmass[i] / w;
+      rho[i] = mass * density[i].c;
+      drho[i] = mass * density[i].cdot;
+      vfrac[i] = vol;
+    }
+
+    // density and pressure P, see pressure_term(), where they do not follow from pass 1; volume and P/c^2
+    // of them
+
+    SPH_FUNCTION void set_state(int i, double density_of, double total) const
+    {
+      const double vol = rmass[i] / density_of;
+      particle[i].vol = vol;
+      particle[i].g = pressure_term(total, vol, weight[i * each]);
+      rho[i] = density_of;
+      vfrac[i] = vol;
+    }
+
+    // boundary particles have no density of their own, for most of their neighbors are not there, but the
+    // reference density of their type
+
+    SPH_FUNCTION void set_reference_volume(int i, int not_fluid) const
+    {
+      if (!(mask[i] & not_fluid)) return;
+      set_state(i, types[type[i]].eos.rho0, 0.0);
+      drho[i] = zeta_term[i] = 0.0;
+    }
+
+    SPH_FUNCTION bool is_fluid(int i, int not_fluid) const
+    {
+      return !types[type[i]].other && !(mask[i] & not_fluid);
+    }
+
+    SPH_FUNCTION bool is_beyond(int i, const double *bound) const
+    {
+      return bound && beyond_bound(types[type[i]].zeta, bound[i]);
+    }
+
+    // coefficient of the bulk term in effect
+
+    SPH_FUNCTION double zeta(int i, const double *bound) const
+    {
+      if (par.limit == Limit::YES && is_beyond(i, bound)) return zeta_at_bound(bound[i]);
+      return types[type[i]].zeta;
+    }
+
+    // pressure and bulk term, of volume and density: what pass 2 multiplies with F r_ij, and the work of
+    // the pressure; zero for particles that are not fluid.  P1 (12), (18)
+
+    SPH_FUNCTION void set_pressure(int i, const double *bound, int not_fluid) const
+    {
+      if (!is_fluid(i, not_fluid)) {
+        zeta_term[i] = particle[i].g = 0.0;
+        return;
+      }
+      const double vol = particle[i].vol, w = weight[i * each];
+      const double rate = density[i].cdot * (vol / w);
+      const double p = pressure(par.eos, types[type[i]].eos, rho[i], esph[i] / rmass[i]);
+      const double bulk_term = zeta(i, bound) * rate;
+      zeta_term[i] = bulk_term;
+      particle[i].g = pressure_term((par.bulk == Bulk::DENSITY) ? p + bulk_term : p, vol, w);
+      if (i < nlocal) desph[i] += p * vol * rate;
+    }
   };
-
-  // volume V = w/c with the reference volume w, density c and its rate cdot, mass density rho, internal
-  // energy per mass e; P1 (12), (18)
-
-  SPH_FUNCTION ParticleTerms particle_terms(Eos eos, const EosParams &par, Bulk bulk, double zeta,
-                                            double vol, double weight, double cdot, double rho,
-                                            double e)
-  {
-    const double c_inv = vol / weight;
-    const double rate = cdot * c_inv;
-    const double p = pressure(eos, par, rho, e);
-    const double zeta_term = zeta * rate;
-    const double total = (bulk == Bulk::DENSITY) ? p + zeta_term : p;
-    return {zeta_term, pressure_term(total, vol, weight), p * vol * rate};
-  }
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

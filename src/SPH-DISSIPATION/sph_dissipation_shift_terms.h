@@ -33,15 +33,15 @@ namespace SPHDissipation {
     return 1.0 / K::shape((q < 0.9) ? q : 0.9);
   }
 
-  // weight of a pair of slope F and this shape of the kernel in the gradient
+  // weight of r_ij, for a neighbor of volume V, slope F and this shape of the kernel, in the gradient
   //   sum_j V_j F [1 + 0.2 (W/W(spacing))^4] r_ij,
   // whose second term keeps particles from pairing
 
-  SPH_FUNCTION double concentration_push(double slope, double shape, double contact)
+  SPH_FUNCTION double concentration_push(double vol, double slope, double shape, double contact)
   {
     constexpr double PAIRING = 0.2;
     const double close = shape * contact * shape * contact;
-    return slope * (1.0 + PAIRING * close * close);
+    return vol * (slope * (1.0 + PAIRING * close * close));
   }
 
   // displacement in a time dt: Fickian, with the velocity U R gradient, at most U/2

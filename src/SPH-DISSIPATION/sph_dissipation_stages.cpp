@@ -18,7 +18,6 @@
 #include "memory.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
-#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_shift_terms.h"
 
 #include <algorithm>
@@ -30,10 +29,6 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-/* ----------------------------------------------------------------------
-   particles of other styles keep their density
-------------------------------------------------------------------------- */
-
 void DensityStage::run(NeighList *list, double **vest, double **omegaest)
 {
   engine.accumulate_density(list, vest, omegaest);
@@ -41,26 +36,12 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
   DensitySum *const density = engine.density;
   const Field sums = field(density, &density->c, 2);
   exchange.reverse({sums});
-  if (engine.parameters().eos == Eos::IDEAL)    // which needs the energy of ghost atoms
-    exchange.forward({sums, {atom->esph, 1, 1}});
-  else
-    exchange.forward({sums});
+  const int energy = (engine.parameters().eos == Eos::IDEAL) ? 1 : 0;    // needs that of ghost atoms
+  exchange.forward({sums, {atom->esph, 1, energy}});
 
-  const double *const rmass = atom->rmass;
-  const int *const type = atom->type;
-  const Parameters &par = engine.parameters();
-  double *const rho = atom->rho;
-  double *const drho = atom->drho;
-  double *const vfrac = atom->vfrac;
-  const int nall = atom->nlocal + atom->nghost;
-  engine.for_each(nall, [&](int i) {
-    const double weight = engine.weight(i);
-    engine.particle[i].vol = weight / density[i].c;
-    if (par.shared && par.type[type[i]].other) return;
-    const double mass = rmass[i] / weight;
-    rho[i] = mass * density[i].c;
-    drho[i] = mass * density[i].cdot;
-    vfrac[i] = engine.particle[i].vol;
+  const ParticleRows &rows = engine.rows();
+  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
+    rows.set_density(i);
   });
 }
 
@@ -100,12 +81,11 @@ void LimitStage::run()
       const double del = particle[i].x[d] - particle[j].x[d];
       rsq += del * del;
     }
-    if (rsq == 0.0) return;
-    const PairCoeff &c = par.pair[type[i] * par.ntypes_1 + type[j]];
-    const double pair = bound_of_pair(par.shear, c, pairs.slope[entry], rsq);
-    const double ratio = particle[i].vol * engine.weight(j) / (particle[j].vol * engine.weight(i));
-    bound[i] += ratio * ratio * particle[j].vol * pair;
-    bound[j] += particle[i].vol * pair / (ratio * ratio);
+    const PairBound pair =
+        bound_of_pair(par.shear, par.pair[type[i] * par.ntypes_1 + type[j]], pairs.slope[entry],
+                      rsq, particle[i].vol, engine.weight(i), particle[j].vol, engine.weight(j));
+    bound[i] += pair.i;
+    bound[j] += pair.j;
   });
 
   exchange.reverse({{bound, 1, 1}});
@@ -121,52 +101,17 @@ double LimitStage::memory_usage() const
 
 /* ---------------------------------------------------------------------- */
 
-bool PressureStage::is_beyond(int i, const double *bound) const
-{
-  return bound && beyond_bound(engine.parameters().type[atom->type[i]].zeta, bound[i]);
-}
-
-double PressureStage::bulk_coefficient(int i, const double *bound) const
-{
-  const Parameters &par = engine.parameters();
-  if (par.limit == Limit::YES && is_beyond(i, bound)) return zeta_at_bound(bound[i]);
-  return par.type[atom->type[i]].zeta;
-}
-
-/* ---------------------------------------------------------------------- */
-
 bigint PressureStage::run(const double *bound, int not_fluid)
 {
-  const double *const rmass = atom->rmass;
-  const double *const rho = atom->rho;
-  const double *const esph = atom->esph;
-  const int *const type = atom->type;
-  const int *const mask = atom->mask;
-  double *const desph = atom->desph;
-  const int nlocal = atom->nlocal;
-  const int nall = nlocal + atom->nghost;
-  const Parameters &par = engine.parameters();
-
-  engine.for_each(nall, [&](int i) {
-    Particle &particle = engine.particle[i];
-    const TypeParameters &of_type = par.type[type[i]];
-    if (of_type.other || (mask[i] & not_fluid)) {
-      engine.zeta_term[i] = particle.g = 0.0;
-      return;
-    }
-
-    const ParticleTerms terms =
-        particle_terms(par.eos, of_type.eos, par.bulk, bulk_coefficient(i, bound), particle.vol,
-                       engine.weight(i), engine.density[i].cdot, rho[i], esph[i] / rmass[i]);
-    engine.zeta_term[i] = terms.zeta_term;
-    particle.g = terms.g;
-    if (i < nlocal) desph[i] += terms.work;
+  const ParticleRows &rows = engine.rows();
+  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
+    rows.set_pressure(i, bound, not_fluid);
   });
 
   bigint nbeyond = 0;
   if (bound)
-    for (int i = 0; i < nlocal; i++)
-      if (!par.type[type[i]].other && !(mask[i] & not_fluid) && is_beyond(i, bound)) nbeyond++;
+    for (int i = 0; i < atom->nlocal; i++)
+      if (rows.is_fluid(i, not_fluid) && rows.is_beyond(i, bound)) nbeyond++;
   return nbeyond;
 }
 
@@ -176,13 +121,13 @@ bigint PressureStage::run(const double *bound, int not_fluid)
 
 void PressureStage::set_bulk_term(const double *bound, int not_fluid) const
 {
-  const Parameters &par = engine.parameters();
-  const bool by_density = (par.bulk == Bulk::DENSITY);
+  const ParticleRows &rows = engine.rows();
+  const bool by_density = (rows.par.bulk == Bulk::DENSITY);
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     Particle &particle = engine.particle[i];
     engine.zeta_term[i] = particle.g = 0.0;
-    if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
-    engine.zeta_term[i] = bulk_coefficient(i, bound) * engine.density[i].cdot / engine.density[i].c;
+    if (!rows.is_fluid(i, not_fluid)) continue;
+    engine.zeta_term[i] = rows.zeta(i, bound) * engine.density[i].cdot / engine.density[i].c;
     if (by_density) particle.g = pressure_term(engine.zeta_term[i], particle.vol, engine.weight(i));
   }
 }
@@ -245,8 +190,8 @@ void ShiftStage::run()
         rsq += r[d] * r[d];
       }
       const double shape = k.shape(sqrt(rsq) / engine.parameters().support);
-      const double push_i = b.vol * concentration_push(pairs.slope[entry], shape, contact[i]);
-      const double push_j = a.vol * concentration_push(pairs.slope[entry], shape, contact[j]);
+      const double push_i = concentration_push(b.vol, pairs.slope[entry], shape, contact[i]);
+      const double push_j = concentration_push(a.vol, pairs.slope[entry], shape, contact[j]);
       for (int d = 0; d < 3; d++) {
         gradient[i][d] += push_i * r[d];
         gradient[j][d] -= push_j * r[d];

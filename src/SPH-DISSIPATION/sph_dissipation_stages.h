@@ -48,7 +48,7 @@ namespace SPHDissipation {
   };
 
   // Pass 1: density c of the reference volumes w, for w = 1 of the number of particles, and its rate;
-  // then the volume V = w/c, the mass density rho = m/V and its rate.  P1 (5), (6)
+  // then volume and mass density, see ParticleRows::set_density()
 
   class DensityStage : public Stage {
    public:
@@ -78,8 +78,8 @@ namespace SPHDissipation {
     int nmax;
   };
 
-  // Pressure and bulk term of all particles of the fluid, of volume and density as pass 1 left them:
-  // what pass 2 multiplies with F r_ij, and the work of the pressure.  P1 (12), (18)
+  // Pressure and bulk term of all particles of the fluid, of volume and density as pass 1 left them, see
+  // ParticleRows::set_pressure()
 
   class PressureStage : public Stage {
    public:
@@ -97,10 +97,6 @@ namespace SPHDissipation {
     // elastic energy of owned particles; each_atom = what it is added to, or nullptr
 
     double elastic_energy(double *each_atom, int not_fluid) const;
-
-   private:
-    bool is_beyond(int i, const double *bound) const;
-    double bulk_coefficient(int i, const double *bound) const;    // in effect
   };
 
   // Minus the gradient of the concentration of the particles, for particle shifting:

@@ -19,7 +19,7 @@
 // velocity and spin behind the surface.  No LAMMPS include.
 
 #include "sph_dissipation_extension.h"
-#include "sph_dissipation_function.h"
+#include "sph_dissipation_particle_terms.h"
 
 #include <cmath>
 
@@ -140,6 +140,13 @@ namespace SPHDissipation {
 
   struct NearKernel {
     double norm, scale;    // V W = norm * shape(scale * r)
+
+    // V W at a distance r
+    template <class K> SPH_FUNCTION double at(double r) const
+    {
+      const double q = r * scale;
+      return (q < 1.0) ? norm * K::shape(q) : 0.0;
+    }
   };
 
   // of a boundary particle with the volume vol, for a fluid whose kernel has W = weight_norm * shape
@@ -269,6 +276,18 @@ namespace SPHDissipation {
           : distance.stuck(s_d3, s_d4, depth, DistanceMeans::ALIKE_SPIN);
       spin[d] += at_surface + beyond.behind(depth);
     }
+  }
+
+  // What particle i of a wall with this acceleration brings into pass 2: the fluid goes on, sum.weight > 0
+
+  SPH_FUNCTION void extend_fluid(const ParticleRows &rows, int i, const WallCondition &condition,
+                                 const Surface &surface, const BoundarySum &sum,
+                                 const double *acceleration, double *spin)
+  {
+    const double norm = 1.0 / sum.weight;
+    rows.set_state(i, sum.rho * norm, wall_pressure(sum, condition.gravity, acceleration));
+    rows.zeta_term[i] = sum.zeta_term * norm;
+    extend_motion(condition, surface, sum, rows.particle[i].u, spin);
   }
 
 }    // namespace SPHDissipation
