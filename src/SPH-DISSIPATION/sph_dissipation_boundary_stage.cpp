@@ -138,13 +138,12 @@ void BoundaryStage::extend()
   // ghost atoms of the fluid get what they have already
 
   Particle *const particle = engine.particle;
-  const Field state = field(particle, particle->u, 3),
-              pressure = field(particle, &particle->vol, 2);
+  const Field state = field(particle, particle->u, 5);    // u, vol and g
   const Field zeta_term = {engine.zeta_term, 1, 1};
   if (engine.has_spin())
-    exchange.forward({state, pressure, zeta_term, field(engine.spin, engine.spin->w, 3)});
+    exchange.forward({state, zeta_term, field(engine.spin, engine.spin->w, 3)});
   else
-    exchange.forward({state, pressure, zeta_term});
+    exchange.forward({state, zeta_term});
 }
 
 /* ---------------------------------------------------------------------- */

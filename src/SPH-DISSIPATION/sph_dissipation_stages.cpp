@@ -36,7 +36,7 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
   DensitySum *const density = engine.density;
   const Field sums = field(density, &density->c, 2);
   exchange.reverse({sums});
-  const int energy = (engine.parameters().eos == Eos::IDEAL) ? 1 : 0;    // needs that of ghost atoms
+  const int energy = (engine.parameters().eos == Eos::IDEAL) ? 1 : 0;    // of ghosts, for it
   exchange.forward({sums, {atom->esph, 1, energy}});
 
   const ParticleRows &rows = engine.rows();
