@@ -159,6 +159,8 @@ namespace SPHDissipation {
   // What a channel does not have is as here
   struct BaseChannel {
     static constexpr bool SPINS = false;    // it needs particles that spin
+    // it has a drag(); the table leaves it out if no type has one
+    static constexpr bool SINGLE = false;
     // what it puts into the coefficients of a pair; the same as a tensor, for the noise
     static void add_coefficients(const PairFluid &, PairCoeff &) {}
     static void add_friction(const PairCoeff &, PairFriction &) {}
@@ -166,9 +168,10 @@ namespace SPHDissipation {
     template <class Add> static void add_columns(const PairFluid &, const PairCoeff &, Add &&) {}
     // bulk viscosity that it brings with it
     static double intrinsic_kappa(const PairFluid &) { return 0.0; }
-    // the inequality that the viscosities of a pair, or the coefficients of a type, violate, or nullptr
+    // the inequality that the viscosities of a pair, or the coefficients of a type in a box of this dimension,
+    // violate, or nullptr
     static const char *inadmissible(const PairFluid &) { return nullptr; }
-    static const char *inadmissible_type(const TypeCoeffs &) { return nullptr; }
+    static const char *inadmissible_type(const TypeCoeffs &, int) { return nullptr; }
     // rate of its fastest mode, 1/time
     static double rate(const PairFluid &, const PairCoeff &, const PairInertia &) { return 0.0; }
 
@@ -247,12 +250,12 @@ namespace SPHDissipation {
     return kappa;
   }
 
-  // the inequality that coefficients by keyword violate, or nullptr
-  inline const char *inadmissible(const TypeCoeffs &type)
+  // the inequality that coefficients by keyword violate in a box of dimension dim, or nullptr
+  inline const char *inadmissible(const TypeCoeffs &type, int dim)
   {
     const char *violated = nullptr;
     Channels::visit(true, [&](auto channel) {
-      if (!violated) violated = channel.inadmissible_type(type);
+      if (!violated) violated = channel.inadmissible_type(type, dim);
     });
     return violated;
   }
