@@ -94,7 +94,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   // where the fluid turns motion into heat: order of compute sph/dissipation
-  enum Channel { SHEAR, BULK, VORTEX, DIFFUSION, NCHANNEL };    // diffusion of the spin
+  enum Channel { SHEAR, BULK, VORTEX, DIFFUSION, DRAG, NCHANNEL };    // diffusion of the spin
 
   // viscosities of the pairs of types, in the order of pair_coeff
   enum Viscosity { MU, MU_R, GAMMA1, GAMMA2, NVISCOSITY };
@@ -115,12 +115,12 @@ namespace SPHDissipation {
 
   // Coefficients of single types, by keyword of pair_coeff, each with its values one after another; another command
   // may vary the first of them.  The keyword with no name ends the list.
-  enum TypeCoefficient { NTYPECOEFF };
+  enum TypeCoefficient { DRAG_B, DRAG_UX, DRAG_UY, DRAG_UZ, NTYPECOEFF };
   struct TypeKeyword {
     const char *name;
     int first, count;    // of enum TypeCoefficient
   };
-  constexpr TypeKeyword TYPE_KEYWORDS[] = {{nullptr, NTYPECOEFF, 0}};
+  constexpr TypeKeyword TYPE_KEYWORDS[] = {{"drag", DRAG_B, 4}, {nullptr, NTYPECOEFF, 0}};
   struct TypeCoeffs {
     double a[NTYPECOEFF + 1] = {};
   };
@@ -187,6 +187,7 @@ namespace SPHDissipation {
 #include "sph_dissipation_channel_bulk.h"
 #include "sph_dissipation_channel_vortex.h"
 #include "sph_dissipation_channel_spin.h"
+#include "sph_dissipation_channel_drag.h"
 // clang-format on
 
 namespace LAMMPS_NS {
@@ -221,7 +222,7 @@ namespace SPHDissipation {
       }
     }
   };
-  using Channels = ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel>;
+  using Channels = ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel, DragChannel>;
 
   inline PairCoeff pair_coefficients(const PairFluid &fluid)
   {
