@@ -94,7 +94,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   // where the fluid turns motion into heat: order of compute sph/dissipation
-  enum Channel { SHEAR, BULK, VORTEX, DIFFUSION, NCHANNEL };    // diffusion of the spin
+  enum Channel { SHEAR, BULK, VORTEX, DIFFUSION, DRAG, NCHANNEL };    // diffusion of the spin
 
   // viscosities of the pairs of types, in the order of pair_coeff
   enum Viscosity { MU, MU_R, GAMMA1, GAMMA2, NVISCOSITY };
@@ -115,12 +115,12 @@ namespace SPHDissipation {
 
   // Coefficients of single types, by keyword of pair_coeff, each with its values one after another; another command
   // may vary the first of them.  The keyword with no name ends the list.
-  enum TypeCoefficient { NTYPECOEFF };
+  enum TypeCoefficient { DRAG_B, DRAG_UX, DRAG_UY, DRAG_UZ, NTYPECOEFF };
   struct TypeKeyword {
     const char *name;
     int first, count;    // of enum TypeCoefficient
   };
-  constexpr TypeKeyword TYPE_KEYWORDS[] = {{nullptr, NTYPECOEFF, 0}};
+  constexpr TypeKeyword TYPE_KEYWORDS[] = {{"drag", DRAG_B, 4}, {nullptr, NTYPECOEFF, 0}};
   struct TypeCoeffs {
     double a[NTYPECOEFF + 1] = {};
   };
@@ -159,6 +159,8 @@ namespace SPHDissipation {
   // What a channel does not have is as here
   struct BaseChannel {
     static constexpr bool SPINS = false;    // it needs particles that spin
+    // it has a drag(); the table leaves it out if no type has one
+    static constexpr bool SINGLE = false;
     // what it puts into the coefficients of a pair; the same as a tensor, for the noise
     static void add_coefficients(const PairFluid &, PairCoeff &) {}
     static void add_friction(const PairCoeff &, PairFriction &) {}
@@ -166,9 +168,10 @@ namespace SPHDissipation {
     template <class Add> static void add_columns(const PairFluid &, const PairCoeff &, Add &&) {}
     // bulk viscosity that it brings with it
     static double intrinsic_kappa(const PairFluid &) { return 0.0; }
-    // the inequality that the viscosities of a pair, or the coefficients of a type, violate, or nullptr
+    // the inequality that the viscosities of a pair, or the coefficients of a type in a box of this dimension,
+    // violate, or nullptr
     static const char *inadmissible(const PairFluid &) { return nullptr; }
-    static const char *inadmissible_type(const TypeCoeffs &) { return nullptr; }
+    static const char *inadmissible_type(const TypeCoeffs &, int) { return nullptr; }
     // rate of its fastest mode, 1/time
     static double rate(const PairFluid &, const PairCoeff &, const PairInertia &) { return 0.0; }
 
@@ -184,6 +187,7 @@ namespace SPHDissipation {
 #include "sph_dissipation_channel_bulk.h"
 #include "sph_dissipation_channel_vortex.h"
 #include "sph_dissipation_channel_spin.h"
+#include "sph_dissipation_channel_drag.h"
 // clang-format on
 
 namespace LAMMPS_NS {
@@ -218,7 +222,7 @@ namespace SPHDissipation {
       }
     }
   };
-  using Channels = ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel>;
+  using Channels = ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel, DragChannel>;
 
   inline PairCoeff pair_coefficients(const PairFluid &fluid)
   {
@@ -247,12 +251,12 @@ namespace SPHDissipation {
     return kappa;
   }
 
-  // the inequality that coefficients by keyword violate, or nullptr
-  inline const char *inadmissible(const TypeCoeffs &type)
+  // the inequality that coefficients by keyword violate in a box of dimension dim, or nullptr
+  inline const char *inadmissible(const TypeCoeffs &type, int dim)
   {
     const char *violated = nullptr;
     Channels::visit(true, [&](auto channel) {
-      if (!violated) violated = channel.inadmissible_type(type);
+      if (!violated) violated = channel.inadmissible_type(type, dim);
     });
     return violated;
   }

@@ -485,7 +485,7 @@ CoeffTable Fluid::coeff_table()
   }
 
   const double h = stability_length(), hsq = h * h;
-  CoeffTable table;
+  CoeffTable table(model->parameters().drag);
   for (int i = 1; i <= n; i++)
     for (int j = i; j <= n; j++) {
       const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];

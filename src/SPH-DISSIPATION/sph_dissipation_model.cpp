@@ -319,8 +319,11 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
     if (own) {
       for (int k = 0; k < own->count; k++)
         one.keywords.a[own->first + k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
-      if (const char *violated = inadmissible(one.keywords))
-        error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff {}, not {}", violated, arg[iarg + 1]);
+      if (const char *violated = inadmissible(one.keywords, domain->dimension)) {
+        std::string words;
+        for (int k = 0; k < own->count; k++) words += std::string(" ") + arg[iarg + 1 + k];
+        error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff {}, not{}", violated, words);
+      }
     } else if (keyword == "pb")
       one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     else if (keyword == "cv") {

@@ -15,6 +15,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 
 #include <cmath>
@@ -36,6 +37,7 @@ void FluidModel::derive(int dim, double support)
   par.pair.assign((n + 1) * (n + 1), PairCoeff());
   for (int i = 1; i <= n; i++) {
     mix(i);
+    par.type[i].keywords = coeffs[i].keywords;
     for (int j = 1; j <= i; j++) {
       if (!coeffs[i].other && !coeffs[j].other) check_pair(i, j);
       par.pair[i * (n + 1) + j] = par.pair[j * (n + 1) + i] = pair_coefficients(pair_fluid(i, j));
@@ -49,7 +51,6 @@ void FluidModel::derive(int dim, double support)
     publish(nviscosity() + KAPPA, i);
     derived.eos = type.eos;
     derived.heat_capacity = heat_capacity(i);
-    derived.keywords = type.keywords;
     derived.other = type.other;
     if (Channels::drag(type.keywords) > 0.0) par.drag = true;
     if (choice.thermal) check_balance(i);
@@ -271,7 +272,7 @@ bool FluidModel::adopt()
         error->all(FLERR, Error::NOLASTLINE,
                    "Pair style {}: kappa of type {} is intrinsic and cannot be changed", style, i);
       type_value(k, i) = one.value[i][i];
-      if (const char *violated = inadmissible(coeffs[i].keywords))
+      if (const char *violated = inadmissible(coeffs[i].keywords, domain->dimension))
         error->all(FLERR, Error::NOLASTLINE, "Pair style {}: {}, not {} of type {}", style,
                    violated, one.value[i][i], i);
     }

@@ -68,6 +68,7 @@ void CoeffTable::add_row(int i, int j, const PairFluid &fluid, const PairInertia
   }
   values.emplace_back("zeta", fluid.zeta);
   Channels::visit(spins, [&](auto channel) {
+    if (channel.SINGLE && !drag) return;
     channel.add_columns(fluid, coeff, [&](const char *name, double value) {
       values.emplace_back(name, value);
     });

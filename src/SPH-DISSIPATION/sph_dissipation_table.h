@@ -27,7 +27,10 @@ namespace SPHDissipation {
 
   class CoeffTable {
    public:
-    CoeffTable() : smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP), viscous(UNLIMITED_STEP) {}
+    explicit CoeffTable(bool drag) :
+        drag(drag), smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP), viscous(UNLIMITED_STEP)
+    {
+    }
 
     // of types i and j, with the largest stable time step for their sound
     void add_row(int i, int j, const PairFluid &, const PairInertia &, double acoustic_step);
@@ -39,6 +42,7 @@ namespace SPHDissipation {
     double fastest_rate() const { return (viscous < UNLIMITED_STEP) ? 1.0 / viscous : 0.0; }
 
    private:
+    const bool drag;    // of single particles, of any type
     std::string lines;
     double smallest, acoustic, viscous;
   };

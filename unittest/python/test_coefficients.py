@@ -278,13 +278,16 @@ def test_restart_file_with_a_number_that_no_fluid_has(lammps):
 def test_restart_file_with_other_settings(lammps):
     """Settings as the versions before wrote them, of a version to come, and nonsense."""
     data, _ = restart_file(lammps)
-    head = struct.pack("<i", 1004) + struct.pack("<6i", 0, 0, 1, 1, 0, 0)
+    first = struct.pack("<6i", 0, 0, 1, 1, 0, 0)
+    formats = [struct.unpack("<i", before)[0] for before in re.findall(rb"(?s)(.{4})" + re.escape(first), data)]
+    form, = (one for one in formats if one % 65536 == 1004)  # plus 65536 for each coefficient by keyword
+    head = struct.pack("<i", form) + first
     assert data.count(head) == 1
     for new, words in {struct.pack("<7i", 0, 0, 1, 1, 0, 0, 1): "written by an older version of pair style sph/bulk",
-                       struct.pack("<7i", 1003, 0, 0, 1, 1, 0, 0): "written by an older version",
-                       struct.pack("<7i", 1005, 0, 0, 1, 1, 0, 0): "written by a newer version",
-                       struct.pack("<7i", 1004, 17, 0, 1, 1, 0, 0): "damaged: pair style sph/bulk kernel is 17",
-                       struct.pack("<7i", 1004, 0, 0, 5, 1, 0, 0): "damaged: pair style sph/bulk shear is 5"}.items():
+                       struct.pack("<7i", form - 1, 0, 0, 1, 1, 0, 0): "written by an older version",
+                       struct.pack("<7i", form + 1, 0, 0, 1, 1, 0, 0): "written by a newer version",
+                       struct.pack("<7i", form, 17, 0, 1, 1, 0, 0): "damaged: pair style sph/bulk kernel is 17",
+                       struct.pack("<7i", form, 0, 0, 5, 1, 0, 0): "damaged: pair style sph/bulk shear is 5"}.items():
         lammps.path("bad.restart").write_bytes(data.replace(head, new))
         result = lammps("read_restart bad.restart\n", check=False)
         assert result.code != 0 and re.search(words, result.error), result.error or result.output[-2000:]

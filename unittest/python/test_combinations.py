@@ -38,6 +38,7 @@ class Lines:
     kappa: float = 2.0
     energy: float = 0.0  # internal, of each particle
     spin: str = ""  # coefficients of a fluid with spin
+    keywords: tuple = ()  # of its pair_coeff
     others: tuple = ()  # pair_coeff of pair style soft, in a hybrid style
     hybrid: str = "{sph} soft 1.5"
     integrator: tuple = ()  # keywords of the fix that integrates the fluid
@@ -129,14 +130,18 @@ FEATURES = {
     "limit": Feature(Lines(pair=("limit yes",), kappa=0.9), Lines(kappa=0.9), not_plain_with=("noise",)),
     "shift": Feature(Lines(integrator=("shift 0.5",)), refused={"noise": "shift"}),
     "spin": Feature(Lines(style="sph/micropolar", spin="0.2 0.05 -0.05")),
+    "drag": Feature(Lines(keywords=("drag 0.3 0.2 -0.1 0",), force=("c_drag[{k}]",),
+                          fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3*c_state[1]*(c_state[2]-0.2)",
+                                 "variable dragy atom -0.3*c_state[1]*(c_state[3]+0.1)", "compute drag fluid reduce sum v_dragx v_dragy"))),
     "gas": Feature(Lines(pair=("eos ideal",), energy=2.5), refused={"noise": "ideal"}),
     "warm": Feature(Lines(pair=("temp energy 100 4711",), energy=2.5),
-                    refused={"walls": "wall", "open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "gas": "ideal"}),
+                    refused={"walls": "wall", "open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag", "gas": "ideal"}),
     "idle_spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
 }
 NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin")}  # two values of the same
-# pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones
-NO_BALANCE = {("walls", "open"): "", ("open", "overlay"): "not in the ledger"}
+# pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones,
+# and the random forces of a drag are no pairs'
+NO_BALANCE = {("walls", "open"): "", ("noise", "drag"): "", ("open", "overlay"): "not in the ledger"}
 PAIRS = [(name,) for name in FEATURES] + [pair for pair in itertools.combinations(FEATURES, 2) if pair not in NEVER]
 PAIRS += [("split", "reset_ahead", "restart")]  # all three have to do with how long ago the last event of a particle was
 
@@ -218,7 +223,7 @@ def coefficients(lines, first, own):
     """The fluid's are those of types first, first + 1, ..., in `own`."""
     style = f"{lines.style} " if lines.others else ""
     types = range(first, first + lines.types) if lines.types > 1 else [own]
-    result = [f"{one} {one} {style}1.0 10.0 {lines.mu} {lines.kappa} {lines.spin} 3.0" for one in types]
+    result = [f"{one} {one} {style}1.0 10.0 {lines.mu} {lines.kappa} {lines.spin} 3.0 {' '.join(lines.keywords)}" for one in types]
     if lines.others:
         result += [f"{one} {other} {style}mu mean" for one, other in itertools.combinations(types, 2)]
         result += ["1 2* none"] * (first > 1) + [one.format(own=own) for one in lines.others]

@@ -34,7 +34,7 @@ def integrate(style, keywords="", group="all"):
 
 def output(style, every):
     """Everything that the particles have, and the totals."""
-    channels = " ".join(f"c_HEAT[{k}]" for k in range(1, 5 if spinning(style) else 3))
+    channels = " ".join(f"c_HEAT[{k}]" for k in ((1, 2, 3, 4, 5) if spinning(style) else (1, 2, 5)))
     text = "compute HEAT all sph/dissipation\ncompute E all sph/energy\n"
     extra = ""
     if spinning(style):
@@ -137,6 +137,16 @@ def test_forms(lammps, style, options, ntypes):
     if "shear none" in options:
         model = fluid(2, options, mu=0.0, kappa=0.0)
     compare(lammps, style, particles, script(style, particles, model, 50), ranks=2)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_drag(lammps, style, ranks):
+    """One of two types, changed on the way."""
+    particles = disordered(2, 14, seed=4, jitter=0.1, ntypes=2, speed=0.3, spread=0.0)
+    lines = fluids(style, 2, 2).splitlines()
+    model = "".join(line + (" drag 0.4 0.2 -0.1 0" if line.startswith("pair_coeff 2 2") else "") + "\n" for line in lines)
+    extra = f"variable B equal 0.4+0.02*step\nfix CHANGE all adapt 5 pair {style} drag 2 2 v_B\n"
+    compare(lammps, style, particles, script(style, particles, model, 50, extra=extra), ranks)
 
 
 @pytest.mark.parametrize("kernel", ["wendland/c2", "wendland/c4", "wendland/c6", "cubic", "quintic", "lucy"])
