@@ -106,12 +106,12 @@ def plot(path, runs, sizes):
     axes[0].legend(loc="upper center", ncols=2)
     axes[1].legend(loc="upper left")
     from matplotlib.ticker import LogLocator, NullFormatter
-    for axis, what in zip(axes[2:], ("velocity", "spin")):
+    for axis, what, small in zip(axes[2:], ("velocity", "spin"), (SMALL, SMALL_SPIN)):
         line = np.array([min(sizes), max(sizes)])
         low, high = axis.get_ylim()
         axis.set_ylim(low / 8, high)        # room for the legend
         axis.loglog(line, 0.35 * high * line[0] / line, "k--", lw=0.8, label="order 1")
-        axis.axhline(SMALL, color="0.5", lw=0.8, ls=":")
+        axis.axhline(small, color="0.5", lw=0.8, ls=":")
         axis.set(xlabel="rows across the channel", title=f"relative L2 error of the {what}; order")
         axis.set_xticks(sizes, [str(n) for n in sizes])
         axis.xaxis.set_minor_formatter(NullFormatter())
