@@ -105,7 +105,9 @@ def plot(path, kind, runs, sizes):
         axes[2].loglog(sizes, errors, marker + "-", color=color, mfc="none", ms=5,
                        label=f"$t = {time:g}$: order {order(sizes, errors):.2f}")
     line = np.array([min(sizes), max(sizes)])
-    axes[2].loglog(line, 0.5 * axes[2].get_ylim()[1] * line[0] / line, "k--", lw=0.8, label="order 1")
+    low, high = axes[2].get_ylim()
+    axes[2].set_ylim(low / 12, high)        # room for the legend
+    axes[2].loglog(line, 0.5 * high * line[0] / line, "k--", lw=0.8, label="order 1")
     axes[2].axhline(SMALL, color="0.5", ls=":", lw=0.8)
     axes[2].set(xlabel="rows between the walls" if plane else "rings between the cylinders", title="relative L2 error of the velocity")
     axes[2].set_xticks(sizes, [str(n) for n in sizes])
@@ -113,7 +115,7 @@ def plot(path, kind, runs, sizes):
     axes[2].yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axes[2].yaxis.set_major_formatter("{x:g}")
     axes[2].yaxis.set_minor_formatter(NullFormatter())
-    axes[2].legend()
+    axes[2].legend(loc="lower left")
     save(figure, path, dpi=95)
 
 
