@@ -230,6 +230,14 @@ template <class DeviceType> void FluidKokkos<DeviceType>::heating(double *heat, 
 
 /* ---------------------------------------------------------------------- */
 
+template <class DeviceType> void FluidKokkos<DeviceType>::adopt()
+{
+  if (stale) copied = false;
+  Fluid::adopt();
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *tally)
 {
   if (!on_device) {
@@ -241,7 +249,6 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
     return nbeyond;
   }
 
-  if (stale) copied = false;
   if (neighbor->ago == 0) atomKK->sync(Host, RMASS_MASK | TAG_MASK | TYPE_MASK);
   const bigint nbeyond = Fluid::compute(tally);
   atomKK->modified(pair->execution_space, FLUID_MODIFIED);

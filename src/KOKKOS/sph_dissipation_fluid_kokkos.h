@@ -54,6 +54,7 @@ namespace SPHDissipation {
     bool computes_on_device() const { return on_device; }
     ColumnsKokkos sent;    // to ghosts, by the pair style's packing on the device
 
+    void adopt() override;
     bigint compute(PairTally *) override;
     double elastic_energy(Moment) override;
     void heating(double *, double *) const override;

@@ -99,6 +99,9 @@ Fluid *SPHDissipation::find_fluid(LAMMPS *lmp, const std::string &user)
 
 void PairSPHBulk::compute(int eflag, int vflag)
 {
+  fluid->adopt();
+  // r f is no virial of forces that are not of pairs
+  if (fluid->model->parameters().drag) no_virial_fdotr_compute = 1;
   ev_init(eflag, vflag);
   StressTally stress(this, atom->nlocal, force->newton_pair);
   CentroidTally centroid(stress, cvatom, atom->nlocal, force->newton_pair);
@@ -145,6 +148,7 @@ void PairSPHBulk::coeff(int narg, char **arg)
 
 void PairSPHBulk::init_style()
 {
+  no_virial_fdotr_compute = 0;
   fluid->init();
   neighbor->add_request(this);
 }

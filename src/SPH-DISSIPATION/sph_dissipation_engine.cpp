@@ -18,6 +18,7 @@
 #include "error.h"
 #include "memory.h"
 #include "neigh_list.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -395,7 +396,8 @@ void Engine::add_drag(int i, bool linear, double *force_of, double *heat) const
 {
   const TypeParameters &type = par->type[atom->type[i]];
   if (!par->drag || type.other || (atom->mask[i] & not_fluid)) return;
-  Channels::add_drag(type.keywords, particle[i].vol, particle[i].u, linear, force_of, heat);
+  Channels::add_drag(type.keywords, particle[i].vol, particle[i].u,
+                     linear || update->whichflag == 2, force_of, heat);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -173,7 +173,8 @@ namespace SPHDissipation {
     // spare particles; after pass 2
     void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *, double *divergence);
 
-    // drag of an owned particle, added to its force and, by channel, to its heat, energy per time
+    // drag of an owned particle, added to its force and, by channel, to its heat, energy per time; linear, and in a
+    // minimization, which has no velocities: relative to rest
     void add_drag(int i, bool linear, double *force_of, double *heat) const;
     // random force of each owned particle, added by each pass 2 until setup() is called again
     void add_drag_noise(const double *forces) { drag_noise = forces; }

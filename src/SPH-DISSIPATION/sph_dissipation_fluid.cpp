@@ -185,8 +185,9 @@ void Fluid::derive_coeffs()
    another command, such as fix adapt, has changed coefficients; fix sph/dt follows by itself
 ------------------------------------------------------------------------- */
 
-void Fluid::adopt_changes()
+void Fluid::adopt()
 {
+  if (!stale) return;
   derive_coeffs();
   if (!update->setupflag && update->whichflag == 1 && modify->get_fix_by_style("^sph/dt").empty())
     check_time_step(coeff_table());
@@ -196,7 +197,6 @@ void Fluid::adopt_changes()
 
 bigint Fluid::compute(PairTally *tally)
 {
-  if (stale) adopt_changes();
   if (neighbor->ago == 0) check_masses(lmp, style, *model);
 
   if (continued && !changed && update->setupflag)

@@ -83,6 +83,7 @@ namespace SPHDissipation {
     void coeff(int narg, char **arg);
     void init();
     void derive_anew() { stale = true; }
+    virtual void adopt();                               // before each compute()
     Exchange &messages() const { return *exchange; }    // whose packing the pair style hands on
     virtual double memory_usage() const;                // bytes
 
@@ -163,7 +164,6 @@ namespace SPHDissipation {
 
     virtual bool has_own_forces() const;    // on this processor
     void report();
-    void adopt_changes();
     double **extrapolated_spin() const;    // nullptr without spins
 
    private:

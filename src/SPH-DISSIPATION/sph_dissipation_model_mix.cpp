@@ -52,13 +52,17 @@ void FluidModel::derive(int dim, double support)
     derived.eos = type.eos;
     derived.heat_capacity = heat_capacity(i);
     derived.other = type.other;
-    if (Channels::drag(type.keywords) > 0.0) par.drag = true;
+    if (!type.other && Channels::drag(type.keywords) > 0.0) par.drag = true;
     if (choice.thermal) check_balance(i);
   }
   par.set_uniform();
   if (par.drag && choice.own_temperatures)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} temp energy cannot be used with a drag of single particles", style);
+  if (par.drag && choice.thermal && dim == 1)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {} temp with dim 1 cannot be used with a drag of single particles",
+               style);
   par.shared = shared;
 }
 

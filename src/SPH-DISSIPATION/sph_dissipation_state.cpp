@@ -28,6 +28,7 @@
 #include <cmath>
 
 using namespace LAMMPS_NS;
+using namespace MathConst;
 using namespace SPHDissipation;
 
 using MathConst::MY_2PI;
@@ -280,38 +281,48 @@ void LatticeStrain::run(const std::vector<double> &weight)
 }
 
 /* ----------------------------------------------------------------------
-   Return the value of largest size for all k and s of small integer components, among them those in
-   which square, cubic and hexagonal lattices have their extremes.
+   of the directions of small integer components, among them those in which square, cubic and
+   hexagonal lattices have their extremes
 ------------------------------------------------------------------------- */
 
 double LatticeStrain::largest(int type) const
 {
-  constexpr int MOST = 2;
+  constexpr int MOST = 3, TURNS = 12;
   const Sum &sum = sums[type];
-  const int most_z = (engine.parameters().dim == 2) ? 0 : MOST;
-  std::vector<std::array<double, 3>> directions;
+  const bool flat = (engine.parameters().dim == 2);
+  const int most_z = flat ? 0 : MOST, turns = flat ? 1 : TURNS;
+  double found = 0.0;
+
   for (int l = -MOST; l <= MOST; l++)
     for (int m = -MOST; m <= MOST; m++)
-      for (int n = -most_z; n <= most_z; n++)
-        if (l || m || n) directions.push_back({(double) l, (double) m, (double) n});
-
-  constexpr int A[6] = {0, 1, 2, 1, 0, 0},
-                B[6] = {0, 1, 2, 2, 2, 1};    // components of the products
-  double found = 0.0;
-  for (const auto &k : directions)
-    for (const auto &s : directions) {
-      if (MathExtra::dot3(k.data(), s.data()) != 0.0) continue;
-      double second = 0.0, fourth = 0.0, mixed[6];
-      for (int c = 0; c < 6; c++) {
-        mixed[c] = k[A[c]] * s[B[c]] + (A[c] != B[c] ? k[B[c]] * s[A[c]] : 0.0);
-        second += (A[c] != B[c] ? 2.0 : 1.0) * k[A[c]] * k[B[c]] * sum.second[c];
+      for (int n = -most_z; n <= most_z; n++) {
+        if (l == 0 && m == 0 && n == 0) continue;
+        double k[3] = {(double) l, (double) m, (double) n}, a[3], b[3] = {0.0, 0.0, 1.0};
+        if (l == 0 && m == 0) std::swap(b[0], b[2]);
+        MathExtra::norm3(k);
+        MathExtra::cross3(k, b, a);
+        MathExtra::norm3(a);
+        MathExtra::cross3(k, a, b);
+        const double square[6] = {k[0] * k[0],       k[1] * k[1],       k[2] * k[2],
+                                  2.0 * k[1] * k[2], 2.0 * k[0] * k[2], 2.0 * k[0] * k[1]};
+        for (int turn = 0; turn < turns; turn++) {
+          const double angle = MY_PI * turn / TURNS;
+          double s[3];
+          for (int d = 0; d < 3; d++) s[d] = cos(angle) * a[d] + sin(angle) * b[d];
+          const double mixed[6] = {k[0] * s[0],
+                                   k[1] * s[1],
+                                   k[2] * s[2],
+                                   k[1] * s[2] + k[2] * s[1],
+                                   k[0] * s[2] + k[2] * s[0],
+                                   k[0] * s[1] + k[1] * s[0]};
+          double change = 0.0;
+          for (int c = 0; c < 6; c++) {
+            change += square[c] * sum.second[c];
+            for (int d = 0; d < 6; d++) change += mixed[c] * sum.fourth[c][d] * mixed[d];
+          }
+          if (fabs(change) > fabs(found)) found = change;
+        }
       }
-      for (int c = 0; c < 6; c++)
-        for (int d = 0; d < 6; d++) fourth += mixed[c] * sum.fourth[c][d] * mixed[d];
-      const double change =
-          (second + fourth / MathExtra::lensq3(s.data())) / MathExtra::lensq3(k.data());
-      if (fabs(change) > fabs(found)) found = change;
-    }
   return found;
 }
 
