@@ -62,7 +62,7 @@ def test_force_and_heat_of_each_particle(lammps, dim, options, ranks, newton):
 @pytest.mark.parametrize("options", ["", "temp 0.3 4711"])
 def test_stress_is_of_pairs(lammps, newton, options):
     """The drag is no force between particles: pressure and stress are those without it; fix adapt switches it on."""
-    particles, columns = disordered(2, 12), ("press", "pxx", "pyy", "pxy")
+    particles, columns = disordered(2, 12), ("Press", "Pxx", "Pyy", "Pxy")
     tables = []
     for keywords in ("", "drag 5 3 -2 0", "drag 0 3 -2 0"):
         mu = 0.5 if not options else 0.0
@@ -74,7 +74,7 @@ def test_stress_is_of_pairs(lammps, newton, options):
         tables.append(lammps(text).thermo()[-1])
     for column in columns:
         for table in tables[1:]:
-            assert table[column][0] == pytest.approx(tables[0][column][0], rel=1e-12, abs=1e-12 * abs(tables[0]["press"][0]))
+            assert table[column][0] == pytest.approx(tables[0][column][0], rel=1e-12, abs=1e-12 * abs(tables[0]["Press"][0]))
 
 
 def test_minimization_has_no_drag(lammps):
