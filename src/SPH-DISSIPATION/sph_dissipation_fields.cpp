@@ -23,7 +23,10 @@ using namespace SPHDissipation;
 
 Fields *Fields::of(Atom *atom)
 {
-  return dynamic_cast<Fields *>(atom->style_match("sph/"));
+  if (auto *fields = dynamic_cast<Fields *>(atom->avec)) return fields;
+  for (const char *const style : {"sph/bulk", "sph/micropolar"})    // of hybrid
+    if (auto *fields = dynamic_cast<Fields *>(atom->style_match(style))) return fields;
+  return nullptr;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -136,6 +136,8 @@ case $way in
       cp -r "$lammps/src" copy
       mv copy lammps
     fi
+    # files that the package no longer has must not stay behind
+    if [[ -d lammps/src/SPH-DISSIPATION ]]; then make -s -C lammps/src no-sph-dissipation >/dev/null; rm -r lammps/src/SPH-DISSIPATION; fi
     cp -r "$ROOT/src/SPH-DISSIPATION" lammps/src
     {
       make -C lammps/src yes-sph-dissipation
