@@ -95,13 +95,22 @@ Fluid *SPHDissipation::find_fluid(LAMMPS *lmp, const std::string &user)
   return fluid;
 }
 
+/* ----------------------------------------------------------------------
+   r f is no virial of forces that are not of pairs; in hybrid, which sums r f itself, from the next step on
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::sum_virial_by_pairs()
+{
+  if (fluid->model->parameters().drag)
+    no_virial_fdotr_compute = force->pair->no_virial_fdotr_compute = 1;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void PairSPHBulk::compute(int eflag, int vflag)
 {
   fluid->adopt();
-  // r f is no virial of forces that are not of pairs
-  if (fluid->model->parameters().drag) no_virial_fdotr_compute = 1;
+  sum_virial_by_pairs();
   ev_init(eflag, vflag);
   StressTally stress(this, atom->nlocal, force->newton_pair);
   CentroidTally centroid(stress, cvatom, atom->nlocal, force->newton_pair);
@@ -150,6 +159,7 @@ void PairSPHBulk::init_style()
 {
   no_virial_fdotr_compute = 0;
   fluid->init();
+  sum_virial_by_pairs();
   neighbor->add_request(this);
 }
 

@@ -70,6 +70,7 @@ class PairSPHBulk : public Pair {
   class StressTally;
 
   void allocate();
+  void sum_virial_by_pairs();
 };
 
 }    // namespace LAMMPS_NS

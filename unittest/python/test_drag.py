@@ -77,6 +77,16 @@ def test_stress_is_of_pairs(lammps, newton, options):
             assert table[column][0] == pytest.approx(tables[0][column][0], rel=1e-12, abs=1e-12 * abs(tables[0]["Press"][0]))
 
 
+def test_stress_is_of_pairs_in_hybrid(lammps):
+    particles = disordered(2, 12)
+    tables = []
+    for keywords in ("", "drag 5 3 -2 0"):
+        model = f"pair_style hybrid sph/bulk\npair_coeff * * sph/bulk 1.0 10.0 0.5 2.0 {SUPPORT[2]} {keywords}\n"
+        tables.append(lammps(start(particles, lammps, model) + "thermo_style custom step press pxx pyy pxy\n" + FULL + "run 0\n").thermo()[-1])
+    for column in ("Press", "Pxx", "Pyy", "Pxy"):
+        assert tables[1][column][0] == pytest.approx(tables[0][column][0], rel=1e-12, abs=1e-12 * abs(tables[0]["Press"][0]))
+
+
 def test_minimization_has_no_drag(lammps):
     particles = disordered(2, 12)
     forces = []
