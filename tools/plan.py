@@ -147,23 +147,11 @@ class Plan:
         hsq = STABILITY[args.kernel][self.dim - 2] * self.rc**2
         nu = self.mu / self.rho
         self.limits = {
-            "acoustic": self.acoustic(hsq, 0.0),
+            "acoustic": self.acoustic(hsq),
             "shear": SAFETY / SHEAR[args.shear][0] * hsq / nu if nu else math.inf,
             "bulk": SAFETY / BULK_RATE * self.rho * hsq / abs(self.zeta) if self.zeta else math.inf,
         }
         self.rate = 1 / self.limits["shear"] + 1 / self.limits["bulk"]    # of the fastest viscous mode
-        self.choose_step()
-        for _ in range(20 if self.fluid.relax else 0):    # a longer step is less stiff
-            self.limits["acoustic"] = self.acoustic(hsq, self.dt)
-            self.choose_step()
-
-    def acoustic(self, hsq, dt):
-        """with the stiffness of the processes"""
-        stiffness = sum(kappa / (self.rho * tau) * (-math.expm1(-dt / tau) * tau / dt if dt else 1.0) for kappa, tau in self.fluid.relax)
-        return 0.25 * math.sqrt(hsq) / (math.sqrt(self.c0**2 + stiffness) + self.args.velocity)
-
-    def choose_step(self):
-        args = self.args
         self.explicit = min(self.limits["acoustic"], 1 / self.rate if self.rate else math.inf)
         self.stiffness = self.rate * self.limits["acoustic"]
         self.viscous = ""
@@ -173,6 +161,14 @@ class Plan:
         self.dt = float(f"{args.fraction * self.largest:.3g}")
         if args.temperature is not None:
             self.dt = float(f"{min(self.largest / 3, 0.095 / self.rate if self.rate else math.inf):.3g}")
+
+    def acoustic(self, hsq):
+        """with processes the step that is as long as their stiffness, which falls with it, allows"""
+        step = 0.0
+        for _ in range(100 if self.fluid.relax else 1):
+            stiffness = sum(kappa / self.rho * (-math.expm1(-step / tau) / step if step else 1 / tau) for kappa, tau in self.fluid.relax)
+            step = 0.25 * math.sqrt(hsq) / (math.sqrt(self.c0**2 + stiffness) + self.args.velocity)
+        return step
 
     def thermal_mach(self):
         energy = BOLTZMANN[self.units] * self.args.temperature

@@ -244,6 +244,9 @@ def test_gas_of_the_shipped_file(box, name):
     """Density and speed of sound are those of an ideal gas, the processes follow rc, all with every digit."""
     gas = SHIPPED_GASES[name]
     room = f" relax {len(processes(gas))}" if processes(gas) else ""
+    head, velocities = box.path("box.data").read_text().split("Velocities\n\n")
+    lines = [f"{line}{' 0' * len(processes(gas))}" for line in velocities.split("\n\n")[0].splitlines()]
+    box.path("box.data").write_text(head + "Velocities\n\n" + "\n".join(lines) + "\n")
     result = box(deck(f"pair_coeff * * {GASES} {name} 2.5 pb 3.0\n", room=room) + "write_data out.data pair ii\n")
     mu, kappa = table(result)["1-1"]
     assert (mu, kappa) == (pytest.approx(gas["mu"], rel=1e-3), pytest.approx(gas["kappa"], rel=1e-3, abs=1e-3 * gas["mu"]))
@@ -370,3 +373,19 @@ def test_a_gas_needs_si_units(box):
     box.path("my.fluids").write_text(GOOD_GASES.replace("# UNITS: si\n", ""))
     result = box(deck("pair_coeff * * my.fluids haze 2.5\n", units="lj"), check=False, timeout=60)
     assert re.search(r"my\.fluids:2: a gas without a column rho needs units si", result.error), result.error
+
+
+def test_table_of_gases_on_the_page():
+    """Bulk viscosities over mu, and the frequency up to which a constant holds, rounded as printed."""
+    page = (ROOT / "doc" / "src" / "Howto_sph_viscosities.rst").read_text().split("\nGases\n")[1].split("\nSpin\n")[0]
+    names = {"He, Ar": "Ar", "dry air": "air/0", "air, humidity 10 %": "air/10", "air, humidity 50 %": "air/50"}
+    rows = re.findall(r"^   \* - (.*)\n     - (.*)\n     - (.*)\n     - (.*)\n     - (.*)\n", page, re.MULTILINE)[1:]
+    assert {names.get(row[0], row[0]) for row in rows} | {"He"} == set(SHIPPED_GASES)
+    for name, total, rotation, times, frequency in rows:
+        gas = tool.find(names.get(name, name))
+        units = {"ms": 1e-3, r":math:`\mu\mathrm{s}`": 1e-6, "Hz": 1.0, "kHz": 1e3, "MHz": 1e6}
+        number = [float(word.split()[0]) * units[word.split()[1]] for word in [*times.split(", "), frequency] if word.split()[1] in units]
+        assert float(total) == pytest.approx(gas.constant().kappa / gas.mu, rel=1e-2 if "e" in total else 0.0, abs=5e-3 if "." in total else 0.5)
+        assert float(rotation) == pytest.approx(gas.kappa / gas.mu, abs=5e-3)
+        expected = [tau for _, tau in gas.relax] + [gas.constant().valid[1]]
+        assert number == (pytest.approx(expected, rel=3e-2) if expected[-1] < math.inf else [])
