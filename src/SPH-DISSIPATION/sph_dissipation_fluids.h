@@ -25,10 +25,10 @@ namespace SPHDissipation {
   // one line of a file of fluids, in the units that the file declares
 
   struct FluidLine {
-    double rho;      // density
-    double c;        // sound speed, of frequency 0
-    double mu;       // shear viscosity
-    double kappa;    // bulk viscosity, without that of the processes
+    double rho;                   // density
+    double c;                     // sound speed, of frequency 0
+    double mu;                    // shear viscosity
+    double kappa;                 // bulk viscosity, without that of the processes
     std::vector<double> relax;    // kappa_r and tau of each relaxing process
   };
 
