@@ -47,8 +47,8 @@ class Fluid:
         return omega / cmath.sqrt(self.stiffness(-1j * omega, extra))
 
     def standing_wave(self, wavelength):
-        """s of a wave exp(s t) of this length: s.imag is its frequency times 2 pi, s.real < 0 its decay.  None if it does not
-        oscillate.  By iteration of s^2 = -k^2 c^2(s)."""
+        """s of a wave exp(s t) of this length: s.imag is its frequency times 2 pi, s.real < 0 its decay.  By iteration of
+        s^2 = -k^2 c^2(s), which converges for waves that outlive a period; None for others."""
         k = 2 * math.pi / wavelength
         s = 1j * k * self.c
         for _ in range(500):

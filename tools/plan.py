@@ -119,7 +119,7 @@ class Plan:
         """of the box, and the velocity, of a wave"""
         args = self.args
         if args.frequency:
-            args.wavelength = 2 * math.pi / self.real.wave_number(args.frequency).real
+            args.wavelength = 2 * math.pi / self.real.wave_number(args.frequency).real if args.fluid else self.real.c / args.frequency
         if args.wavelength:
             args.length, args.velocity = args.wavelength, args.velocity or SOUND_MACH * self.real.c
         self.frequency = args.frequency or (self.real.c if self.wave else args.velocity) / args.length
@@ -231,8 +231,8 @@ class Plan:
         wave = replace(self.fluid, c=self.c0, kappa=longitudinal - 4 / 3 * self.mu)
         s = wave.standing_wave(self.args.length)
         lines = ["pressure            with pb the particles are a crystal, of which LAMMPS warns: right for sound, not for shear"]
-        if s is None or abs(s.real) > 10 * s.imag:
-            return lines + ["NOTE                the wave is overdamped: it does not oscillate"]
+        if s is None or abs(s.real) > 2 * s.imag:
+            return lines + ["NOTE                the wave does not outlive a period"]
         k = wave.wave_number(s.imag / (2 * math.pi))
         more = wave.wave_number(s.imag / (2 * math.pi), wave.conduction).imag / k.imag - 1 if k.imag else 0.0
         lines.append(f"sound               frequency {s.imag / (2 * math.pi):.4g}, speed {s.imag / k.real:.5g}, absorption of a driven wave "

@@ -99,6 +99,13 @@ def test_sound(lammps, wave):
     assert np.abs(table["c_amplitude"] / 0.01 - exact).max() < 0.025
 
 
+def test_wave_that_dies_at_once():
+    for case, dies in [("--fluid water --wavelength 1e-10", True), ("--fluid water --wavelength 1e-8", False),
+                       ("--rho 1 --mu 0 --kappa 0 --c 10 --frequency 2", False)]:
+        text = planner.Plan(planner.arguments(case.split())).input()
+        assert ("does not outlive a period" in text) == dies and ("period of the wave" in text) != dies
+
+
 def test_frequency_of_kappa():
     """... is looked up in the files of fluids; a gas says it by its slowest process, and by rotation."""
     assert fluids.find("air").valid == (1e5, np.inf) and fluids.find("mercury").valid == (0.0, np.inf)
