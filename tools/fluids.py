@@ -75,19 +75,19 @@ def gas(columns):
 def humid_air(humidity, temperature=293.15, pressure=101325.0):
     """Columns of gases.sph of air with a relative humidity in percent, K, Pa.
 
-    ISO 9613-1:1993 (H. E. Bass et al., J. Acoust. Soc. Am. 97, 680 (1995)): the vapour pressure, the relaxation
+    ISO 9613-1:1993 (H. E. Bass et al., J. Acoust. Soc. Am. 97, 680 (1995)): the vapor pressure, the relaxation
     frequencies 1/(2 pi tau), and what each process adds to the absorption, alpha = A f^2/(fr + f^2/fr).  For a weak process
     alpha = pi g f^2/(c^3 (fr + f^2/fr)), so g = A c^3/pi, and kappa_r = rho g tau.  ISO 9613-1 has 343.2 m/s at 20 C, which is
     the speed c of dry air with gamma = 1.4, above both relaxations; gamma is that of frequency 0.
-    mu, k: Sutherland's formula, F. M. White, Viscous Fluid Flow (2006), of dry air; a vapour pressure of two percent changes them
+    mu, k: Sutherland's formula, F. M. White, Viscous Fluid Flow (2006), of dry air; a vapor pressure of two percent changes them
     by less than one.  kappa: 0.6 mu, M. Greenspan, J. Acoust. Soc. Am. 31, 155 (1959).
     """
     t, p = temperature / 293.15, pressure / 101325
-    vapour = humidity / p * 10 ** (-6.8346 * (273.16 / temperature) ** 1.261 + 4.6151)    # molar percentage
-    frequencies = (p * (24 + 4.04e4 * vapour * (0.02 + vapour) / (0.391 + vapour)),       # O2, N2
-                   p / math.sqrt(t) * (9 + 280 * vapour * math.exp(-4.170 * (t ** (-1 / 3) - 1))))
+    vapor = humidity / p * 10 ** (-6.8346 * (273.16 / temperature) ** 1.261 + 4.6151)    # molar percentage
+    frequencies = (p * (24 + 4.04e4 * vapor * (0.02 + vapor) / (0.391 + vapor)),       # O2, N2
+                   p / math.sqrt(t) * (9 + 280 * vapor * math.exp(-4.170 * (t ** (-1 / 3) - 1))))
     strengths = (0.01275 * math.exp(-2239.1 / temperature) * t**-2.5, 0.1068 * math.exp(-3352 / temperature) * t**-2.5)
-    water = vapour / 100
+    water = vapor / 100
     mass = 0.0289644 * (1 - water) + 0.0180153 * water
     cp = 3.5 + 0.5 * water    # over R: translation and rotation
     gamma, rho = cp / (cp - 1), pressure * mass / (GAS_CONSTANT * temperature)
