@@ -119,7 +119,8 @@ void RefineEvent::set_lump(int i, const Lump &one)
   atom->esph[i] = one.energy;
   fields->desph_before[i] = one.energy_rate;
   for (int k = 0; k < fields->nprocess; k++)
-    fields->rho_relaxed[k][i] = StrainRows::state_of(one.strain[k]);
+    if (fields->rho_relaxed[k][i] != 0.0)    // its type has this process
+      fields->rho_relaxed[k][i] = StrainRows::state_of(one.strain[k]);
   std::copy_n(one.x, 3, atom->x[i]);
   std::copy_n(one.u, 3, atom->v[i]);
   std::copy_n(one.u_end, 3, atom->vest[i]);
