@@ -122,8 +122,10 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::write_restart(FIL
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_force(int vflag)
 {
-  atomKK->sync(Host, on_host() ? ALL_MASK : MOTION | EXTRAPOLATION);
+  const bool new_energies = sets_temperatures();
+  atomKK->sync(Host, (on_host() || new_energies) ? ALL_MASK : MOTION | EXTRAPOLATION);
   FixSPHBulk::setup_pre_force(vflag);
+  if (new_energies) atomKK->modified(Host, ENERGY);
   if (on_host()) atomKK->modified(Host, VEST_MASK | INERTIA_MASK);
 }
 

@@ -281,6 +281,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_strains()
                    data->type,
                    atomKK->k_rmass.template view<DeviceType>().data(),
                    avec.k_rho.template view<DeviceType>().data(),
+                   model->choice.eos,
+                   avec.k_esph.template view<DeviceType>().data(),
                    {}};
   for (int k = 0; k < avec.nprocess; k++)
     data->strains.relaxed[k] = avec.k_rho_relaxed[k].template view<DeviceType>().data();
@@ -325,6 +327,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
   data->density = reach(density_sum, "sph:density", n);
   data->zeta_term = reach(zeta_term, "sph:zeta_term", n);
   data->strain_pressure = reach(strain_pressure, "sph:strain_pressure", n);
+  data->conductor = reach(conductor, "sph:conductor", engine->parameters().conducts ? n : 1);
   data->spin = engine->has_spin() ? reach(spin, "sph:spin", n) : nullptr;
   for (auto &heat : data->heat) reach(heat, "sph:heat", n);
   data->weight = reach(weight, "sph:weight", data->each ? n : 1);
@@ -448,7 +451,7 @@ void FluidKokkos<DeviceType>::send_to_ghosts(const Part<T> &...part)
 }
 
 /* ----------------------------------------------------------------------
-   the ideal gas needs the energy of ghost atoms
+   thermal pressure needs the energy of ghost atoms
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
@@ -465,25 +468,32 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
   });
 
   Part<double> energy = {{}, 0, 1};
-  if (model->choice.eos == Eos::IDEAL)
+  if (engine->parameters().thermal_pressure)
     energy.array = AtomVecSPHBulkKokkos::of(atom).k_esph.template view<DeviceType>();
   const ParticleRows rows = *data;
   Part<double> strain = {{}, 0, 1};
-  if (engine->parameters().nprocess) {
-    strain.array = strain_pressure;
-    const int bits = not_fluid();
+  Part<Conductor> temperature = {{}, 1, 1};
+  const bool relaxes = engine->parameters().nprocess, conducts = engine->parameters().conducts;
+  const int bits = not_fluid();
+  if (relaxes) strain.array = strain_pressure;
+  if (conducts) temperature.array = conductor;
+  if (relaxes || conducts) {
     const bool rest = at_rest();
     Kokkos::parallel_for(
         "sph:strain", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
           rows.set_density(i);
-          rows.set_strain_pressure(i, bits, rest);
+          if (relaxes) rows.set_strain_pressure(i, bits, rest);
+          if (conducts) rows.set_temperature(i);
         });
   }
-  send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy, strain);
+  send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy, strain, temperature);
 
   Kokkos::parallel_for(
       "sph:volume", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) { rows.set_density(i); });
+      KOKKOS_LAMBDA(int i) {
+        rows.set_density(i);
+        if (conducts) rows.set_conductor(i, bits);
+      });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -580,6 +590,17 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(PairTally *
 
 /* ---------------------------------------------------------------------- */
 
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_heat()
+{
+  if (!on_device) return Fluid::sum_heat();
+  with_kernel(model->choice.kernel, [&](auto kernel) {
+    Kokkos::parallel_for("sph:heat", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
+                         HeatLoopKokkos<DeviceType, decltype(kernel)>{*data});
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class DeviceType>
 template <class K, class Form>
 void FluidKokkos<DeviceType>::run_force_loop(bool virial)
@@ -614,7 +635,7 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
              sizeof(typename std::decay_t<decltype(view)>::non_const_value_type)));
   };
   return Fluid::memory_usage() + boundary_device->memory_usage() +
-      bytes(particle, density_sum, spin, zeta_term, strain_pressure, weight, bound_of,
+      bytes(particle, density_sum, spin, zeta_term, strain_pressure, conductor, weight, bound_of,
             gradient_of) +
       (double) NCHANNEL * bytes(data->heat[0]);
 }

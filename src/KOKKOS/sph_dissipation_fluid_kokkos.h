@@ -76,6 +76,7 @@ namespace SPHDissipation {
     void set_boundary() override;
     void sum_gradient() override;
     void sum_forces(PairTally *) override;
+    void sum_heat() override;
     void set_particles();
     void set_spins();
 
@@ -102,6 +103,7 @@ namespace SPHDissipation {
     Array<DensitySum> density_sum;
     Array<Spin> spin;
     Array<double> zeta_term, strain_pressure, weight;
+    Array<Conductor> conductor;
     Array<double> bound_of;    // of the limit, see LimitStage
     Gradient gradient_of;
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;

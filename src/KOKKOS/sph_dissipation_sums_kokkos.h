@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 #define LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 
-// Further sums over the pairs of each particle: as classes LimitStage and ShiftStage of the CPU styles
+// Further sums over the pairs of each particle: as classes LimitStage, HeatStage and ShiftStage of the CPU styles
 
 #include "sph_dissipation_loops_kokkos.h"
 #include "sph_dissipation_shift_terms.h"
@@ -38,6 +38,27 @@ namespace SPHDissipation {
       if (rsq < data.par.support * data.par.support) function(j, r, rsq);
     }
   }
+
+  // conduction of heat, as heat_loop() of the CPU styles
+
+  template <class DeviceType, class K> struct HeatLoopKokkos {
+    LoopDataKokkos<DeviceType> data;
+
+    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+    {
+      const int i = data.ilist(ii);
+      const Conductor own = data.conductor[i];
+      if (own.vol == 0.0) return;
+      double sum = 0.0;
+      for_neighbors(data, i, [&](int j, const double *, double rsq) {
+        const Conductor &other = data.conductor[j];
+        const double slope = data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
+        sum += heat_flow(mean_conductivity(own.conductivity, other.conductivity),
+                         own.vol * other.vol * slope, own.temperature, other.temperature);
+      });
+      data.desph[i] += sum;
+    }
+  };
 
   template <class DeviceType, class K> struct BoundLoopKokkos {
     LoopDataKokkos<DeviceType> data;

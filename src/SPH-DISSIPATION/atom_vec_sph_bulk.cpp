@@ -16,6 +16,8 @@
 #include "atom.h"
 #include "error.h"
 #include "memory.h"
+#include "pair_sph_bulk.h"
+#include "sph_dissipation_fluid.h"
 
 #include <algorithm>
 #include <cstring>
@@ -23,12 +25,13 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// names known to compute property/atom, in the order of their index, those of spins last
+// names known to compute property/atom, in the order of their index, those of spins last; LAMMPS has a property
+// temperature itself
 
-static constexpr const char *PROPERTY[] = {"numden",    "dnumden",   "vol",      "rho",   "esph",
-                                           "desph",     "vestx",     "vesty",    "vestz", "inertia",
-                                           "omegaestx", "omegaesty", "omegaestz"};
-enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, VESTX };
+static constexpr const char *PROPERTY[] = {"numden",  "dnumden",   "vol",       "rho",      "esph",
+                                           "desph",   "tsph",      "vestx",     "vesty",    "vestz",
+                                           "inertia", "omegaestx", "omegaesty", "omegaestz"};
+enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, TSPH, VESTX };
 enum { INERTIA = VESTX + 3, OMEGAESTX, NPROPERTY = OMEGAESTX + 3 };
 
 static constexpr int CUSTOM_DOUBLE = 1;    // data type of Atom::add_custom()
@@ -272,6 +275,7 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
 {
   const int *mask = atom->mask;
   const int nlocal = atom->nlocal;
+  const std::vector<double> temperature = (index == TSPH) ? temperatures() : std::vector<double>();
 
   for (int i = 0, n = 0; i < nlocal; i++, n += nvalues) {
     buf[n] = 0.0;
@@ -295,6 +299,9 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
       case DESPH:
         buf[n] = desph[i];
         break;
+      case TSPH:
+        buf[n] = temperature[i];
+        break;
       case INERTIA:
         buf[n] = inertia[i];
         break;
@@ -302,6 +309,22 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
         buf[n] = (index < INERTIA) ? vest[i][index - VESTX] : omegaest[i][index - OMEGAESTX];
     }
   }
+}
+
+/* ----------------------------------------------------------------------
+   which the pair style knows, with its heat capacities
+------------------------------------------------------------------------- */
+
+std::vector<double> AtomVecSPHBulk::temperatures() const
+{
+  const Fluid *const fluid = find_fluid(lmp, "Compute property/atom tsph");
+  if (!fluid->is_set_up())
+    error->all(FLERR,
+               "Compute property/atom tsph needs the coefficients of the pair style that is there "
+               "now: use run 0 first");
+  std::vector<double> result(atom->nlocal);
+  fluid->temperatures(result.data());
+  return result;
 }
 
 /* ----------------------------------------------------------------------

@@ -21,10 +21,10 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_noise.h"
 #include "update.h"
 
 #include <algorithm>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -121,19 +121,19 @@ double ComputeSPHTemp::rotational() const
 double ComputeSPHTemp::internal() const
 {
   const auto *const fluid = SPHDissipation::find_fluid(force);
-  if (!fluid || !fluid->model->choice.own_temperatures) return 0.0;
+  if (!fluid || !fluid->model->has_temperatures()) return 0.0;
   if (!fluid->is_set_up())
     error->all(FLERR,
                "Compute {} needs the coefficients of the pair style that is there now: use run 0 "
                "first",
                style);
+  std::vector<double> temperatures(atom->nlocal);
+  fluid->temperatures(temperatures.data());
   double own[2] = {}, all[2];    // particles with heat, and their 1/T_i
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit) || !fluid->has_type(atom->type[i])) continue;
-    const double temperature = fluid->noise->internal_temperature(i);
-    if (!(temperature > 0.0)) continue;
+    if (!(atom->mask[i] & groupbit) || !(temperatures[i] > 0.0)) continue;
     own[0] += 1.0;
-    own[1] += 1.0 / temperature;
+    own[1] += 1.0 / temperatures[i];
   }
   MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_SUM, world);
   return (all[0] > 0.0) ? all[0] / all[1] : 0.0;

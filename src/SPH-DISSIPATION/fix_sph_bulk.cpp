@@ -28,6 +28,7 @@
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_shift_terms.h"
 #include "sph_dissipation_stages.h"
+#include "sph_dissipation_value.h"
 #include "sph_dissipation_viscous.h"
 #include "sph_dissipation_viscous_keywords.h"
 #include "update.h"
@@ -85,9 +86,10 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), exact(false), shift_speed(0.0), remap_v_flag(0),
     integrated_groups(0), first_instance(false), fluid(nullptr), fluid_style(without_suffix(style)),
     spins(Fields::with_spins(atom)), dt_of_forces(0.0), extrapolation(1.0), balanced(false),
-    viscous(new ViscousKeywords(lmp, style)), last(), inertia_flag(0), factor(0.0), offset(0.0),
-    inertia_done(false), density_done(0), density_flag(0), set_up(false),
-    energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0)
+    viscous(new ViscousKeywords(lmp, style)), temperature(nullptr), temperature_done(false), last(),
+    inertia_flag(0), factor(0.0), offset(0.0), inertia_done(false), density_done(0),
+    density_flag(0), set_up(false), energy_extrapolated(false), setup_step(0), last_instance(false),
+    not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -107,6 +109,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
 FixSPHBulk::~FixSPHBulk()
 {
   delete viscous;
+  delete temperature;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -131,6 +134,13 @@ int FixSPHBulk::keyword_argument(int iarg, int narg, char **arg)
       error->all(FLERR, "Fix {} inertia needs two numbers >= 0, one of them > 0, not {} {}", style,
                  arg[iarg + 1], arg[iarg + 2]);
     return 3;
+  }
+  if (strcmp(arg[iarg], "temperature") == 0) {
+    if (iarg + 2 > narg)
+      utils::missing_cmd_args(FLERR, fmt::format("fix {} temperature", style), error);
+    if (!temperature) temperature = new Value;
+    temperature->set(lmp, arg[iarg + 1]);
+    return 2;
   }
   if (const int nwords = viscous->argument(iarg, narg, arg)) return nwords;
   if (strcmp(arg[iarg], "shift") != 0)
@@ -187,6 +197,12 @@ void FixSPHBulk::init()
                  "leaves out",
                  style, style);
     fluid->shift->wanted = true;
+  }
+
+  if (temperature) {
+    if (!fluid) error->all(FLERR, "Fix {} temperature requires pair style {}", style, style);
+    if (!temperature->init(lmp, fmt::format("fix {}", style), true))
+      error->all(FLERR, "Variable {} for fix {} is of invalid style", temperature->name(), style);
   }
 
   init_viscous();
@@ -490,6 +506,7 @@ void FixSPHBulk::depart(int i)
 void FixSPHBulk::setup_pre_force(int /*vflag*/)
 {
   set_masses();
+  set_temperatures();
   if (update->whichflag == 1) add_remapped_velocity();
   if (!spins || !has_viscous_stage()) return;    // which needs the inertia for the first forces
   fluid->find_volumes();
@@ -503,6 +520,33 @@ void FixSPHBulk::set_masses()
   if (!density_flag || density_done) return;
   fluid->set_mean_density(groupbit);
   density_done = 1;
+}
+
+/* ----------------------------------------------------------------------
+   Densities follow from the masses, which therefore come first, of all integrators.  A minimization leaves internal
+   energies alone.
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::set_temperatures()
+{
+  if (!sets_temperatures()) return;
+  for (const auto &ifix : modify->get_fix_by_style("^" + fluid_style))
+    if (auto *const other = dynamic_cast<FixSPHBulk *>(ifix)) other->set_masses();
+  modify->clearstep_compute();
+  temperature->evaluate(lmp, igroup);
+  modify->addstep_compute(update->ntimestep + 1);
+  const std::string wrong = fluid->set_temperature(groupbit, [this](int i) {
+    return (*temperature)(i);
+  });
+  int mine = wrong.empty() ? comm->nprocs : comm->me, first;
+  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, world);
+  if (first == comm->me) error->one(FLERR, "Fix {} temperature {}", style, wrong);
+  temperature_done = true;
+}
+
+bool FixSPHBulk::sets_temperatures() const
+{
+  return temperature && !temperature_done && update->whichflag == 1 && !is_rerun(lmp);
 }
 
 /* ----------------------------------------------------------------------
@@ -754,7 +798,7 @@ Fields &FixSPHBulk::fields() const
 }
 
 /* ----------------------------------------------------------------------
-   the masses are set once; a continued run keeps those of its restart file, and the inertia that its
+   masses and temperatures are set once; a continued run keeps those of its restart file, and the inertia that its
    particles have, unless its input gives other numbers for it than those by which it was set
 ------------------------------------------------------------------------- */
 
@@ -767,6 +811,7 @@ void FixSPHBulk::write_restart(FILE *fp)
   for (const bigint number : {bigint(density_done), motion.known, motion.sum[0], motion.sum[1]})
     state.push_back(static_cast<double>(number));
   state.push_back(motion.dt);
+  state.push_back(static_cast<double>(temperature_done));
   const int size = static_cast<int>(state.size() * sizeof(double));
   fwrite(&size, sizeof(int), 1, fp);
   fwrite(state.data(), sizeof(double), state.size(), fp);
@@ -783,6 +828,7 @@ void FixSPHBulk::restart(char *buf)
   }
   density_done = static_cast<int>(state[0]);
   last = {static_cast<bigint>(state[1]), {0, 0}, state[4]};
+  temperature_done = state[5] != 0.0;
   if (comm->me == 0)
     for (int k = 0; k < 2; k++) last.sum[k] = static_cast<bigint>(state[2 + k]);
 }

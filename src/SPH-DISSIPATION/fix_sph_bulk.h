@@ -27,6 +27,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Fields;
   class Fluid;
+  class Value;
   class ViscousKeywords;
   struct TimeStep;
 }    // namespace SPHDissipation
@@ -86,6 +87,8 @@ class FixSPHBulk : public Fix {
   int nlocal_group() const;
   SPHDissipation::TimeStep time_step() const;
 
+  bool sets_temperatures() const;    // in setup_pre_force()
+
   // a particle without inertia gets one, or is an error, when the neighbor list is new
   bool needs_inertia() const { return inertia_flag || has_torques(); }
 
@@ -96,6 +99,8 @@ class FixSPHBulk : public Fix {
   double extrapolation;             // of velocities over half a step: 1, with thermal noise 0
   bool balanced;                    // heat gets half of its rate at each end of a step, temp energy
   SPHDissipation::ViscousKeywords *viscous;
+  SPHDissipation::Value *temperature;    // at the start, nullptr without
+  bool temperature_done;    // the particles have got it, in this run or before a restart
 
   SPHDissipation::Fields &fields() const;
   int keyword_argument(int iarg, int narg, char **arg);    // # of words of the keyword at arg[iarg]
@@ -127,6 +132,7 @@ class FixSPHBulk : public Fix {
   void add_remapped_velocity();
   void shift_particles();
   bool has_torques() const;
+  void set_temperatures();
   void set_inertia_of(int i, double &inertia) const;    // unless it has one
   void check_inertia() const;
 

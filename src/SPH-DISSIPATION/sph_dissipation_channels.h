@@ -36,6 +36,7 @@
 #ifdef CHANNEL_TERMS
 
 #include "sph_dissipation_channel_bulk.h"
+#include "sph_dissipation_channel_heat.h"
 #include "sph_dissipation_channel_shear.h"
 #include "sph_dissipation_channel_spin.h"
 #include "sph_dissipation_channel_vortex.h"
@@ -130,6 +131,9 @@ namespace SPHDissipation {
     DRAG_UX,
     DRAG_UY,
     DRAG_UZ,
+    CONDUCTIVITY,
+    GRUNEISEN,    // of the equation of state: Gamma, and the temperature of c0 and pb
+    GRUNEISEN_T0,
     RELAX,    // kappa_r and tau of each process
     NTYPECOEFF = RELAX + 2 * MOST_PROCESSES
   };
@@ -138,19 +142,26 @@ namespace SPHDissipation {
     int first, count;    // of enum TypeCoefficient
     int group;           // as many values belong together; 0: all
   };
-  constexpr TypeKeyword TYPE_KEYWORDS[] = {
-      {"drag", DRAG_B, 4, 0}, {"relax", RELAX, 2 * MOST_PROCESSES, 2}, {nullptr, NTYPECOEFF, 0, 0}};
+  constexpr TypeKeyword TYPE_KEYWORDS[] = {{"drag", DRAG_B, 4, 0},
+                                           {"conductivity", CONDUCTIVITY, 1, 0},
+                                           {"gruneisen", GRUNEISEN, 2, 0},
+                                           {"relax", RELAX, 2 * MOST_PROCESSES, 2},
+                                           {nullptr, NTYPECOEFF, 0, 0}};
   struct TypeVariable {
     const char *name;
     int coefficient;
   };
   constexpr TypeVariable TYPE_VARIABLES[] = {
-      {"drag", DRAG_B},         {"kappa_r", RELAX},       {"tau", RELAX + 1},
-      {"kappa_r2", RELAX + 2},  {"tau2", RELAX + 3},      {"kappa_r3", RELAX + 4},
-      {"tau3", RELAX + 5},      {"kappa_r4", RELAX + 6},  {"tau4", RELAX + 7},
-      {"kappa_r5", RELAX + 8},  {"tau5", RELAX + 9},      {"kappa_r6", RELAX + 10},
-      {"tau6", RELAX + 11},     {"kappa_r7", RELAX + 12}, {"tau7", RELAX + 13},
-      {"kappa_r8", RELAX + 14}, {"tau8", RELAX + 15},     {nullptr, NTYPECOEFF}};
+      {"drag", DRAG_B},         {"conductivity", CONDUCTIVITY},
+      {"kappa_r", RELAX},       {"tau", RELAX + 1},
+      {"kappa_r2", RELAX + 2},  {"tau2", RELAX + 3},
+      {"kappa_r3", RELAX + 4},  {"tau3", RELAX + 5},
+      {"kappa_r4", RELAX + 6},  {"tau4", RELAX + 7},
+      {"kappa_r5", RELAX + 8},  {"tau5", RELAX + 9},
+      {"kappa_r6", RELAX + 10}, {"tau6", RELAX + 11},
+      {"kappa_r7", RELAX + 12}, {"tau7", RELAX + 13},
+      {"kappa_r8", RELAX + 14}, {"tau8", RELAX + 15},
+      {nullptr, NTYPECOEFF}};
   struct TypeCoeffs {
     double a[NTYPECOEFF + 1] = {};
   };
@@ -169,8 +180,10 @@ namespace SPHDissipation {
     int dim;               // of the kernel
     double mean_radius;    // integral of r W
     double viscosity[NVISCOSITY];
-    double zeta;        // coefficient of the bulk term, mean of the types
-    TypeCoeffs type;    // the larger ones of both types
+    double zeta;             // coefficient of the bulk term, mean of the types
+    TypeCoeffs type;         // the larger ones of both types
+    double conductivity;     // mean of the types
+    double heat_capacity;    // per mass, the smaller one of both types
   };
 
   // inertia of the motion that a channel damps, for its fastest rate
@@ -191,6 +204,8 @@ namespace SPHDissipation {
     static constexpr bool SPINS = false;    // it needs particles that spin
     // it stores energy: it has no rate of its own, but belongs to the sound
     static constexpr bool ELASTIC = false;
+    // it turns motion into heat: it is in enum Channel
+    static constexpr bool OF_MOTION = true;
     // the table leaves it out if no type, of these largest coefficients, has it
     static bool in_use(const TypeCoeffs &) { return true; }
     // what it puts into the coefficients of a pair; the same as a tensor, for the noise
@@ -221,12 +236,13 @@ namespace SPHDissipation {
 #include "sph_dissipation_channel_spin.h"
 #include "sph_dissipation_channel_drag.h"
 #include "sph_dissipation_channel_relax.h"
+#include "sph_dissipation_channel_heat.h"
 // clang-format on
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // The list of the channels, in the order of enum Channel.  Each of them has a NAME, of its time step in the
+  // The list of the channels, in the order of enum Channel, then all others.  Each of them has a NAME, of its time step in the
   // table of the log, and the members of BaseChannel; its terms, in the other part of its header, derive
   // from PairTerm.
   template <class... One> struct ChannelList {
@@ -243,7 +259,9 @@ namespace SPHDissipation {
                                       bool linear, double *force, double *heat)
     {
       int channel = 0;
-      (add_drag(One::drag(type), vol, u, linear, force, heat[channel++]), ...);
+      ((One::OF_MOTION ? add_drag(One::drag(type), vol, u, linear, force, heat[channel++])
+                       : void()),
+       ...);
     }
     SPH_FUNCTION static void add_drag(const Drag &drag, double vol, const double *u, bool linear,
                                       double *force, double &heat)
@@ -255,8 +273,8 @@ namespace SPHDissipation {
       }
     }
   };
-  using Channels =
-      ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel, DragChannel, RelaxChannel>;
+  using Channels = ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel, DragChannel,
+                               RelaxChannel, HeatChannel>;
 
   inline PairCoeff pair_coefficients(const PairFluid &fluid)
   {

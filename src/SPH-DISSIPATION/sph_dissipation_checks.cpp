@@ -81,6 +81,15 @@ void SPHDissipation::check_rerun(LAMMPS *lmp, const std::string &style, const Fl
                     "Pair style {} {} cannot be used with rerun: snapshots have no internal "
                     "energies of the particles",
                     style, gas ? "eos ideal" : "temp energy");
+  for (int i = 1; i <= lmp->atom->ntypes; i++) {
+    const TypeCoeffs &type = model.coeffs[i].keywords;
+    if (HeatChannel::in_use(type) || type.a[GRUNEISEN] > 0.0)
+      lmp->error->all(
+          FLERR, Error::NOLASTLINE,
+          "Pair style {} with {} of type {} cannot be used with rerun: snapshots have no "
+          "internal energies of the particles",
+          style, HeatChannel::in_use(type) ? "conductivity" : "gruneisen", i);
+  }
   for (int i = 1; i <= lmp->atom->ntypes; i++)
     if (RelaxChannel::in_use(model.coeffs[i].keywords) && lmp->comm->me == 0)
       lmp->error->warning(

@@ -207,18 +207,33 @@ LoopData Engine::part(int thread) const
 void Engine::set_rows()
 {
   static constexpr double ONE = 1.0;
-  atom_rows = {*par,       par->type.data(), atom->nlocal, particle,
-               density,    zeta_term,        &ONE,         0,
-               atom->type, atom->mask,       atom->rmass,  atom->esph,
-               atom->rho,  atom->drho,       atom->vfrac,  atom->desph,
-               strains(),  strain_pressure};
+  atom_rows = {*par,
+               par->type.data(),
+               atom->nlocal,
+               particle,
+               density,
+               zeta_term,
+               &ONE,
+               0,
+               atom->type,
+               atom->mask,
+               atom->rmass,
+               atom->esph,
+               atom->rho,
+               atom->drho,
+               atom->vfrac,
+               atom->desph,
+               strains(),
+               strain_pressure,
+               conductor.data()};
 }
 
 /* ---------------------------------------------------------------------- */
 
 StrainRows Engine::strains() const
 {
-  StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho, {}};
+  StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho,
+                     par->eos,         atom->esph, {}};
   if (par->nprocess) std::copy_n(Fields::of(atom)->rho_relaxed, par->nprocess, rows.relaxed);
   return rows;
 }
@@ -284,6 +299,10 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     if (has_spin()) spin[i] = Spin();
   }
 
+  if (par->conducts) {
+    conductor.resize(nmax + BLOCK);
+    std::fill_n(conductor.begin() + nall, BLOCK, Conductor());
+  }
   set_rows();
   set_weights();
 
@@ -327,6 +346,23 @@ void Engine::run_density(Loop loop)
   if (sums.empty()) return;
   for_each(nall, [&](int i) {
     for (const auto &other : sums) add_row(density[i], other.density[i]);
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_heat(std::vector<double> &flow)
+{
+  const int nall = atom->nlocal + atom->nghost;
+  const HeatLoop loop = loops->heat(par->conducts_alike);
+  flow.assign(nall + BLOCK, 0.0);
+  threads->run([&](int k) {
+    if (k > 0) sums[k - 1].flow.assign(nall + BLOCK, 0.0);
+    loop(part(k), conductor.data(), (k > 0 ? sums[k - 1].flow : flow).data());
+  });
+  if (sums.empty()) return;
+  for_each(nall, [&](int i) {
+    for (const auto &other : sums) flow[i] += other.flow[i];
   });
 }
 
@@ -492,11 +528,12 @@ double Engine::memory_usage() const
   if (has_spin()) per_atom += sizeof(Spin) + sizeof(TorqueSum);
   double bytes = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
-      (double) pair_max * (sizeof(int) + sizeof(double));
+      (double) pair_max * (sizeof(int) + sizeof(double)) +
+      (double) conductor.capacity() * sizeof(Conductor);
   for (const auto &own : sums)
     bytes += (double) (own.density.capacity() * sizeof(DensitySum) +
                        own.force.capacity() * sizeof(ForceSum) +
                        own.torque.capacity() * sizeof(TorqueSum) +
-                       own.divergence.capacity() * sizeof(double));
+                       (own.divergence.capacity() + own.flow.capacity()) * sizeof(double));
   return bytes;
 }

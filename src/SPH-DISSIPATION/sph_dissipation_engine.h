@@ -90,6 +90,7 @@ namespace SPHDissipation {
 
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
+  typedef void (*HeatLoop)(const LoopData &, const Conductor *, double *flow);
 
   // the loops compiled for one instruction set
 
@@ -101,6 +102,7 @@ namespace SPHDissipation {
     Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
+    HeatLoop (*heat)(bool alike);    // the same conductivity of all particles that conduct
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
@@ -169,6 +171,9 @@ namespace SPHDissipation {
     // the same without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *);
 
+    // heat per time that owned and ghost atoms get by conduction, of conductor[]; room for the spare ones
+    void accumulate_heat(std::vector<double> &flow);
+
     // forces, torques, heat and divergence of those pairs alone, added to arrays with room for the
     // spare particles; after pass 2
     void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *, double *divergence);
@@ -213,6 +218,7 @@ namespace SPHDissipation {
     TorqueSum *torque;          // micropolar only
     double *zeta_term;          // zeta cdot/c, set by the caller on owned and ghost atoms
     double *strain_pressure;    // of relaxing processes, as zeta_term; set if there are any
+    std::vector<Conductor> conductor;    // the same, if any type conducts heat
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     Spin *spin;            // micropolar only
 
@@ -234,7 +240,7 @@ namespace SPHDissipation {
       std::vector<DensitySum> density;
       std::vector<ForceSum> force;
       std::vector<TorqueSum> torque;
-      std::vector<double> divergence;
+      std::vector<double> divergence, flow;
     };
     std::vector<int> first_row;
     std::vector<bigint> first_pair;

@@ -16,12 +16,15 @@
 
 // Equations of state of package SPH-DISSIPATION.  No LAMMPS include.
 //
-//   linear  p = c0^2 (rho - rho0) + pb
-//   tait    p = rho0 c0^2 / gamma [(rho/rho0)^gamma - 1] + pb
-//   ideal   p = (gamma - 1) rho e + pb,   e = internal energy per mass
+// The internal energy per mass is e = e_el(rho) + q, of which q is heat:
+//   p = p_el(rho) + Gamma rho q,   T = q/cv,   c^2 = c_el^2(rho) + Gamma (Gamma + 1) q
+// with the constant Gamma of Mie and Grueneisen: at constant entropy dq = Gamma q/rho drho.
 //
-// elastic_energy() is the energy per mass from which the pressure follows, p = rho^2 de/drho,
-// zero at rho0.  The ideal gas has none: its energy is the internal energy that is integrated.
+//   linear  p_el = c_el^2 (rho - rho0) + pb_el
+//   tait    p_el = rho0 c_el^2 / gamma [(rho/rho0)^gamma - 1] + pb_el
+//   ideal   p_el = pb,   Gamma = gamma - 1
+//
+// elastic_energy() is the energy e_el per mass from which p_el follows, p_el = rho^2 de_el/drho, zero at rho0.
 
 #include "sph_dissipation_function.h"
 
@@ -45,13 +48,35 @@ namespace SPHDissipation {
   // the defaults are those of a type without coefficients: no pressure, no energy
 
   struct EosParams {
-    SPH_FUNCTION EosParams() : rho0(1.0), c0(0.0), pb(0.0), gamma(7.0) {}
+    SPH_FUNCTION EosParams() :
+        rho0(1.0), c0(0.0), pb(0.0), gamma(7.0), gruneisen(0.0), c_el(0.0), pb_el(0.0)
+    {
+    }
 
     double rho0;     // reference density, mass/length^n
-    double c0;       // sound speed at rho0
-    double pb;       // background pressure
+    double c0;       // adiabatic sound speed at rho0, and at the reference temperature
+    double pb;       // background pressure: that at rho0, and at the reference temperature
     double gamma;    // exponent of tait and ideal
+
+    // by derive()
+    double gruneisen;      // Gamma
+    double c_el, pb_el;    // sound speed and background pressure without heat
+
+    void derive(Eos eos, double gruneisen_in, double reference_heat);
   };
+
+  // Set what follows from c0, pb and gamma, of Grueneisen's constant (read for linear and tait) and the heat
+  // per mass cv T0 at the reference temperature; c_el is NaN if the heat alone makes sound faster than c0.
+
+  inline void EosParams::derive(Eos eos, double gruneisen_in, double reference_heat)
+  {
+    gruneisen = (eos == Eos::IDEAL) ? gamma - 1.0 : gruneisen_in;
+    c_el = c0;
+    pb_el = pb;
+    if (eos == Eos::IDEAL || gruneisen == 0.0) return;
+    c_el = std::sqrt(c0 * c0 - gruneisen * (gruneisen + 1.0) * reference_heat);
+    pb_el -= gruneisen * rho0 * reference_heat;
+  }
 
   // x^gamma, without pow() for the usual exponent of water
 
@@ -64,19 +89,19 @@ namespace SPHDissipation {
     return std::pow(x, gamma);
   }
 
-  // pressure at density rho; e = internal energy per mass, used by the ideal gas only
+  // pressure p_el at density rho, without that of the heat
 
-  SPH_FUNCTION double pressure(Eos eos, const EosParams &par, double rho, double e)
+  SPH_FUNCTION double elastic_pressure(Eos eos, const EosParams &par, double rho)
   {
     switch (eos) {
       case Eos::TAIT:
-        return par.rho0 * par.c0 * par.c0 / par.gamma *
+        return par.rho0 * par.c_el * par.c_el / par.gamma *
             (tait_power(rho / par.rho0, par.gamma) - 1.0) +
-            par.pb;
+            par.pb_el;
       case Eos::IDEAL:
-        return (par.gamma - 1.0) * rho * e + par.pb;
+        return par.pb_el;
       default:
-        return par.c0 * par.c0 * (rho - par.rho0) + par.pb;
+        return par.c_el * par.c_el * (rho - par.rho0) + par.pb_el;
     }
   }
 
@@ -84,45 +109,62 @@ namespace SPHDissipation {
 
   SPH_FUNCTION double elastic_energy(Eos eos, const EosParams &par, double rho)
   {
-    if (eos == Eos::IDEAL) return 0.0;
-    const double background = par.pb * (1.0 / par.rho0 - 1.0 / rho);
+    if (eos == Eos::IDEAL && par.pb_el == 0.0) return 0.0;
+    const double background = par.pb_el * (1.0 / par.rho0 - 1.0 / rho);
+    if (eos == Eos::IDEAL) return background;
     if (eos == Eos::LINEAR)
-      return par.c0 * par.c0 * (std::log(rho / par.rho0) + par.rho0 / rho - 1.0) + background;
-    const double b = par.rho0 * par.c0 * par.c0 / par.gamma;
+      return par.c_el * par.c_el * (std::log(rho / par.rho0) + par.rho0 / rho - 1.0) + background;
+    const double b = par.rho0 * par.c_el * par.c_el / par.gamma;
     const double x = rho / par.rho0;
     const double power =
         (par.gamma == 1.0) ? std::log(x) : (tait_power(x, par.gamma) / x - 1.0) / (par.gamma - 1.0);
     return b / par.rho0 * power + b * (1.0 / rho - 1.0 / par.rho0) + background;
   }
 
-  // density at pressure p; of the ideal gas: at internal energy e per mass
+  // pressure of heat q per mass at density rho
+
+  SPH_FUNCTION double thermal_pressure(const EosParams &par, double rho, double q)
+  {
+    return par.gruneisen * rho * q;
+  }
+
+  // pressure at density rho; e = internal energy per mass, used where heat has a pressure only
+
+  SPH_FUNCTION double pressure(Eos eos, const EosParams &par, double rho, double e)
+  {
+    const double p = elastic_pressure(eos, par, rho);
+    if (par.gruneisen == 0.0) return p;
+    return p + thermal_pressure(par, rho, e - elastic_energy(eos, par, rho));
+  }
+
+  // density at pressure p; of the ideal gas: at internal energy e per mass.  Linear and tait: without heat
 
   inline double density_at(Eos eos, const EosParams &par, double p, double e)
   {
     switch (eos) {
       case Eos::TAIT: {
-        const double b = par.rho0 * par.c0 * par.c0 / par.gamma;
-        return par.rho0 * std::pow((p - par.pb) / b + 1.0, 1.0 / par.gamma);
+        const double b = par.rho0 * par.c_el * par.c_el / par.gamma;
+        return par.rho0 * std::pow((p - par.pb_el) / b + 1.0, 1.0 / par.gamma);
       }
       case Eos::IDEAL:
-        return (p - par.pb) / ((par.gamma - 1.0) * e);
+        return (p - par.pb_el - par.gruneisen * par.pb_el) /
+            (par.gruneisen * (e - par.pb_el / par.rho0));
       default:
-        return par.rho0 + (p - par.pb) / (par.c0 * par.c0);
+        return par.rho0 + (p - par.pb_el) / (par.c_el * par.c_el);
     }
   }
 
-  // speed of sound at density rho, c^2 = dp/drho at constant entropy, de = p/rho^2 drho
+  // speed of sound at density rho and internal energy e per mass, c^2 = dp/drho at constant entropy,
+  // de = p/rho^2 drho
 
   inline double sound_speed(Eos eos, const EosParams &par, double rho, double e)
   {
-    switch (eos) {
-      case Eos::TAIT:
-        return par.c0 * std::sqrt(tait_power(rho / par.rho0, par.gamma) * par.rho0 / rho);
-      case Eos::IDEAL:
-        return std::sqrt((par.gamma - 1.0) * (par.gamma * e + par.pb / rho));
-      default:
-        return par.c0;
-    }
+    const double q = (par.gruneisen == 0.0) ? 0.0 : e - elastic_energy(eos, par, rho);
+    if (eos == Eos::IDEAL) return std::sqrt(par.gruneisen * (par.gamma * q));
+    const double c = (eos == Eos::TAIT)
+        ? par.c_el * std::sqrt(tait_power(rho / par.rho0, par.gamma) * par.rho0 / rho)
+        : par.c_el;
+    return (q == 0.0) ? c : std::sqrt(c * c + par.gruneisen * (par.gruneisen + 1.0) * q);
   }
 
 }    // namespace SPHDissipation

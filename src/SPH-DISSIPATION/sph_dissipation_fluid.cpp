@@ -57,6 +57,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     pressure(new PressureStage(lmp, *engine, *exchange)),
     forces(new ForceStage(lmp, *engine, *exchange)),
     relaxation(new RelaxStage(lmp, *engine, *exchange)),
+    conduction(new HeatStage(lmp, *engine, *exchange)),
     open(new OpenStage(lmp, *engine, *exchange)),
     boundary(new BoundaryStage(lmp, *engine, *exchange, style)),
     shift(new ShiftStage(lmp, *engine, *exchange)),
@@ -132,6 +133,13 @@ void Fluid::check_setup()
                "Pair style {} with eos ideal cannot be used in a minimization: its energy depends "
                "on the heat of the particles, not on their positions alone",
                style);
+  for (int i = 1; i <= atom->ntypes && update->whichflag == 2; i++)
+    if (model->coeffs[i].keywords.a[GRUNEISEN] > 0.0)
+      error->all(
+          FLERR,
+          "Pair style {} with gruneisen cannot be used in a minimization: its energy depends "
+          "on the heat of the particles, not on their positions alone",
+          style);
   if (model->choice.thermal) check_noise(lmp, style);
   dim = model->dimension();
   support = model->common_support(pair->setflag);
@@ -209,6 +217,7 @@ bigint Fluid::compute(PairTally *tally)
   const bigint nbeyond = sum_before_forces();
   if (shift->wanted) sum_gradient();
   sum_forces(tally);
+  if (model->parameters().conducts) sum_heat();
   if (!open->empty()) open->sum_impacts(pair->list);
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
   changed = false;
@@ -325,6 +334,11 @@ void Fluid::sum_forces(PairTally *tally)
   if (!boundary->empty()) boundary->repel(tally);
 }
 
+void Fluid::sum_heat()
+{
+  conduction->run();
+}
+
 /* ----------------------------------------------------------------------
    friction that is extended behind walls, and the form P1 (64), have no symmetric matrix
 ------------------------------------------------------------------------- */
@@ -362,6 +376,44 @@ double Fluid::elastic_energy(Moment moment)
 double Fluid::strain_energy(int groupbits) const
 {
   return engine->parameters().nprocess ? relaxation->energy(groupbits) : 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   walls have no internal energy of their own
+------------------------------------------------------------------------- */
+
+void Fluid::temperatures(double *temperature) const
+{
+  const StrainRows strains = engine->strains();
+  for (int i = 0; i < atom->nlocal; i++)
+    temperature[i] = (has_type(atom->type[i]) && !is_boundary(i)) ? strains.temperature(i) : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string Fluid::set_temperature(int groupbit, const std::function<double(int)> &value)
+{
+  std::string wrong;
+  double *const desph_before = Fields::of(atom)->desph_before;
+  on_host([&]() {
+    density->run(pair->list, nullptr, nullptr);
+    const StrainRows strains = engine->strains();
+    for (int i = 0; i < atom->nlocal; i++) {
+      const int type = atom->type[i];
+      if (!(atom->mask[i] & groupbit) || !has_type(type) || is_boundary(i)) continue;
+      const double temperature = value(i);
+      if (model->heat_capacity(type) == 0.0)
+        wrong = fmt::format("needs the heat capacity of type {}, keyword cv of pair_coeff", type);
+      else if (!(temperature >= 0.0) || !std::isfinite(temperature))
+        wrong = fmt::format("must be >= 0, not {}", temperature);
+      else {
+        strains.begin(i);
+        atom->esph[i] = strains.energy_at(i, temperature);
+        desph_before[i] = 0.0;
+      }
+    }
+  });
+  return wrong;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -492,7 +544,7 @@ void Fluid::announce_noise(double rate)
 
 void Fluid::check_time_step(const CoeffTable &table)
 {
-  const double smallest = viscous->active() ? table.acoustic_step() : table.smallest_step();
+  const double smallest = viscous->active() ? table.explicit_step() : table.smallest_step();
   if (!(update->dt > smallest) || update->dt == warned_step) return;
   warned_step = update->dt;
   if (comm->me == 0)
@@ -622,5 +674,5 @@ double Fluid::memory_usage() const
 {
   return engine->memory_usage() + limit->memory_usage() + open->memory_usage() +
       boundary->memory_usage() + shift->memory_usage() + noise->memory_usage() +
-      viscous->memory_usage();
+      viscous->memory_usage() + conduction->memory_usage();
 }

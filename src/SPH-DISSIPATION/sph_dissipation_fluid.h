@@ -34,6 +34,7 @@ namespace SPHDissipation {
   class Exchange;
   class FluidModel;
   class ForceStage;
+  class HeatStage;
   class LimitStage;
   class NoiseStage;
   class OpenStage;
@@ -67,6 +68,7 @@ namespace SPHDissipation {
     const std::unique_ptr<PressureStage> pressure;
     const std::unique_ptr<ForceStage> forces;
     const std::unique_ptr<RelaxStage> relaxation;
+    const std::unique_ptr<HeatStage> conduction;
 
    public:
     // stages that fixes ask themselves.  A boundary or an open zone stays one until it is removed, when
@@ -113,6 +115,13 @@ namespace SPHDissipation {
     // energy of the strain of relaxing processes on this processor, of particles of these groups, a part of the former
 
     double strain_energy(int groupbits) const;
+
+    // Temperatures of owned particles, with their densities and energies as they are now; 0 of those that have no heat
+    // capacity, and of walls.  Give a temperature to those of a group, where particles, with their ghosts, are
+    // now, by function(particle); returns what is wrong with one of them on this processor
+
+    void temperatures(double *) const;
+    std::string set_temperature(int groupbit, const std::function<double(int)> &);
 
     // of the last forces: see ForceStage::heating(); force and torque on an owned particle, without
     // what other styles add
@@ -175,6 +184,7 @@ namespace SPHDissipation {
     virtual void set_boundary();
     virtual void sum_gradient();    // of the concentration, for shifting
     virtual void sum_forces(PairTally *);
+    virtual void sum_heat();    // of conduction
 
     virtual bool has_own_forces() const;    // on this processor
     void report();

@@ -354,6 +354,40 @@ namespace SPHDissipation {
       }
     }
 
+    // conduction of heat, after pass 2; ALIKE: particles with a volume have the same conductivity
+
+    template <bool ALIKE>
+    void heat_loop(const LoopData &data, const Conductor *conductor, double *flow)
+    {
+      for (int ii = 0; ii < data.inum; ii++) {
+        const int i = data.ilist[ii];
+        const Conductor own = conductor[i];
+        const int n = data.count[ii];
+        const int *const neighbor = data.neighbor + data.first[ii];
+        const double *const slope_of = data.slope + data.first[ii];
+        Vec total = all(0.0);
+
+        for (int k = 0; k < n; k += LANES) {
+          const int *const j = neighbor + k;
+          Vec other[4];
+          load_4_columns<WIDTH<Conductor>>(numbers(conductor), j, other);
+          for (int l = 0; l < LANES; l++) prefetch(conductor + j[l + AHEAD]);
+          const Vec mean = ALIKE ? all(own.conductivity)
+                                 : mean_conductivity(own.conductivity, other[2]);
+          const Vec vv = own.vol * other[0] * load(slope_of + k);
+          const Vec heat = heat_flow(mean, vv, own.temperature, other[1]);
+          total += heat;
+          add_column<1>(flow, j, -heat);
+        }
+        flow[i] += sum(total);
+      }
+    }
+
+    inline HeatLoop choose_heat_loop(bool alike)
+    {
+      return alike ? heat_loop<true> : heat_loop<false>;
+    }
+
     template <bool WEIGHTED> Loop choose_kernel(Kernel kernel)
     {
       switch (kernel) {
@@ -435,7 +469,8 @@ namespace SPHDissipation {
                              LOOPS::choose_force_loop,
                              LOOPS::choose_noisy_force_loop,
                              LOOPS::choose_eta_loop,
-                             LOOPS::particle_numbers};
+                             LOOPS::particle_numbers,
+                             LOOPS::choose_heat_loop};
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

@@ -331,12 +331,9 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
       }
     } else if (keyword == "pb")
       one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    else if (keyword == "cv") {
-      if (!choice.own_temperatures)
-        error->all(FLERR, place(arg[iarg]),
-                   "Pair_coeff cv needs keyword temp energy of pair_style {}", style);
+    else if (keyword == "cv")
       one.cv = positive("cv", arg[iarg + 1]);
-    } else
+    else
       one.gamma = positive("gamma", arg[iarg + 1]);
   }
 

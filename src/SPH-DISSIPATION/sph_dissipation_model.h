@@ -93,6 +93,7 @@ namespace SPHDissipation {
     int nviscosity() const { return number_of_viscosities(spins); }
     bool has_torques() const;                // any of the viscosities of spins
     double heat_capacity(int type) const;    // per mass
+    bool has_temperatures() const;           // any type has a heat capacity
     bool is_mixed(int i, int j) const { return !viscosity_set[0][i][j]; }
 
     Settings choice;
@@ -127,6 +128,7 @@ namespace SPHDissipation {
     void mix(int);
     void check_pair(int, int) const;
     void check_balance(int) const;
+    void check_heat(int) const;
     int type_coeff(int, char **, int, int, int, int, int **);
     int number_of_values(const TypeKeyword &, int narg, char **arg) const;
     int fluid_coeff(int, char **, int, int, int, int, int **);

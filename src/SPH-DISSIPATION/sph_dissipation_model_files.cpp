@@ -241,7 +241,7 @@ std::string FluidModel::type_line(int i) const
                                  c.intrinsic ? "intrinsic" : fmt::format("{:.17g}", c.kappa));
   for (int k = 1; k < nviscosity(); k++) line += fmt::format(" {:.17g}", c.viscosity[k]);
   line += fmt::format(" {:.17g} pb {:.17g}", c.rc, c.eos.pb);
-  if (c.cv > 0.0 && choice.own_temperatures) line += fmt::format(" cv {:.17g}", c.cv);
+  if (c.cv > 0.0) line += fmt::format(" cv {:.17g}", c.cv);
   for (const auto *one = TYPE_KEYWORDS; one->name; one++) {
     const double *const a = c.keywords.a + one->first;
     if (std::all_of(a, a + one->count, [](double value) {

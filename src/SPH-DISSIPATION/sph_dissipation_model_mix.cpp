@@ -18,8 +18,10 @@
 #include "domain.h"
 #include "error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -38,6 +40,7 @@ void FluidModel::derive(int dim, double support)
   for (int i = 1; i <= n; i++) {
     mix(i);
     par.type[i].keywords = coeffs[i].keywords;
+    par.type[i].heat_capacity = heat_capacity(i);
     for (int j = 1; j <= i; j++) {
       if (!coeffs[i].other && !coeffs[j].other) check_pair(i, j);
       par.pair[i * (n + 1) + j] = par.pair[j * (n + 1) + i] = pair_coefficients(pair_fluid(i, j));
@@ -50,12 +53,13 @@ void FluidModel::derive(int dim, double support)
     if (type.intrinsic) type.kappa = intrinsic;
     publish(nviscosity() + KAPPA, i);
     derived.eos = type.eos;
-    derived.heat_capacity = heat_capacity(i);
     derived.other = type.other;
     if (!type.other && Channels::drag(type.keywords) > 0.0) par.drag = true;
     if (choice.thermal) check_balance(i);
+    if (!type.other) check_heat(i);
   }
   par.set_uniform();
+  par.set_heat();
   par.set_step(par.step);
   if (par.drag && choice.own_temperatures)
     error->all(FLERR, Error::NOLASTLINE,
@@ -79,6 +83,8 @@ void FluidModel::mix(int i)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}", type.eos.gamma,
                i);
+  type.eos.derive(choice.eos, type.keywords.a[GRUNEISEN],
+                  heat_capacity(i) * type.keywords.a[GRUNEISEN_T0]);
   for (int k = 0; k < static_cast<int>(variables.size()); k++)
     if (k != nviscosity() + KAPPA) publish(k, i);
 }
@@ -87,12 +93,15 @@ void FluidModel::mix(int i)
 
 PairFluid FluidModel::pair_fluid(int i, int j) const
 {
-  PairFluid fluid = {choice.shear,
-                     par.dim,
-                     kernel_mean_radius(par.kernel, par.dim, par.support),
-                     {},
-                     0.5 * (par.type[i].zeta + par.type[j].zeta),
-                     {}};
+  PairFluid fluid = {
+      choice.shear,
+      par.dim,
+      kernel_mean_radius(par.kernel, par.dim, par.support),
+      {},
+      0.5 * (par.type[i].zeta + par.type[j].zeta),
+      {},
+      HeatChannel::mean(coeffs[i].keywords.a[CONDUCTIVITY], coeffs[j].keywords.a[CONDUCTIVITY]),
+      std::min(heat_capacity(i), heat_capacity(j))};
   for (int k = 0; k < NTYPECOEFF; k++)
     fluid.type.a[k] = std::max(par.type[i].keywords.a[k], par.type[j].keywords.a[k]);
   for (int k = 0; k < nviscosity(); k++) fluid.viscosity[k] = viscosity(k, i, j);
@@ -157,6 +166,43 @@ void FluidModel::check_balance(int i) const
              "Pair style {} temp requires limit yes with kappa {} of type {}, below the {} of its "
              "shear term: particles beyond the bound have no noise in balance with their friction",
              style, type.kappa, i, intrinsic);
+}
+
+/* ----------------------------------------------------------------------
+   of a type: what its temperature needs; noise knows nothing of what it does
+------------------------------------------------------------------------- */
+
+void FluidModel::check_heat(int i) const
+{
+  const double *const a = coeffs[i].keywords.a;
+  for (const auto &keyword :
+       {std::make_pair("conductivity", CONDUCTIVITY), std::make_pair("gruneisen", GRUNEISEN)}) {
+    if (!(a[keyword.second] > 0.0)) continue;
+    if (choice.thermal)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair style {} temp cannot be used with {} of pair_coeff, which type {} has",
+                 style, keyword.first, i);
+    if (heat_capacity(i) == 0.0)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair_coeff {} of type {} needs its heat capacity, keyword cv", keyword.first, i);
+  }
+  if (a[GRUNEISEN] > 0.0 && choice.eos == Eos::IDEAL)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair_coeff gruneisen of type {} cannot be used with eos ideal, whose constant is "
+               "gamma - 1",
+               i);
+  if (!(coeffs[i].eos.c_el > 0.0))
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair_coeff gruneisen {} {} of type {}: the heat alone makes sound faster than c0 {}",
+        a[GRUNEISEN], a[GRUNEISEN_T0], i, coeffs[i].eos.c0);
+}
+
+bool FluidModel::has_temperatures() const
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (!coeffs[i].other && heat_capacity(i) > 0.0) return true;
+  return false;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -20,7 +20,6 @@
 #include "input.h"
 #include "neighbor.h"
 #include "sph_dissipation_engine.h"
-#include "sph_dissipation_eos.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "update.h"
@@ -120,23 +119,6 @@ void NoiseStage::set_tags()
 }
 
 /* ----------------------------------------------------------------------
-   what the internal energy of a particle has beyond that of the equation of state
-------------------------------------------------------------------------- */
-
-double NoiseStage::heat_of(int i) const
-{
-  const TypeParameters &type = engine.parameters().type[atom->type[i]];
-  const double strain = engine.parameters().nprocess ? engine.strains().energy(i) : 0.0;
-  return atom->esph[i] - strain -
-      atom->rmass[i] * elastic_energy(engine.parameters().eos, type.eos, atom->rho[i]);
-}
-
-double NoiseStage::internal_temperature(int i) const
-{
-  return heat_of(i) / (atom->rmass[i] * engine.parameters().type[atom->type[i]].heat_capacity);
-}
-
-/* ----------------------------------------------------------------------
    In a step, internal energies are those of its middle here and lack half of its work of compression.  A particle
    without heat has temperature 0: it gets no noise, and friction warms it.
 ------------------------------------------------------------------------- */
@@ -147,6 +129,7 @@ void NoiseStage::set_temperatures(bool continued)
   const int nall = nlocal + atom->nghost;
   const double missing = (update->setupflag && !continued) ? 0.0 : 0.5 * update->dt;
   const bool spins = engine.has_spin();
+  const StrainRows strains = engine.strains();
   const double *const inertia = Fields::of(atom)->inertia;
   row.assign(nall + BLOCK, NoiseRow());
   if (spins) spin_mobility.assign(nall + BLOCK, 0.0);
@@ -163,7 +146,7 @@ void NoiseStage::set_temperatures(bool continued)
     const double c_inv = particle.vol / engine.weight(i);
     const double p = particle.g / (c_inv * c_inv) - engine.zeta_term[i];
     const double work = missing * p * particle.vol * engine.density[i].cdot * c_inv;
-    const double heat = heat_of(i) + work;
+    const double heat = strains.thermal_energy(i) + work;
     if (!(heat > 0.0)) without++;
     row[i].temperature = std::max(heat, 0.0) / capacity;
   }
@@ -274,6 +257,7 @@ void NoiseStage::draw_for_strain()
   const Parameters &par = engine.parameters();
   const int nlocal = atom->nlocal, n = nlocal + BLOCK;
   constexpr int AT_ONCE = 4;    // numbers of a counter
+  const StrainRows strains = engine.strains();
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
   numbers.resize(AT_ONCE * static_cast<std::size_t>(n));
   change.assign(par.nprocess * static_cast<std::size_t>(nlocal), 0.0);
@@ -289,7 +273,7 @@ void NoiseStage::draw_for_strain()
       if (type.nprocess <= first) continue;
       double temperature = par.temperature;
       if (par.own_temperatures) {
-        temperature = std::max(internal_temperature(i), 0.0);
+        temperature = std::max(strains.temperature(i), 0.0);
         factor[i] = 1.0 + force->boltz / (atom->rmass[i] * type.heat_capacity);
       }
       const double strength = sqrt(force->boltz * temperature / atom->rmass[i]);

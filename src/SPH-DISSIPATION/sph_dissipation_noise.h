@@ -54,10 +54,6 @@ namespace SPHDissipation {
     const double *strain_change() const { return change.data(); }
     const double *strain_factor() const { return factor.empty() ? nullptr : factor.data(); }
 
-    // of a particle with its density and its energy as they are now (temp energy)
-
-    double internal_temperature(int i) const;
-
     double memory_usage() const override;
 
    private:
@@ -74,7 +70,6 @@ namespace SPHDissipation {
     void set_tags();
     void count_step();
     void set_temperatures(bool continued);
-    double heat_of(int i) const;
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);

@@ -70,17 +70,20 @@ namespace SPHDissipation {
   // what belongs to all types: a device copies it as a whole
 
   struct Constants : Settings {
-    double support = 0.0;        // R
-    double self_weight = 0.0;    // W(0)
-    double weight_norm = 0.0;    // W = weight_norm * shape(r/R)
-    double slope_norm = 0.0;     // F = slope_norm * slope(r/R)
-    int ntypes_1 = 1;            // number of types + 1
-    bool uniform = true;         // the coefficients of type 1 hold for all pairs
-    bool inviscid = true;        // they are zero
-    bool drag = false;           // of single particles, of any type
-    bool shared = false;         // there are types of other styles
-    int nprocess = 0;            // most relaxing processes of a type
-    double step = 0.0;           // time step that the strain of these processes is of
+    double support = 0.0;             // R
+    double self_weight = 0.0;         // W(0)
+    double weight_norm = 0.0;         // W = weight_norm * shape(r/R)
+    double slope_norm = 0.0;          // F = slope_norm * slope(r/R)
+    int ntypes_1 = 1;                 // number of types + 1
+    bool uniform = true;              // the coefficients of type 1 hold for all pairs
+    bool inviscid = true;             // they are zero
+    bool drag = false;                // of single particles, of any type
+    bool thermal_pressure = false;    // of any type: it depends on the internal energy
+    bool conducts = false;            // any type
+    bool conducts_alike = true;       // all types
+    bool shared = false;              // there are types of other styles
+    int nprocess = 0;                 // most relaxing processes of a type
+    double step = 0.0;                // time step that the strain of these processes is of
 
     bool spins() const { return shear == Shear::MICROPOLAR; }
     void set_kernel(Kernel, int dim, double support);
@@ -94,6 +97,7 @@ namespace SPHDissipation {
     std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
 
     void set_uniform();          // uniform and inviscid, from pair
+    void set_heat();             // what belongs to heat, from type
     void set_step(double dt);    // the time step of the relaxing processes
   };
 
@@ -119,6 +123,20 @@ namespace SPHDissipation {
           if (a != pair[ntypes_1 + 1].a[k]) uniform = false;
           if (a != 0.0) inviscid = false;
         }
+  }
+
+  inline void Parameters::set_heat()
+  {
+    thermal_pressure = conducts = false;
+    conducts_alike = true;
+    const TypeParameters *first = nullptr;
+    for (const TypeParameters &one : type) {
+      if (one.other) continue;
+      if (!first) first = &one;
+      if (one.eos.gruneisen != 0.0) thermal_pressure = true;
+      if (HeatChannel::in_use(one.keywords)) conducts = true;
+      if (one.keywords.a[CONDUCTIVITY] != first->keywords.a[CONDUCTIVITY]) conducts_alike = false;
+    }
   }
 
   inline void Parameters::set_step(double dt)

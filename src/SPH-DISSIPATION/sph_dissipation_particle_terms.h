@@ -14,7 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_PARTICLE_TERMS_H
 #define LMP_SPH_DISSIPATION_PARTICLE_TERMS_H
 
-// Between the passes: what follows for one particle from its density; and its relaxing strain.  No LAMMPS include.
+// Between the passes: what follows for one particle from its density; its relaxing strain and its heat.  No LAMMPS
+// include.
 
 #include "sph_dissipation_parameters.h"
 #include "sph_dissipation_rows.h"
@@ -33,13 +34,15 @@ namespace SPHDissipation {
     return total * c_inv * c_inv;
   }
 
-  // The relaxing processes of owned particles, on the host or on a device, with their densities and relaxed
-  // densities; energies are those of the last forces.  See RelaxChannel.
+  // The relaxing processes and the heat of owned particles, on the host or on a device, with their densities, relaxed
+  // densities and internal energies; energies are those of the last forces.  See RelaxChannel and Eos.
 
   struct StrainRows {
     const TypeParameters *types;    // by type, from 1
     const int *type;
     const double *rmass, *rho;
+    Eos eos;
+    const double *esph;
     double *relaxed[MOST_PROCESSES];
 
     // strain x of process k
@@ -54,17 +57,23 @@ namespace SPHDissipation {
 
     SPH_FUNCTION static double state_of(double x) { return -std::exp(-x); }
 
-    // pressure rho g phi x of all processes; sets the state of a new particle
+    // set the state of a new particle
+
+    SPH_FUNCTION void begin(int i) const
+    {
+      for (int k = 0; k < types[type[i]].nprocess; k++) {
+        double &rest = relaxed[k][i];
+        if (!(rest > 0.0)) rest = (rest < 0.0) ? -rest * rho[i] : rho[i];
+      }
+    }
+
+    // pressure rho g phi x of all processes
 
     SPH_FUNCTION double pressure(int i) const
     {
       const TypeParameters &par = types[type[i]];
       double sum = 0.0;
-      for (int k = 0; k < par.nprocess; k++) {
-        double &rest = relaxed[k][i];
-        if (!(rest > 0.0)) rest = (rest < 0.0) ? -rest * rho[i] : rho[i];
-        sum += par.process[k].stiffness * strain(i, k);
-      }
+      for (int k = 0; k < par.nprocess; k++) sum += par.process[k].stiffness * strain(i, k);
       return rho[i] * sum;
     }
 
@@ -118,6 +127,27 @@ namespace SPHDissipation {
       }
       return rmass[i] * sum;
     }
+
+    // what the internal energy has beyond that of the equation of state without heat, and of the strain
+
+    SPH_FUNCTION double thermal_energy(int i) const
+    {
+      return esph[i] - energy(i) - rmass[i] * elastic_energy(eos, types[type[i]].eos, rho[i]);
+    }
+
+    // temperature, 0 without heat capacity; the internal energy at a temperature
+
+    SPH_FUNCTION double temperature(int i) const
+    {
+      const double cv = types[type[i]].heat_capacity;
+      return (cv > 0.0) ? thermal_energy(i) / (rmass[i] * cv) : 0.0;
+    }
+    SPH_FUNCTION double energy_at(int i, double temperature) const
+    {
+      const TypeParameters &par = types[type[i]];
+      return rmass[i] * (elastic_energy(eos, par.eos, rho[i]) + par.heat_capacity * temperature) +
+          energy(i);
+    }
   };
 
   // Owned and ghost particles, on the host or on a device: rows of the loops, and arrays of LAMMPS.  A
@@ -142,6 +172,7 @@ namespace SPHDissipation {
 
     StrainRows strains;
     double *strain_pressure;    // of relaxing processes; read if there are any
+    Conductor *conductor;       // if any type conducts heat
 
     // w of the form volume mass
 
@@ -210,12 +241,25 @@ namespace SPHDissipation {
       strain_pressure[i] = 0.0;
       if (!is_fluid(i, not_fluid)) return;
       if (at_rest) strains.relax(i);
+      strains.begin(i);
       strain_pressure[i] = strains.pressure(i);
-      if (par.eos == Eos::IDEAL)    // whose internal energy is what the strain does not have
+      if (par.thermal_pressure)    // heat is what the strain does not have
         strain_pressure[i] -=
-            SPHDissipation::pressure(par.eos, types[type[i]].eos, rho[i],
-                                     strains.energy(i) / rmass[i]) -
-            types[type[i]].eos.pb;
+            thermal_pressure(types[type[i]].eos, rho[i], strains.energy(i) / rmass[i]);
+    }
+
+    // What the conduction of heat reads: the temperature of an owned particle; of owned and ghost particles, with
+    // their volumes, all else.  Particles that are not fluid conduct nothing.
+
+    SPH_FUNCTION void set_temperature(int i) const
+    {
+      conductor[i].temperature = strains.temperature(i);
+    }
+    SPH_FUNCTION void set_conductor(int i, int not_fluid) const
+    {
+      const bool conducts = is_fluid(i, not_fluid);
+      conductor[i].vol = conducts ? particle[i].vol : 0.0;
+      conductor[i].conductivity = conducts ? types[type[i]].keywords.a[CONDUCTIVITY] : 0.0;
     }
 
     // pressure and bulk term, of volume and density: what pass 2 multiplies with F r_ij, and the work of

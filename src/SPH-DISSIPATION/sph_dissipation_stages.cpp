@@ -34,7 +34,7 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
 {
   engine.accumulate_density(list, vest, omegaest);
   exchange.reverse({field(engine.density, &engine.density->c, 2)});
-  send(false);
+  send(false, false);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -42,27 +42,36 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
 void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool at_rest,
                        int not_fluid)
 {
-  if (!engine.parameters().nprocess) return run(list, vest, omegaest);
+  const bool relaxes = engine.parameters().nprocess, conducts = engine.parameters().conducts;
+  if (!relaxes && !conducts) return run(list, vest, omegaest);
   engine.accumulate_density(list, vest, omegaest);
   exchange.reverse({field(engine.density, &engine.density->c, 2)});
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal, [&](int i) {
     rows.set_density(i);
-    rows.set_strain_pressure(i, not_fluid, at_rest);
+    if (relaxes) rows.set_strain_pressure(i, not_fluid, at_rest);
+    if (conducts) rows.set_temperature(i);
   });
-  send(true);
+  send(relaxes, conducts);
+  if (conducts)
+    engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
+      rows.set_conductor(i, not_fluid);
+    });
 }
 
 /* ----------------------------------------------------------------------
    what owned particles have to ghosts; then the densities
 ------------------------------------------------------------------------- */
 
-void DensityStage::send(bool with_strain)
+void DensityStage::send(bool with_strain, bool with_temperature)
 {
-  const int energy = (engine.parameters().eos == Eos::IDEAL) ? 1 : 0;    // of ghosts, for it
+  const int energy = engine.parameters().thermal_pressure ? 1 : 0;    // of ghosts, for it
+  Conductor *const conductor = engine.conductor.data();
   exchange.forward({field(engine.density, &engine.density->c, 2),
                     {atom->esph, 1, energy},
-                    {engine.strain_pressure, 1, with_strain ? 1 : 0}});
+                    {engine.strain_pressure, 1, with_strain ? 1 : 0},
+                    field(conductor, with_temperature ? &conductor->temperature : nullptr,
+                          with_temperature ? 1 : 0)});
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
     rows.set_density(i);
@@ -209,6 +218,22 @@ double RelaxStage::energy(int groupbits) const
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbits) total += strains.energy(i);
   return total;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void HeatStage::run()
+{
+  engine.accumulate_heat(flow);
+  double *const desph = atom->desph;
+  engine.for_each(force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal, [&](int i) {
+    desph[i] += flow[i];
+  });
+}
+
+double HeatStage::memory_usage() const
+{
+  return (double) flow.capacity() * sizeof(double);
 }
 
 /* ---------------------------------------------------------------------- */

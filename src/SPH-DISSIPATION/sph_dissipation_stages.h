@@ -58,13 +58,13 @@ namespace SPHDissipation {
 
     void run(NeighList *, double **vest, double **omegaest);
 
-    // for forces, with the pressure of relaxing processes: at_rest, they have relaxed; not_fluid = bits of the
-    // groups of particles of walls and open zones
+    // for forces, with the pressure of relaxing processes: at_rest, they have relaxed; and with the temperatures that
+    // conduction needs; not_fluid = bits of the groups of particles of walls and open zones
 
     void run(NeighList *, double **vest, double **omegaest, bool at_rest, int not_fluid);
 
    private:
-    void send(bool with_strain);
+    void send(bool with_strain, bool with_temperature);
   };
 
   // How negative the coefficient of the bulk term of a particle may be:
@@ -124,6 +124,19 @@ namespace SPHDissipation {
     // energy of the strain of owned particles of these groups
 
     double energy(int groupbits) const;
+  };
+
+  // Conduction of heat, after pass 2, onto the heating of LAMMPS as ForceStage: see HeatChannel
+
+  class HeatStage : public Stage {
+   public:
+    using Stage::Stage;
+
+    void run();
+    double memory_usage() const override;
+
+   private:
+    std::vector<double> flow;
   };
 
   // Minus the gradient of the concentration of the particles, for particle shifting:

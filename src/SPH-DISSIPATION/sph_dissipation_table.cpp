@@ -44,7 +44,7 @@ std::string CoeffTable::text(double dt) const
     result += fmt::format("  largest stable time step with viscous explicit {:.4g}, with rkl2 or "
                           "implicit {:.4g}; the time step {:g} times the largest viscous rate is "
                           "{:.3g}: rkl2 {}\n",
-                          smallest, acoustic, dt, rate,
+                          smallest, explicit_only, dt, rate,
                           (stages <= RKL2::MOST) ? fmt::format("takes {:.0f} stages", stages)
                                                  : "cannot be used");
   }
@@ -60,7 +60,7 @@ void CoeffTable::add_row(int i, int j, const PairFluid &fluid, const PairInertia
   const bool spins = (fluid.shear == Shear::MICROPOLAR);
   const PairCoeff coeff = pair_coefficients(fluid);
   Columns values, steps = {{"acoustic", acoustic_of_pair}};
-  std::vector<double> numbers;
+  std::vector<double> numbers, of_motion, of_heat;
 
   for (int k = 0; k < number_of_viscosities(spins); k++) {
     values.emplace_back(VISCOSITY_NAMES[k], fluid.viscosity[k]);
@@ -74,12 +74,16 @@ void CoeffTable::add_row(int i, int j, const PairFluid &fluid, const PairInertia
     });
     if (channel.ELASTIC) return;
     numbers.push_back(SPHDissipation::viscous_step(channel.rate(fluid, coeff, inertia)));
+    (channel.OF_MOTION ? of_motion : of_heat).push_back(numbers.back());
     steps.emplace_back(channel.NAME, numbers.back());
   });
   steps.emplace_back("all", combined_step(acoustic_of_pair, numbers));
   smallest = std::min(smallest, steps.back().second);
   acoustic = std::min(acoustic, acoustic_of_pair);
-  viscous = std::min(viscous, combined_step(UNLIMITED_STEP, numbers));
+  explicit_only = std::min(explicit_only, combined_step(acoustic_of_pair, of_heat));
+  viscous = std::min(viscous, combined_step(UNLIMITED_STEP, of_motion));
+  dissipative = std::min(dissipative, combined_step(UNLIMITED_STEP, numbers));
+  heat = std::min(heat, combined_step(UNLIMITED_STEP, of_heat));
 
   if (lines.empty()) {
     lines = "  types   ";

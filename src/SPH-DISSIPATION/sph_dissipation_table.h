@@ -30,7 +30,8 @@ namespace SPHDissipation {
     // largest = coefficients by keyword of any type
     explicit CoeffTable(const TypeCoeffs &largest) :
         largest(largest), smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP),
-        viscous(UNLIMITED_STEP)
+        explicit_only(UNLIMITED_STEP), viscous(UNLIMITED_STEP), dissipative(UNLIMITED_STEP),
+        heat(UNLIMITED_STEP)
     {
     }
 
@@ -39,14 +40,20 @@ namespace SPHDissipation {
     // with lines on the accuracy of these steps, and on what dt needs
     std::string text(double dt) const;
     double smallest_step() const { return smallest; }    // with all terms together, of all rows
-    double acoustic_step() const { return acoustic; }    // without the viscous terms
-    double viscous_step() const { return viscous; }      // with the viscous terms alone
-    double fastest_rate() const { return (viscous < UNLIMITED_STEP) ? 1.0 / viscous : 0.0; }
+    double acoustic_step() const { return acoustic; }    // of sound alone
+    // with sound and the terms that are explicit always, which conduction of heat is
+    double explicit_step() const { return explicit_only; }
+    // without sound: of these terms alone, or with the viscous ones
+    double dissipative_step(bool with_viscous) const { return with_viscous ? dissipative : heat; }
+    double fastest_rate() const    // of the viscous terms
+    {
+      return (viscous < UNLIMITED_STEP) ? 1.0 / viscous : 0.0;
+    }
 
    private:
     const TypeCoeffs largest;
     std::string lines;
-    double smallest, acoustic, viscous;
+    double smallest, acoustic, explicit_only, viscous, dissipative, heat;
   };
 
 }    // namespace SPHDissipation

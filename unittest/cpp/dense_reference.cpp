@@ -315,7 +315,8 @@ Vector System::pressure(const std::string &eos) const
       p(i) =
           fluid.rho0 * fluid.c0 * fluid.c0 / gamma * (std::pow(rho(i) / fluid.rho0, gamma) - 1.0L);
     else if (eos == "ideal")
-      p(i) = (gamma - 1.0L) * rho(i) * atoms.energy[i] / atoms.mass[i];
+      p(i) = (gamma - 1.0L) * rho(i) *
+          (atoms.energy[i] / atoms.mass[i] - fluid.pb * (1.0L / fluid.rho0 - 1.0L / rho(i)));
     else
       throw std::invalid_argument("eos " + eos);
     p(i) += fluid.pb;
@@ -323,20 +324,19 @@ Vector System::pressure(const std::string &eos) const
   return p;
 }
 
-// mass times the integral of p/rho^2 from rho0 to rho; the ideal gas keeps its energy elsewhere
+// mass times the integral of p/rho^2 from rho0 to rho, of the ideal gas that of its background pressure alone
 
 Vector System::elastic_energy(const std::string &eos) const
 {
   const Vector rho = density();
   Vector energy = Vector::Zero(N);
-  if (eos == "ideal") return energy;
   for (int i = 0; i < N; i++) {
     const Fluid &fluid = model.fluids[atoms.type[i] - 1];
     const Real cc = fluid.c0 * fluid.c0, inverse = 1.0L / fluid.rho0 - 1.0L / rho(i);
     Real e = fluid.pb * inverse;
     if (eos == "linear") {
       e += cc * (std::log(rho(i) / fluid.rho0) - fluid.rho0 * inverse);
-    } else {
+    } else if (eos == "tait") {
       const Real gamma = exponent(fluid, eos), B = fluid.rho0 * cc / gamma;
       e += B / std::pow(fluid.rho0, gamma) / (gamma - 1.0L) *
           (std::pow(rho(i), gamma - 1.0L) - std::pow(fluid.rho0, gamma - 1.0L));

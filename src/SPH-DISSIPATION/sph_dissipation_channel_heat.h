@@ -1,0 +1,93 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// Conduction of heat between pairs by their temperatures, heat Q_i per time
+//   dQ_i/dt = sum_j 2 k_ij F V_i V_j (T_j - T_i),   k_ij = 2 k_i k_j/(k_i + k_j):
+// the Laplacian of the form morris with T instead of u, with the harmonic mean, for which the heat flow through a
+// plane between two materials is the same from both sides, P. W. Cleary, J. J. Monaghan, J. Comput. Phys. 148,
+// 227 (1999).  No pair changes the sum of the heats, and each one raises the entropy, by
+// 2 k_ij F V_i V_j (T_i - T_j)^2/(T_i T_j) per time.
+// Included by sph_dissipation_channels.h, which has the notation.
+
+#ifdef CHANNEL_TERMS
+
+// mean of the conductivities of two particles, 0 if one of them has none
+template <class Real> SPH_INLINE Real mean_conductivity(double a, Real b)
+{
+  return 2.0 * a * b / (a + b + TINY);
+}
+
+// heat that i gets from j per time; F V_i V_j = vv
+template <class Real>
+SPH_INLINE Real heat_flow(Real conductivity, Real vv, double temperature_i, Real temperature_j)
+{
+  return 2.0 * conductivity * vv * (temperature_j - temperature_i);
+}
+
+#else
+
+#ifndef LMP_SPH_DISSIPATION_CHANNEL_HEAT_H
+#define LMP_SPH_DISSIPATION_CHANNEL_HEAT_H
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // what the loop reads of a particle that conducts; all numbers are 0 of others
+  struct alignas(16) Conductor {
+    double vol;             // V
+    double temperature;     // T
+    double conductivity;    // k
+    double unused;          // rows are read by fours
+  };
+
+  struct HeatChannel : BaseChannel {
+    static constexpr const char *NAME = "heat";
+    static constexpr bool OF_MOTION = false;
+
+    static bool in_use(const TypeCoeffs &type) { return type.a[CONDUCTIVITY] > 0.0; }
+
+    // of two types with these conductivities
+    static double mean(double a, double b)
+    {
+      return (a > 0.0 && b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
+    }
+
+    template <class Add>
+    static void add_columns(const PairFluid &fluid, const PairCoeff &, Add &&add)
+    {
+      add("conductivity", fluid.conductivity);
+    }
+    static const char *inadmissible_type(const TypeCoeffs &type, int)
+    {
+      const auto none = [&](int k) {
+        return !(type.a[k] >= 0.0 && std::isfinite(type.a[k]));
+      };
+      if (none(CONDUCTIVITY)) return "conductivity must be >= 0";
+      if (none(GRUNEISEN) || none(GRUNEISEN_T0))
+        return "gruneisen must have Gamma >= 0 and T0 >= 0";
+      return nullptr;
+    }
+    // of the form morris, with k/(rho cv) instead of mu/rho
+    static double rate(const PairFluid &fluid, const PairCoeff &, const PairInertia &inertia)
+    {
+      if (fluid.conductivity == 0.0) return 0.0;
+      return shear_rate(Shear::MORRIS) * fluid.conductivity /
+          (inertia.rho * fluid.heat_capacity * inertia.hsq);
+    }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
