@@ -590,8 +590,6 @@ def test_wrong_arguments_of_temp_energy(lammps, options, words):
 
 def test_what_temp_energy_does_not_go_with(lammps):
     make_box(lammps)
-    fails(lammps, deck(coeff="pair_coeff * * 1.0 10.0 0.5 2.0 3.0 cv 3.0\n") + "run 1\n", "cv needs keyword temp energy",
-          ranks=(1,))
     text = deck(options=ENERGY).replace("fix FLUID all", "region low block INF INF INF 2.9 INF INF\ngroup wall region low\n"
                                         "group fluid subtract all wall\nfix FLUID fluid")
     fails(lammps, text + "fix W wall sph/wall\nset group all sph/e 100.0\nrun 1\n", "cannot be used with walls", ranks=(1,))
