@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import test_micropolar as micro
-import test_wall as walls
 from helpers import Particles, SUPPORT, disordered, drop, dump, fluid, free, header, lattice, relative, undump
 
 FULL = "thermo_modify norm no format float %.17g\n"
@@ -107,9 +106,8 @@ def room(dim, count=1, style="sph/bulk", **keywords):
 
 
 def start(lammps, particles, model, strain=0.0, count=1, timestep=0.005, integrator="", extra="", **keywords):
-    """Particles with the same strain in all processes, or one column for each."""
-    strain = np.broadcast_to(np.asarray(strain, dtype=float).reshape(np.shape(strain) or (1,)) if np.ndim(strain) != 1
-                             else np.asarray(strain, dtype=float)[:, None], (len(particles), count))
+    """Particles with strains, one number or (particles, processes)."""
+    strain = np.broadcast_to(np.asarray(strain, dtype=float), (len(particles), count))
     write(particles, lammps.path("box.data"), strained(strain))
     return (room(particles.dim, count, **keywords) + "read_data box.data\n" + extra + model
             + f"fix FLUID all sph/bulk {integrator}\ntimestep {timestep!r}\n")
@@ -918,7 +916,7 @@ def test_equilibrium_of_sound(lammps, a, g, steps):
     tau = timestep / a
     particles, sites = unit_lattice("line", cells, 1)
     random = np.random.default_rng(3)
-    waves = np.arange(24, 72)  # k h from 0.6 to 1.8
+    waves = np.arange(24, 120)  # k h from 0.6 to 3
     expected, rates = [], []
     for wave in 2.0 * np.pi * waves / cells:
         number, q, q2 = lattice_sums(sites, wave, R, 1)
@@ -967,15 +965,8 @@ def test_temperature(lammps, a, steps, cells):
     particles.v[:, :2] -= particles.v[:, :2].mean(axis=0)
     text = noisy(lammps, particles, kT, timestep=timestep, processes=[(40.0 * timestep / a, timestep / a)], mu=0.5, kappa=1.0)
     text = text.replace("1.0 10.0 0.5", "1.0 6.0 0.5").replace("pb 5", "pb 20")
-    text += ("compute T all sph/temp
-run 400 post no
-reset_timestep 0
-"
-             f"fix av all ave/time 1 {steps} {steps} c_T
-thermo_style custom step f_av
-thermo {steps}
-" + FULL + f"run {steps}
-")
+    text += ("compute T all sph/temp\nrun 400 post no\nreset_timestep 0\n"
+             f"fix av all ave/time 1 {steps} {steps} c_T\nthermo_style custom step f_av\nthermo {steps}\n" + FULL + f"run {steps}\n")
     found = lammps(text, timeout=1200).thermo()[-1]["f_av"][-1]
     error = np.sqrt(2.0 / (2.0 * cells**2 * steps * timestep))  # an independent sample in a time of 1
     print(f"temperature {found / kT:.5f} +- {error:.5f}")
@@ -987,11 +978,8 @@ def test_temperatures_of_the_particles(lammps):
     particles = disordered(2, 12, spread=0.0)
     particles.esph[:] = 100.0
     model = fluid(2, "temp energy 20.0 5", keywords="pb 5 relax 8.0 0.1")
-    text = start(lammps, particles, model, 0.02, timestep=0.002) + ENERGIES + "thermo_style custom step c_E c_E[*]
-thermo 10
-" + FULL
-    table = lammps(text + "run 500
-").thermo()[0]
+    text = start(lammps, particles, model, 0.02, timestep=0.002) + ENERGIES + "thermo_style custom step c_E c_E[*]\nthermo 10\n" + FULL
+    table = lammps(text + "run 500\n").thermo()[0]
     assert np.ptp(table["c_E[1]"]) > 1e-3 * table["c_E[1]"][0]
     assert np.abs(table["c_E"] - table["c_E"][0]).max() < 1e-12 * np.abs(table["c_E"][0])
 
