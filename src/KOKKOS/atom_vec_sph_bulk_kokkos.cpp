@@ -67,6 +67,15 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
   bonus_flag = 1;        // for the functions of that name
   forceclearflag = 0;    // the pair style sets desph
   fields_reverse = {};
+}
+
+/* ---------------------------------------------------------------------- */
+
+void AtomVecSPHBulkKokkos::process_args(int narg, char **arg)
+{
+  add_processes(narg, arg);
+  for (int k = 0; k < nprocess; k++)
+    add_own_field(RHO_RELAXED_MASK, k_rho_relaxed[k], rho_relaxed[k], {EXCHANGE});
   for (const auto occasion : {COMM, BORDER, EXCHANGE}) datamask_bonus |= sent_mask(occasion);
   setup_fields();
 }
@@ -175,7 +184,7 @@ void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
 {
   if (mask & DVECTOR_MASK) {
     show_custom_vectors();
-    mask |= DESPH_BEFORE_MASK | INERTIA_MASK;
+    mask |= DESPH_BEFORE_MASK | INERTIA_MASK | RHO_RELAXED_MASK;
   }
   if (mask & DARRAY_MASK) mask |= OMEGAEST_MASK;
   with_fields(mask, [=](FieldKokkos &field) {

@@ -44,6 +44,7 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
   // the atom style, where the pair style or a fix is one with /kk
   static AtomVecSPHBulkKokkos &of(class Atom *);
 
+  void process_args(int, char **) override;
   void init() override;
   void grow(int) override;
   void grow_pointers() override;
@@ -77,6 +78,7 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
   tdual_field_3 k_vest;
   tdual_field k_inertia;    // empty without spins, as the next one
   tdual_field_3 k_omegaest;
+  tdual_field k_rho_relaxed[SPHDissipation::MOST_PROCESSES];    // empty where there is no room
 
  protected:
   AtomVecSPHBulkKokkos(class LAMMPS *, bool spins);

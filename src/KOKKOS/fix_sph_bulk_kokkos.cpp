@@ -142,7 +142,10 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup(int vflag)
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::initial_integrate(int vflag)
 {
   check_set_up();
-  if (!on_host()) return integrate_on_device(BEGIN);
+  if (!on_host()) {
+    begin_step();
+    return integrate_on_device(BEGIN);
+  }
   atomKK->sync(Host, ALL_MASK);
   FixSPHBulk::initial_integrate(vflag);
   atomKK->modified(Host, MODIFIED[BEGIN]);

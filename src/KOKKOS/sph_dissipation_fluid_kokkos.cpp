@@ -238,6 +238,56 @@ template <class DeviceType> void FluidKokkos<DeviceType>::adopt()
 
 /* ---------------------------------------------------------------------- */
 
+template <class DeviceType> void FluidKokkos<DeviceType>::set_step(double dt)
+{
+  if (dt != model->parameters().step) copied = false;
+  Fluid::set_step(dt);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::advance_strain()
+{
+  if (!on_device) {
+    atomKK->sync(Host, ENERGY | ESPH_MASK);
+    Fluid::advance_strain();
+    return atomKK->modified(Host, RHO_RELAXED_MASK);
+  }
+  if (!copied) copy_coeffs();
+  atomKK->sync(pair->execution_space, STRAIN);
+  set_strains();
+  const ParticleRows rows = *data;
+  const int bits = not_fluid(), nprocess = engine->parameters().nprocess;
+  Kokkos::parallel_for(
+      "sph:strain", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+        if (rows.is_fluid(i, bits))
+          rows.strains.advance(i, 1.0, nullptr, 0);
+        else
+          rows.strains.forget(i, nprocess);
+      });
+  atomKK->modified(pair->execution_space, RHO_RELAXED_MASK);
+}
+
+/* ----------------------------------------------------------------------
+   arrays of owned particles that the processes need
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::set_strains()
+{
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+  data->type = atomKK->k_type.template view<DeviceType>().data();
+  data->mask = atomKK->k_mask.template view<DeviceType>().data();
+  data->strains = {data->types,
+                   data->type,
+                   atomKK->k_rmass.template view<DeviceType>().data(),
+                   avec.k_rho.template view<DeviceType>().data(),
+                   {}};
+  for (int k = 0; k < avec.nprocess; k++)
+    data->strains.relaxed[k] = avec.k_rho_relaxed[k].template view<DeviceType>().data();
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *tally)
 {
   if (!on_device) {
@@ -274,6 +324,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
   data->particle = reach(particle, "sph:particle", n);
   data->density = reach(density_sum, "sph:density", n);
   data->zeta_term = reach(zeta_term, "sph:zeta_term", n);
+  data->strain_pressure = reach(strain_pressure, "sph:strain_pressure", n);
   data->spin = engine->has_spin() ? reach(spin, "sph:spin", n) : nullptr;
   for (auto &heat : data->heat) reach(heat, "sph:heat", n);
   data->weight = reach(weight, "sph:weight", data->each ? n : 1);
@@ -317,8 +368,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
   data->numneigh = k_list->d_numneigh;
   data->neighbors = k_list->d_neighbors;
   data->nlocal = atom->nlocal;
-  data->type = atomKK->k_type.template view<DeviceType>().data();
-  data->mask = atomKK->k_mask.template view<DeviceType>().data();
+  set_strains();
   data->rmass = atomKK->k_rmass.template view<DeviceType>().data();
   data->esph = avec.k_esph.template view<DeviceType>().data();
   data->rho = avec.k_rho.template view<DeviceType>().data();
@@ -417,9 +467,20 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
   Part<double> energy = {{}, 0, 1};
   if (model->choice.eos == Eos::IDEAL)
     energy.array = AtomVecSPHBulkKokkos::of(atom).k_esph.template view<DeviceType>();
-  send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy);
-
   const ParticleRows rows = *data;
+  Part<double> strain = {{}, 0, 1};
+  if (engine->parameters().nprocess) {
+    strain.array = strain_pressure;
+    const int bits = not_fluid();
+    const bool rest = at_rest();
+    Kokkos::parallel_for(
+        "sph:strain", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+          rows.set_density(i);
+          rows.set_strain_pressure(i, bits, rest);
+        });
+  }
+  send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy, strain);
+
   Kokkos::parallel_for(
       "sph:volume", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
       KOKKOS_LAMBDA(int i) { rows.set_density(i); });
@@ -553,7 +614,8 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
              sizeof(typename std::decay_t<decltype(view)>::non_const_value_type)));
   };
   return Fluid::memory_usage() + boundary_device->memory_usage() +
-      bytes(particle, density_sum, spin, zeta_term, weight, bound_of, gradient_of) +
+      bytes(particle, density_sum, spin, zeta_term, strain_pressure, weight, bound_of,
+            gradient_of) +
       (double) NCHANNEL * bytes(data->heat[0]);
 }
 

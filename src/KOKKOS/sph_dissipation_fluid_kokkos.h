@@ -35,9 +35,10 @@ namespace SPHDissipation {
   // does not have
 
   constexpr uint64_t FLUID_READ = X_MASK | F_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK |
-      VEST_MASK | TORQUE_MASK | OMEGAEST_MASK;
+      VEST_MASK | TORQUE_MASK | OMEGAEST_MASK | RHO_RELAXED_MASK;
   constexpr uint64_t FLUID_DERIVED = SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK;
-  constexpr uint64_t FLUID_MODIFIED = F_MASK | TORQUE_MASK | DESPH_MASK | FLUID_DERIVED;
+  constexpr uint64_t FLUID_MODIFIED =
+      F_MASK | TORQUE_MASK | DESPH_MASK | RHO_RELAXED_MASK | FLUID_DERIVED;
 
   // The fluid on the device, with full neighbor lists; or on the host by the loops of the CPU style and
   // half lists, with the threads of KOKKOS.  The reports at the start of a run are made on the host.
@@ -55,6 +56,7 @@ namespace SPHDissipation {
     ColumnsKokkos sent;    // to ghosts, by the pair style's packing on the device
 
     void adopt() override;
+    void set_step(double dt) override;
     bigint compute(PairTally *) override;
     double elastic_energy(Moment) override;
     void heating(double *, double *) const override;
@@ -67,6 +69,7 @@ namespace SPHDissipation {
     // on the device where that computes; public because CUDA asks for it of functions with lambdas
 
     void sum_density() override;
+    void advance_strain() override;
     void sum_bound() override;
     void set_reference_volume() override;
     bigint set_pressure() override;
@@ -77,7 +80,8 @@ namespace SPHDissipation {
     void set_spins();
 
    private:
-    static constexpr uint64_t ENERGY = SPH_RHO_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK;
+    static constexpr uint64_t STRAIN = SPH_RHO_MASK | TYPE_MASK | MASK_MASK | RHO_RELAXED_MASK;
+    static constexpr uint64_t ENERGY = STRAIN | RMASS_MASK;
 
     bool on_device;
     bool copied;    // coefficients on the device are those of the model
@@ -97,7 +101,7 @@ namespace SPHDissipation {
     Array<Particle> particle;
     Array<DensitySum> density_sum;
     Array<Spin> spin;
-    Array<double> zeta_term, weight;
+    Array<double> zeta_term, strain_pressure, weight;
     Array<double> bound_of;    // of the limit, see LimitStage
     Gradient gradient_of;
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
@@ -107,6 +111,7 @@ namespace SPHDissipation {
     void build_host_list();
     void refer_to_list();
     void grow();
+    void set_strains();
     void copy_coeffs();
     template <class T> struct Part;
     template <class... T> void send_to_ghosts(const Part<T> &...);

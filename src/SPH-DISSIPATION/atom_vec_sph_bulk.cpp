@@ -21,6 +21,7 @@
 #include <cstring>
 
 using namespace LAMMPS_NS;
+using namespace SPHDissipation;
 
 // names known to compute property/atom, in the order of their index, those of spins last
 
@@ -78,7 +79,37 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
   fields_data_vel = {"id", "v"};
 
   if (has_spins) add_spins();
-  if (!in_views) setup_fields();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void AtomVecSPHBulk::process_args(int narg, char **arg)
+{
+  add_processes(narg, arg);
+  setup_fields();
+}
+
+/* ----------------------------------------------------------------------
+   room for relaxing processes, whose state data files have behind velocity and spin
+------------------------------------------------------------------------- */
+
+void AtomVecSPHBulk::add_processes(int narg, char **arg)
+{
+  if (narg == 0) return;
+  const std::string style = has_spins ? "sph/micropolar" : "sph/bulk";
+  if (strcmp(arg[0], "relax") != 0)
+    error->all(FLERR, "Unknown atom_style {} keyword: {}", style, arg[0]);
+  if (narg != 2) utils::missing_cmd_args(FLERR, "atom_style " + style + " relax", error);
+  nprocess = utils::inumeric(FLERR, arg[1], false, lmp);
+  if (nprocess < 1 || nprocess > MOST_PROCESSES)
+    error->all(FLERR, "Atom_style {} relax must be 1 to {}, not {}", style, MOST_PROCESSES, arg[1]);
+  for (int k = 0; k < nprocess; k++) {
+    const std::string name = fmt::format("rho_relaxed{}", k + 1);
+    add_array(name, &rho_relaxed[k]);
+    for (auto *list :
+         {&fields_copy, &fields_exchange, &fields_restart, &fields_create, &fields_data_vel})
+      list->push_back(name);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -199,6 +230,7 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
                rmass[ilocal]);
   unpack_restart_init(ilocal);
   desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
+  for (int k = 0; k < nprocess; k++) rho_relaxed[k][ilocal] = 0.0;
   if (!has_spins) return;
   if (!(inertia[ilocal] >= 0.0))
     error->one(FLERR, "Invalid inertia {} in Atoms section of data file: must be >= 0",

@@ -29,13 +29,14 @@ namespace LAMMPS_NS {
 // Per-atom arrays of a particle fluid: mass (rmass), internal energy (esph) and its rate (desph),
 // velocity extrapolated to the end of the step (vest); from the last force computation, density
 // rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.  Where particles spin, also spin (omega,
-// angular velocity) and torque.  Class Fields has the others.
+// angular velocity) and torque.  Class Fields has the others.  Argument: relax N, room for N relaxing processes.
 
 class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
  public:
   AtomVecSPHBulk(class LAMMPS *);
   ~AtomVecSPHBulk() override;
 
+  void process_args(int, char **) override;
   void grow_pointers() override;
   void force_clear(int, size_t) override;
   void data_atom_post(int) override;
@@ -55,8 +56,9 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
     add_array(name, nullptr, array, cols);
   }
 
-  class Atom *const owner;       // of the arrays
-  const bool in_views;           // all arrays, by a derived class, which calls setup_fields()
+  class Atom *const owner;    // of the arrays
+  const bool in_views;        // all arrays, by a derived class
+  void add_processes(int narg, char **arg);
   void show_custom_vectors();    // as custom properties, where they are now
 
  private:

@@ -16,13 +16,15 @@
 #include "atom.h"
 #include "error.h"
 #include "force.h"
+#include "pair_sph_bulk.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_fluid.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-enum { KINETIC, INTERNAL, ROTATIONAL, NENERGY };
+enum { KINETIC, INTERNAL, ROTATIONAL, STRAIN, NENERGY };    // strain: a part of internal
 
 /* ---------------------------------------------------------------------- */
 
@@ -83,5 +85,6 @@ void ComputeSPHEnergy::compute_vector()
     }
     energy[ROTATIONAL] *= 0.5 * force->mvv2e;
   }
+  if (const Fluid *fluid = find_fluid(force)) energy[STRAIN] = fluid->strain_energy(groupbit);
   MPI_Allreduce(energy, vector, NENERGY, MPI_DOUBLE, MPI_SUM, world);
 }

@@ -344,6 +344,7 @@ void FixSPHBulk::setup_pre_exchange()
   const bool continued = is_continued();
   if (first_instance) reset_extrapolation();
   if (fluid) fluid->continued = continued && (first_instance || fluid->continued);
+  if (fluid) fluid->set_step(continued ? last.dt : dtv);
   double *const desph_before = fields().desph_before;
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
@@ -572,8 +573,18 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
 {
   check_set_up();
   warn_of_jump();
+  begin_step();
   integrate(BEGIN);
   if (shift_speed > 0.0) shift_particles();
+}
+
+/* ----------------------------------------------------------------------
+   also for particles of the fluid that no fix of this kind integrates
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::begin_step()
+{
+  if (first_instance && fluid && fluid->pair->compute_flag) fluid->begin_step(dtv);
 }
 
 /* ----------------------------------------------------------------------

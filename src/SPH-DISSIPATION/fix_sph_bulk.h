@@ -82,6 +82,7 @@ class FixSPHBulk : public Fix {
   bool first_instance;             // acts for the particles outside all these groups
   SPHDissipation::Fluid *fluid;    // of the same name, if there is one
   void check_set_up();
+  void begin_step();
   int nlocal_group() const;
   SPHDissipation::TimeStep time_step() const;
 

@@ -470,7 +470,8 @@ void FixSPHOpen::sample(const OpenStage &stage)
   for (const int i : near) {
     const Particle &particle = stage.particle(i);
     samples->add(particle.x, plane->height(particle.x), particle.vol,
-                 condition->sample(i, particle), fluid->model->choice.kernel, radius);
+                 condition->sample(i, particle, stage.strain_pressure(i)),
+                 fluid->model->choice.kernel, radius);
   }
   samples->finish(condition->clock);
 

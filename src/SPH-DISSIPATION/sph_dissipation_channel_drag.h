@@ -26,8 +26,8 @@ namespace SPHDissipation {
 
   struct DragChannel : BaseChannel {
     static constexpr const char *NAME = "drag";
-    static constexpr bool SINGLE = true;
 
+    static bool in_use(const TypeCoeffs &type) { return type.a[DRAG_B] > 0.0; }
     SPH_FUNCTION static Drag drag(const TypeCoeffs &type)
     {
       return {type.a[DRAG_B], {type.a[DRAG_UX], type.a[DRAG_UY], type.a[DRAG_UZ]}};

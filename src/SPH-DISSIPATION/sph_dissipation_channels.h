@@ -94,7 +94,15 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   // where the fluid turns motion into heat: order of compute sph/dissipation
-  enum Channel { SHEAR, BULK, VORTEX, DIFFUSION, DRAG, NCHANNEL };    // diffusion of the spin
+  enum Channel {
+    SHEAR,
+    BULK,
+    VORTEX,
+    DIFFUSION,
+    DRAG,
+    RELAXATION,
+    NCHANNEL
+  };    // diffusion of the spin
 
   // viscosities of the pairs of types, in the order of pair_coeff
   enum Viscosity { MU, MU_R, GAMMA1, GAMMA2, NVISCOSITY };
@@ -113,14 +121,36 @@ namespace SPHDissipation {
     double a[NCOEFF];
   };
 
-  // Coefficients of single types, by keyword of pair_coeff, each with its values one after another; another command
-  // may vary the first of them.  The keyword with no name ends the list.
-  enum TypeCoefficient { DRAG_B, DRAG_UX, DRAG_UY, DRAG_UZ, NTYPECOEFF };
+  // Coefficients of single types, by keyword of pair_coeff, each with its values one after another: once, or
+  // in groups of which there may be fewer.  The keyword with no name ends the list, as in the one of the names by
+  // which another command may vary a coefficient.
+  constexpr int MOST_PROCESSES = 8;
+  enum TypeCoefficient {
+    DRAG_B,
+    DRAG_UX,
+    DRAG_UY,
+    DRAG_UZ,
+    RELAX,    // kappa_r and tau of each process
+    NTYPECOEFF = RELAX + 2 * MOST_PROCESSES
+  };
   struct TypeKeyword {
     const char *name;
     int first, count;    // of enum TypeCoefficient
+    int group;           // as many values belong together; 0: all
   };
-  constexpr TypeKeyword TYPE_KEYWORDS[] = {{"drag", DRAG_B, 4}, {nullptr, NTYPECOEFF, 0}};
+  constexpr TypeKeyword TYPE_KEYWORDS[] = {
+      {"drag", DRAG_B, 4, 0}, {"relax", RELAX, 2 * MOST_PROCESSES, 2}, {nullptr, NTYPECOEFF, 0, 0}};
+  struct TypeVariable {
+    const char *name;
+    int coefficient;
+  };
+  constexpr TypeVariable TYPE_VARIABLES[] = {
+      {"drag", DRAG_B},         {"kappa_r", RELAX},       {"tau", RELAX + 1},
+      {"kappa_r2", RELAX + 2},  {"tau2", RELAX + 3},      {"kappa_r3", RELAX + 4},
+      {"tau3", RELAX + 5},      {"kappa_r4", RELAX + 6},  {"tau4", RELAX + 7},
+      {"kappa_r5", RELAX + 8},  {"tau5", RELAX + 9},      {"kappa_r6", RELAX + 10},
+      {"tau6", RELAX + 11},     {"kappa_r7", RELAX + 12}, {"tau7", RELAX + 13},
+      {"kappa_r8", RELAX + 14}, {"tau8", RELAX + 15},     {nullptr, NTYPECOEFF}};
   struct TypeCoeffs {
     double a[NTYPECOEFF + 1] = {};
   };
@@ -159,8 +189,10 @@ namespace SPHDissipation {
   // What a channel does not have is as here
   struct BaseChannel {
     static constexpr bool SPINS = false;    // it needs particles that spin
-    // it has a drag(); the table leaves it out if no type has one
-    static constexpr bool SINGLE = false;
+    // it stores energy: it has no rate of its own, but belongs to the sound
+    static constexpr bool ELASTIC = false;
+    // the table leaves it out if no type, of these largest coefficients, has it
+    static bool in_use(const TypeCoeffs &) { return true; }
     // what it puts into the coefficients of a pair; the same as a tensor, for the noise
     static void add_coefficients(const PairFluid &, PairCoeff &) {}
     static void add_friction(const PairCoeff &, PairFriction &) {}
@@ -188,6 +220,7 @@ namespace SPHDissipation {
 #include "sph_dissipation_channel_vortex.h"
 #include "sph_dissipation_channel_spin.h"
 #include "sph_dissipation_channel_drag.h"
+#include "sph_dissipation_channel_relax.h"
 // clang-format on
 
 namespace LAMMPS_NS {
@@ -222,7 +255,8 @@ namespace SPHDissipation {
       }
     }
   };
-  using Channels = ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel, DragChannel>;
+  using Channels =
+      ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel, DragChannel, RelaxChannel>;
 
   inline PairCoeff pair_coefficients(const PairFluid &fluid)
   {

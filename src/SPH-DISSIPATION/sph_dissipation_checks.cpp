@@ -81,6 +81,13 @@ void SPHDissipation::check_rerun(LAMMPS *lmp, const std::string &style, const Fl
                     "Pair style {} {} cannot be used with rerun: snapshots have no internal "
                     "energies of the particles",
                     style, gas ? "eos ideal" : "temp energy");
+  for (int i = 1; i <= lmp->atom->ntypes; i++)
+    if (RelaxChannel::in_use(model.coeffs[i].keywords) && lmp->comm->me == 0)
+      lmp->error->warning(
+          FLERR,
+          "Pair style {} with rerun: snapshots have no strain of relaxing processes, "
+          "which for type {} is taken to be zero",
+          style, i);
   if (Fields::with_spins(lmp->atom) && lmp->comm->me == 0)
     lmp->error->warning(FLERR,
                         "Pair style {} with rerun: snapshots have no spins, forces are those of "
@@ -245,6 +252,42 @@ void SPHDissipation::check_spins(LAMMPS *lmp, const std::string &style, const Fl
     lmp->error->all(FLERR, Error::NOLASTLINE,
                     "Pair style {}: spin must be along z in 2d, which that of {} is not", style,
                     tilted);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SPHDissipation::check_processes(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+{
+  const int room = Fields::of(lmp->atom)->nprocess;
+  for (int i = 1; i <= lmp->atom->ntypes; i++) {
+    const TypeCoeff &type = model.coeffs[i];
+    const int count = RelaxChannel::count(type.keywords);
+    if (!type.other && count > room)
+      lmp->error->all(
+          FLERR, Error::NOLASTLINE,
+          "Pair style {}: type {} has {} relaxing processes, but particles have room for "
+          "{}; use atom_style {} relax {}",
+          style, i, count, room, style, count);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SPHDissipation::check_relaxation(LAMMPS *lmp, const std::string &style,
+                                      const FluidModel &model)
+{
+  constexpr double SHORT = 1.0e-3;    // tau over the time step
+  if (lmp->comm->me != 0) return;
+  for (int i = 1; i <= lmp->atom->ntypes; i++) {
+    const TypeCoeffs &type = model.coeffs[i].keywords;
+    for (int k = 0; k < RelaxChannel::count(type) && !model.coeffs[i].other; k++)
+      if (RelaxChannel::tau(type, k) < SHORT * lmp->update->dt)
+        lmp->error->warning(
+            FLERR,
+            "Pair style {}: the relaxation time {:g} of type {} is far below the time "
+            "step {:g}; a kappa that is larger by {:g} does the same",
+            style, RelaxChannel::tau(type, k), i, lmp->update->dt, type.a[RELAX + 2 * k]);
+  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -63,6 +63,11 @@ namespace SPHDissipation {
 
   void check_spins(LAMMPS *, const std::string &style, const FluidModel &);
 
+  // particles have room for the relaxing processes of their type; warning about times far below the time step
+
+  void check_processes(LAMMPS *, const std::string &style, const FluidModel &);
+  void check_relaxation(LAMMPS *, const std::string &style, const FluidModel &);
+
   // all masses of fluid and of integrated particles are positive; also during a run, for fixes that
   // insert particles, whose mass is zero at first
 

@@ -18,6 +18,7 @@
 #include "error.h"
 #include "memory.h"
 #include "neigh_list.h"
+#include "sph_dissipation_fields.h"
 #include "update.h"
 
 #include <algorithm>
@@ -43,11 +44,11 @@ static const Parameters NO_PARAMETERS;    // of an engine before its setup()
 
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
-    zeta_term(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
-    par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
-    noisy_loop(nullptr), drag_noise(nullptr), data(), atom_rows(), threads(&one_thread),
-    weights(nullptr), not_fluid(0), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0),
-    imax(0), pair_max(0)
+    zeta_term(nullptr), strain_pressure(nullptr), divergence(nullptr), spin(nullptr),
+    loops(&loops_plain), par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr),
+    force_loop(nullptr), noisy_loop(nullptr), drag_noise(nullptr), data(), atom_rows(),
+    threads(&one_thread), weights(nullptr), not_fluid(0), nlocal_forces(-1), nghost_forces(-1),
+    nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
   choose_loops("auto");
 }
@@ -62,6 +63,7 @@ Engine::~Engine()
   memory->sfree(spin);
   memory->sfree(torque);
   memory->sfree(zeta_term);
+  memory->sfree(strain_pressure);
   memory->sfree(divergence);
   memory->destroy(weights);
   memory->sfree(data.first);
@@ -134,6 +136,8 @@ void Engine::grow_atoms()
     spin = (Spin *) memory->smalloc(nrow * sizeof(Spin), "sph:spin");
     torque = (TorqueSum *) memory->smalloc(nrow * sizeof(TorqueSum), "sph:torque");
   }
+  memory->sfree(strain_pressure);
+  strain_pressure = (double *) memory->smalloc(nrow * sizeof(double), "sph:strain_pressure");
   memory->sfree(zeta_term);
   zeta_term = (double *) memory->smalloc(nrow * sizeof(double), "sph:zeta_term");
   memory->sfree(divergence);
@@ -206,7 +210,17 @@ void Engine::set_rows()
   atom_rows = {*par,       par->type.data(), atom->nlocal, particle,
                density,    zeta_term,        &ONE,         0,
                atom->type, atom->mask,       atom->rmass,  atom->esph,
-               atom->rho,  atom->drho,       atom->vfrac,  atom->desph};
+               atom->rho,  atom->drho,       atom->vfrac,  atom->desph,
+               strains(),  strain_pressure};
+}
+
+/* ---------------------------------------------------------------------- */
+
+StrainRows Engine::strains() const
+{
+  StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho, {}};
+  if (par->nprocess) std::copy_n(Fields::of(atom)->rho_relaxed, par->nprocess, rows.relaxed);
+  return rows;
 }
 
 /* ----------------------------------------------------------------------
@@ -474,7 +488,7 @@ double PairSubset::memory_usage() const
 
 double Engine::memory_usage() const
 {
-  double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 2 * sizeof(double);
+  double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double);
   if (has_spin()) per_atom += sizeof(Spin) + sizeof(TorqueSum);
   double bytes = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +

@@ -200,6 +200,7 @@ namespace SPHDissipation {
     const Parameters &parameters() const { return *par; }
     // what is between the passes, of owned and ghost atoms; from pass 1 until atoms move to other processors
     const ParticleRows &rows() const { return atom_rows; }
+    StrainRows strains() const;    // of the owned atoms as they are
     // reference volume of a particle, owned or ghost
     double weight(int i) const { return data.weight ? data.weight[i] : 1.0; }
     bool has_spin() const { return par->spins(); }
@@ -209,8 +210,9 @@ namespace SPHDissipation {
     Particle *particle;
     DensitySum *density;
     ForceSum *force;
-    TorqueSum *torque;     // micropolar only
-    double *zeta_term;     // zeta cdot/c, set by the caller on owned and ghost atoms
+    TorqueSum *torque;          // micropolar only
+    double *zeta_term;          // zeta cdot/c, set by the caller on owned and ghost atoms
+    double *strain_pressure;    // of relaxing processes, as zeta_term; set if there are any
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     Spin *spin;            // micropolar only
 

@@ -14,6 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_FIELDS_H
 #define LMP_SPH_DISSIPATION_FIELDS_H
 
+#include "sph_dissipation_channels.h"
+
 namespace LAMMPS_NS {
 class Atom;
 
@@ -38,9 +40,15 @@ namespace SPHDissipation {
     double *inertia;         // moment of inertia per mass, length^2; nullptr without spins
     double **omegaest;       // spin at the end of the step, extrapolated; nullptr without spins
 
+    // relaxed density of each process that there is room for, mass/length^n, see RelaxChannel; of a new particle
+    // 0, or minus the factor by which it differs from the density that the next forces find
+    int nprocess;
+    double *rho_relaxed[MOST_PROCESSES];
+
    protected:
     explicit Fields(bool spins) :
-        has_spins(spins), desph_before(nullptr), inertia(nullptr), omegaest(nullptr)
+        has_spins(spins), desph_before(nullptr), inertia(nullptr), omegaest(nullptr), nprocess(0),
+        rho_relaxed()
     {
     }
     ~Fields() = default;

@@ -55,7 +55,9 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     exchange(new Exchange(lmp, pair)), density(new DensityStage(lmp, *engine, *exchange)),
     limit(new LimitStage(lmp, *engine, *exchange)),
     pressure(new PressureStage(lmp, *engine, *exchange)),
-    forces(new ForceStage(lmp, *engine, *exchange)), open(new OpenStage(lmp, *engine, *exchange)),
+    forces(new ForceStage(lmp, *engine, *exchange)),
+    relaxation(new RelaxStage(lmp, *engine, *exchange)),
+    open(new OpenStage(lmp, *engine, *exchange)),
     boundary(new BoundaryStage(lmp, *engine, *exchange, style)),
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
@@ -134,6 +136,7 @@ void Fluid::check_setup()
   dim = model->dimension();
   support = model->common_support(pair->setflag);
   find_own_types();
+  check_processes(lmp, style, *model);
   check_support(lmp, style, *model, dim, support);
   if (spins) check_spins(lmp, style, *model);
 }
@@ -239,8 +242,38 @@ bigint Fluid::sum_before_forces()
 
 void Fluid::sum_density()
 {
-  const bool at_rest = (update->whichflag == 2);
-  density->run(pair->list, at_rest ? nullptr : atom->vest, at_rest ? nullptr : extrapolated_spin());
+  const bool minimize = (update->whichflag == 2);
+  density->run(pair->list, minimize ? nullptr : atom->vest,
+               minimize ? nullptr : extrapolated_spin(), at_rest(), not_fluid());
+}
+
+bool Fluid::at_rest() const
+{
+  return update->whichflag == 2 || is_rerun(lmp);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::begin_step(double dt)
+{
+  if (!engine->parameters().nprocess) return;
+  set_step(dt);
+  advance_strain();
+}
+
+void Fluid::set_step(double dt)
+{
+  if (dt != model->parameters().step) model->set_step(dt);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::advance_strain()
+{
+  const bool noise_on = model->choice.thermal;
+  if (noise_on) noise->draw_for_strain();
+  relaxation->advance(not_fluid(), noise_on ? noise->strain_change() : nullptr,
+                      noise_on ? noise->strain_factor() : nullptr);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -316,6 +349,13 @@ double Fluid::elastic_energy(Moment moment)
 {
   if (moment == NOW) find_volumes();
   return pressure->elastic_energy(nullptr, not_fluid());
+}
+
+/* ---------------------------------------------------------------------- */
+
+double Fluid::strain_energy(int groupbits) const
+{
+  return engine->parameters().nprocess ? relaxation->energy(groupbits) : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -404,6 +444,7 @@ void Fluid::report()
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", style, model->summary(dim, support),
                      engine->instruction_set(), table.text(update->dt), state.table());
     check_sizes(lmp, style, *model, not_fluid());
+    check_relaxation(lmp, style, *model);
     state.warn(style, shift->wanted);
   }
   announced = true;
@@ -429,8 +470,8 @@ void Fluid::announce_noise(double rate)
                    "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
                    "step {:.3g}\n",
                    style, temperature, model->choice.seed, rate * update->dt);
-  if (rate == 0.0 && (model->choice.own_temperatures || model->choice.temperature > 0.0) &&
-      comm->me == 0)
+  if (rate == 0.0 && !model->parameters().nprocess &&
+      (model->choice.own_temperatures || model->choice.temperature > 0.0) && comm->me == 0)
     error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", style);
   if (rate * update->dt > ACCURATE_NOISE && !viscous->active() && comm->me == 0)
     error->warning(
@@ -485,14 +526,25 @@ CoeffTable Fluid::coeff_table()
   }
 
   const double h = stability_length(), hsq = h * h;
-  CoeffTable table(model->parameters().drag);
+  TypeCoeffs largest;
+  for (const TypeParameters &type : model->parameters().type)
+    for (int k = 0; k < NTYPECOEFF && !type.other; k++)
+      largest.a[k] = std::max(largest.a[k], std::fabs(type.keywords.a[k]));
+  CoeffTable table(largest);
+  auto sound_step = [&](int type, double fastest) {
+    const TypeCoeff &one = model->coeffs[type];
+    return acoustic_step(h, fastest, [&](double dt) {
+      const double more = RelaxChannel::stiffness(one.keywords, one.eos.rho0, dt);
+      return sqrt(one.eos.c0 * one.eos.c0 + more) - one.eos.c0;
+    });
+  };
   for (int i = 1; i <= n; i++)
     for (int j = i; j <= n; j++) {
       const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
       if (a.other || b.other) continue;
       const double rho = std::min(a.eos.rho0 / thinness[i], b.eos.rho0 / thinness[j]);
       table.add_row(i, j, model->pair_fluid(i, j), {hsq, rho, rho * inertia},
-                    acoustic_step(h, std::max(speed[i], speed[j])));
+                    std::min(sound_step(i, speed[i]), sound_step(j, speed[j])));
     }
   return table;
 }

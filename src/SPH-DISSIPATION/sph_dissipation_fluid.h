@@ -39,6 +39,7 @@ namespace SPHDissipation {
   class OpenStage;
   class PairTally;
   class PressureStage;
+  class RelaxStage;
   class ViscousStage;
 
   // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -65,6 +66,7 @@ namespace SPHDissipation {
     const std::unique_ptr<LimitStage> limit;
     const std::unique_ptr<PressureStage> pressure;
     const std::unique_ptr<ForceStage> forces;
+    const std::unique_ptr<RelaxStage> relaxation;
 
    public:
     // stages that fixes ask themselves.  A boundary or an open zone stays one until it is removed, when
@@ -92,6 +94,12 @@ namespace SPHDissipation {
 
     virtual bigint compute(PairTally *);
 
+    // From the integrator: a step begins, the strain of relaxing processes is that of its end; the forces are to be
+    // those of such a step, at the start of a run
+
+    void begin_step(double dt);
+    virtual void set_step(double dt);
+
     // Potential energy of the last forces, on this processor, added to those of the particles (nullptr: to none)
 
     double energy(double *each_atom) const;
@@ -101,6 +109,10 @@ namespace SPHDissipation {
 
     enum Moment { LAST_FORCES, NOW };
     virtual double elastic_energy(Moment);
+
+    // energy of the strain of relaxing processes on this processor, of particles of these groups, a part of the former
+
+    double strain_energy(int groupbits) const;
 
     // of the last forces: see ForceStage::heating(); force and torque on an owned particle, without
     // what other styles add
@@ -155,6 +167,7 @@ namespace SPHDissipation {
     // returns the number of owned particles that are beyond the bound of the limit
 
     virtual void sum_density();
+    virtual void advance_strain();
     virtual void sum_bound();
     virtual void set_reference_volume();    // of boundary particles
     virtual bigint set_pressure();
@@ -164,6 +177,8 @@ namespace SPHDissipation {
 
     virtual bool has_own_forces() const;    // on this processor
     void report();
+    bool at_rest()
+        const;    // strains have relaxed: in a minimization; in a rerun, which does not know them
     double **extrapolated_spin() const;    // nullptr without spins
 
    private:

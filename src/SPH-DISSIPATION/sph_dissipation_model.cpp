@@ -44,7 +44,7 @@ FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
   for (int k = 0; k < nviscosity(); k++)
     variables.push_back({VISCOSITY_NAMES[k], nullptr, nullptr});
   for (const auto &name : {"c0", "kappa", "pb"}) variables.push_back({name, nullptr, nullptr});
-  for (const auto *one = TYPE_KEYWORDS; one->name; one++)
+  for (const auto *one = TYPE_VARIABLES; one->name; one++)
     variables.push_back({one->name, nullptr, nullptr});
 }
 
@@ -311,17 +311,18 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
   for (int iarg = nvalues, nwords; iarg < narg; iarg += nwords) {
     const std::string keyword = arg[iarg];
     const TypeKeyword *const own = keyword_of_channel(keyword);
-    nwords = own ? 1 + own->count : 2;
+    nwords = 1 + (own ? number_of_values(*own, narg - iarg, arg + iarg) : 1);
     if (!own && keyword != "pb" && keyword != "gamma" && keyword != "cv")
       error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
                  keyword);
     if (iarg + nwords > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
     if (own) {
-      for (int k = 0; k < own->count; k++)
+      std::fill_n(one.keywords.a + own->first, own->count, 0.0);
+      for (int k = 0; k < nwords - 1; k++)
         one.keywords.a[own->first + k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
       if (const char *violated = inadmissible(one.keywords, domain->dimension)) {
         std::string words;
-        for (int k = 0; k < own->count; k++) words += std::string(" ") + arg[iarg + 1 + k];
+        for (int k = 1; k < nwords; k++) words += std::string(" ") + arg[iarg + k];
         error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff {}, not{}", violated, words);
       }
     } else if (keyword == "pb")
@@ -357,6 +358,23 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
   for (int i = ilo; i <= ihi; i++)
     for (int j = std::max(jlo, i); j <= jhi; j++) setflag[i][j] = 1;
   return count;
+}
+
+/* ----------------------------------------------------------------------
+   of the keyword arg[0]; where they come in groups, up to the next word that is no number
+------------------------------------------------------------------------- */
+
+int FluidModel::number_of_values(const TypeKeyword &keyword, int narg, char **arg) const
+{
+  if (!keyword.group) return keyword.count;
+  int n = 0;
+  while (n + 1 < narg && utils::is_double(arg[n + 1])) n++;
+  if (n == 0) utils::missing_cmd_args(FLERR, std::string("pair_coeff ") + keyword.name, error);
+  if (n % keyword.group || n > keyword.count)
+    error->all(FLERR, place(arg[0]),
+               "Pair_coeff {} needs 1 to {} groups of {} numbers, not {} numbers", keyword.name,
+               keyword.count / keyword.group, keyword.group, n);
+  return n;
 }
 
 /* ----------------------------------------------------------------------

@@ -73,6 +73,7 @@ namespace SPHDissipation {
 
     void derive(int dim, double support);
     const Parameters &parameters() const { return par; }
+    void set_step(double dt) { par.set_step(dt); }    // of the strain of relaxing processes
 
     // of a pair of types: what its coefficients follow from, the bulk viscosity that its pair terms give
 
@@ -110,7 +111,7 @@ namespace SPHDissipation {
       double **known;
     };
 
-    enum { C0, KAPPA, PB, NOTHER };    // the variables after the viscosities, before TYPE_KEYWORDS
+    enum { C0, KAPPA, PB, NOTHER };    // the variables after the viscosities, before TYPE_VARIABLES
 
     const std::string style;
     const bool spins;
@@ -127,6 +128,7 @@ namespace SPHDissipation {
     void check_pair(int, int) const;
     void check_balance(int) const;
     int type_coeff(int, char **, int, int, int, int, int **);
+    int number_of_values(const TypeKeyword &, int narg, char **arg) const;
     int fluid_coeff(int, char **, int, int, int, int, int **);
     int unlike_coeff(int, char **, int, int, int, int, int **);
     void set_choice(const std::string &keyword, const char *word);

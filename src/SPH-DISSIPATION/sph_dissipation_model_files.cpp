@@ -248,8 +248,10 @@ std::string FluidModel::type_line(int i) const
           return value == 0.0;
         }))
       continue;
+    int count = one->count;
+    while (one->group && a[count - 1] == 0.0) count--;
     line += fmt::format(" {}", one->name);
-    for (int k = 0; k < one->count; k++) line += fmt::format(" {:.17g}", a[k]);
+    for (int k = 0; k < count; k++) line += fmt::format(" {:.17g}", a[k]);
   }
   if (c.gamma > 0.0) line += fmt::format(" gamma {:.17g}", c.gamma);
   return line;

@@ -56,6 +56,7 @@ void FluidModel::derive(int dim, double support)
     if (choice.thermal) check_balance(i);
   }
   par.set_uniform();
+  par.set_step(par.step);
   if (par.drag && choice.own_temperatures)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} temp energy cannot be used with a drag of single particles", style);
@@ -219,7 +220,7 @@ double &FluidModel::type_value(int k, int i)
     case PB:
       return type.eos.pb;
     default:
-      return type.keywords.a[TYPE_KEYWORDS[k - nviscosity() - NOTHER].first];
+      return type.keywords.a[TYPE_VARIABLES[k - nviscosity() - NOTHER].coefficient];
   }
 }
 

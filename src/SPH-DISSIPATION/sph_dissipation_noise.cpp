@@ -126,7 +126,8 @@ void NoiseStage::set_tags()
 double NoiseStage::heat_of(int i) const
 {
   const TypeParameters &type = engine.parameters().type[atom->type[i]];
-  return atom->esph[i] -
+  const double strain = engine.parameters().nprocess ? engine.strains().energy(i) : 0.0;
+  return atom->esph[i] - strain -
       atom->rmass[i] * elastic_energy(engine.parameters().eos, type.eos, atom->rho[i]);
 }
 
@@ -268,6 +269,39 @@ void NoiseStage::add_drag(double factor, int not_fluid)
 
 /* ---------------------------------------------------------------------- */
 
+void NoiseStage::draw_for_strain()
+{
+  const Parameters &par = engine.parameters();
+  const int nlocal = atom->nlocal, n = nlocal + BLOCK;
+  constexpr int AT_ONCE = 4;    // numbers of a counter
+  data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
+  numbers.resize(AT_ONCE * static_cast<std::size_t>(n));
+  change.assign(par.nprocess * static_cast<std::size_t>(nlocal), 0.0);
+  factor.clear();
+  if (par.own_temperatures) factor.assign(nlocal, 1.0);
+  for (int first = 0; first < par.nprocess; first += AT_ONCE) {
+    const int count = std::min(par.nprocess - first, AT_ONCE);
+    const int channel = static_cast<int>(NoiseChannel::STRAIN) + first / AT_ONCE;
+    engine.loop_set().particle_numbers(data, static_cast<NoiseChannel>(channel), nlocal, count,
+                                       numbers.data());
+    for (int i = 0; i < nlocal; i++) {
+      const TypeParameters &type = par.type[atom->type[i]];
+      if (type.nprocess <= first) continue;
+      double temperature = par.temperature;
+      if (par.own_temperatures) {
+        temperature = std::max(internal_temperature(i), 0.0);
+        factor[i] = 1.0 + force->boltz / (atom->rmass[i] * type.heat_capacity);
+      }
+      const double strength = sqrt(force->boltz * temperature / atom->rmass[i]);
+      for (int k = first; k < std::min(type.nprocess, first + count); k++)
+        change[k * static_cast<std::size_t>(nlocal) + i] =
+            -strength * type.process[k].noise * numbers[(k - first) * static_cast<bigint>(n) + i];
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
 void NoiseStage::set_shares(const double *bound, int not_fluid)
 {
   constexpr double ROUNDOFF = 1.0e-15;    // of 1 + 2 zeta D, which is 0 at the bound
@@ -303,6 +337,7 @@ double NoiseStage::memory_usage() const
   return static_cast<double>(row.capacity() * sizeof(NoiseRow)) +
       static_cast<double>((spin_mobility.capacity() + tag.capacity() + reach.capacity() +
                            share.capacity() + eta.capacity() + drag.capacity() +
+                           numbers.capacity() + change.capacity() + factor.capacity() +
                            drag_force.capacity() + pressure.capacity() + random.capacity()) *
                           sizeof(double));
 }

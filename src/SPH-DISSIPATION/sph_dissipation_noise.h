@@ -47,6 +47,13 @@ namespace SPHDissipation {
 
     void run(const double *bound, int not_fluid, bool continued);
 
+    // The noise of the relaxing processes of owned particles, for RelaxStage::advance(), after the forces of the last
+    // step, in the next one
+
+    void draw_for_strain();
+    const double *strain_change() const { return change.data(); }
+    const double *strain_factor() const { return factor.empty() ? nullptr : factor.data(); }
+
     // of a particle with its density and its energy as they are now (temp energy)
 
     double internal_temperature(int i) const;
@@ -61,6 +68,7 @@ namespace SPHDissipation {
     std::vector<NoiseRow> row;
     std::vector<double> spin_mobility;
     std::vector<double> tag, reach, share, eta, pressure, random, drag, drag_force;
+    std::vector<double> numbers, change, factor;
 
     void check_box() const;
     void set_tags();

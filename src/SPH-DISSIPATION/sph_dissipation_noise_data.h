@@ -24,7 +24,12 @@ namespace SPHDissipation {
   // Random numbers belong to a pair or a particle, the step, and a channel: the keys of the generator
   // are the seed and the channel, its counter the two IDs and the number of the step.
 
-  enum class NoiseChannel { PRESSURE, PAIR, DRAG };
+  enum class NoiseChannel {
+    PRESSURE,
+    PAIR,
+    DRAG,
+    STRAIN
+  };    // STRAIN: one for every four processes
 
   // the step of the last random numbers, and what is added to a step to get numbers that no step before had
 

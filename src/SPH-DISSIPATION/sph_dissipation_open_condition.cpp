@@ -225,6 +225,19 @@ const EosParams &OpenCondition::eos(int i) const
   return fluid->coeffs[atom->type[i]].eos;
 }
 
+/* ----------------------------------------------------------------------
+   of waves that leave: between those of slow and fast ones, where processes relax
+------------------------------------------------------------------------- */
+
+double OpenCondition::sound(int i, double rho, double e) const
+{
+  const int type = atom->type[i];
+  const double c = sound_speed(fluid->choice.eos, eos(i), rho, e);
+  const double more =
+      RelaxChannel::stiffness(fluid->coeffs[type].keywords, eos(i).rho0, fluid->parameters().step);
+  return (more > 0.0) ? sqrt(c * c + 0.5 * more) : c;
+}
+
 /* ---------------------------------------------------------------------- */
 
 double OpenCondition::energy(int i) const
@@ -262,7 +275,7 @@ OpenCondition::Reference OpenCondition::reference(int i) const
       ref.p = ref.known ? ref.mean.p : pressure(form, eos(i), eos(i).rho0, e);
     ref.rho = density_at(form, eos(i), ref.p, e);
   }
-  ref.c = sound_speed(form, eos(i), ref.rho, e);
+  ref.c = sound(i, ref.rho, e);
 
   double u[3];
   if (given_velocity())
@@ -352,10 +365,10 @@ void OpenCondition::state(int i, double &p, double &rho) const
 
 /* ---------------------------------------------------------------------- */
 
-OpenSample OpenCondition::sample(int i, const Particle &particle) const
+OpenSample OpenCondition::sample(int i, const Particle &particle, double more) const
 {
   const double p =
-      pressure(fluid->choice.eos, eos(i), atom->rho[i], atom->esph[i] / atom->rmass[i]);
+      more + pressure(fluid->choice.eos, eos(i), atom->rho[i], atom->esph[i] / atom->rmass[i]);
   double wave = 0.0;
   if (kind != FIXED) {
     const Reference ref = reference(i);
@@ -372,7 +385,6 @@ OpenSample OpenCondition::sample(int i, const Particle &particle) const
 
 bool OpenCondition::is_supersonic(int i, const Particle &particle) const
 {
-  const double c =
-      sound_speed(fluid->choice.eos, eos(i), atom->rho[i], atom->esph[i] / atom->rmass[i]);
+  const double c = sound(i, atom->rho[i], atom->esph[i] / atom->rmass[i]);
   return -MathExtra::dot3(particle.u, plane.normal) > c;
 }

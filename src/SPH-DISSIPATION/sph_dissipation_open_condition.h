@@ -89,9 +89,9 @@ namespace SPHDissipation {
     double prescribed_density(int i) const { return reference(i).rho; }    // without waves
     double energy(int i) const;    // internal, per mass, which the ideal gas needs
 
-    // of an owned particle of the fluid near the plane
+    // of an owned particle of the fluid near the plane; more = its pressure beyond the equation of state
 
-    OpenSample sample(int i, const Particle &) const;
+    OpenSample sample(int i, const Particle &, double more) const;
     bool is_supersonic(int i, const Particle &) const;    // on its way out
 
    private:
@@ -118,6 +118,7 @@ namespace SPHDissipation {
     };
 
     const EosParams &eos(int i) const;
+    double sound(int i, double rho, double e) const;
     Reference reference(int i) const;
     double wave(const Reference &) const;
     double changes(const Reference &, double wave) const;

@@ -71,6 +71,10 @@ namespace SPHDissipation {
     // from OpenZone::set_states(): density and pressure of a particle, which keeps its bulk term
     void set_state(int i, double rho, double pressure);
     const Particle &particle(int i) const { return engine.particle[i]; }
+    double strain_pressure(int i) const    // of relaxing processes
+    {
+      return engine.parameters().nprocess ? engine.strain_pressure[i] : 0.0;
+    }
 
     void run();                       // after the pressures, before those of boundaries
     void sum_impacts(NeighList *);    // after pass 2

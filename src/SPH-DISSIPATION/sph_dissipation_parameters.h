@@ -63,6 +63,8 @@ namespace SPHDissipation {
     double heat_capacity = 0.0;    // per mass
     TypeCoeffs keywords;           // of the channels
     int other = 1;                 // its particles belong to another style of pair_style hybrid
+    int nprocess = 0;              // relaxing processes
+    Relaxation process[MOST_PROCESSES] = {};
   };
 
   // what belongs to all types: a device copies it as a whole
@@ -77,6 +79,8 @@ namespace SPHDissipation {
     bool inviscid = true;        // they are zero
     bool drag = false;           // of single particles, of any type
     bool shared = false;         // there are types of other styles
+    int nprocess = 0;            // most relaxing processes of a type
+    double step = 0.0;           // time step that the strain of these processes is of
 
     bool spins() const { return shear == Shear::MICROPOLAR; }
     void set_kernel(Kernel, int dim, double support);
@@ -89,7 +93,8 @@ namespace SPHDissipation {
     std::vector<TypeParameters> type;    // by type, from 1
     std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
 
-    void set_uniform();    // uniform and inviscid, from pair
+    void set_uniform();          // uniform and inviscid, from pair
+    void set_step(double dt);    // the time step of the relaxing processes
   };
 
   inline void Constants::set_kernel(Kernel kernel_in, int dim_in, double support_in)
@@ -114,6 +119,18 @@ namespace SPHDissipation {
           if (a != pair[ntypes_1 + 1].a[k]) uniform = false;
           if (a != 0.0) inviscid = false;
         }
+  }
+
+  inline void Parameters::set_step(double dt)
+  {
+    step = dt;
+    nprocess = 0;
+    for (TypeParameters &one : type) {
+      one.nprocess = one.other ? 0 : RelaxChannel::count(one.keywords);
+      nprocess = std::max(nprocess, one.nprocess);
+      for (int k = 0; k < one.nprocess; k++)
+        one.process[k] = RelaxChannel::process(one.keywords, k, one.eos.rho0, dt);
+    }
   }
 
 }    // namespace SPHDissipation

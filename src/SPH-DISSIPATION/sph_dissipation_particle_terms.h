@@ -14,10 +14,12 @@
 #ifndef LMP_SPH_DISSIPATION_PARTICLE_TERMS_H
 #define LMP_SPH_DISSIPATION_PARTICLE_TERMS_H
 
-// Between the passes: what follows for one particle from its density.  No LAMMPS include.
+// Between the passes: what follows for one particle from its density; and its relaxing strain.  No LAMMPS include.
 
 #include "sph_dissipation_parameters.h"
 #include "sph_dissipation_rows.h"
+
+#include <cmath>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -30,6 +32,93 @@ namespace SPHDissipation {
     const double c_inv = vol / weight;
     return total * c_inv * c_inv;
   }
+
+  // The relaxing processes of owned particles, on the host or on a device, with their densities and relaxed
+  // densities; energies are those of the last forces.  See RelaxChannel.
+
+  struct StrainRows {
+    const TypeParameters *types;    // by type, from 1
+    const int *type;
+    const double *rmass, *rho;
+    double *relaxed[MOST_PROCESSES];
+
+    // strain x of process k
+
+    SPH_FUNCTION double strain(int i, int k) const
+    {
+      const double rest = relaxed[k][i];
+      return (rest > 0.0 && rho[i] > 0.0) ? std::log(rho[i] / rest) : 0.0;
+    }
+
+    // the state of process k for which the next forces find the strain x
+
+    SPH_FUNCTION static double state_of(double x) { return -std::exp(-x); }
+
+    // pressure rho g phi x of all processes; sets the state of a new particle
+
+    SPH_FUNCTION double pressure(int i) const
+    {
+      const TypeParameters &par = types[type[i]];
+      double sum = 0.0;
+      for (int k = 0; k < par.nprocess; k++) {
+        double &rest = relaxed[k][i];
+        if (!(rest > 0.0)) rest = (rest < 0.0) ? -rest * rho[i] : rho[i];
+        sum += par.process[k].stiffness * strain(i, k);
+      }
+      return rho[i] * sum;
+    }
+
+    // the processes have relaxed
+
+    SPH_FUNCTION void relax(int i) const
+    {
+      for (int k = 0; k < types[type[i]].nprocess; k++) relaxed[k][i] = rho[i];
+    }
+
+    // particles that are not fluid have no state
+
+    SPH_FUNCTION void forget(int i, int nprocess) const
+    {
+      for (int k = 0; k < nprocess; k++) relaxed[k][i] = 0.0;
+    }
+
+    // one time step later: ln rho_r grows by (1 - e^-a) x, here times a factor, and by change[k * each] for process
+    // k, nullptr: by nothing else
+
+    SPH_FUNCTION void advance(int i, double factor, const double *change, int each) const
+    {
+      const TypeParameters &par = types[type[i]];
+      for (int k = 0; k < par.nprocess; k++)
+        relaxed[k][i] *= std::exp(factor * par.process[k].part * strain(i, k) +
+                                  (change ? change[k * each] : 0.0));
+    }
+
+    // m g phi x^2/2 of all processes
+
+    SPH_FUNCTION double energy(int i) const
+    {
+      const TypeParameters &par = types[type[i]];
+      double sum = 0.0;
+      for (int k = 0; k < par.nprocess; k++) {
+        const double x = strain(i, k);
+        sum += par.process[k].stiffness * x * x;
+      }
+      return 0.5 * rmass[i] * sum;
+    }
+
+    // energy per time that becomes heat, V p^2/kappa_r of all processes
+
+    SPH_FUNCTION double heat(int i) const
+    {
+      const TypeParameters &par = types[type[i]];
+      double sum = 0.0;
+      for (int k = 0; k < par.nprocess; k++) {
+        const double p = par.process[k].stiffness * strain(i, k);
+        sum += p * p * par.process[k].fluidity;
+      }
+      return rmass[i] * sum;
+    }
+  };
 
   // Owned and ghost particles, on the host or on a device: rows of the loops, and arrays of LAMMPS.  A
   // function is about particle i; the stages of the host and those of the device call it for each of them.
@@ -50,6 +139,9 @@ namespace SPHDissipation {
     const double *rmass, *esph;
     double *rho, *drho, *vfrac;
     double *desph;    // zero when the step begins
+
+    StrainRows strains;
+    double *strain_pressure;    // of relaxing processes; read if there are any
 
     // w of the form volume mass
 
@@ -110,6 +202,17 @@ namespace SPHDissipation {
       return types[type[i]].zeta;
     }
 
+    // Pressure of the relaxing processes of an owned particle, of its density; at_rest: they have relaxed.
+    // not_fluid = bits of the groups of particles of walls and open zones
+
+    SPH_FUNCTION void set_strain_pressure(int i, int not_fluid, bool at_rest) const
+    {
+      strain_pressure[i] = 0.0;
+      if (!is_fluid(i, not_fluid)) return;
+      if (at_rest) strains.relax(i);
+      strain_pressure[i] = strains.pressure(i);
+    }
+
     // pressure and bulk term, of volume and density: what pass 2 multiplies with F r_ij, and the work of
     // the pressure; zero for particles that are not fluid.  P1 (12), (18)
 
@@ -121,7 +224,8 @@ namespace SPHDissipation {
       }
       const double vol = particle[i].vol, w = weight[i * each];
       const double rate = density[i].cdot * (vol / w);
-      const double p = pressure(par.eos, types[type[i]].eos, rho[i], esph[i] / rmass[i]);
+      double p = pressure(par.eos, types[type[i]].eos, rho[i], esph[i] / rmass[i]);
+      if (par.nprocess) p += strain_pressure[i];
       const double bulk_term = zeta(i, bound) * rate;
       zeta_term[i] = bulk_term;
       particle[i].g = pressure_term((par.bulk == Bulk::DENSITY) ? p + bulk_term : p, vol, w);

@@ -23,6 +23,8 @@
 #include "sph_dissipation_balance.h"
 #include "sph_dissipation_create.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_particle_terms.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +80,17 @@ void RefineEvent::set(int i, RefineState state, double volume, double most, doub
   targets[i] = target;
 }
 
+/* ----------------------------------------------------------------------
+   of a relaxing process, at the density at the end of the step
+------------------------------------------------------------------------- */
+
+double RefineEvent::strain(int i, int process) const
+{
+  const double rest = fields->rho_relaxed[process][i];
+  const double rho = atom->rho[i] + update->dt * atom->drho[i];
+  return (rest > 0.0 && rho > 0.0) ? std::log(rho / rest) : 0.0;
+}
+
 /* ---------------------------------------------------------------------- */
 
 Lump RefineEvent::lump(int i) const
@@ -86,6 +99,7 @@ Lump RefineEvent::lump(int i) const
   one.mass = atom->rmass[i];
   one.energy = atom->esph[i];
   one.energy_rate = fields->desph_before[i];
+  for (int k = 0; k < fields->nprocess; k++) one.strain[k] = strain(i, k);
   std::copy_n(atom->x[i], 3, one.x);
   std::copy_n(atom->v[i], 3, one.u);
   std::copy_n(atom->vest[i], 3, one.u_end);
@@ -104,6 +118,8 @@ void RefineEvent::set_lump(int i, const Lump &one)
   atom->rmass[i] = one.mass;
   atom->esph[i] = one.energy;
   fields->desph_before[i] = one.energy_rate;
+  for (int k = 0; k < fields->nprocess; k++)
+    fields->rho_relaxed[k][i] = StrainRows::state_of(one.strain[k]);
   std::copy_n(one.x, 3, atom->x[i]);
   std::copy_n(one.u, 3, atom->v[i]);
   std::copy_n(one.u_end, 3, atom->vest[i]);

@@ -74,6 +74,7 @@ namespace SPHDissipation {
     std::vector<Split> splits;
     std::vector<Merge> merges;
 
+    double strain(int i, int process) const;
     Lump lump(int i) const;
     void set_lump(int i, const Lump &);
     bool merging(int i) const;

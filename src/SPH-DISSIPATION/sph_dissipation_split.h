@@ -25,6 +25,7 @@
 // Omega: by the theorem of parallel axes that keeps angular momentum and energy if
 // sum m d_perp^2 + sum m_k I_k = m I, which is the case by itself for the inertia V^(2/n)/6 of cubes.
 
+#include "sph_dissipation_channels.h"
 #include "sph_dissipation_symmetric.h"
 
 #include <algorithm>
@@ -55,6 +56,7 @@ namespace SPHDissipation {
     double inertia = 0.0;    // per mass
     double energy = 0.0;     // internal, and its rate
     double energy_rate = 0.0;
+    double strain[MOST_PROCESSES] = {};    // of relaxing processes
     double x[3] = {};
     double u[3] = {}, spin[3] = {};
     double u_end[3] = {}, spin_end[3] = {};
@@ -175,6 +177,9 @@ namespace SPHDissipation {
       whole.energy += parts[k].energy;
       whole.energy_rate += parts[k].energy_rate;
     }
+    for (int k = 0; k < n; k++)
+      for (int l = 0; l < MOST_PROCESSES; l++)
+        whole.strain[l] += parts[k].mass / whole.mass * parts[k].strain[l];
 
     // relative to one of the parts, for the sake of round-off
 

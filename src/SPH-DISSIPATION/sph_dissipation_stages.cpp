@@ -32,13 +32,36 @@ using namespace SPHDissipation;
 void DensityStage::run(NeighList *list, double **vest, double **omegaest)
 {
   engine.accumulate_density(list, vest, omegaest);
+  exchange.reverse({field(engine.density, &engine.density->c, 2)});
+  send(false);
+}
 
-  DensitySum *const density = engine.density;
-  const Field sums = field(density, &density->c, 2);
-  exchange.reverse({sums});
+/* ---------------------------------------------------------------------- */
+
+void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool at_rest,
+                       int not_fluid)
+{
+  if (!engine.parameters().nprocess) return run(list, vest, omegaest);
+  engine.accumulate_density(list, vest, omegaest);
+  exchange.reverse({field(engine.density, &engine.density->c, 2)});
+  const ParticleRows &rows = engine.rows();
+  engine.for_each(atom->nlocal, [&](int i) {
+    rows.set_density(i);
+    rows.set_strain_pressure(i, not_fluid, at_rest);
+  });
+  send(true);
+}
+
+/* ----------------------------------------------------------------------
+   what owned particles have to ghosts; then the densities
+------------------------------------------------------------------------- */
+
+void DensityStage::send(bool with_strain)
+{
   const int energy = (engine.parameters().eos == Eos::IDEAL) ? 1 : 0;    // of ghosts, for it
-  exchange.forward({sums, {atom->esph, 1, energy}});
-
+  exchange.forward({field(engine.density, &engine.density->c, 2),
+                    {atom->esph, 1, energy},
+                    {engine.strain_pressure, 1, with_strain ? 1 : 0}});
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
     rows.set_density(i);
@@ -137,14 +160,42 @@ void PressureStage::set_bulk_term(const double *bound, int not_fluid) const
 double PressureStage::elastic_energy(double *each_atom, int not_fluid) const
 {
   const Parameters &par = engine.parameters();
+  const StrainRows strains = engine.strains();
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
-    const double energy = atom->rmass[i] *
+    double energy = atom->rmass[i] *
         SPHDissipation::elastic_energy(par.eos, par.type[atom->type[i]].eos, atom->rho[i]);
+    if (par.nprocess) energy += strains.energy(i);
     total += energy;
     if (each_atom) each_atom[i] += energy;
   }
+  return total;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RelaxStage::advance(int not_fluid, const double *change, const double *factor) const
+{
+  const StrainRows strains = engine.strains();
+  const Parameters &par = engine.parameters();
+  const int nlocal = atom->nlocal;
+  engine.for_each(nlocal, [&](int i) {
+    if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid))
+      strains.forget(i, par.nprocess);
+    else
+      strains.advance(i, factor ? factor[i] : 1.0, change ? change + i : nullptr, nlocal);
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+double RelaxStage::energy(int groupbits) const
+{
+  const StrainRows strains = engine.strains();
+  double total = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbits) total += strains.energy(i);
   return total;
 }
 
@@ -283,6 +334,7 @@ void ForceStage::add_drag_heat(int i, double *channel) const
 void ForceStage::heating(double *heat, double *power, int not_fluid) const
 {
   std::fill(power, power + NCHANNEL, 0.0);
+  const StrainRows strains = engine.strains();
   const int n = nforce();
   for (int i = 0; i < n; i++) {
     if (heat) heat[i] = 0.0;
@@ -291,7 +343,10 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
     if (engine.has_spin()) {
       std::copy(engine.torque[i].heat, std::end(engine.torque[i].heat), channel + VORTEX);
     }
-    if (i < atom->nlocal) add_drag_heat(i, channel);
+    if (i < atom->nlocal) {
+      add_drag_heat(i, channel);
+      channel[RELAXATION] = strains.heat(i);
+    }
     for (int k = 0; k < NCHANNEL; k++) {
       if (heat) heat[i] += channel[k];
       power[k] += channel[k];

@@ -57,6 +57,14 @@ namespace SPHDissipation {
     // extrapolated velocity and spin, each nullptr where it is zero
 
     void run(NeighList *, double **vest, double **omegaest);
+
+    // for forces, with the pressure of relaxing processes: at_rest, they have relaxed; not_fluid = bits of the
+    // groups of particles of walls and open zones
+
+    void run(NeighList *, double **vest, double **omegaest, bool at_rest, int not_fluid);
+
+   private:
+    void send(bool with_strain);
   };
 
   // How negative the coefficient of the bulk term of a particle may be:
@@ -94,9 +102,25 @@ namespace SPHDissipation {
 
     void set_bulk_term(const double *bound, int not_fluid) const;
 
-    // elastic energy of owned particles; each_atom = what it is added to, or nullptr
+    // elastic energy of owned particles, with that of relaxing processes; each_atom = what it is added to, or nullptr
 
     double elastic_energy(double *each_atom, int not_fluid) const;
+  };
+
+  // The state of relaxing processes: see RelaxChannel
+
+  class RelaxStage : public Stage {
+   public:
+    using Stage::Stage;
+
+    // Advance it by the time step for which the parameters hold, from the last forces; not_fluid as above.  Of
+    // thermal noise, nullptr without: change[k * nlocal + i] of ln rho_r of process k, factor[i] of what relaxes
+
+    void advance(int not_fluid, const double *change, const double *factor) const;
+
+    // energy of the strain of owned particles of these groups
+
+    double energy(int groupbits) const;
   };
 
   // Minus the gradient of the concentration of the particles, for particle shifting:

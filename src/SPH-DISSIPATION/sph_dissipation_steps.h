@@ -51,6 +51,20 @@ namespace SPHDissipation {
     return (speed > 0.0) ? ACOUSTIC * h / speed : UNLIMITED_STEP;
   }
 
+  // The same for a speed that grows as the step gets shorter: by extra(dt), which falls with dt, as with relaxing
+  // processes, which are stiff for steps below their times
+
+  template <class Extra> double acoustic_step(double h, double speed, Extra &&extra)
+  {
+    if (extra(0.0) == 0.0) return acoustic_step(h, speed);
+    double low = acoustic_step(h, speed + extra(0.0)), high = acoustic_step(h, speed);
+    for (int k = 0; k < 100 && high < UNLIMITED_STEP; k++) {
+      const double middle = 0.5 * (low + high);
+      (middle < acoustic_step(h, speed + extra(middle)) ? low : high) = middle;
+    }
+    return low;
+  }
+
   // all limits together: the rates of the viscous terms add
 
   inline double combined_step(double acoustic, const std::vector<double> &viscous)

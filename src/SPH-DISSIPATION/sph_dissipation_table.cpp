@@ -68,10 +68,11 @@ void CoeffTable::add_row(int i, int j, const PairFluid &fluid, const PairInertia
   }
   values.emplace_back("zeta", fluid.zeta);
   Channels::visit(spins, [&](auto channel) {
-    if (channel.SINGLE && !drag) return;
+    if (!channel.in_use(largest)) return;
     channel.add_columns(fluid, coeff, [&](const char *name, double value) {
       values.emplace_back(name, value);
     });
+    if (channel.ELASTIC) return;
     numbers.push_back(SPHDissipation::viscous_step(channel.rate(fluid, coeff, inertia)));
     steps.emplace_back(channel.NAME, numbers.back());
   });

@@ -27,8 +27,10 @@ namespace SPHDissipation {
 
   class CoeffTable {
    public:
-    explicit CoeffTable(bool drag) :
-        drag(drag), smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP), viscous(UNLIMITED_STEP)
+    // largest = coefficients by keyword of any type
+    explicit CoeffTable(const TypeCoeffs &largest) :
+        largest(largest), smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP),
+        viscous(UNLIMITED_STEP)
     {
     }
 
@@ -42,7 +44,7 @@ namespace SPHDissipation {
     double fastest_rate() const { return (viscous < UNLIMITED_STEP) ? 1.0 / viscous : 0.0; }
 
    private:
-    const bool drag;    // of single particles, of any type
+    const TypeCoeffs largest;
     std::string lines;
     double smallest, acoustic, viscous;
   };

@@ -1,0 +1,98 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// Bulk viscosity that relaxes: each process is a spring of the modulus rho g in series with a dashpot, a
+// Maxwell element of the volume.  Its strain is x = ln(rho/rho_r) with the relaxed density rho_r of the
+// particle, its pressure rho g x, d(ln rho_r)/dt = x/tau, and kappa_r = rho g tau its bulk viscosity at
+// frequency 0.  L. I. Mandelstam, M. A. Leontovich, Zh. Eksp. Teor. Fiz. 7, 438 (1937); L. D. Landau,
+// E. M. Lifshitz, Fluid Mechanics, section 81.
+//
+// For every ratio a = dt/tau of the time step: the pressure is rho g phi(a) x, phi = (1 - e^-a)/a, and after
+// the forces ln rho_r grows by (1 - e^-a) x.  For a -> 0 this is the equation, for a -> infinity the bulk
+// term kappa_r dlnrho/dt, and the mean power of a wave is positive at every frequency (theory page).
+// Thermal noise adds sqrt(2 kB T dt/(m g tau)) xi to x.
+// Included by sph_dissipation_channels.h, which has the notation.
+
+#ifndef CHANNEL_TERMS
+
+#ifndef LMP_SPH_DISSIPATION_CHANNEL_RELAX_H
+#define LMP_SPH_DISSIPATION_CHANNEL_RELAX_H
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // a process of a type, in one time step
+  struct Relaxation {
+    double stiffness;    // g phi, velocity^2
+    double part;         // 1 - e^-a, of the strain that relaxes
+    double fluidity;     // 1/(g tau), time/velocity^2
+    double noise;        // sqrt(2 dt/(g tau)), 1/velocity
+  };
+
+  struct RelaxChannel : BaseChannel {
+    static constexpr const char *NAME = "relax";
+    static constexpr bool ELASTIC = true;
+
+    static bool in_use(const TypeCoeffs &type) { return type.a[RELAX] > 0.0; }
+
+    // number of processes of a type
+    static int count(const TypeCoeffs &type)
+    {
+      int n = 0;
+      while (n < MOST_PROCESSES && type.a[RELAX + 2 * n] > 0.0) n++;
+      return n;
+    }
+    static double tau(const TypeCoeffs &type, int k) { return type.a[RELAX + 2 * k + 1]; }
+
+    // process k of a type of the reference density rho0, in a time step dt
+    static Relaxation process(const TypeCoeffs &type, int k, double rho0, double dt)
+    {
+      const double g_tau = type.a[RELAX + 2 * k] / rho0, a = dt / tau(type, k);
+      const double part = -std::expm1(-a);
+      return {g_tau / tau(type, k) * (a > 0.0 ? part / a : 1.0), part, 1.0 / g_tau,
+              std::sqrt(2.0 * dt / g_tau)};
+    }
+
+    // what all processes of a type add to the square of the speed of sound, in a time step dt
+    static double stiffness(const TypeCoeffs &type, double rho0, double dt)
+    {
+      double sum = 0.0;
+      for (int k = 0; k < count(type); k++) sum += process(type, k, rho0, dt).stiffness;
+      return sum;
+    }
+
+    template <class Add>
+    static void add_columns(const PairFluid &fluid, const PairCoeff &, Add &&add)
+    {
+      double sum = 0.0;
+      for (int k = 0; k < MOST_PROCESSES; k++) sum += fluid.type.a[RELAX + 2 * k];
+      add("kappa_r", sum);
+    }
+    static const char *inadmissible_type(const TypeCoeffs &type, int)
+    {
+      for (int k = 0; k < MOST_PROCESSES; k++) {
+        const double *const one = &type.a[RELAX + 2 * k];
+        const bool none = (one[0] == 0.0 && one[1] == 0.0 && k >= count(type));
+        const bool finite = std::isfinite(one[0]) && std::isfinite(one[1]);
+        if (!none && !(one[0] > 0.0 && one[1] > 0.0 && finite))
+          return "relax must have kappa_r > 0 and tau > 0";
+      }
+      return nullptr;
+    }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
