@@ -85,7 +85,7 @@ def modes(matrix, timestep):
 
 
 def write(particles, path, relaxed, style="sph/bulk", **keywords):
-    """Data file with the relaxed densities, one column for each process, at the end of the lines of Velocities; < 0: in densities."""
+    """Data file with the relaxed densities, one column for each process, at the end of the lines of Velocities; -1: minus the density."""
     relaxed = np.broadcast_to(np.asarray(relaxed, dtype=float), (len(particles), np.shape(relaxed)[-1]))
     if style == "sph/bulk":
         particles.write(path, **keywords)
@@ -229,7 +229,7 @@ def test_reference():
 
 
 def compare(found, discrete, stepped, continuum=None, bound=0.03):
-    """A root against those of the lattice within 1e-3, with its time step within 1e-5, and of the continuum."""
+    """A root against those of the lattice within 1e-3, with its time step within 1e-7, and of the continuum."""
     print(f"found {found:.7g}, lattice {discrete:.7g}, with the step {stepped:.7g}, continuum {continuum}")
     for part in ("real", "imag") if np.iscomplexobj(discrete) else ("real",):
         value = getattr(found, part)
@@ -276,7 +276,7 @@ def test_standing_wave_on_a_lattice(lammps, name, time):
 
 
 def test_two_processes_and_a_constant_viscosity(lammps):
-    """Together: the sound and both rates of a wave, as of the matrix of a step."""
+    """Together: the sound of a wave and the slower of its rates."""
     wave = Wave(lammps, "line", 64, 5.0, 1.0)
     processes, timestep = [(0.3, 0.3 / wave.k), (0.2, 4.0 / wave.k)], 0.2
     roots = modes(one_step(wave.q, wave.square, processes, timestep, nu=0.5), timestep)
@@ -285,7 +285,6 @@ def test_two_processes_and_a_constant_viscosity(lammps):
     slow = max(roots[1:], key=lambda root: root[0].real)
     _, x = wave.run(slow[1], processes, timestep, 200, 100, kappa=0.5)
     assert np.log(x[-1] / x[1]) / (100 * timestep) == pytest.approx(slow[0].real, rel=1e-7)
-    assert np.log(x[-1] / x[1]) / (100 * timestep) != pytest.approx(cubic(wave.q, wave.square, 0.5, 4.0 / wave.k)[1], rel=0.05)
 
 
 def test_short_relaxation_is_a_constant_viscosity(lammps):
@@ -315,7 +314,7 @@ def test_short_relaxation_is_a_constant_viscosity(lammps):
 
 @pytest.mark.parametrize("options", ["", "volume mass eos tait limit yes", "temp 0.3 4711", "simd none shear mg/fr"])
 def test_room_alone_changes_nothing(lammps, options):
-    """Bit for bit, with and without the word relax and with a process whose kappa_r is nothing."""
+    """Without coefficients: bit for bit the fluid of an atom style without room."""
     particles = disordered(2, 12, spread=0.04)
     texts = []
     for words in (None, "1", "3"):
