@@ -391,7 +391,10 @@ int FluidModel::fluid_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int
   std::vector<std::string> words = {arg[0], arg[1]};
   for (double value : {fluid.rho, fluid.c, fluid.mu, fluid.kappa})
     words.push_back(fmt::format("{:.17g}", value));
-  words.insert(words.end(), arg + 4, arg + narg);
+  words.push_back(arg[4]);
+  if (!fluid.relax.empty()) words.push_back("relax");
+  for (double value : fluid.relax) words.push_back(fmt::format("{:.17g}", value));
+  words.insert(words.end(), arg + 5, arg + narg);
 
   std::vector<char *> pointers;
   for (auto &word : words) pointers.push_back(&word[0]);
