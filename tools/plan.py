@@ -4,13 +4,13 @@
 
     ./sphd plan --fluid water --length 1e-3 --velocity 0.01 > in.flow
     ./sphd plan --rho 1 --mu 0.01 --kappa 0.02 --length 1 --velocity 1 --dim 3 --particles 32
-    ./sphd plan --fluid water --length 1e-6 --velocity 1 --c real        # sound: a wave in the fluid itself
+    ./sphd plan --fluid CO2 --frequency 30e3                             # sound: a standing wave, by frequency or --wavelength
     ./sphd plan --rho 1 --mu 0.5 --length 16 --velocity 0.1 --c 3 --particles 16 --temperature 0.02
 
-With --fluid, a name of potentials/fluids.sph, all numbers are in SI units; else in the units of --units. The input is a
-periodic box, filled with a stream; the flow is to be put in its place. With --c real it is filled with a standing wave of
-sound, as long as the box. What the choices are made by is in the manual,
-"Choosing numbers".
+With --fluid, a name of potentials/gases.sph or fluids.sph, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]] (percent, K, Pa), all numbers are in
+SI units; else in the units of --units. The input is a periodic box, filled with a stream; the flow is to be put in its place. With
+--wavelength, --frequency, or --c real it is filled with a standing wave of sound, as long as the box. What the choices are made by
+is in the manual, "Choosing numbers".
 """
 import argparse
 import math
@@ -19,11 +19,12 @@ import re
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import fluids
+
 ROOT = Path(__file__).resolve().parents[1]
-FLUIDS = ROOT / "potentials" / "fluids.sph"
 
 # square of the stability length over that of rc, in 2 and 3 dimensions: eq. "hstab" of the theory page
 STABILITY = {
@@ -53,18 +54,12 @@ STIFFER = 300.0   # and from which on one that damps fast motions at once; see t
 MOST_STEPS = 2**31 - 1    # of LAMMPS's run command
 
 
-def read_fluid(name):
-    """rho, c, mu, kappa in three dimensions; the lowest and the highest frequency for which that kappa holds"""
-    fluids = {}
-    for line in FLUIDS.read_text().splitlines():
-        words, _, comment = line.partition("#")
-        words, valid = words.split(), re.match(r" kappa (above|below) (\S+)$", comment)
-        if words:
-            range_of_kappa = {"above": 0.0, "below": math.inf, **({valid[1]: float(valid[2])} if valid else {})}
-            fluids[words[0]] = [*(float(word) for word in words[2:6]), (range_of_kappa["above"], range_of_kappa["below"])]
-    if name not in fluids:
-        raise SystemExit(f"plan: no fluid {name} in {FLUIDS.name}, which has: {' '.join(fluids)}")
-    return fluids[name]
+SOUND_MACH = 1e-5         # of a wave, if no velocity is given: so small that it is linear
+
+
+def relax_words(fluid):
+    """of pair_coeff"""
+    return " relax" + "".join(f" {word:.6g}" for pair in fluid.relax for word in pair)
 
 
 @dataclass
@@ -76,25 +71,24 @@ class Plan:
     def __post_init__(self):
         args = self.args
         self.dim, self.units = args.dim, "si" if args.fluid else args.units or "lj"
-        self.wave, self.valid = args.c == "real", (0.0, math.inf)
-        if args.fluid:
-            self.rho, self.c_fluid, self.mu, kappa, self.valid = read_fluid(args.fluid)
-            self.kappa = kappa + (self.mu / 3 if self.dim == 2 else 0.0)    # the plane flow of the real fluid
-        else:
-            self.rho, self.c_fluid, self.mu, self.kappa = args.rho, None, args.mu, args.kappa
+        self.wave = args.c == "real" or bool(args.wavelength or args.frequency)
+        self.set_fluid()
+        self.set_length()
+        self.set_relaxation()
+        self.rho, self.mu, plane = self.fluid.rho, self.fluid.mu, self.fluid.mu / 3 if args.fluid and self.dim == 2 else 0.0
+        self.kappa = None if self.fluid.kappa is None else self.fluid.kappa + plane    # the plane flow of the real fluid
         intrinsic = SHEAR[args.shear][1](self.dim) * self.mu
         if self.kappa is None and intrinsic < 0.0:
             raise SystemExit(f"plan: shear {args.shear} has no bulk viscosity of its own in {self.dim}d, give --kappa")
         self.zeta = 0.0 if self.kappa is None else self.kappa - intrinsic
         self.set_sound_speed()
 
-        self.dx = args.length / args.particles
-        self.rc = args.support * self.dx
         name, constant, per_cell, edges = LATTICE[self.dim]
+        self.cells = [max(round(args.particles / (constant * edge)), 1) for edge in edges]    # whole ones; exactly one wave along x
+        self.dx = args.length / (constant * self.cells[0] * edges[0] if self.wave else args.particles)
+        self.rc = args.support * self.dx
         self.lattice = f"{name} {1 / self.dx**self.dim:.8g}" if self.units == "lj" else f"{name} {constant * self.dx:.8g}"
-        self.cells = [max(round(args.particles / (constant * edge)), 1) for edge in edges]
         self.number = per_cell * math.prod(self.cells)
-        self.box = constant * self.cells[0] * edges[0] * self.dx    # along x; whole cells, about the length
         width = constant * min(n * e for n, e in zip(self.cells, edges))
         if width < 2 * args.support:
             raise SystemExit(f"plan: a lattice of {args.particles} particles across is {width:.3g} distances wide, less than two support "
@@ -105,14 +99,45 @@ class Plan:
             raise SystemExit(f"plan: these are {self.steps:.2g} steps of {self.dt:g}, more than LAMMPS can run; take a lower speed of "
                              "sound (--c), a shorter --time, or a larger length")
 
+    def set_fluid(self):
+        args = self.args
+        self.c_fluid = None
+        if args.fluid:
+            try:
+                self.real = fluids.find(args.fluid)
+            except KeyError as known:
+                raise SystemExit(f"plan: no fluid {args.fluid} in gases.sph and fluids.sph, which have: {known.args[0]}") from None
+            self.c_fluid = self.real.c
+        else:
+            self.real = fluids.Fluid(args.rho, None, args.mu, args.kappa)
+        if self.wave and args.c in (None, "real") and not args.fluid:
+            raise SystemExit("plan: --c real is for --fluid; sound in another one needs its speed after --c")
+        if self.wave:
+            self.real.c = self.c_fluid if args.c in (None, "real") else args.c
+
+    def set_length(self):
+        """of the box, and the velocity, of a wave"""
+        args = self.args
+        if args.frequency:
+            args.wavelength = 2 * math.pi / self.real.wave_number(args.frequency).real if args.fluid else self.real.c / args.frequency
+        if args.wavelength:
+            args.length, args.velocity = args.wavelength, args.velocity or SOUND_MACH * self.real.c
+        self.frequency = args.frequency or (self.real.c if self.wave else args.velocity) / args.length
+
+    def set_relaxation(self):
+        """all of the bulk viscosity is a constant at low frequencies, and in flows unless --relax is given"""
+        if self.args.relax and not self.real.relax:
+            raise SystemExit("plan: --relax is for a gas of gases.sph with relaxing processes")
+        constant = self.real.constant() if self.real.relax else self.real
+        fast = self.frequency > constant.valid[1]
+        self.fluid = self.real if self.args.relax or (fast and self.wave) else constant
+
     def set_sound_speed(self):
         u, wanted = self.args.velocity, self.args.c
-        if wanted == "real":
-            if self.c_fluid is None:
-                raise SystemExit("plan: --c real is for --fluid")
-            self.c0 = self.c_fluid
+        if self.wave:
+            self.c0 = self.real.c
         else:
-            self.c0 = float(wanted) if wanted else 10 * u
+            self.c0 = wanted or 10 * u
             if not wanted and self.c_fluid and self.c0 > self.c_fluid:
                 self.c0 = self.c_fluid
 
@@ -122,7 +147,7 @@ class Plan:
         hsq = STABILITY[args.kernel][self.dim - 2] * self.rc**2
         nu = self.mu / self.rho
         self.limits = {
-            "acoustic": 0.25 * math.sqrt(hsq) / (self.c0 + args.velocity),
+            "acoustic": self.acoustic(hsq),
             "shear": SAFETY / SHEAR[args.shear][0] * hsq / nu if nu else math.inf,
             "bulk": SAFETY / BULK_RATE * self.rho * hsq / abs(self.zeta) if self.zeta else math.inf,
         }
@@ -137,30 +162,23 @@ class Plan:
         if args.temperature is not None:
             self.dt = float(f"{min(self.largest / 3, 0.095 / self.rate if self.rate else math.inf):.3g}")
 
+    def acoustic(self, hsq):
+        """with processes the step that is as long as their stiffness, which falls with it, allows"""
+        step = 0.0
+        for _ in range(100 if self.fluid.relax else 1):
+            stiffness = sum(kappa / self.rho * (-math.expm1(-step / tau) / step if step else 1 / tau) for kappa, tau in self.fluid.relax)
+            step = 0.25 * math.sqrt(hsq) / (math.sqrt(self.c0**2 + stiffness) + self.args.velocity)
+        return step
+
     def thermal_mach(self):
         energy = BOLTZMANN[self.units] * self.args.temperature
         return math.sqrt(energy / (self.rho * self.dx**self.dim)) / self.c0
 
     def notes(self):
         args = self.args
-        lines = [f"{args.fluid or 'fluid'}, {self.dim}d, length {args.length:g}, velocity {args.velocity:g}, units {self.units}",
-                 f"Reynolds number     {self.rho * args.velocity * args.length / self.mu:.4g}" if self.mu else "no shear viscosity",
-                 f"Mach number         {args.velocity / self.c0:.3g} with c0 = {self.c0:g}: the density varies by about {(args.velocity / self.c0) ** 2:.1g}"]
-        if self.c_fluid and self.c0 != self.c_fluid:
-            lines.append(f"                    of the fluid itself {args.velocity / self.c_fluid:.3g}, c = {self.c_fluid:g}")
-        if args.velocity > 0.3 * self.c0:
-            lines.append("                    NOTE: the flow is compressible")
-        frequency = self.c0 / self.box if self.wave else args.velocity / args.length
-        if not self.valid[0] <= frequency <= self.valid[1]:
-            lines.append(f"NOTE                kappa of {args.fluid} holds {'below' if frequency > self.valid[1] else 'above'} "
-                         f"{self.valid[frequency > self.valid[1]]:g} Hz, this has {frequency:.3g}; see {FLUIDS.relative_to(ROOT)}")
-        if self.wave:
-            longitudinal = self.kappa + (2 - 2 / self.dim) * self.mu
-            lines.append("                    with pb the particles are a crystal, of which LAMMPS warns: right for sound, not for shear")
-            lines.append(f"times               period of the wave {1 / frequency:.4g}, decay of its amplitude "
-                         f"{2 * self.rho * self.box**2 / (4 * math.pi**2 * longitudinal):.4g}")
-        elif self.mu:
-            lines.append(f"times               passage {args.length / args.velocity:.4g}, viscous {self.rho * args.length**2 / self.mu:.4g}")
+        lines = [f"{args.fluid or 'fluid'}, {self.dim}d, length {args.length:.6g}, velocity {args.velocity:g}, units {self.units}"]
+        lines += self.frequency_notes()
+        lines += self.wave_notes() if self.wave else self.flow_notes()
         steps = ", ".join(f"{name} {step:.4g}" for name, step in self.limits.items() if step < math.inf)
         lines.append(f"largest stable step {self.largest:.4g}: {steps}")
         if self.viscous:
@@ -174,6 +192,55 @@ class Plan:
         lines.append(f"particles           {self.number}, {args.particles} across; steps {self.steps}")
         return lines
 
+    def flow_notes(self):
+        args = self.args
+        lines = [f"Reynolds number     {self.rho * args.velocity * args.length / self.mu:.4g}" if self.mu else "no shear viscosity",
+                 f"Mach number         {args.velocity / self.c0:.3g} with c0 = {self.c0:g}: the density varies by about {(args.velocity / self.c0) ** 2:.1g}"]
+        if self.c_fluid and self.c0 != self.c_fluid:
+            lines.append(f"                    of the fluid itself {args.velocity / self.c_fluid:.3g}, c = {self.c_fluid:g}")
+        if args.velocity > 0.3 * self.c0:
+            lines.append("                    NOTE: the flow is compressible")
+        if self.mu:
+            lines.append(f"times               passage {args.length / args.velocity:.4g}, viscous {self.rho * args.length**2 / self.mu:.4g}")
+        return lines
+
+    def frequency_notes(self):
+        """which frequencies the bulk viscosity holds for, and the relaxing one in its place"""
+        args, lines = self.args, []
+        if self.fluid.relax:
+            slow = self.real.constant()
+            lines.append(f"bulk viscosity      relaxes; the constant {slow.kappa:.4g} in its place holds below {slow.valid[1]:.4g} Hz")
+        (above, below), frequency = self.fluid.valid, self.frequency
+        if above <= frequency <= below:
+            return lines
+        where = f"below {below:.4g}" if frequency > below else f"above {above:.4g}"
+        lines.append(f"NOTE                kappa of {args.fluid} {'was measured' if self.fluid.measured else 'holds'} {where} Hz, "
+                     f"this has {frequency:.3g}")
+        if self.real.relax and not self.fluid.relax:
+            kappa = self.kappa - self.fluid.kappa + self.real.kappa
+            lines += ["                    in its place --relax takes the bulk viscosity that relaxes:",
+                      f"                    atom_style  sph/bulk relax {len(self.real.relax)}",
+                      f"                    pair_coeff  * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa:.6g} {self.rc:.6g}"
+                      f"{relax_words(self.real)}"]
+        elif args.fluid == "air":
+            lines.append("                    air that relaxes: air/0, air/50, ..., the humidity in percent")
+        return lines
+
+    def wave_notes(self):
+        longitudinal = self.zeta + (SHEAR[self.args.shear][1](self.dim) + 2 - 2 / self.dim) * self.mu
+        wave = replace(self.fluid, c=self.c0, kappa=longitudinal - 4 / 3 * self.mu)
+        s = wave.standing_wave(self.args.length)
+        lines = ["pressure            with pb the particles are a crystal, of which LAMMPS warns: right for sound, not for shear"]
+        if s is None or abs(s.real) > 2 * s.imag:
+            return lines + ["NOTE                the wave does not outlive a period"]
+        k = wave.wave_number(s.imag / (2 * math.pi))
+        more = wave.wave_number(s.imag / (2 * math.pi), wave.conduction).imag / k.imag - 1 if k.imag else 0.0
+        lines.append(f"sound               frequency {s.imag / (2 * math.pi):.4g}, speed {s.imag / k.real:.5g}, absorption of a driven wave "
+                     f"{2 * math.pi * k.imag / k.real:.4g} per wavelength, {20 / math.log(10) * k.imag:.4g} dB per unit of length"
+                     + (f"; heat conduction, which the particles have not, adds {100 * more:.2g} %" if more else ""))
+        decay = f", decay of its amplitude {-1 / s.real:.4g}" if s.real else ""
+        return lines + [f"times               period of the wave {2 * math.pi / s.imag:.4g}{decay}"]
+
     def input(self, time=""):
         args = self.args
         noise = "" if args.temperature is None else (" limit yes" if self.zeta < 0.0 else "") + f" temp {args.temperature:g} 4711"
@@ -181,6 +248,7 @@ class Plan:
         shift = "" if args.temperature is not None or self.wave else f" shift {args.velocity:g}    # no shift with a free surface"
         viscous = f" {self.viscous}" if self.viscous else ""
         pressure = f" pb {self.rho * self.c0**2:.6g}" if self.wave else ""
+        relax, room = ("", "") if not self.fluid.relax else (relax_words(self.fluid), f" relax {len(self.fluid.relax)}")
         flow = f"velocity        all set {args.velocity:g} 0.0 0.0 units box    # put the flow here\n"
         output = ""
         if self.wave:
@@ -192,7 +260,7 @@ class Plan:
         return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
 units           {self.units}
 dimension       {self.dim}
-atom_style      sph/bulk
+atom_style      sph/bulk{room}
 
 lattice         {self.lattice}
 region          box block {box}
@@ -202,7 +270,7 @@ set             group all mass {self.rho * self.dx**self.dim:.8g}
 {flow}
 neighbor        {0.3 * self.dx:.4g} bin
 pair_style      sph/bulk kernel {args.kernel} shear {args.shear}{noise}
-pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa} {self.rc:.6g}{pressure}    # rho0 c0 mu kappa rc
+pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa} {self.rc:.6g}{relax}{pressure}    # rho0 c0 mu kappa rc
 fix             1 all sph/bulk density rho0{viscous}{shift}
 
 timestep        {self.dt:.3g}
@@ -219,6 +287,7 @@ def measured_time(plan, lmp):
     if plan.number > most:
         args.particles = max(int(args.particles * (most / plan.number) ** (1 / plan.dim)), math.ceil(2 * args.support) + 2)
         args.length = plan.dx * args.particles
+        args.wavelength, args.frequency = args.wavelength and args.length, None
     small = Plan(args)
     steps = 10 if small.viscous else max(10, min(200, 400000 // small.number))
     with tempfile.TemporaryDirectory() as folder:
@@ -264,13 +333,16 @@ def sound_speed(text):
 def arguments(argv):
     parser = argparse.ArgumentParser(prog="./sphd plan", description=__doc__.partition("\n")[0], epilog=__doc__.partition("\n\n")[2],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--fluid", help=f"name in {FLUIDS.relative_to(ROOT)}")
+    parser.add_argument("--fluid", help="name in potentials/gases.sph or fluids.sph, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]")
     parser.add_argument("--rho", type=positive, help="density")
     parser.add_argument("--mu", type=not_negative, help="shear viscosity")
     parser.add_argument("--kappa", type=not_negative, help="bulk viscosity (default: what the shear term brings along)")
     parser.add_argument("--units", choices=BOLTZMANN, help="without --fluid (default: lj)")
-    parser.add_argument("--length", type=positive, required=True, help="of the flow; the box is as wide")
-    parser.add_argument("--velocity", type=positive, required=True, help="the largest of the flow")
+    parser.add_argument("--length", type=positive, help="of the flow; the box is as wide")
+    parser.add_argument("--velocity", type=positive, help=f"the largest of the flow, or of the wave (default: {SOUND_MACH:g} of the speed of sound)")
+    parser.add_argument("--wavelength", type=positive, help="sound of this wavelength")
+    parser.add_argument("--frequency", type=positive, help="sound of this frequency")
+    parser.add_argument("--relax", action="store_true", help="bulk viscosity that relaxes (default: for sound above the frequency up to which a constant holds)")
     parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real: a wave of sound (default: ten times the velocity)")
     parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
     parser.add_argument("--particles", type=int, default=50, metavar="N", help="across the length (default: %(default)s)")
@@ -288,6 +360,8 @@ def arguments(argv):
         parser.error("--fluid is in SI units: leave --units out")
     if not args.fluid and args.mu is None:
         parser.error("--mu is missing")
+    if bool(args.wavelength) + bool(args.frequency) + (args.length is not None) != 1 or args.length and not args.velocity:
+        parser.error("give --length and --velocity, or --wavelength, or --frequency")
     if args.particles < 1:
         parser.error("--particles must be > 0")
     if args.fraction > 1.0:

@@ -326,7 +326,8 @@ def add_examples(tree):
         title, about = first_lines(folder / "README.md")
         text += [f"{folder.name}: {title}\n", about + "\n"]
     tree.add_text(str(EXAMPLES / "README"), "\n".join(text))
-    tree.add("potentials/fluids.sph", ROOT / "potentials" / "fluids.sph")
+    for file in ("fluids.sph", "gases.sph"):
+        tree.add(f"potentials/{file}", ROOT / "potentials" / file)
     for file in sorted((ROOT / "unittest" / "force-styles" / "tests").iterdir()):
         tree.add(f"unittest/force-styles/tests/{file.name}", file)
 

@@ -56,7 +56,6 @@ namespace SPHDissipation {
     ColumnsKokkos sent;    // to ghosts, by the pair style's packing on the device
 
     void adopt() override;
-    void set_step(double dt) override;
     bigint compute(PairTally *) override;
     double elastic_energy(Moment) override;
     void heating(double *, double *) const override;
@@ -69,6 +68,7 @@ namespace SPHDissipation {
     // on the device where that computes; public because CUDA asks for it of functions with lambdas
 
     void sum_density() override;
+    void set_step(double dt) override;
     void advance_strain() override;
     void sum_bound() override;
     void set_reference_volume() override;

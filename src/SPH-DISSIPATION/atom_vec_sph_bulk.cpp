@@ -99,7 +99,8 @@ void AtomVecSPHBulk::add_processes(int narg, char **arg)
   const std::string style = has_spins ? "sph/micropolar" : "sph/bulk";
   if (strcmp(arg[0], "relax") != 0)
     error->all(FLERR, "Unknown atom_style {} keyword: {}", style, arg[0]);
-  if (narg != 2) utils::missing_cmd_args(FLERR, "atom_style " + style + " relax", error);
+  if (narg < 2) utils::missing_cmd_args(FLERR, "atom_style " + style + " relax", error);
+  if (narg > 2) error->all(FLERR, "Unknown atom_style {} keyword: {}", style, arg[2]);
   nprocess = utils::inumeric(FLERR, arg[1], false, lmp);
   if (nprocess < 1 || nprocess > MOST_PROCESSES)
     error->all(FLERR, "Atom_style {} relax must be 1 to {}, not {}", style, MOST_PROCESSES, arg[1]);

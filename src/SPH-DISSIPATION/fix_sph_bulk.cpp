@@ -344,7 +344,7 @@ void FixSPHBulk::setup_pre_exchange()
   const bool continued = is_continued();
   if (first_instance) reset_extrapolation();
   if (fluid) fluid->continued = continued && (first_instance || fluid->continued);
-  if (fluid) fluid->set_step(continued ? last.dt : dtv);
+  if (fluid) fluid->begin_run(continued ? last.dt : dtv);
   double *const desph_before = fields().desph_before;
   const Particles particles(atom, fields());
   const TimeStep step = time_step();

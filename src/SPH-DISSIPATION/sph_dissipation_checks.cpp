@@ -263,11 +263,10 @@ void SPHDissipation::check_processes(LAMMPS *lmp, const std::string &style, cons
     const TypeCoeff &type = model.coeffs[i];
     const int count = RelaxChannel::count(type.keywords);
     if (!type.other && count > room)
-      lmp->error->all(
-          FLERR, Error::NOLASTLINE,
-          "Pair style {}: type {} has {} relaxing processes, but particles have room for "
-          "{}; use atom_style {} relax {}",
-          style, i, count, room, style, count);
+      lmp->error->all(FLERR, Error::NOLASTLINE,
+                      "Pair style {}: the relaxing processes of type {} are {}, but particles have "
+                      "room for {}; use atom_style {} relax {}",
+                      style, i, count, room, style, count);
   }
 }
 

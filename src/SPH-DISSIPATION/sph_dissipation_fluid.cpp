@@ -254,6 +254,12 @@ bool Fluid::at_rest() const
 
 /* ---------------------------------------------------------------------- */
 
+void Fluid::begin_run(double dt)
+{
+  set_step(dt);
+  relaxation->forget_unused();
+}
+
 void Fluid::begin_step(double dt)
 {
   if (!engine->parameters().nprocess) return;

@@ -94,11 +94,11 @@ namespace SPHDissipation {
 
     virtual bigint compute(PairTally *);
 
-    // From the integrator: a step begins, the strain of relaxing processes is that of its end; the forces are to be
-    // those of such a step, at the start of a run
+    // From the integrator: a run begins, with the strain of relaxing processes as a step of dt has left it; such a
+    // step begins
 
+    void begin_run(double dt);
     void begin_step(double dt);
-    virtual void set_step(double dt);
 
     // Potential energy of the last forces, on this processor, added to those of the particles (nullptr: to none)
 
@@ -167,6 +167,7 @@ namespace SPHDissipation {
     // returns the number of owned particles that are beyond the bound of the limit
 
     virtual void sum_density();
+    virtual void set_step(double dt);    // of relaxing processes
     virtual void advance_strain();
     virtual void sum_bound();
     virtual void set_reference_volume();    // of boundary particles

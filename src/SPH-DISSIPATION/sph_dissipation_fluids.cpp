@@ -18,17 +18,22 @@
 #include "lammps.h"
 #include "sph_dissipation_channels.h"
 #include "tokenizer.h"
+#include "update.h"
 #include "utils.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <vector>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-static constexpr int NCOLUMN = 6;    // name temperature rho c mu kappa
+using Words = std::vector<std::string>;
+
+static constexpr double GAS_CONSTANT = 8.31446261815324;    // J/(mol K), exact since 2019
 
 /* ----------------------------------------------------------------------
    one line of any length; false at the end of the file
@@ -46,29 +51,86 @@ static bool read_line(FILE *fp, std::string &line)
   return !line.empty();
 }
 
+/* ---------------------------------------------------------------------- */
+
+static bool contains(const Words &words, const std::string &word)
+{
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 /* ----------------------------------------------------------------------
-   the fluid of one line
+   columns that a file names: any, in any order, with all that a fluid needs
 ------------------------------------------------------------------------- */
 
-static FluidLine fluid_of_line(LAMMPS *lmp, const std::string &where,
-                               const std::vector<std::string> &words)
+static Words named_columns(LAMMPS *lmp, const std::string &where, const Words &words)
 {
   Error *error = lmp->error;
-  if (words.size() != NCOLUMN)
-    error->one(FLERR, "{}: a fluid has {} columns (name temperature rho c mu kappa), not {}", where,
-               NCOLUMN, words.size());
-
-  double value[NCOLUMN];
-  for (int k = 1; k < NCOLUMN; k++) {
-    value[k] = utils::is_double(words[k]) ? strtod(words[k].c_str(), nullptr) : NAN;
-    if (!std::isfinite(value[k])) error->one(FLERR, "{}: '{}' is not a number", where, words[k]);
+  const Words columns(words.begin() + 1, words.end());
+  if (columns.empty() || columns[0] != "name")
+    error->one(FLERR, "{}: the first column must be name", where);
+  Words needed = {"temperature", "pressure", "M", "gamma", "mu", "kappa"};
+  if (contains(columns, "rho")) needed = {"rho", "c", "mu", "kappa"};
+  for (const auto &column : columns) {
+    if (std::count(columns.begin(), columns.end(), column) > 1)
+      error->one(FLERR, "{}: there are two columns {}", where, column);
+    if (utils::strmatch(column, "^kappa_r\\d+$")) needed.push_back("tau" + column.substr(7));
+    if (utils::strmatch(column, "^tau\\d+$")) needed.push_back("kappa_r" + column.substr(3));
   }
-  const FluidLine fluid = {value[1], value[2], value[3], value[4], value[5]};
+  for (const auto &column : needed)
+    if (!contains(columns, column)) error->one(FLERR, "{}: there is no column {}", where, column);
+  return columns;
+}
 
-  if (!(fluid.rho > 0.0)) error->one(FLERR, "{}: rho must be > 0, not {}", where, words[2]);
-  if (!(fluid.c > 0.0)) error->one(FLERR, "{}: c must be > 0, not {}", where, words[3]);
+/* ----------------------------------------------------------------------
+   the fluid of one line; - is a value that it does not have
+------------------------------------------------------------------------- */
+
+static FluidLine fluid_of_line(LAMMPS *lmp, const std::string &where, const Words &columns,
+                               const Words &words)
+{
+  Error *error = lmp->error;
+  if (words.size() != columns.size())
+    error->one(FLERR, "{}: a fluid has {} columns ({}), not {}", where, columns.size(),
+               utils::join_words(columns, " "), words.size());
+
+  std::map<std::string, double> value;
+  std::map<std::string, std::string> text;
+  for (std::size_t k = 1; k < words.size(); k++) {
+    const bool none = (words[k] == "-");
+    value[columns[k]] = utils::is_double(words[k]) ? strtod(words[k].c_str(), nullptr) : NAN;
+    text[columns[k]] = words[k];
+    if (!none && !std::isfinite(value[columns[k]]))
+      error->one(FLERR, "{}: '{}' is not a number", where, words[k]);
+  }
+  auto positive = [&](const char *column) {
+    if (!(value[column] > 0.0))
+      error->one(FLERR, "{}: {} must be > 0, not {}", where, column, text[column]);
+    return value[column];
+  };
+
+  FluidLine fluid = {};
+  if (value.count("rho")) {
+    fluid.rho = positive("rho");
+    fluid.c = positive("c");
+  } else {
+    // ideal gas: p = rho R T/M, c^2 = gamma p/rho
+    if (strcmp(lmp->update->unit_style, "si") != 0)
+      error->one(FLERR, "{}: a gas without a column rho needs units si", where);
+    const double p = positive("pressure");
+    fluid.rho = p * positive("M") / (GAS_CONSTANT * positive("temperature"));
+    fluid.c = std::sqrt(positive("gamma") * p / fluid.rho);
+  }
+  fluid.mu = value["mu"];
+  fluid.kappa = value["kappa"];
   if (const char *violated = inadmissible(fluid.mu, fluid.kappa))
-    error->one(FLERR, "{}: {}, not mu = {} kappa = {}", where, violated, words[4], words[5]);
+    error->one(FLERR, "{}: {}, not mu = {} kappa = {}", where, violated, text["mu"], text["kappa"]);
+
+  for (const auto &column : columns) {
+    if (!utils::strmatch(column, "^kappa_r\\d+$")) continue;
+    const std::string tau = "tau" + column.substr(7);
+    if (text[column] == "-" && text[tau] == "-") continue;
+    for (const auto &one : {column, tau}) fluid.relax.push_back(positive(one.c_str()));
+  }
   return fluid;
 }
 
@@ -91,13 +153,19 @@ FluidLine SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const
     int number = 0;
     std::map<std::string, int> line_of;
     std::string known;
+    Words columns = {"name", "temperature", "rho", "c", "mu", "kappa"};
     while (read_line(fp, line)) {
       number++;
       const auto words = Tokenizer(utils::trim_comment(line)).as_vector();
       if (words.empty()) continue;
-      const FluidLine one = fluid_of_line(lmp, fmt::format("{}:{}", file, number), words);
+      const std::string where = fmt::format("{}:{}", file, number);
+      if (words[0] == "columns") {
+        columns = named_columns(lmp, where, words);
+        continue;
+      }
+      const FluidLine one = fluid_of_line(lmp, where, columns, words);
       if (line_of.count(words[0]))
-        error->one(FLERR, "{}:{}: fluid {} stands already in line {}", file, number, words[0],
+        error->one(FLERR, "{}: fluid {} stands already in line {}", where, words[0],
                    line_of[words[0]]);
       line_of[words[0]] = number;
       known += " " + words[0];
@@ -108,6 +176,11 @@ FluidLine SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const
       error->one(FLERR, "No fluid {} in file {}, which has:{}", name, file, known);
   }
 
-  MPI_Bcast(&fluid, sizeof(FluidLine), MPI_BYTE, 0, lmp->world);
+  for (double *value : {&fluid.rho, &fluid.c, &fluid.mu, &fluid.kappa})
+    MPI_Bcast(value, 1, MPI_DOUBLE, 0, lmp->world);
+  int nrelax = static_cast<int>(fluid.relax.size());
+  MPI_Bcast(&nrelax, 1, MPI_INT, 0, lmp->world);
+  fluid.relax.resize(nrelax);
+  MPI_Bcast(fluid.relax.data(), nrelax, MPI_DOUBLE, 0, lmp->world);
   return fluid;
 }

@@ -317,9 +317,13 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
                  keyword);
     if (iarg + nwords > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
     if (own) {
-      std::fill_n(one.keywords.a + own->first, own->count, 0.0);
-      for (int k = 0; k < nwords - 1; k++)
-        one.keywords.a[own->first + k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
+      double *a = one.keywords.a + own->first;
+      const double *const end = a + own->count;
+      while (own->group && a < end && *a != 0.0) a += own->group;    // the keyword was there before
+      if (end - a < nwords - 1)
+        error->all(FLERR, place(arg[iarg]), "Pair_coeff {} has more than {} groups of numbers",
+                   keyword, own->count / own->group);
+      for (int k = 1; k < nwords; k++) a[k - 1] = utils::numeric(FLERR, arg[iarg + k], false, lmp);
       if (const char *violated = inadmissible(one.keywords, domain->dimension)) {
         std::string words;
         for (int k = 1; k < nwords; k++) words += std::string(" ") + arg[iarg + k];
@@ -370,10 +374,10 @@ int FluidModel::number_of_values(const TypeKeyword &keyword, int narg, char **ar
   int n = 0;
   while (n + 1 < narg && utils::is_double(arg[n + 1])) n++;
   if (n == 0) utils::missing_cmd_args(FLERR, std::string("pair_coeff ") + keyword.name, error);
-  if (n % keyword.group || n > keyword.count)
+  if (n % keyword.group)
     error->all(FLERR, place(arg[0]),
-               "Pair_coeff {} needs 1 to {} groups of {} numbers, not {} numbers", keyword.name,
-               keyword.count / keyword.group, keyword.group, n);
+               "Pair_coeff {} needs groups of {} numbers, of which {} are left", keyword.name,
+               keyword.group, n % keyword.group);
   return n;
 }
 
@@ -387,7 +391,10 @@ int FluidModel::fluid_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int
   std::vector<std::string> words = {arg[0], arg[1]};
   for (double value : {fluid.rho, fluid.c, fluid.mu, fluid.kappa})
     words.push_back(fmt::format("{:.17g}", value));
-  words.insert(words.end(), arg + 4, arg + narg);
+  words.push_back(arg[4]);
+  if (!fluid.relax.empty()) words.push_back("relax");
+  for (double value : fluid.relax) words.push_back(fmt::format("{:.17g}", value));
+  words.insert(words.end(), arg + 5, arg + narg);
 
   std::vector<char *> pointers;
   for (auto &word : words) pointers.push_back(&word[0]);

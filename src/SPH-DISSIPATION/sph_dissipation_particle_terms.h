@@ -211,6 +211,11 @@ namespace SPHDissipation {
       if (!is_fluid(i, not_fluid)) return;
       if (at_rest) strains.relax(i);
       strain_pressure[i] = strains.pressure(i);
+      if (par.eos == Eos::IDEAL)    // whose internal energy is what the strain does not have
+        strain_pressure[i] -=
+            SPHDissipation::pressure(par.eos, types[type[i]].eos, rho[i],
+                                     strains.energy(i) / rmass[i]) -
+            types[type[i]].eos.pb;
     }
 
     // pressure and bulk term, of volume and density: what pass 2 multiplies with F r_ij, and the work of

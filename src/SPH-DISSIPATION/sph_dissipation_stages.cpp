@@ -18,6 +18,7 @@
 #include "memory.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_shift_terms.h"
 
 #include <algorithm>
@@ -186,6 +187,17 @@ void RelaxStage::advance(int not_fluid, const double *change, const double *fact
     else
       strains.advance(i, factor ? factor[i] : 1.0, change ? change + i : nullptr, nlocal);
   });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RelaxStage::forget_unused() const
+{
+  const Fields *const fields = Fields::of(atom);
+  const Parameters &par = engine.parameters();
+  for (int k = 0; k < fields->nprocess; k++)
+    for (int i = 0; i < atom->nlocal; i++)
+      if (k >= par.type[atom->type[i]].nprocess) fields->rho_relaxed[k][i] = 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -118,6 +118,9 @@ namespace SPHDissipation {
 
     void advance(int not_fluid, const double *change, const double *factor) const;
 
+    // owned particles have no state of processes that their type does not have
+    void forget_unused() const;
+
     // energy of the strain of owned particles of these groups
 
     double energy(int groupbits) const;
