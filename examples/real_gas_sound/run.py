@@ -26,7 +26,7 @@ PULSES = ((1, 48e-3, 1920, 150), (3, 12e-3, 190, 25)), ((1, 48e-3, 960, 150), (3
 WIDTH, EVERY = 0.4e-3, 5                          # [m]; frames, over tau
 FRONT_TIMES, BODY_TIMES, SHOWN = (5, 40), (100, 150), (0, 10, 25, 60, 150)     # over tau
 PEAK_PLACE, PEAK_HEIGHT, SPEED, DECIBEL = 0.02, 0.03, 0.005, 0.03
-PROFILE = 3e-4 / (3e-5)**2                        # rms difference of a pulse, over the square of the spacing [1/m^2]
+PROFILE = 0.1 / (50e-6)**2                        # difference of a pulse, over the square of the spacing [1/m^2]
 COLORS, MARKS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000"), "osD^v"    # of Okabe and Ito
 
 
@@ -226,6 +226,7 @@ def plot_pulses(path, pulses):
         axis.set_xlabel("place beside that of a wave with $c_0$ [mm]")
     axes[0].set_xlim(-11, 11)
     axes[1].set_xlim(-2.5, 2.5)
+    for axis in axes:
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("velocity over its first maximum")
     axes[0].legend(title="time; marks: SPH, lines: continuum,\ntriangles: moved with $c_\\infty$", title_fontsize=8)
