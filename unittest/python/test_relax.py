@@ -85,15 +85,16 @@ def modes(matrix, timestep):
 
 
 def write(particles, path, relaxed, style="sph/bulk", **keywords):
-    """Data file with the relaxed densities, one column for each process, at the end of the lines of Velocities; -1: minus the density."""
+    """Data file with the relaxed densities, one column for each process, before the position; -1: minus the density."""
     relaxed = np.broadcast_to(np.asarray(relaxed, dtype=float), (len(particles), np.shape(relaxed)[-1]))
     if style == "sph/bulk":
         particles.write(path, **keywords)
     else:
         micro.write(particles, path, **keywords)
-    head, velocities = path.read_text().split("Velocities\n\n")
-    lines = [line + " " + " ".join(map(repr, row.tolist())) for line, row in zip(velocities.splitlines(), relaxed)]
-    path.write_text(head + "Velocities\n\n" + "\n".join(lines) + "\n")
+    head, atoms, rest = re.fullmatch(r"(.*Atoms [^\n]*\n\n)(.*?\n)(\nVelocities.*)", path.read_text(), re.S).groups()
+    lines = [line.split() for line in atoms.splitlines()]
+    lines = [" ".join([*words[:-3], *map(repr, row.tolist()), *words[-3:]]) + "\n" for words, row in zip(lines, relaxed)]
+    path.write_text(head + "".join(lines) + rest)
 
 
 def strained(strain):
@@ -627,8 +628,8 @@ def test_data_file_out_and_in(lammps, pairs_of):
     lammps(case(lammps) + f"run 20\nwrite_data out.data pair {pairs_of}\n" + dump("before.dump", 1, columns(2)) + "run 0\n")
     text = lammps.path("out.data").read_text()
     assert text.count(" relax 30") == 1
-    velocities = text.split("Velocities")[1].split("\n\n")[1].splitlines()
-    assert {len(line.split()) for line in velocities} == {6}
+    atoms = text.split("Atoms")[1].split("\n\n")[1].splitlines()
+    assert {len(line.split()) for line in atoms} == {12}    # with image flags
     lammps(room(2, 2) + "pair_style sph/bulk\nread_data out.data\nfix FLUID all sph/bulk\ntimestep 0.005\n" + dump("after.dump", 1, columns(2)) + "run 0\n")
     before, after = lammps.frame("before.dump"), lammps.frame("after.dump")
     for k in (1, 2):
@@ -640,7 +641,7 @@ def test_data_file_out_and_in(lammps, pairs_of):
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_files_of_particles_with_spin(lammps, ranks):
-    """Restart and data file: the state stands behind the spin."""
+    """Restart and data file."""
     particles = disordered(2, 12, spread=0.0)
     write(particles, lammps.path("box.data"), strained(np.random.default_rng(1).uniform(-0.1, 0.1, (len(particles), 2))), "sph/micropolar")
     style, coeff = micro.fluid(2).splitlines()
@@ -676,15 +677,20 @@ def test_particles_that_are_made_have_no_strain(lammps):
     assert np.isfinite(after[-1]["x"]).all()
 
 
-def test_particles_without_a_line_in_the_data_file(lammps):
-    """No Velocities: no strain."""
-    particles = disordered(2, 12, speed=0.0)
-    text = start(lammps, particles, fluid(2, keywords="relax 8.0 0.1 3.0 0.3"), count=2)
-    data = lammps.path("box.data")
-    data.write_text(data.read_text().split("Velocities")[0])
-    lammps(text + dump("out.dump", 1, columns(2)) + "run 0\n")
+@pytest.mark.parametrize("count", [4, 8])
+def test_data_file_of_many_processes(lammps, count):
+    """As many as there may be; 0 in a data file: no strain."""
+    relax = "relax" + "".join(f" {k + 1} {0.1 * (k + 1)}" for k in range(count))
+    particles = disordered(2, 12)
+    state = np.zeros((len(particles), count))
+    state[:, 1:] = strained(np.linspace(-0.1, 0.1, count - 1))
+    write(particles, lammps.path("box.data"), state)
+    text = room(2, count) + "read_data {}\n" + fluid(2, keywords=relax) + "fix FLUID all sph/bulk\ntimestep 0.005\n"
+    lammps(text.format("box.data") + dump("out.dump", 1, columns(count)) + "run 0\nwrite_data out.data nocoeff\n")
     frame = lammps.frame("out.dump")
-    assert (relaxed_of(frame, 2) == frame["rho"][:, None]).all()
+    np.testing.assert_allclose(strain_of(frame, count), np.broadcast_to([0.0, *np.linspace(-0.1, 0.1, count - 1)], state.shape), atol=1e-14)
+    lammps(text.format("out.data") + dump("again.dump", 1, columns(count)) + "run 0\n", ranks=2)
+    np.testing.assert_allclose(relaxed_of(lammps.frame("again.dump"), count), relaxed_of(frame, count), rtol=5e-16)
 
 
 # ---- other commands ----------------------------------------------------------------------------------------------
@@ -779,12 +785,13 @@ def test_hybrid_styles(lammps):
     for name in ("alone", "pair", "atom"):
         words = "relax 8.0 0.1"
         if name == "atom":
-            write(particles, lammps.path("box.data"), strained([[0.05]]), style="sph/bulk")
             text = start(lammps, particles, fluid(2, keywords=words), 0.05)
-            lines = lammps.path("box.data").read_text()
             particles.write(lammps.path("box.data"), style="hybrid sph/bulk charge")
-            head = lammps.path("box.data").read_text().split("Velocities")[0]
-            lammps.path("box.data").write_text(head + "Velocities" + lines.split("Velocities")[1])
+            lines = lammps.path("box.data").read_text().splitlines()
+            for n in range(lines.index("Atoms # hybrid sph/bulk charge") + 2, lines.index("Velocities") - 1):
+                *most, charge = lines[n].split()
+                lines[n] = " ".join([*most, repr(float(strained(0.05))), charge])
+            lammps.path("box.data").write_text("\n".join(lines) + "\n")
             text = text.replace("atom_style sph/bulk relax 1", "atom_style hybrid sph/bulk relax 1 charge")
         elif name == "pair":
             model = f"pair_style hybrid/overlay sph/bulk zero 2.0\npair_coeff * * sph/bulk 1.0 10.0 0.5 2.0 3.0 {words}\npair_coeff * * zero\n"
@@ -1103,7 +1110,7 @@ def test_no_room(lammps):
     result = lammps(header(2) + f"read_data box.data\npair_style sph/bulk\n{GOOD} 2.0 0.1\nfix 1 all sph/bulk\nrun 0\n", check=False)
     assert result.code and "the relaxing processes of type 1 are 1, but particles have room for 0; use atom_style sph/bulk relax 1" in result.error
     result = lammps(room(2) + "read_data box.data\n", check=False)
-    assert result.code and "Incorrect format in Velocities section of data file" in result.error
+    assert result.code and "Incorrect format in Atoms section of data file" in result.error
 
 
 @pytest.mark.parametrize("words, message", [("relax 0", "relax must be 1 to 8, not 0"), ("relax -1", "relax must be 1 to 8, not -1"),
