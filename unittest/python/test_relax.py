@@ -676,6 +676,17 @@ def test_particles_that_are_made_have_no_strain(lammps):
     assert np.isfinite(after[-1]["x"]).all()
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_masses_for_rho0_leave_the_strain(lammps, ranks):
+    """Also of particles that have relaxed densities by then."""
+    text = case(lammps) + "run 10\n" + dump("before.dump", 1, columns(2)) + "run 0\n" + undump()
+    text += "unfix FLUID\nfix FLUID all sph/bulk density rho0\n" + dump("after.dump", 1, columns(2)) + "run 0\n"
+    lammps(text, ranks=ranks)
+    before, after = lammps.frame("before.dump"), lammps.frame("after.dump")
+    assert relative(before["mass"] - after["mass"], before["mass"]) > 0.01
+    assert np.abs(strain_of(before, 2) - strain_of(after, 2)).max() < 1e-13
+
+
 def test_particles_without_a_line_in_the_data_file(lammps):
     """No Velocities: no strain."""
     particles = disordered(2, 12, speed=0.0)
