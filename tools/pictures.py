@@ -15,6 +15,7 @@ WIDTH, COLORS = 1000, 96
 # of the manual: of the example
 SOURCES = {
     "sph_overview_pulse.png": "sound_pulse/velocity.png",
+    "sph_overview_gas.png": "real_gas_sound/co2.png",
     "sph_overview_drop.png": "rotating_drop/angular_momentum.png",
     "sph_overview_cavity.png": "cavity/profiles.png",
     "sph_overview_cylinder.png": "cylinder/cylinder.png",

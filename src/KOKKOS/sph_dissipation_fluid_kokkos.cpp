@@ -89,7 +89,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::fun
   if (!on_device) {
     refer_to_list();
     task();
-    return atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK);
+    return atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK | RHO_RELAXED_MASK);
   }
   build_host_list();
   NeighList *const device_list = pair->list;
@@ -98,7 +98,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::fun
   task();
   pair->execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
   pair->list = device_list;
-  atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK);
+  atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK | RHO_RELAXED_MASK);
 }
 
 /* ----------------------------------------------------------------------

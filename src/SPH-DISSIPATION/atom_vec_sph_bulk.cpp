@@ -93,7 +93,8 @@ void AtomVecSPHBulk::process_args(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   room for relaxing processes, whose state data files have behind velocity and spin
+   room for relaxing processes, whose state data files have before the position: lines of velocities, which
+   WriteData::velocities() has a buffer of limited width for, have no place
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::add_processes(int narg, char **arg)
@@ -110,9 +111,9 @@ void AtomVecSPHBulk::add_processes(int narg, char **arg)
   for (int k = 0; k < nprocess; k++) {
     const std::string name = fmt::format("rho_relaxed{}", k + 1);
     add_array(name, &rho_relaxed[k]);
-    for (auto *list :
-         {&fields_copy, &fields_exchange, &fields_restart, &fields_create, &fields_data_vel})
+    for (auto *list : {&fields_copy, &fields_exchange, &fields_restart, &fields_create})
       list->push_back(name);
+    fields_data_atom.insert(fields_data_atom.end() - 1, name);
   }
 }
 
@@ -234,7 +235,6 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
                rmass[ilocal]);
   unpack_restart_init(ilocal);
   desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
-  for (int k = 0; k < nprocess; k++) rho_relaxed[k][ilocal] = 0.0;
   if (!has_spins) return;
   if (!(inertia[ilocal] >= 0.0))
     error->one(FLERR, "Invalid inertia {} in Atoms section of data file: must be >= 0",

@@ -118,9 +118,6 @@ void RefineEvent::set_lump(int i, const Lump &one)
   atom->rmass[i] = one.mass;
   atom->esph[i] = one.energy;
   fields->desph_before[i] = one.energy_rate;
-  for (int k = 0; k < fields->nprocess; k++)
-    if (fields->rho_relaxed[k][i] != 0.0)    // its type has this process
-      fields->rho_relaxed[k][i] = StrainRows::state_of(one.strain[k]);
   std::copy_n(one.x, 3, atom->x[i]);
   std::copy_n(one.u, 3, atom->v[i]);
   std::copy_n(one.u_end, 3, atom->vest[i]);
@@ -128,6 +125,17 @@ void RefineEvent::set_lump(int i, const Lump &one)
   fields->inertia[i] = one.inertia;
   std::copy_n(one.spin, 3, atom->omega[i]);
   std::copy_n(one.spin_end, 3, fields->omegaest[i]);
+}
+
+/* ----------------------------------------------------------------------
+   of a particle that has split or merged, whose density changes with that
+------------------------------------------------------------------------- */
+
+void RefineEvent::set_strain(int i, const Lump &one)
+{
+  for (int k = 0; k < fields->nprocess; k++)
+    if (fields->rho_relaxed[k][i] != 0.0)    // its type has this process
+      fields->rho_relaxed[k][i] = StrainRows::state_of(one.strain[k]);
 }
 
 /* ----------------------------------------------------------------------
@@ -303,6 +311,7 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
     }
     whole.energy += force->mvv2e * (one.heat - residual.work(one.i));
     set_lump(one.i, whole);
+    set_strain(one.i, whole);
     balance.count(1.0, whole);
     balance.merged(force->mvv2e * one.heat);
     changed(one.i, 0.0);
@@ -359,6 +368,7 @@ void RefineEvent::create(const std::vector<tagint> &first, const Changed &change
     for (int m = 0; m < n; m++) {
       const int j = (m == 0) ? i : create_copy(lmp, i, first[k] + m - 1, atom->x[i]);
       set_lump(j, daughters[m]);
+      set_strain(j, daughters[m]);
       balance.count(1.0, daughters[m]);
       changed(j, family);
     }

@@ -77,6 +77,7 @@ namespace SPHDissipation {
     double strain(int i, int process) const;
     Lump lump(int i) const;
     void set_lump(int i, const Lump &);
+    void set_strain(int i, const Lump &);
     bool merging(int i) const;
     bool families() const;    // all daughters of one split can merge as a whole
     bool find_stencil(NeighList *full, int i, Stencil &) const;

@@ -21,6 +21,7 @@
 #include "math_extra.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_model.h"
 
 #include <algorithm>
@@ -164,9 +165,14 @@ double FluidState::scale_masses(std::vector<double> &factor, int also) const
     factor[type] *= next[type];
     largest = std::max(largest, fabs(next[type] - 1.0));
   }
+  const Fields *const fields = Fields::of(atom);
   for (int i = 0; i < atom->nlocal + atom->nghost; i++)
-    if ((atom->mask[i] & also) || ((atom->mask[i] & group) && !(atom->mask[i] & not_fluid)))
-      atom->rmass[i] *= next[atom->type[i]];
+    if ((atom->mask[i] & also) || ((atom->mask[i] & group) && !(atom->mask[i] & not_fluid))) {
+      const double one = next[atom->type[i]];
+      atom->rmass[i] *= one;
+      for (int k = 0; k < fields->nprocess && i < atom->nlocal; k++)    // of the same strain
+        if (fields->rho_relaxed[k][i] > 0.0) fields->rho_relaxed[k][i] *= one;
+    }
   return largest;
 }
 

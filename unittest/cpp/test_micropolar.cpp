@@ -90,9 +90,9 @@ static Reference reference(const Configuration &config, const System &system,
   result.torque = spread(micropolar.torque, config.size(), config.dim, true);
   result.desph = system.compression_power(eos) + micropolar.central + micropolar.vortex +
       micropolar.spin + volume.heating;
-  result.power = Vector(5);    // the last one of drag, which no particle has
+  result.power = Vector(6);    // the last ones of drag and relaxation, which no particle has
   result.power << micropolar.central.sum(), volume.heating.sum(), micropolar.vortex.sum(),
-      micropolar.spin.sum(), 0.0;
+      micropolar.spin.sum(), 0.0, 0.0;
   return result;
 }
 
