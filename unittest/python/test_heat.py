@@ -133,12 +133,14 @@ FLUIDS = [dict(rho0=1.0, c0=10.0, mu=0.5, kappa=2.0, pb=1.5, cv=2.0, k=0.7, grun
 
 
 def write(lammps, particles, strain=None):
-    particles.write(lammps.path("box.data"))
+    """Data file; with room for a relaxing process, whose strain is that number."""
+    path = lammps.path("box.data")
+    particles.write(path)
     if strain is None:
         return
-    head, lines = lammps.path("box.data").read_text().split("Velocities\n\n")
-    lines = "".join(f"{line} {-np.exp(-strain)!r}\n" for line in lines.splitlines())
-    lammps.path("box.data").write_text(head + "Velocities\n\n" + lines)
+    head, lines, rest = re.split("(?<=Atoms # sph/bulk\n\n)|(?=\nVelocities)", path.read_text())
+    lines = [line.split() for line in lines.splitlines()]
+    path.write_text(head + "".join(" ".join([*words[:4], repr(float(-np.exp(-strain))), *words[4:]]) + "\n" for words in lines) + rest)
 
 
 @pytest.mark.parametrize("newton, ranks", [("on", 1), ("on", 4), ("off", 2)])
