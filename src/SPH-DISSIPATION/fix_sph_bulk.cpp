@@ -535,12 +535,10 @@ void FixSPHBulk::set_temperatures()
   modify->clearstep_compute();
   temperature->evaluate(lmp, igroup);
   modify->addstep_compute(update->ntimestep + 1);
-  const std::string wrong = fluid->set_temperature(groupbit, [this](int i) {
+  const auto value = [this](int i) {
     return (*temperature)(i);
-  });
-  int mine = wrong.empty() ? comm->nprocs : comm->me, first;
-  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, world);
-  if (first == comm->me) error->one(FLERR, "Fix {} temperature {}", style, wrong);
+  };
+  fluid->set_temperature(groupbit, value, fmt::format("Fix {} temperature", style));
   temperature_done = true;
 }
 

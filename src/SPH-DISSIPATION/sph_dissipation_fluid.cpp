@@ -391,9 +391,9 @@ void Fluid::temperatures(double *temperature) const
 
 /* ---------------------------------------------------------------------- */
 
-std::string Fluid::set_temperature(int groupbit, const std::function<double(int)> &value)
+void Fluid::set_temperature(int groupbit, const std::function<double(int)> &value,
+                            const std::string &user)
 {
-  std::string wrong;
   double *const desph_before = Fields::of(atom)->desph_before;
   on_host([&]() {
     density->run(pair->list, nullptr, nullptr);
@@ -403,17 +403,15 @@ std::string Fluid::set_temperature(int groupbit, const std::function<double(int)
       if (!(atom->mask[i] & groupbit) || !has_type(type) || is_boundary(i)) continue;
       const double temperature = value(i);
       if (model->heat_capacity(type) == 0.0)
-        wrong = fmt::format("needs the heat capacity of type {}, keyword cv of pair_coeff", type);
-      else if (!(temperature >= 0.0) || !std::isfinite(temperature))
-        wrong = fmt::format("must be >= 0, not {}", temperature);
-      else {
-        strains.begin(i);
-        atom->esph[i] = strains.energy_at(i, temperature);
-        desph_before[i] = 0.0;
-      }
+        error->one(FLERR, "{} needs the heat capacity of type {}, keyword cv of pair_coeff", user,
+                   type);
+      if (!(temperature >= 0.0) || !std::isfinite(temperature))
+        error->one(FLERR, "{} must be >= 0, not {}", user, temperature);
+      strains.begin(i);
+      atom->esph[i] = strains.energy_at(i, temperature);
+      desph_before[i] = 0.0;
     }
   });
-  return wrong;
 }
 
 /* ---------------------------------------------------------------------- */

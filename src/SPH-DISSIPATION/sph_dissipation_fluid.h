@@ -118,10 +118,10 @@ namespace SPHDissipation {
 
     // Temperatures of owned particles, with their densities and energies as they are now; 0 of those that have no heat
     // capacity, and of walls.  Give a temperature to those of a group, where particles, with their ghosts, are
-    // now, by function(particle); returns what is wrong with one of them on this processor
+    // now, by function(particle); errors, in the name of the user, if it is negative or there is no heat capacity
 
     void temperatures(double *) const;
-    std::string set_temperature(int groupbit, const std::function<double(int)> &);
+    void set_temperature(int groupbit, const std::function<double(int)> &, const std::string &user);
 
     // of the last forces: see ForceStage::heating(); force and torque on an owned particle, without
     // what other styles add

@@ -242,16 +242,14 @@ def test_adapt_micropolar(lammps, dim):
 # files
 
 
-def test_data_file_after_a_pair_style_without_temperatures(lammps):
-    """The heat capacity of a type stays with its coefficients, but only temp energy can read it."""
+def test_heat_capacity_stays_with_its_type(lammps):
+    """Data files have it with and without temp energy."""
     pair = "pair_style sph/bulk {}\n"
     text = start(lammps, coeffs().replace("3.0\n", "3.0 cv 20.0\n"), "temp energy 10.0 5")
-    result = lammps(text + "set group all sph/e 1.0\nwrite_data with.data\n" + pair.format("") + "write_data out.data\n"
-                    + pair.format("temp energy 10.0 5") + "write_data again.data\n")
-    assert not result.error
-    lammps(header(2) + pair.format("") + "read_data out.data\n" + INTEGRATE + "run 0\n")
-    assert "cv 20" in lammps.path("with.data").read_text() and "cv" not in lammps.path("out.data").read_text()
-    assert lammps.path("again.data").read_text().count("cv 20") == 2
+    lammps(text + "set group all sph/e 1.0\nwrite_data with.data\n" + pair.format("") + "write_data out.data\n")
+    lammps(header(2) + pair.format("") + "read_data out.data\n" + INTEGRATE + "run 0\nwrite_data again.data\n")
+    for name in ("with", "out", "again"):
+        assert lammps.path(f"{name}.data").read_text().count("cv 20") == 2
 
 
 # ---------------------------------------------------------------------------------------------
