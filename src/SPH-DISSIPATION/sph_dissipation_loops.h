@@ -371,7 +371,6 @@ namespace SPHDissipation {
           const int *const j = neighbor + k;
           Vec other[4];
           load_4_columns<WIDTH<Conductor>>(numbers(conductor), j, other);
-          for (int l = 0; l < LANES; l++) prefetch(conductor + j[l + AHEAD]);
           const Vec mean = ALIKE ? all(own.conductivity)
                                  : mean_conductivity(own.conductivity, other[2]);
           const Vec vv = own.vol * other[0] * load(slope_of + k);

@@ -34,7 +34,7 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
 {
   engine.accumulate_density(list, vest, omegaest);
   exchange.reverse({field(engine.density, &engine.density->c, 2)});
-  send(false, false);
+  send(false, false, 0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -52,18 +52,14 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool a
     if (relaxes) rows.set_strain_pressure(i, not_fluid, at_rest);
     if (conducts) rows.set_temperature(i);
   });
-  send(relaxes, conducts);
-  if (conducts)
-    engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
-      rows.set_conductor(i, not_fluid);
-    });
+  send(relaxes, conducts, not_fluid);
 }
 
 /* ----------------------------------------------------------------------
    what owned particles have to ghosts; then the densities
 ------------------------------------------------------------------------- */
 
-void DensityStage::send(bool with_strain, bool with_temperature)
+void DensityStage::send(bool with_strain, bool with_temperature, int not_fluid)
 {
   const int energy = engine.parameters().thermal_pressure ? 1 : 0;    // of ghosts, for it
   Conductor *const conductor = engine.conductor.data();
@@ -75,6 +71,7 @@ void DensityStage::send(bool with_strain, bool with_temperature)
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
     rows.set_density(i);
+    if (with_temperature) rows.set_conductor(i, not_fluid);
   });
 }
 

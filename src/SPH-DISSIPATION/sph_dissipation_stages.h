@@ -64,7 +64,7 @@ namespace SPHDissipation {
     void run(NeighList *, double **vest, double **omegaest, bool at_rest, int not_fluid);
 
    private:
-    void send(bool with_strain, bool with_temperature);
+    void send(bool with_strain, bool with_temperature, int not_fluid);
   };
 
   // How negative the coefficient of the bulk term of a particle may be:
