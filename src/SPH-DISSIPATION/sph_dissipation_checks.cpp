@@ -357,15 +357,24 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
                     "Pair style {}: internal energy must be a finite number, which that of {} is "
                     "not; use the set command",
                     style, odd);
-  if (model.choice.eos != Eos::IDEAL) return;
-  bigint number[2] = {0, 0}, all[2];    // of fluid particles, of those without internal energy
+  const bool gas = (model.choice.eos == Eos::IDEAL);
+  bigint number[2] = {0, 0}, all[2];    // of particles whose heat counts, of those without heat
   for (int i = 0; i < atom->nlocal; i++) {
-    if (model.coeffs[atom->type[i]].other || (atom->mask[i] & boundary_bits)) continue;
+    const TypeCoeff &type = model.coeffs[atom->type[i]];
+    if (type.other || (atom->mask[i] & boundary_bits)) continue;
+    if (type.eos.gruneisen == 0.0 && !HeatChannel::in_use(type.keywords)) continue;
     number[0]++;
-    if (!(atom->esph[i] > 0.0)) number[1]++;
+    const double elastic = elastic_energy(model.choice.eos, type.eos, atom->rho[i]);
+    const bool never_set = (atom->esph[i] == 0.0);
+    if (never_set || !(atom->esph[i] > atom->rmass[i] * elastic)) number[1]++;
   }
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
-  if (all[1] && lmp->comm->me == 0)
+  if (all[1] && !gas && lmp->comm->me == 0)
+    lmp->error->warning(FLERR,
+                        "Pair style {}: {} of {} particles that conduct heat, or whose heat has a "
+                        "pressure, have none; use keyword temperature of fix {}",
+                        style, all[1], all[0], style);
+  if (all[1] && gas && lmp->comm->me == 0)
     lmp->error->warning(
         FLERR,
         "Pair style {} eos ideal: {} of {} particles have no internal energy and thus "

@@ -551,7 +551,7 @@ def test_largest_stable_step(lammps):
     ("temp 1.0 5", "cv 1.0 gruneisen 0.5 1.0", "", "temp cannot be used with gruneisen"),
     ("", "", "fix FLUID all sph/bulk temperature 1.0\n", "temperature needs the heat capacity of type 1, keyword cv"),
     ("", "cv 1.0", "fix FLUID all sph/bulk temperature -1.0\n", "temperature must be >= 0, not -1"),
-    ("", "cv 1.0", "fix FLUID all sph/bulk temperature v_no\n", "Variable no for fix sph/bulk does not exist"),
+    ("", "cv 1.0", "fix FLUID all sph/bulk temperature v_no\n", "Variable no for fix sph/bulk.* does not exist"),
     ("", "cv 1.0", "fix FLUID all sph/bulk temperature\n", "[Mm]issing"),
     ("", "cv 1.0 gruneisen 0.5 1.0", "minimize", "gruneisen cannot be used in a minimization"),
     ("", "cv 1.0 conductivity 1.0", "rerun", "conductivity of type 1 cannot be used with rerun"),
@@ -575,3 +575,12 @@ def test_open_zones_are_refused(lammps, keywords):
                     "group flow subtract all zone\n" + fluid(2, keywords=keywords)
                     + "fix FLUID flow sph/bulk\nfix IN zone sph/open flow 6 4 0 1 0 0 6 velocity 1 0 0\nrun 1\n", check=False)
     assert result.code and re.search("(conductivity|gruneisen) of pair_coeff, which type 1 has", result.error), result.output[-600:]
+
+
+def test_warning_without_heat(lammps):
+    lattice(2, 8).write(lammps.path("box.data"))
+    for keywords, warned in (("cv 1.0", False), ("cv 1.0 conductivity 1.0", True), ("cv 1.0 gruneisen 0.5 1.0", True)):
+        text = header(2) + "read_data box.data\nset group all sph/e 0.0\n" + fluid(2, keywords=keywords)
+        for word in ("", "temperature 1.0"):
+            result = lammps(text + f"fix FLUID all sph/bulk {word}\nrun 0\n", ranks=2)
+            assert any("64 of 64 particles" in line for line in result.warnings) == (warned and not word)

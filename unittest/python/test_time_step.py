@@ -159,6 +159,7 @@ PAIRS = {  # pair style, its coefficients, options of the fixes
     "two viscosities": ("shear morris", "pair_coeff 1 1 1.0 10.0 9.0 2.0 3.0\npair_coeff 2 2 1.5 10.0 70.0 80.0 3.0\n"),
     "tait": ("eos tait", "pair_coeff * * 0.9 10.0 0.5 2.0 3.0 pb 3.0\n"),
     "gas": ("eos ideal", "pair_coeff * * 1.0 10.0 0.5 2.0 3.0 pb 2.0\n"),
+    "heat": ("", "pair_coeff 1 1 1.0 10.0 0.5 2.0 3.0 cv 2.0 conductivity 30\npair_coeff 2 2 1.0 10.0 0.5 2.0 3.0 cv 0.5 conductivity 20\n"),
 }
 
 
