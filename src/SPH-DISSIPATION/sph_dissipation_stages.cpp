@@ -202,12 +202,12 @@ void RelaxStage::forget_unused() const
 
 /* ---------------------------------------------------------------------- */
 
-double RelaxStage::energy(int groupbits) const
+double RelaxStage::energy(int groupbits, int not_fluid) const
 {
   const StrainRows strains = engine.strains();
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbits) total += strains.energy(i);
+    if ((atom->mask[i] & groupbits) && !(atom->mask[i] & not_fluid)) total += strains.energy(i);
   return total;
 }
 
