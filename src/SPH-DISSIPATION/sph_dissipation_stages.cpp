@@ -64,8 +64,9 @@ void DensityStage::send(bool with_strain)
                     {atom->esph, 1, energy},
                     {engine.strain_pressure, 1, with_strain ? 1 : 0}});
   const ParticleRows &rows = engine.rows();
-  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
-    rows.set_density(i);
+  const int first = with_strain ? atom->nlocal : 0;    // whose densities are not set
+  engine.for_each(atom->nlocal + atom->nghost - first, [&](int k) {
+    rows.set_density(first + k);
   });
 }
 

@@ -489,6 +489,12 @@ def test_hybrid_is_refused(lammps, style):
     assert result.code != 0 and "hybrid" in result.error
 
 
+def test_hybrid_atom_style_is_refused(lammps, style):
+    text = (header(2, style=f"hybrid {style} charge") + "region BOX block 0 12 0 12 -0.5 0.5\ncreate_box 1 BOX\nlattice sq 1.0\n"
+            f"create_atoms 1 box\nset group all mass 1.0\n{fluids(style, 2)}{integrate(style)}run 0\n")
+    assert f"Atom style {style}/kk cannot be part of atom_style hybrid" in lammps(text, check=False).error
+
+
 def test_group_of_neighbors_is_refused(lammps, style):
     """LAMMPS's neighbor lists of KOKKOS have the particles outside of it, too."""
     particles = disordered(2, 14, seed=15, jitter=0.1, spread=0.0)
