@@ -104,6 +104,9 @@ AtomVecSPHBulkKokkos &AtomVecSPHBulkKokkos::of(Atom *atom)
 
 void AtomVecSPHBulkKokkos::init()
 {
+  if (atom->avec != this)
+    error->all(FLERR, Error::NOLASTLINE, "Atom style {}/kk cannot be part of atom_style hybrid",
+               has_spins ? "sph/micropolar" : "sph/bulk");
   AtomVecSPHBulk::init();
   set_atom_masks();
   if (comm->style == Comm::TILED) lmp->kokkos->forward_comm_legacy = 1;

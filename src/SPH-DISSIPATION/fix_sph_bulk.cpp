@@ -85,11 +85,11 @@ struct Particles {
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), exact(false), shift_speed(0.0), remap_v_flag(0),
     integrated_groups(0), first_instance(false), fluid(nullptr), fluid_style(without_suffix(style)),
-    spins(Fields::with_spins(atom)), dt_of_forces(0.0), extrapolation(1.0), balanced(false),
-    viscous(new ViscousKeywords(lmp, style)), temperature(nullptr), temperature_done(false), last(),
-    inertia_flag(0), factor(0.0), offset(0.0), inertia_done(false), density_done(0),
-    density_flag(0), set_up(false), energy_extrapolated(false), setup_step(0), last_instance(false),
-    not_integrated(0)
+    spins(Fields::with_spins(atom)), dt_of_forces(0.0), dt_of_strain(0.0), extrapolation(1.0),
+    balanced(false), viscous(new ViscousKeywords(lmp, style)), temperature(nullptr),
+    temperature_done(false), last(), inertia_flag(0), factor(0.0), offset(0.0), inertia_done(false),
+    density_done(0), density_flag(0), set_up(false), energy_extrapolated(false), setup_step(0),
+    last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -360,7 +360,8 @@ void FixSPHBulk::setup_pre_exchange()
   const bool continued = is_continued();
   if (first_instance) reset_extrapolation();
   if (fluid) fluid->continued = continued && (first_instance || fluid->continued);
-  if (fluid) fluid->begin_run(continued ? last.dt : dtv);
+  if (!continued || !(dt_of_strain > 0.0)) dt_of_strain = dtv;
+  if (fluid && first_instance) fluid->begin_run(dt_of_strain);
   double *const desph_before = fields().desph_before;
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
@@ -626,6 +627,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
 
 void FixSPHBulk::begin_step()
 {
+  dt_of_strain = dtv;
   if (first_instance && fluid && fluid->pair->compute_flag) fluid->begin_step(dtv);
 }
 
@@ -809,6 +811,7 @@ void FixSPHBulk::write_restart(FILE *fp)
   for (const bigint number : {bigint(density_done), motion.known, motion.sum[0], motion.sum[1]})
     state.push_back(static_cast<double>(number));
   state.push_back(motion.dt);
+  state.push_back(dt_of_strain);
   state.push_back(static_cast<double>(temperature_done));
   const int size = static_cast<int>(state.size() * sizeof(double));
   fwrite(&size, sizeof(int), 1, fp);
@@ -826,7 +829,8 @@ void FixSPHBulk::restart(char *buf)
   }
   density_done = static_cast<int>(state[0]);
   last = {static_cast<bigint>(state[1]), {0, 0}, state[4]};
-  temperature_done = state[5] != 0.0;
+  dt_of_strain = state[5];
+  temperature_done = state[6] != 0.0;
   if (comm->me == 0)
     for (int k = 0; k < 2; k++) last.sum[k] = static_cast<bigint>(state[2 + k]);
 }

@@ -375,7 +375,7 @@ double Fluid::elastic_energy(Moment moment)
 
 double Fluid::strain_energy(int groupbits) const
 {
-  return engine->parameters().nprocess ? relaxation->energy(groupbits) : 0.0;
+  return engine->parameters().nprocess ? relaxation->energy(groupbits, not_fluid()) : 0.0;
 }
 
 /* ----------------------------------------------------------------------

@@ -34,6 +34,26 @@ namespace SPHDissipation {
     return total * c_inv * c_inv;
   }
 
+  // ln(a/b) and e^x where a/b and e^x are mostly near 1: then by their series to rounding errors, without a call
+
+  SPH_FUNCTION double log_of_ratio(double a, double b)
+  {
+    const double q = (a - b) / (a + b), s = q * q;
+    if (!(s < 1.0e-4)) return std::log(a / b);
+    return 2.0 * q * (1.0 + s * (1.0 / 3.0 + s * (1.0 / 5.0 + s * (1.0 / 7.0 + s * (1.0 / 9.0)))));
+  }
+
+  SPH_FUNCTION double exp_of(double x)
+  {
+    if (!(std::fabs(x) < 0.01)) return std::exp(x);
+    return 1.0 +
+        x *
+        (1.0 +
+         x *
+             (1.0 / 2.0 +
+              x * (1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0))))));
+  }
+
   // The relaxing processes and the heat of owned particles, on the host or on a device, with their densities, relaxed
   // densities and internal energies; energies are those of the last forces.  See RelaxChannel and Eos.
 
@@ -50,7 +70,7 @@ namespace SPHDissipation {
     SPH_FUNCTION double strain(int i, int k) const
     {
       const double rest = relaxed[k][i];
-      return (rest > 0.0 && rho[i] > 0.0) ? std::log(rho[i] / rest) : 0.0;
+      return (rest > 0.0 && rho[i] > 0.0) ? log_of_ratio(rho[i], rest) : 0.0;
     }
 
     // the state of process k for which the next forces find the strain x
@@ -98,8 +118,8 @@ namespace SPHDissipation {
     {
       const TypeParameters &par = types[type[i]];
       for (int k = 0; k < par.nprocess; k++)
-        relaxed[k][i] *= std::exp(factor * par.process[k].part * strain(i, k) +
-                                  (change ? change[k * each] : 0.0));
+        relaxed[k][i] *=
+            exp_of(factor * par.process[k].part * strain(i, k) + (change ? change[k * each] : 0.0));
     }
 
     // m g phi x^2/2 of all processes

@@ -50,7 +50,9 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool a
   engine.for_each(atom->nlocal, [&](int i) {
     rows.set_density(i);
     if (relaxes) rows.set_strain_pressure(i, not_fluid, at_rest);
-    if (conducts) rows.set_temperature(i);
+    if (!conducts) return;
+    rows.set_temperature(i);
+    rows.set_conductor(i, not_fluid);
   });
   send(relaxes, conducts, not_fluid);
 }
@@ -69,9 +71,10 @@ void DensityStage::send(bool with_strain, bool with_temperature, int not_fluid)
                     field(conductor, with_temperature ? &conductor->temperature : nullptr,
                           with_temperature ? 1 : 0)});
   const ParticleRows &rows = engine.rows();
-  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
-    rows.set_density(i);
-    if (with_temperature) rows.set_conductor(i, not_fluid);
+  const int first = (with_strain || with_temperature) ? atom->nlocal : 0;    // what is set already
+  engine.for_each(atom->nlocal + atom->nghost - first, [&](int k) {
+    rows.set_density(first + k);
+    if (with_temperature) rows.set_conductor(first + k, not_fluid);
   });
 }
 
@@ -208,12 +211,12 @@ void RelaxStage::forget_unused() const
 
 /* ---------------------------------------------------------------------- */
 
-double RelaxStage::energy(int groupbits) const
+double RelaxStage::energy(int groupbits, int not_fluid) const
 {
   const StrainRows strains = engine.strains();
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbits) total += strains.energy(i);
+    if ((atom->mask[i] & groupbits) && !(atom->mask[i] & not_fluid)) total += strains.energy(i);
   return total;
 }
 

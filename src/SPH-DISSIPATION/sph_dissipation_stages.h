@@ -121,9 +121,9 @@ namespace SPHDissipation {
     // owned particles have no state of processes that their type does not have
     void forget_unused() const;
 
-    // energy of the strain of owned particles of these groups
+    // energy of the strain of owned particles of these groups, not_fluid as above
 
-    double energy(int groupbits) const;
+    double energy(int groupbits, int not_fluid) const;
   };
 
   // Conduction of heat, after pass 2, onto the heating of LAMMPS as ForceStage: see HeatChannel

@@ -32,6 +32,8 @@ class Lines:
 
     particles: tuple = ()  # besides the fluid: "zones", "walls", "alien"
     style: str = "sph/bulk"
+    room: str = ""  # for relaxing processes, in the atom style
+    state: str = ""  # of them
     types: int = 1  # of the fluid
     pair: tuple = ()  # keywords of the pair style
     mu: float = 0.5
@@ -124,7 +126,7 @@ FEATURES = {
                        effect=False),
     "rerun": Feature(Lines(end="write_dump all custom {name}.last id type x y vx vy modify format float %.17g\n"
                                "displace_atoms all move 0.2 0.1 0\nvelocity all set 3.0 4.0 NULL\nrerun {name}.last dump x y vx vy"),
-                     Lines(end="velocity fluid set 1e-13 NULL NULL sum yes units box\nrun 0"), effect=False,
+                     Lines(end="velocity fluid set 1e-13 NULL NULL sum yes units box\nrun 0"), effect=False, not_plain_with=("relax",),
                      refused={"gas": "rerun", "warm": "rerun"}),
     "types": Feature(Lines(types=2), Lines(), effect=False),
     "limit": Feature(Lines(pair=("limit yes",), kappa=0.9), Lines(kappa=0.9), not_plain_with=("noise",)),
@@ -133,12 +135,14 @@ FEATURES = {
     "drag": Feature(Lines(keywords=("drag 0.3 0.2 -0.1 0",), force=("c_drag[{k}]",),
                           fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3*c_state[1]*(c_state[2]-0.2)",
                                  "variable dragy atom -0.3*c_state[1]*(c_state[3]+0.1)", "compute drag fluid reduce sum v_dragx v_dragy"))),
+    "relax": Feature(Lines(room="relax 2", state="-0.99 0", keywords=("relax 4.0 0.02 3.0 0.5",))),
+    "idle_room": Feature(Lines(room="relax 1", state="0"), Lines(), effect=False),
     "gas": Feature(Lines(pair=("eos ideal",), energy=2.5), refused={"noise": "ideal"}),
     "warm": Feature(Lines(pair=("temp energy 100 4711",), energy=2.5),
                     refused={"walls": "wall", "open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag", "gas": "ideal"}),
     "idle_spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
 }
-NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin")}  # two values of the same
+NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room")}  # two values of the same
 # pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones,
 # and the random forces of a drag are no pairs'
 NO_BALANCE = {("walls", "open"): "", ("noise", "drag"): "", ("open", "overlay"): "not in the ledger"}
@@ -209,7 +213,7 @@ def particles(lines):
         x, y, u, v = (np.append(np.array(new), old) for new, old in (([4.1, 5.2, 4.5, 5.5], x), ([5.0, 5.1, 6.0, 6.2], y),
                                                                     ([0.5, 0.0, -0.5, 0.2], u), ([0.0, 0.4, 0.0, -0.4], v)))
     spinning = lines.style != "sph/bulk"
-    own = f"1.0 0.16 {lines.energy}" if spinning else f"1.0 {lines.energy}"
+    own = f"1.0 0.16 {lines.energy} {lines.state}" if spinning else f"1.0 {lines.energy} {lines.state}"
     spin = [f" 0 0 {w!r}" if spinning else "" for w in np.sin(1.7 * ids)]
     xlo, xhi = (-10.0, 26.0) if "zones" in has else (0.0, 16.0)
     ylo, yhi = (-4.0, 14.0) if "walls" in has else (0.0, 10.0)
@@ -264,7 +268,7 @@ def write(folder, name, lines):
     output = f"write_dump all custom {name}.{{}} id mass x y vx vy fx fy c_E {spin} modify sort id format float %.17g\n"
     ends = "f" if "zones" in lines.particles else "p", "f" if "walls" in lines.particles else "p"
     return (f"log {name}.log\nunits lj\ndimension 2\nboundary {' '.join(ends)} p\nnewton {lines.newton}\n"
-            f"atom_style {lines.style}\nread_data {name}.data\n"
+            f"atom_style {lines.style} {lines.room}\nread_data {name}.data\n"
             + "".join(f"group {one} id {' '.join(map(str, ids))}\n" for one, ids in groups.items())
             + pair + coeffs + begin + block(lines.early) + fixes + block(lines.late)
             + "run 5\n" + block((*lines.between, lines.second)) + output.format("after")

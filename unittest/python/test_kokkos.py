@@ -9,6 +9,7 @@ import pytest
 
 from helpers import DEVICE_LOOPS, FIELDS, KOKKOS, SUPPORT, SWITCHES, VECTORS, disordered, dump, fluid, header, relative
 import test_micropolar as micropolar
+import test_relax as relax
 
 pytestmark = pytest.mark.skipif(not KOKKOS, reason="no LAMMPS with the package KOKKOS, see ./sphd --help")
 
@@ -34,14 +35,14 @@ def integrate(style, keywords="", group="all"):
 
 def output(style, every):
     """Everything that the particles have, and the totals."""
-    channels = " ".join(f"c_HEAT[{k}]" for k in ((1, 2, 3, 4, 5) if spinning(style) else (1, 2, 5)))
+    channels = " ".join(f"c_HEAT[{k}]" for k in ((1, 2, 3, 4, 5, 6) if spinning(style) else (1, 2, 5, 6)))
     text = "compute HEAT all sph/dissipation\ncompute E all sph/energy\n"
     extra = ""
     if spinning(style):
         text += "compute L all sph/angmom\ncompute SPIN all property/atom inertia omegaestx omegaesty omegaestz\n"
         channels += " c_L[3]"
         extra = "omegax omegay omegaz tqx tqy tqz c_SPIN[*] d_inertia"
-    return (f"{text}thermo_style custom step temp pe press pxx pyy pzz pxy pxz pyz c_HEAT {channels} c_E\n"
+    return (f"{text}thermo_style custom step temp pe press pxx pyy pzz pxy pxz pyz c_HEAT {channels} c_E c_E[4]\n"
             f"thermo_modify norm no format float %.17g\n{dump('dump.txt', every, extra)}thermo {every}\n")
 
 
@@ -147,6 +148,21 @@ def test_drag(lammps, style, ranks):
     model = "".join(line + (" drag 0.4 0.2 -0.1 0" if line.startswith("pair_coeff 2 2") else "") + "\n" for line in lines)
     extra = f"variable B equal 0.4+0.02*step\nfix CHANGE all adapt 5 pair {style} drag 2 2 v_B\n"
     compare(lammps, style, particles, script(style, particles, model, 50, extra=extra), ranks)
+
+
+@pytest.mark.parametrize("ranks, options", [(1, "eos ideal"), (2, "volume mass"), (4, "")])
+def test_relaxing_processes(lammps, style, ranks, options):
+    """Two of one type and one of the other, changed on the way; particles are sorted, and move between processors."""
+    particles = disordered(2, 14, seed=4, jitter=0.1, ntypes=2, speed=2.0, spread=0.0)
+    particles.esph[:] = 80.0
+    strain = np.random.default_rng(3).uniform(-0.05, 0.05, (len(particles), 2))
+    strain[particles.type == 2, 1] = 0.0
+    relax.write(particles, lammps.path("room.txt"), relax.strained(strain), style)
+    words = {"pair_coeff 1 1": " relax 8.0 0.01 4.0 1.0", "pair_coeff 2 2": " relax 5.0 0.2"}
+    model = "".join(line + words.get(line[:14], "") + "\n" for line in fluids(style, 2, 2, options).splitlines())
+    extra = f"variable T equal 0.2+0.002*step\nfix CHANGE all adapt 5 pair {style} tau 2 2 v_T\natom_modify sort 5 1.5\n"
+    text = script(style, particles, model, 50, extra=extra).replace("data.txt", "room.txt")
+    compare(lammps, style, particles, text.replace(f"atom_style {style}", f"atom_style {style} relax 2"), ranks)
 
 
 @pytest.mark.parametrize("kernel", ["wendland/c2", "wendland/c4", "wendland/c6", "cubic", "quintic", "lucy"])
@@ -471,6 +487,12 @@ def test_hybrid_is_refused(lammps, style):
     model = fluids(style, 2).replace("pair_style ", "pair_style hybrid/overlay ").replace("* * ", f"* * {style} ")
     result = lammps(script(style, particles, model, 1), check=False)
     assert result.code != 0 and "hybrid" in result.error
+
+
+def test_hybrid_atom_style_is_refused(lammps, style):
+    text = (header(2, style=f"hybrid {style} charge") + "region BOX block 0 12 0 12 -0.5 0.5\ncreate_box 1 BOX\nlattice sq 1.0\n"
+            f"create_atoms 1 box\nset group all mass 1.0\n{fluids(style, 2)}{integrate(style)}run 0\n")
+    assert f"Atom style {style}/kk cannot be part of atom_style hybrid" in lammps(text, check=False).error
 
 
 def test_group_of_neighbors_is_refused(lammps, style):

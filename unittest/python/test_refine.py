@@ -118,6 +118,32 @@ def test_number_of_ranks(tmp_path, dim, spin):
             assert relative(one[name] - other[name], one[name]) < 1e-10, name
 
 
+def test_strain_of_relaxing_processes(lammps):
+    """Parts and wholes keep it, all others keep their state.  The process relaxes so slowly that it is elastic."""
+    particles = drop(2, 8, speed=0.05)
+    text = fluid_box(lammps, particles, False, boundary=free(2)).replace("atom_style sph/bulk", "atom_style sph/bulk relax 1")
+    data = lammps.path("box.data").read_text().split("\n\n")
+    atoms = data.index(next(one for one in data if one.startswith("Atoms"))) + 1
+    data[atoms] = "\n".join(" ".join([*words[:4], "-0.97", *words[4:]]) for words in map(str.split, data[atoms].splitlines()))
+    lammps.path("box.data").write_text("\n\n".join(data))
+    text = text.replace("\nfix FLUID", " relax 2e12 1e12\nfix FLUID").replace("timestep 0.002", "timestep 0.0002")
+    text += PHASES.format(period=10, middle=0.0) + "fix R all sph/refine 5 volume v_target wait 0.0\n"
+    result = lammps(text + output(False, 1).replace("c_P[1]", "c_P[1] d_rho_relaxed1 c_RHO").replace("compute P", "compute RHO all property/atom rho\ncompute P", 1)
+                    + "run 40\n")
+    assert ledger(result, SPLITS) > 100 and ledger(result, MERGES) > 100 and ledger(result, ROTATION) > 0.0
+    frames = lammps.frames("refine.dump")
+    for old, new in zip(frames, frames[1:]):
+        known, place = np.isin(new["id"], old["id"]), np.searchsorted(old["id"], new["id"])
+        place[~known] = 0
+        same = known & (old["mass"][place] == new["mass"])
+        state = new["d_rho_relaxed1"]
+        assert np.abs(state / old["d_rho_relaxed1"][place] - 1.0)[same].max() < 1e-9
+        changed = known & ~same
+        if changed.any():
+            before, after = (np.log(one["c_RHO"] / one["d_rho_relaxed1"]) for one in (old, new))
+            assert before.min() - 1e-3 < after[changed].min() and after[changed].max() < before.max() + 1e-3
+
+
 @pytest.mark.parametrize("dim, spin, tilt", [(2, False, None), (2, False, (3.0, 0.0, 0.0)), (3, True, None)])
 def test_periodic_box(tmp_path, dim, spin, tilt):
     """Merges across periodic boundaries and borders of processors."""
