@@ -165,6 +165,21 @@ def test_relaxing_processes(lammps, style, ranks, options):
     compare(lammps, style, particles, text.replace(f"atom_style {style}", f"atom_style {style} relax 2"), ranks)
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("options", ["eos tait", "eos ideal volume mass"])
+def test_conduction_of_heat(lammps, style, ranks, options):
+    """Two types with thermal pressure, temperatures that the fix has set, a conductivity that changes on the way."""
+    particles = disordered(2, 14, seed=4, jitter=0.1, ntypes=2, speed=0.3, spread=0.0)
+    gruneisen = "" if "ideal" in options else " gruneisen 0.6 2.0"
+    words = {"pair_coeff 1 1": " cv 2.0 conductivity 0.7" + gruneisen, "pair_coeff 2 2": " cv 1.2 conductivity 0.4" + gruneisen}
+    lines = fluids(style, 2, 2, options=options).splitlines()
+    model = "".join(line + words.get(line[:14], "") + "\n" for line in lines)
+    extra = (f"variable K equal 0.4+0.02*step\nfix CHANGE all adapt 5 pair {style} conductivity 2 2 v_K\nvariable T atom 2.0+0.1*x\n")
+    text = script(style, particles, model, 50, extra=extra).replace(f"fix FLUID all {style}", f"fix FLUID all {style} temperature v_T")
+    assert "temperature v_T" in text
+    compare(lammps, style, particles, text, ranks)
+
+
 @pytest.mark.parametrize("kernel", ["wendland/c2", "wendland/c4", "wendland/c6", "cubic", "quintic", "lucy"])
 def test_kernels(lammps, style, kernel):
     particles = disordered(3, 8, seed=5, jitter=0.1, speed=0.3, spread=0.0)
