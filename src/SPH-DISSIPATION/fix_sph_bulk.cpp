@@ -799,7 +799,7 @@ Fields &FixSPHBulk::fields() const
 
 /* ----------------------------------------------------------------------
    masses and temperatures are set once; a continued run keeps those of its restart file, and the inertia that its
-   particles have, unless its input gives other numbers for it than those by which it was set
+   particles have, unless its input gives other numbers for temperature or inertia than those by which they were set
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::write_restart(FILE *fp)
@@ -813,6 +813,7 @@ void FixSPHBulk::write_restart(FILE *fp)
   state.push_back(motion.dt);
   state.push_back(dt_of_strain);
   state.push_back(static_cast<double>(temperature_done));
+  state.push_back(temperature && !temperature->varies() ? temperature->now() : 0.0);
   const int size = static_cast<int>(state.size() * sizeof(double));
   fwrite(&size, sizeof(int), 1, fp);
   fwrite(state.data(), sizeof(double), state.size(), fp);
@@ -830,7 +831,8 @@ void FixSPHBulk::restart(char *buf)
   density_done = static_cast<int>(state[0]);
   last = {static_cast<bigint>(state[1]), {0, 0}, state[4]};
   dt_of_strain = state[5];
-  temperature_done = state[6] != 0.0;
+  const bool other = temperature && !temperature->varies() && temperature->now() != state[7];
+  temperature_done = state[6] != 0.0 && !other;
   if (comm->me == 0)
     for (int k = 0; k < 2; k++) last.sum[k] = static_cast<bigint>(state[2 + k]);
 }

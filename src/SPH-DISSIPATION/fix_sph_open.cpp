@@ -392,7 +392,8 @@ void FixSPHOpen::set_velocity(int i)
 void FixSPHOpen::set_spin(int i)
 {
   if (values->given(OpenValues::ENERGY) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
-    atom->esph[i] = atom->rmass[i] * (*values)(OpenValues::ENERGY, i);
+    atom->esph[i] =
+        atom->rmass[i] * ((*values)(OpenValues::ENERGY, i) + condition->elastic(i, atom->rho[i]));
   if (!fields->has_spins) return;
   double *const omega = atom->omega[i];
   if (values->given(OpenValues::WX) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)

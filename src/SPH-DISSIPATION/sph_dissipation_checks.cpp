@@ -346,7 +346,7 @@ void SPHDissipation::check_sizes(LAMMPS *lmp, const std::string &style, const Fl
 /* ---------------------------------------------------------------------- */
 
 void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const FluidModel &model,
-                                    int boundary_bits)
+                                    const StrainRows &strains, int boundary_bits)
 {
   Atom *atom = lmp->atom;
   const auto odd = first_particle(lmp, [&](int i) {
@@ -364,9 +364,7 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
     if (type.other || (atom->mask[i] & boundary_bits)) continue;
     if (type.eos.gruneisen == 0.0 && !HeatChannel::in_use(type.keywords)) continue;
     number[0]++;
-    const double elastic = elastic_energy(model.choice.eos, type.eos, atom->rho[i]);
-    const bool never_set = (atom->esph[i] == 0.0);
-    if (never_set || !(atom->esph[i] > atom->rmass[i] * elastic)) number[1]++;
+    if (atom->esph[i] == 0.0 || !(strains.thermal_energy(i) > 0.0)) number[1]++;
   }
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
   if (all[1] && !gas && lmp->comm->me == 0)

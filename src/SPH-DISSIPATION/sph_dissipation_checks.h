@@ -24,6 +24,7 @@ class LAMMPS;
 namespace SPHDissipation {
   class Engine;
   class FluidModel;
+  struct StrainRows;
 
   // What a particle fluid needs from the rest of the simulation.  Called by all ranks; errors name the
   // pair style.
@@ -81,7 +82,8 @@ namespace SPHDissipation {
   // with an equation of state that needs it, no neighbors inside the support.  Particles with one of boundary_bits in their mask are
   // no fluid.
 
-  void check_energies(LAMMPS *, const std::string &style, const FluidModel &, int boundary_bits);
+  void check_energies(LAMMPS *, const std::string &style, const FluidModel &, const StrainRows &,
+                      int boundary_bits);
   void check_neighbors(LAMMPS *, const std::string &style, const FluidModel &, const Engine &,
                        int boundary_bits, int dim, double support);
 

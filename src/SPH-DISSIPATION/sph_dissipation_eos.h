@@ -137,9 +137,9 @@ namespace SPHDissipation {
     return p + thermal_pressure(par, rho, e - elastic_energy(eos, par, rho));
   }
 
-  // density at pressure p; of the ideal gas: at internal energy e per mass.  Linear and tait: without heat
+  // density at pressure p; of the ideal gas: at heat q per mass.  Linear and tait: without heat
 
-  inline double density_at(Eos eos, const EosParams &par, double p, double e)
+  inline double density_at(Eos eos, const EosParams &par, double p, double q)
   {
     switch (eos) {
       case Eos::TAIT: {
@@ -147,8 +147,7 @@ namespace SPHDissipation {
         return par.rho0 * std::pow((p - par.pb_el) / b + 1.0, 1.0 / par.gamma);
       }
       case Eos::IDEAL:
-        return (p - par.pb_el - par.gruneisen * par.pb_el) /
-            (par.gruneisen * (e - par.pb_el / par.rho0));
+        return (p - par.pb_el) / (par.gruneisen * q);
       default:
         return par.rho0 + (p - par.pb_el) / (par.c_el * par.c_el);
     }

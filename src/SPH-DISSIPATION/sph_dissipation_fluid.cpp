@@ -507,7 +507,7 @@ void Fluid::report()
   if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
 
   check_time_step(table);
-  check_energies(lmp, style, *model, not_fluid());
+  check_energies(lmp, style, *model, engine->strains(), not_fluid());
   check_neighbors(lmp, style, *model, *engine, not_fluid(), dim, support);
 }
 
@@ -571,7 +571,10 @@ CoeffTable Fluid::coeff_table()
     const TypeCoeff &coeff = model->coeffs[type];
     if (coeff.other) continue;
     const double rho = atom->rho[i];
-    const double sound = sound_speed(eos, coeff.eos, rho, atom->esph[i] / atom->rmass[i]);
+    const bool cold =
+        is_boundary(i) && eos != Eos::IDEAL && coeff.eos.gruneisen > 0.0;    // no heat
+    const double sound = cold ? coeff.eos.c0
+                              : sound_speed(eos, coeff.eos, rho, atom->esph[i] / atom->rmass[i]);
     mine[type] = std::max(mine[type], sound + MathExtra::len3(atom->v[i]));
     if (!is_boundary(i)) mine[n + 1 + type] = std::max(mine[n + 1 + type], coeff.eos.rho0 / rho);
   }

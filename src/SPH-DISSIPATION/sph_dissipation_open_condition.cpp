@@ -238,12 +238,22 @@ double OpenCondition::sound(int i, double rho, double e) const
   return (more > 0.0) ? sqrt(c * c + 0.5 * more) : c;
 }
 
+/* ----------------------------------------------------------------------
+   energy of the background pressure per mass at a density, which the energy of a zone is beyond
+------------------------------------------------------------------------- */
+
+double OpenCondition::elastic(int i, double rho) const
+{
+  const Eos form = fluid->choice.eos;
+  return (form == Eos::IDEAL) ? elastic_energy(form, eos(i), rho) : 0.0;
+}
+
 /* ---------------------------------------------------------------------- */
 
 double OpenCondition::energy(int i) const
 {
   if (values.given(OpenValues::ENERGY)) return values(OpenValues::ENERGY, i);
-  return atom->esph[i] / atom->rmass[i];
+  return atom->esph[i] / atom->rmass[i] - elastic(i, atom->rho[i]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -267,15 +277,16 @@ OpenCondition::Reference OpenCondition::reference(int i) const
 
   if (values.given(OpenValues::RHO)) {
     ref.rho = values(OpenValues::RHO, i);
-    ref.p = pressure(form, eos(i), ref.rho, e);
+    ref.p = pressure(form, eos(i), ref.rho, e + elastic(i, ref.rho));
   } else {
     if (values.given(OpenValues::P))
       ref.p = values(OpenValues::P, i);
     else
-      ref.p = ref.known ? ref.mean.p : pressure(form, eos(i), eos(i).rho0, e);
+      ref.p = ref.known ? ref.mean.p
+                        : pressure(form, eos(i), eos(i).rho0, e);    // no elastic energy
     ref.rho = density_at(form, eos(i), ref.p, e);
   }
-  ref.c = sound(i, ref.rho, e);
+  ref.c = sound(i, ref.rho, e + elastic(i, ref.rho));
 
   double u[3];
   if (given_velocity())

@@ -87,7 +87,9 @@ namespace SPHDissipation {
     void velocity(int i, double *u) const;
     void state(int i, double &p, double &rho) const;
     double prescribed_density(int i) const { return reference(i).rho; }    // without waves
-    double energy(int i) const;    // internal, per mass, which the ideal gas needs
+    double energy(int i)
+        const;    // internal, per mass, which the ideal gas needs; without the elastic one, which is
+    double elastic(int i, double rho) const;    // that of the background pressure of the ideal gas
 
     // of an owned particle of the fluid near the plane; more = its pressure beyond the equation of state
 
