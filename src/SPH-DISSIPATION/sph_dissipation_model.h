@@ -94,6 +94,7 @@ namespace SPHDissipation {
     bool has_torques() const;                // any of the viscosities of spins
     double heat_capacity(int type) const;    // per mass
     bool has_temperatures() const;           // any type has a heat capacity
+    bool conducts() const;                   // any type conducts heat
     bool is_mixed(int i, int j) const { return !viscosity_set[0][i][j]; }
 
     Settings choice;

@@ -198,6 +198,17 @@ void FluidModel::check_heat(int i) const
         a[GRUNEISEN], a[GRUNEISEN_T0], i, coeffs[i].eos.c0);
 }
 
+/* ---------------------------------------------------------------------- */
+
+bool FluidModel::conducts() const
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (HeatChannel::in_use(coeffs[i].keywords)) return true;
+  return false;
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool FluidModel::has_temperatures() const
 {
   for (int i = 1; i <= atom->ntypes; i++)
@@ -233,8 +244,8 @@ void FluidModel::warn_of_ignored() const
 }
 
 /* ----------------------------------------------------------------------
-   what another command may vary; nothing that would have no effect, and no torques that begin during a run,
-   which would meet particles whose inertia nobody has checked
+   what another command may vary; nothing that would have no effect, no torques that begin during a run, which
+   would meet particles whose inertia nobody has checked, and no conduction, for which the same holds of fixes
 ------------------------------------------------------------------------- */
 
 void *FluidModel::extract(const char *name, int &dim)
@@ -245,6 +256,7 @@ void *FluidModel::extract(const char *name, int &dim)
   if (choice.bulk == Bulk::NONE && strcmp(name, "kappa") == 0) return nullptr;
   if (choice.eos == Eos::IDEAL && strcmp(name, "c0") == 0) return nullptr;
   if (is_viscosity(name) > MU && !has_torques()) return nullptr;
+  if (strcmp(name, "conductivity") == 0 && !conducts()) return nullptr;
   for (const auto &one : variables)
     if (one.name == name) return one.value;
   return nullptr;

@@ -584,3 +584,14 @@ def test_warning_without_heat(lammps):
         for word in ("", "temperature 1.0"):
             result = lammps(text + f"fix FLUID all sph/bulk {word}\nrun 0\n", ranks=2)
             assert any("64 of 64 particles" in line for line in result.warnings) == (warned and not word)
+
+
+def test_conduction_does_not_begin_during_a_run(lammps):
+    """fix adapt is refused where no type conducts, and takes no number that pair_coeff would not take."""
+    box = moving(lammps, "linear")
+    adapt = "fix A all adapt 1 pair sph/bulk conductivity 1 1 v_k\nrun 1\n"
+    without = re.sub(r"conductivity \S+|gruneisen \S+ \S+", "", box)
+    result = lammps(without + START + "variable k equal 1.0\n" + adapt, check=False)
+    assert result.code and "conductivity not supported" in result.error
+    result = lammps(box + START + "variable k equal -1.0\n" + adapt, check=False)
+    assert result.code and "conductivity must be >= 0, not -1 of type 1" in result.error
