@@ -138,12 +138,26 @@ def test_without_root_the_administrator_is_asked(machine, tmp_path, missing, pac
     assert "ask the administrator for: apt-get install " in output and package in output.split("apt-get install ")[1].split()
 
 
+def test_mpi_without_its_headers(machine, tmp_path):
+    """openmpi-bin alone, which brings mpicxx"""
+    write(tmp_path / "bin", {**TOOLS, "mpicxx": "exit 1"})
+    status, output, installed, options = machine("build")
+    assert "libopenmpi-dev" in installed and "openmpi-bin" not in installed and options
+
+
+def test_build_asks_for_python(machine, tmp_path):
+    """... since LAMMPS does."""
+    (tmp_path / "bin" / "python3").unlink()
+    status, output, installed, options = machine("build")
+    assert status == 1 and installed == BUILD | {"python3"} and "python3 not found" in output and not options
+
+
 def test_install_nothing(machine, tmp_path):
     status, output, installed, options = machine("build", SPHD_INSTALL="0")
     assert status == 1 and "c++ not found" in output and not installed
     write(tmp_path / "bin", {name: body for name, body in TOOLS.items() if name != "mpicxx"})
     status, output, installed, options = machine("build", SPHD_INSTALL="0")
-    assert status == 1 and "no MPI: there is no mpicxx, and c++ does not find mpi.h" in output and not options
+    assert status == 1 and "no MPI: neither mpicxx nor c++ finds mpi.h" in output and not options
     write(tmp_path / "bin", TOOLS)
     status, output, installed, options = machine("build", SPHD_INSTALL="0")
     assert "configuring failed" in output and options and not installed
