@@ -156,9 +156,8 @@ double FixSPHDt::allowed_step()
   const SPHDissipation::CoeffTable table = fluid->coeff_table();
   limits[ACOUSTIC] = part_of(part[ACOUSTIC] / SPHDissipation::ACOUSTIC, table.acoustic_step());
   const bool limited = given[VISCOUS] || !fluid->viscous->active();
-  limits[VISCOUS] =
-      std::min(part_of(part[VISCOUS], table.dissipative_step(limited)),
-               part_of(std::min(part[VISCOUS], 1.0), table.dissipative_step(false)));
+  limits[VISCOUS] = std::min(part_of(part[VISCOUS], table.dissipative_step(limited)),
+                             part_of(std::min(part[VISCOUS], 1.0), table.dissipative_step(false)));
   double step = *std::min_element(limits, limits + NLIMIT);
   if (step >= UNLIMITED_STEP && largest >= UNLIMITED_STEP) step = update->dt;
   return std::max(smallest, std::min(step, largest));

@@ -211,6 +211,7 @@ bool FluidModel::conducts() const
 
 bool FluidModel::has_temperatures() const
 {
+  if (!coeffs) return choice.own_temperatures;
   for (int i = 1; i <= atom->ntypes; i++)
     if (!coeffs[i].other && heat_capacity(i) > 0.0) return true;
   return false;

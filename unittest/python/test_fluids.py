@@ -244,9 +244,10 @@ def test_gas_of_the_shipped_file(box, name):
     """Density and speed of sound are those of an ideal gas, the processes follow rc, all with every digit."""
     gas = SHIPPED_GASES[name]
     room = f" relax {len(processes(gas))}" if processes(gas) else ""
-    head, velocities = box.path("box.data").read_text().split("Velocities\n\n")
-    lines = [f"{line}{' 0' * len(processes(gas))}" for line in velocities.split("\n\n")[0].splitlines()]
-    box.path("box.data").write_text(head + "Velocities\n\n" + "\n".join(lines) + "\n")
+    head, atoms, rest = re.fullmatch(r"(.*Atoms [^\n]*\n\n)(.*?\n)(\nVelocities.*)", box.path("box.data").read_text(), re.S).groups()
+    state = ["0"] * len(processes(gas))    # before the position
+    lines = [" ".join([*line.split()[:-3], *state, *line.split()[-3:]]) + "\n" for line in atoms.splitlines()]
+    box.path("box.data").write_text(head + "".join(lines) + rest)
     result = box(deck(f"pair_coeff * * {GASES} {name} 2.5 pb 3.0\n", room=room) + "write_data out.data pair ii\n")
     mu, kappa = table(result)["1-1"]
     assert (mu, kappa) == (pytest.approx(gas["mu"], rel=1e-3), pytest.approx(gas["kappa"], rel=1e-3, abs=1e-3 * gas["mu"]))
