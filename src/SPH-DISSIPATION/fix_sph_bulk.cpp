@@ -86,16 +86,10 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), exact(false), shift_speed(0.0), remap_v_flag(0),
     integrated_groups(0), first_instance(false), fluid(nullptr), fluid_style(without_suffix(style)),
     spins(Fields::with_spins(atom)), dt_of_forces(0.0), dt_of_strain(0.0), extrapolation(1.0),
-<<<<<<< HEAD
     balanced(false), viscous(new ViscousKeywords(lmp, style)), temperature(nullptr),
     temperature_done(false), last(), inertia_flag(0), factor(0.0), offset(0.0), inertia_done(false),
     density_done(0), density_flag(0), set_up(false), energy_extrapolated(false), setup_step(0),
     last_instance(false), not_integrated(0)
-=======
-    balanced(false), viscous(new ViscousKeywords(lmp, style)), last(), inertia_flag(0), factor(0.0),
-    offset(0.0), inertia_done(false), density_done(0), density_flag(0), set_up(false),
-    energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0)
->>>>>>> relax
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
