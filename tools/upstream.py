@@ -63,8 +63,9 @@ RENAMED = {
     "design_sph_dissipation": "Developer_sph_dissipation",
     "index": None,
     "Build_SPH_DISSIPATION": None,
+    "Howto_sph_clusters": None,
 }
-LINKS = {"index": "Howto_sph_overview", "Build_SPH_DISSIPATION": "Build_package"}
+LINKS = {"index": "Howto_sph_overview", "Build_SPH_DISSIPATION": "Build_package", "Howto_sph_clusters": "Build_package"}
 
 # files of an example that belong there: inputs, logs, what makes initial states
 

@@ -16,7 +16,7 @@ SYSTEM = ["awk", "bash", "cat", "cp", "cut", "date", "df", "dirname", "env", "fl
           "python3", "realpath", "rm", "sed", "sh", "sha256sum", "sort", "tail", "tee", "tput"]
 STAND_INS = {
     "dpkg-query": "exit 1",  # none of the packages is there
-    "sudo": 'exec "$@"',
+    "sudo": '[ "$1" != -n ] || shift\nexec "$@"',
     "apt-get": 'echo "$@" >>"$RECORD/apt-get"\ncase "$*" in *" install "*) cp "$RECORD"/tools/* "$RECORD/bin" ;; esac',
 }
 TOOLS = {
@@ -105,6 +105,29 @@ def test_what_is_there_from_elsewhere_is_not_installed(machine, tmp_path):
     assert "going on without what these packages bring: make ccache ca-certificates" in output
 
 
+def test_compiler_and_mpi_of_other_names(machine, tmp_path):
+    """The compiler is that of CXX, and has MPI in itself; srun starts programs."""
+    tools = {name: body for name, body in TOOLS.items() if name not in ("c++", "mpicxx", "mpiexec")}
+    write(tmp_path / "bin", {**tools, "CC": "exit 0", "srun": "exit 0", "id": "echo 65534"})
+    (tmp_path / "bin" / "sudo").unlink()
+    status, output, installed, options = machine("build", CXX="CC")
+    assert "configuring failed" in output and options and not installed
+    status, output, installed, options = machine("build", CXX="CC -pipe")
+    assert "configuring failed" in output and not installed
+
+
+def test_no_password_for_what_is_not_needed(machine, tmp_path):
+    """sudo asks for a password: not where only what saves time is missing."""
+    sudo = 'echo "asked: $*" >>"$RECORD/sudo"\n[ "$1" != -n ] || exit 1\nexec "$@"'
+    write(tmp_path / "bin", {**TOOLS, "c++": "exit 0", "id": "echo 65534", "sudo": sudo})
+    status, output, installed, options = machine("build")
+    assert "going on without what these packages bring: make ccache ca-certificates" in output and options and not installed
+    assert (tmp_path / "sudo").read_text() == "asked: -n true\n"
+    (tmp_path / "bin" / "ninja").unlink()
+    status, output, installed, options = machine("build")
+    assert "ninja-build" in installed and "installing for building LAMMPS: make ninja-build ccache ca-certificates" in output
+
+
 @pytest.mark.parametrize("missing, package", [("c++", "g++"), ("mpicxx", "libopenmpi-dev"), ("ninja", "ninja-build")])
 def test_without_root_the_administrator_is_asked(machine, tmp_path, missing, package):
     write(tmp_path / "bin", {**TOOLS, "id": "echo 65534"})
@@ -115,9 +138,26 @@ def test_without_root_the_administrator_is_asked(machine, tmp_path, missing, pac
     assert "ask the administrator for: apt-get install " in output and package in output.split("apt-get install ")[1].split()
 
 
+def test_mpi_without_its_headers(machine, tmp_path):
+    """openmpi-bin alone, which brings mpicxx"""
+    write(tmp_path / "bin", {**TOOLS, "mpicxx": "exit 1"})
+    status, output, installed, options = machine("build")
+    assert "libopenmpi-dev" in installed and "openmpi-bin" not in installed and options
+
+
+def test_build_asks_for_python(machine, tmp_path):
+    """... since LAMMPS does."""
+    (tmp_path / "bin" / "python3").unlink()
+    status, output, installed, options = machine("build")
+    assert status == 1 and installed == BUILD | {"python3"} and "python3 not found" in output and not options
+
+
 def test_install_nothing(machine, tmp_path):
     status, output, installed, options = machine("build", SPHD_INSTALL="0")
     assert status == 1 and "c++ not found" in output and not installed
+    write(tmp_path / "bin", {name: body for name, body in TOOLS.items() if name != "mpicxx"})
+    status, output, installed, options = machine("build", SPHD_INSTALL="0")
+    assert status == 1 and "no MPI: neither mpicxx nor c++ finds mpi.h" in output and not options
     write(tmp_path / "bin", TOOLS)
     status, output, installed, options = machine("build", SPHD_INSTALL="0")
     assert "configuring failed" in output and options and not installed
@@ -139,6 +179,21 @@ esac"""})
     status, output, installed, options = machine("build")
     assert "waiting: Could not get lock /var/lib/apt/lists/lock. It is held by process 17" in output
     assert "configuring failed" in output and options and installed == BUILD
+
+
+def test_lock_of_the_packages(machine, tmp_path):
+    """Somebody else is installing."""
+    write(tmp_path / "bin", {"sleep": "exit 0", "apt-get": """echo "$@" >>"$RECORD/apt-get"
+[ -e "$RECORD/free" ] || { : >"$RECORD/free"
+echo "E: Could not get lock /var/lib/dpkg/lock-frontend. It is held by process 17 (apt-get)
+N: Be aware that removing the lock file is not a solution and may break your system.
+E: Unable to acquire the dpkg frontend lock (/var/lib/dpkg/lock-frontend), is another process using it?" >&2
+exit 100; }
+cp "$RECORD"/tools/* "$RECORD"/bin"""})
+    status, output, installed, options = machine("build")
+    assert output.count("waiting: Could not get lock /var/lib/dpkg/lock-frontend. It is held by process 17") == 1
+    assert "configuring failed" in output and options and installed == BUILD
+    assert "update" not in (tmp_path / "apt-get").read_text()
 
 
 def test_apt_fails(machine, tmp_path):
