@@ -42,7 +42,7 @@ def output(style, every):
         text += "compute L all sph/angmom\ncompute SPIN all property/atom inertia omegaestx omegaesty omegaestz\n"
         channels += " c_L[3]"
         extra = "omegax omegay omegaz tqx tqy tqz c_SPIN[*] d_inertia"
-    return (f"{text}thermo_style custom step temp pe press pxx pyy pzz pxy pxz pyz c_HEAT {channels} c_E c_E[4]\n"
+    return (f"{text}thermo_style custom step temp pe press pxx pyy pzz pxy pxz pyz c_HEAT {channels} c_E[4] c_E\n"
             f"thermo_modify norm no format float %.17g\n{dump('dump.txt', every, extra)}thermo {every}\n")
 
 
