@@ -95,7 +95,8 @@ class Model:
         if self.eos == "tait":
             gamma = fluid.gamma or 7.0
             return fluid.rho0 * fluid.c0 ** 2 / gamma * ((rho / fluid.rho0) ** gamma - 1.0) + fluid.pb
-        return ((fluid.gamma or 1.4) - 1.0) * rho * energy_per_mass + fluid.pb
+        heat = energy_per_mass - fluid.pb * (1.0 / fluid.rho0 - 1.0 / rho)
+        return ((fluid.gamma or 1.4) - 1.0) * rho * heat + fluid.pb
 
 
 @dataclass
