@@ -595,3 +595,25 @@ def test_conduction_does_not_begin_during_a_run(lammps):
     assert result.code and "conductivity not supported" in result.error
     result = lammps(box + START + "variable k equal -1.0\n" + adapt, check=False)
     assert result.code and "conductivity must be >= 0, not -1 of type 1" in result.error
+
+
+# ---- with other commands -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("pb, energy", [(5.0, 4.0), (1.0, 6.0)])
+def test_stream_of_a_gas_with_background_pressure(lammps, pb, energy):
+    """From an inlet to an outlet: zones hold heat, so that a uniform stream stays as it is, whatever pb/rho0 is over the heat."""
+    particles = lattice(2, (36, 8))
+    particles.v[:, 0] = 1.0
+    particles.esph[:] = energy
+    particles.write(lammps.path("box.data"))
+    lammps(header(2, boundary="f p p") + "read_data box.data\n"
+           "region IN block INF 9 INF INF INF INF\ngroup inlet region IN\nregion OUT block 27 INF INF INF INF INF\ngroup outlet region OUT\n"
+           f"group flow subtract all inlet outlet\npair_style sph/bulk eos ideal\npair_coeff 1 1 1.0 10.0 0.5 2.0 3.0 gamma 1.4 pb {pb}\n"
+           "fix FLUID flow sph/bulk\nfix IN inlet sph/open flow 9 4 0 1 0 0 8 velocity 1 0 0\n"
+           f"fix OUT outlet sph/open flow 27 4 0 -1 0 0 8 pressure {0.4 * energy + pb}\ntimestep 0.005\n" + dump("out.dump", 400) + "run 400\n")
+    frame = lammps.frame("out.dump")
+    inside = (frame["x"][:, 0] > 11.0) & (frame["x"][:, 0] < 25.0)
+    heat = frame["esph"] / frame["mass"] - pb * (1.0 - 1.0 / frame["rho"])
+    assert inside.sum() > 80
+    assert np.abs(frame["v"][inside, 0] - 1.0).max() < 0.02 and np.abs(heat[inside] / energy - 1.0).max() < 0.02
