@@ -239,13 +239,14 @@ double OpenCondition::sound(int i, double rho, double e) const
 }
 
 /* ----------------------------------------------------------------------
-   energy of the background pressure per mass at a density, which the energy of a zone is beyond
+   energy of the background pressure per mass at a density, which the energy of a zone is beyond; a
+   particle without a density yet has that of rho0
 ------------------------------------------------------------------------- */
 
 double OpenCondition::elastic(int i, double rho) const
 {
   const Eos form = fluid->choice.eos;
-  return (form == Eos::IDEAL) ? elastic_energy(form, eos(i), rho) : 0.0;
+  return (form == Eos::IDEAL && rho > 0.0) ? elastic_energy(form, eos(i), rho) : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

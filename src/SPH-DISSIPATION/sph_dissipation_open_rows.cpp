@@ -324,7 +324,7 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
   constexpr int CORRECTIONS = 3;
   last.erase(std::remove_if(last.begin(), last.end(),
                             [&](int i) {
-                              return plane.height(atom->x[i]) - step(i) < end();
+                              return !(plane.height(atom->x[i]) - step(i) >= end());
                             }),
              last.end());
   int n = static_cast<int>(last.size()), all;

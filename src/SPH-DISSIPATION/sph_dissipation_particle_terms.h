@@ -46,12 +46,8 @@ namespace SPHDissipation {
   SPH_FUNCTION double exp_of(double x)
   {
     if (!(std::fabs(x) < 0.01)) return std::exp(x);
-    return 1.0 +
-        x *
-        (1.0 +
-         x *
-             (1.0 / 2.0 +
-              x * (1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0))))));
+    const double far = 1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0));
+    return 1.0 + x * (1.0 + x * (1.0 / 2.0 + x * (1.0 / 6.0 + x * far)));
   }
 
   // The relaxing processes and the heat of owned particles, on the host or on a device, with their densities, relaxed
@@ -65,13 +61,13 @@ namespace SPHDissipation {
     const double *esph;
     double *relaxed[MOST_PROCESSES];
 
-    // strain x of process k
+    // strain x at a density, of the relaxed density rest; of process k
 
-    SPH_FUNCTION double strain(int i, int k) const
+    SPH_FUNCTION static double strain_at(double density, double rest)
     {
-      const double rest = relaxed[k][i];
-      return (rest > 0.0 && rho[i] > 0.0) ? log_of_ratio(rho[i], rest) : 0.0;
+      return (rest > 0.0 && density > 0.0) ? log_of_ratio(density, rest) : 0.0;
     }
+    SPH_FUNCTION double strain(int i, int k) const { return strain_at(rho[i], relaxed[k][i]); }
 
     // the state of process k for which the next forces find the strain x
 

@@ -86,9 +86,8 @@ void RefineEvent::set(int i, RefineState state, double volume, double most, doub
 
 double RefineEvent::strain(int i, int process) const
 {
-  const double rest = fields->rho_relaxed[process][i];
-  const double rho = atom->rho[i] + update->dt * atom->drho[i];
-  return (rest > 0.0 && rho > 0.0) ? std::log(rho / rest) : 0.0;
+  return StrainRows::strain_at(atom->rho[i] + update->dt * atom->drho[i],
+                               fields->rho_relaxed[process][i]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from helpers import INTEGRATE, SUPPORT, Particles, disordered, dump, fluid, header, lattice, relative, undump
+from helpers import INTEGRATE, SUPPORT, disordered, dump, fluid, header, lattice, relative, undump
 
 TEMPERATURE = "compute T all property/atom tsph\n"
 FULL = "thermo_modify norm no format float %.17g\n"
@@ -487,9 +487,7 @@ def test_walls_are_adiabatic(lammps):
 def test_with_other_features(lammps, name):
     """The heat rates of conduction add up to zero, and the temperatures approach each other."""
     particles = disordered(2, 12, ntypes=2, speed=0.0)
-    style, options, fix, extra = "sph/bulk", "", "", ""
-    if name == "micropolar":
-        style = "sph/micropolar"
+    style = "sph/micropolar" if name == "micropolar" else "sph/bulk"
     words = "0.5 2.0 0.1 0.2 -0.2" if name == "micropolar" else "0.5 2.0"
     types = "pair_coeff {i} {i} {style} 1.0 10.0 {words} 3.0 cv 1.5 conductivity {k}\n"
     pair = f"pair_style {style} dim 2 " + ("volume mass" if name == "volume mass" else "") + "\n"
@@ -617,3 +615,18 @@ def test_stream_of_a_gas_with_background_pressure(lammps, pb, energy):
     heat = frame["esph"] / frame["mass"] - pb * (1.0 - 1.0 / frame["rho"])
     assert inside.sum() > 80
     assert np.abs(frame["v"][inside, 0] - 1.0).max() < 0.02 and np.abs(heat[inside] / energy - 1.0).max() < 0.02
+
+
+@pytest.mark.parametrize("mode", ["rkl2", "implicit"])
+def test_step_of_conduction_is_never_exceeded(lammps, mode):
+    """A part of the viscous limit above 1 is for what has a stage of its own, which conduction has not."""
+    steps = {}
+    for part in (1.0, 5.0):
+        text = (header(2) + "region BOX block 0 12 0 12 -0.5 0.5\ncreate_box 1 BOX\nlattice sq 1.0\ncreate_atoms 1 box\nset group all mass 1.0\n"
+                "pair_style sph/bulk\npair_coeff 1 1 1.0 10.0 0.5 1.0 3.0 cv 1.0 conductivity 200.0\nvariable T atom 1.0+0.5*sin(2*PI*x/12)\n"
+                f"fix FLUID all sph/bulk temperature v_T viscous {mode}\nfix DT all sph/dt 1 viscous {part}\ncompute T all sph/temp\n"
+                "thermo_style custom step dt c_T[5]\nthermo 10\nrun 50\n")
+        table = lammps(text).thermo()[-1]
+        steps[part] = table["Dt"]
+        assert np.all(np.diff(table["c_T[5]"]) > 0.0) and table["c_T[5]"][-1] < 1.0  # the mean of 1/T evens out
+    assert np.all(steps[5.0] <= 1.01 * steps[1.0].max())
