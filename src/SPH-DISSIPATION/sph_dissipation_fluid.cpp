@@ -220,6 +220,7 @@ bigint Fluid::compute(PairTally *tally)
   if (model->parameters().conducts) sum_heat();
   if (!open->empty()) open->sum_impacts(pair->list);
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
+  if (model->choice.own_temperatures) noise->share_work();
   changed = false;
   return nbeyond;
 }

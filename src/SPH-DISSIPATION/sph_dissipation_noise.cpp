@@ -34,7 +34,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
-    Stage(lmp, engine, exchange), clock(clock), form(), data()
+    Stage(lmp, engine, exchange), clock(clock), form(), data(), equal_masses(false)
 {
 }
 
@@ -64,6 +64,7 @@ void NoiseStage::run(const double *bound, int not_fluid)
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
 
   set_tags();
+  if (energy && neighbor->ago == 0) find_masses();
   if (energy) set_temperatures();
   data.heat = 2.0 * force->boltz / update->dt;
   add_pressure(factor, not_fluid);
@@ -275,6 +276,55 @@ void NoiseStage::draw_for_strain()
 
 /* ---------------------------------------------------------------------- */
 
+void NoiseStage::find_masses()
+{
+  double own[2] = {-1.0e300, -1.0e300}, all[2];    // minus the smallest one, the largest one
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (engine.parameters().type[atom->type[i]].other) continue;
+    own[0] = std::max(own[0], -atom->rmass[i]);
+    own[1] = std::max(own[1], atom->rmass[i]);
+  }
+  MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  equal_masses = (-all[0] == all[1]);
+}
+
+/* ----------------------------------------------------------------------
+   The pressure of i, random pressures left out, has the part f_i of the force on i by its pair with j, and -f_i of that
+   on j.
+------------------------------------------------------------------------- */
+
+void NoiseStage::share_work()
+{
+  if (equal_masses) return;
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  acceleration.assign(3 * static_cast<std::size_t>(nall + BLOCK), 0.0);
+  flow.assign(nall, 0.0);
+  for (int i = 0; i < nlocal; i++)
+    for (int d = 0; d < 3; d++)
+      acceleration[3 * i + d] = force->ftm2v * engine.force[i].f[d] / atom->rmass[i];
+  exchange.forward({{acceleration.data(), 3, 3}});
+
+  const LoopData &pairs = engine.pairs();
+  const double half = 0.5 * update->dt;
+  engine.visit_pairs([&](int i, int j, bigint entry) {
+    const Particle &a = engine.particle[i], &b = engine.particle[j];
+    double by_i = 0.0, by_j = 0.0;
+    for (int d = 0; d < 3; d++) {
+      const double r = a.x[d] - b.x[d];
+      by_i += r * acceleration[3 * i + d];
+      by_j += r * acceleration[3 * j + d];
+    }
+    const double heat = half * pairs.slope[entry] * engine.weight(i) * engine.weight(j) *
+        ((a.g - row[i].pressure) * by_j + (b.g - row[j].pressure) * by_i);
+    flow[i] += heat;
+    flow[j] -= heat;
+  });
+  const int n = force->newton_pair ? nall : nlocal;
+  for (int i = 0; i < n; i++) atom->desph[i] += flow[i];
+}
+
+/* ---------------------------------------------------------------------- */
+
 void NoiseStage::set_shares(const double *bound, int not_fluid)
 {
   constexpr double ROUNDOFF = 1.0e-15;    // of 1 + 2 zeta D, which is 0 at the bound
@@ -310,7 +360,8 @@ double NoiseStage::memory_usage() const
   return static_cast<double>(row.capacity() * sizeof(NoiseRow)) +
       static_cast<double>((spin_mobility.capacity() + tag.capacity() + reach.capacity() +
                            share.capacity() + eta.capacity() + drag.capacity() +
-                           numbers.capacity() + change.capacity() + drag_force.capacity() +
-                           pressure.capacity() + random.capacity()) *
+                           numbers.capacity() + change.capacity() + acceleration.capacity() +
+                           flow.capacity() + drag_force.capacity() + pressure.capacity() +
+                           random.capacity()) *
                           sizeof(double));
 }

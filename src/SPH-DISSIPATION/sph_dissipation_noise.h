@@ -48,6 +48,12 @@ namespace SPHDissipation {
 
     void run(const double *bound, int not_fluid);
 
+    // After pass 2, with the forces on owned particles complete, in a fluid of different masses whose particles have
+    // temperatures: adds to the heating what each pair has of the work of the pressures at the mean velocities of the
+    // kick, and a particle has not of what it pays for its own kick, see the theory page
+
+    void share_work();
+
     // what the random flow of heat needs, after run()
 
     const NoiseData &numbers_of_step() const { return data; }
@@ -68,11 +74,13 @@ namespace SPHDissipation {
     std::vector<NoiseRow> row;
     std::vector<double> spin_mobility;
     std::vector<double> tag, reach, share, eta, pressure, random, drag, drag_force;
-    std::vector<double> numbers, change;
+    std::vector<double> numbers, change, acceleration, flow;
+    bool equal_masses;
 
     void check_box() const;
     void set_tags();
     void count_step();
+    void find_masses();
     void set_temperatures();
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
