@@ -433,7 +433,7 @@ def test_restart(lammps, ranks):
 
 
 def test_temperature_is_set_once(lammps):
-    """A number, a variable of equal style, one of atom style; after the masses; once; compute sph/temp has the harmonic mean."""
+    """A number, a variable of equal style, one of atom style; after the masses; once; compute sph/temp has heat over heat capacity."""
     box = moving(lammps, "linear")
     for word, T in (("2.5", lambda x: 2.5 + 0 * x), ("v_E", lambda x: 2.5 + 0 * x), ("v_A", lambda x: 1.0 + 0.1 * x)):
         variables = "variable E equal 5.0/2.0\nvariable A atom 1.0+0.1*x\n"
@@ -443,7 +443,8 @@ def test_temperature_is_set_once(lammps):
         first, later = lammps.frames("T.dump")[0], lammps.frames("T.dump")[1]
         exact = T(first["x"][:, 0])
         assert relative(first["c_T"] - exact, exact) < 1e-13
-        assert result.thermo()[0]["c_ALL[5]"][0] == pytest.approx(1 / (1 / exact).mean(), rel=1e-13)
+        capacity = first["mass"] * np.where(first["type"] == 1, FLUIDS[0]["cv"], FLUIDS[1]["cv"])
+        assert result.thermo()[0]["c_ALL[5]"][0] == pytest.approx((capacity * exact).sum() / capacity.sum(), rel=1e-13)
         assert relative(later["c_T"] - exact, exact) > 1e-3
         assert not np.array_equal(lammps.frame("T.dump")["c_T"], first["c_T"])
 
