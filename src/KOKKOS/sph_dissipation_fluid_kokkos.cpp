@@ -261,7 +261,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_strain()
   Kokkos::parallel_for(
       "sph:strain", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
         if (rows.is_fluid(i, bits))
-          rows.strains.advance(i, 1.0, nullptr, 0);
+          rows.strains.advance(i, nullptr, 0);
         else
           rows.strains.forget(i, nprocess);
       });

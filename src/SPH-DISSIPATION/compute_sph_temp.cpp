@@ -114,8 +114,7 @@ double ComputeSPHTemp::rotational() const
 }
 
 /* ----------------------------------------------------------------------
-   of the heat of the particles: 1/T is the mean of 1/T_i, since that of a particle with
-   fluctuating energy is the derivative of its entropy
+   of the heat of the particles, sum of Q_i over sum of C_i
 ------------------------------------------------------------------------- */
 
 double ComputeSPHTemp::internal() const
@@ -129,14 +128,16 @@ double ComputeSPHTemp::internal() const
                style);
   std::vector<double> temperatures(atom->nlocal);
   fluid->temperatures(temperatures.data());
-  double own[2] = {}, all[2];    // particles with heat, and their 1/T_i
+  double own[2] = {}, all[2];    // heat capacity and heat
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit) || !(temperatures[i] > 0.0)) continue;
-    own[0] += 1.0;
-    own[1] += 1.0 / temperatures[i];
+    if (!(atom->mask[i] & groupbit) || !fluid->has_type(atom->type[i]) || fluid->is_boundary(i))
+      continue;
+    const double capacity = atom->rmass[i] * fluid->model->heat_capacity(atom->type[i]);
+    own[0] += capacity;
+    own[1] += capacity * temperatures[i];
   }
   MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_SUM, world);
-  return (all[0] > 0.0) ? all[0] / all[1] : 0.0;
+  return (all[0] > 0.0) ? all[1] / all[0] : 0.0;
 }
 
 /* ----------------------------------------------------------------------

@@ -34,6 +34,13 @@ SPH_INLINE Real heat_flow(Real conductivity, Real vv, double temperature_i, Real
   return 2.0 * conductivity * vv * (temperature_j - temperature_i);
 }
 
+// square of the random flow, in units of 2 k_B/dt
+template <class Real>
+SPH_INLINE Real heat_noise(Real conductivity, Real vv, double temperature_i, Real temperature_j)
+{
+  return 2.0 * conductivity * vv * temperature_i * temperature_j;
+}
+
 #else
 
 #ifndef LMP_SPH_DISSIPATION_CHANNEL_HEAT_H

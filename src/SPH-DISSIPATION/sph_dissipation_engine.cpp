@@ -207,6 +207,12 @@ LoopData Engine::part(int thread) const
 void Engine::set_rows()
 {
   static constexpr double ONE = 1.0;
+  double *energies = atom->esph;
+  StrainRows with_strains = strains();
+  if (par->own_temperatures) {
+    energy.assign(atom->esph, atom->esph + atom->nlocal + atom->nghost);
+    with_strains.esph = energies = energy.data();
+  }
   atom_rows = {*par,
                par->type.data(),
                atom->nlocal,
@@ -218,12 +224,12 @@ void Engine::set_rows()
                atom->type,
                atom->mask,
                atom->rmass,
-               atom->esph,
+               energies,
                atom->rho,
                atom->drho,
                atom->vfrac,
                atom->desph,
-               strains(),
+               with_strains,
                strain_pressure,
                conductor.data()};
 }
@@ -351,14 +357,14 @@ void Engine::run_density(Loop loop)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_heat(std::vector<double> &flow)
+void Engine::accumulate_heat(const NoiseData *noise, std::vector<double> &flow)
 {
   const int nall = atom->nlocal + atom->nghost;
-  const HeatLoop loop = loops->heat(par->conducts_alike);
+  const HeatLoop loop = loops->heat(par->conducts_alike, noise);
   flow.assign(nall + BLOCK, 0.0);
   threads->run([&](int k) {
     if (k > 0) sums[k - 1].flow.assign(nall + BLOCK, 0.0);
-    loop(part(k), conductor.data(), (k > 0 ? sums[k - 1].flow : flow).data());
+    loop(part(k), conductor.data(), noise, (k > 0 ? sums[k - 1].flow : flow).data());
   });
   if (sums.empty()) return;
   for_each(nall, [&](int i) {
@@ -529,7 +535,8 @@ double Engine::memory_usage() const
   double bytes = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double)) +
-      (double) conductor.capacity() * sizeof(Conductor);
+      (double) conductor.capacity() * sizeof(Conductor) +
+      (double) energy.capacity() * sizeof(double);
   for (const auto &own : sums)
     bytes += (double) (own.density.capacity() * sizeof(DensitySum) +
                        own.force.capacity() * sizeof(ForceSum) +

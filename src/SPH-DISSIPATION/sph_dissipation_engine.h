@@ -90,7 +90,7 @@ namespace SPHDissipation {
 
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
-  typedef void (*HeatLoop)(const LoopData &, const Conductor *, double *flow);
+  typedef void (*HeatLoop)(const LoopData &, const Conductor *, const NoiseData *, double *flow);
 
   // the loops compiled for one instruction set
 
@@ -102,7 +102,8 @@ namespace SPHDissipation {
     Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
-    HeatLoop (*heat)(bool alike);    // the same conductivity of all particles that conduct
+    HeatLoop (*heat)(bool alike,
+                     bool noise);    // alike: the same conductivity of all particles that conduct
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
@@ -171,8 +172,9 @@ namespace SPHDissipation {
     // the same without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *);
 
-    // heat per time that owned and ghost atoms get by conduction, of conductor[]; room for the spare ones
-    void accumulate_heat(std::vector<double> &flow);
+    // heat per time that owned and ghost atoms get by conduction, of conductor[], with noise unless it is nullptr; room
+    // for the spare ones
+    void accumulate_heat(const NoiseData *noise, std::vector<double> &flow);
 
     // forces, torques, heat and divergence of those pairs alone, added to arrays with room for the
     // spare particles; after pass 2
@@ -219,6 +221,8 @@ namespace SPHDissipation {
     double *zeta_term;          // zeta cdot/c, set by the caller on owned and ghost atoms
     double *strain_pressure;    // of relaxing processes, as zeta_term; set if there are any
     std::vector<Conductor> conductor;    // the same, if any type conducts heat
+    std::vector<double>
+        energy;    // the same, internal energy, if particles have the noise of their temperatures
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     Spin *spin;            // micropolar only
 

@@ -220,6 +220,7 @@ bigint Fluid::compute(PairTally *tally)
   if (model->parameters().conducts) sum_heat();
   if (!open->empty()) open->sum_impacts(pair->list);
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
+  if (model->choice.own_temperatures) noise->share_work();
   changed = false;
   return nbeyond;
 }
@@ -241,7 +242,7 @@ bigint Fluid::sum_before_forces()
   const bigint nbeyond = set_pressure();
   if (!open->empty()) open->run();
   if (walls) set_boundary();
-  if (model->choice.thermal) noise->run(bound(), boundary->bits(), continued);
+  if (model->choice.thermal) noise->run(bound(), boundary->bits());
   return nbeyond;
 }
 
@@ -253,7 +254,16 @@ void Fluid::sum_density()
 {
   const bool minimize = (update->whichflag == 2);
   density->run(pair->list, minimize ? nullptr : atom->vest,
-               minimize ? nullptr : extrapolated_spin(), at_rest(), not_fluid());
+               minimize ? nullptr : extrapolated_spin(), at_rest(), missing_time(), not_fluid());
+}
+
+/* ----------------------------------------------------------------------
+   in a step, internal energies that get half of their rate at each end of it are those of its middle
+------------------------------------------------------------------------- */
+
+double Fluid::missing_time() const
+{
+  return (update->setupflag && !continued) ? 0.0 : 0.5 * update->dt;
 }
 
 bool Fluid::at_rest() const
@@ -287,8 +297,7 @@ void Fluid::advance_strain()
 {
   const bool noise_on = model->choice.thermal;
   if (noise_on) noise->draw_for_strain();
-  relaxation->advance(not_fluid(), noise_on ? noise->strain_change() : nullptr,
-                      noise_on ? noise->strain_factor() : nullptr);
+  relaxation->advance(not_fluid(), noise_on ? noise->strain_change() : nullptr);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -336,7 +345,7 @@ void Fluid::sum_forces(PairTally *tally)
 
 void Fluid::sum_heat()
 {
-  conduction->run();
+  conduction->run(model->choice.thermal ? &noise->numbers_of_step() : nullptr);
 }
 
 /* ----------------------------------------------------------------------

@@ -188,6 +188,7 @@ namespace SPHDissipation {
 
     virtual bool has_own_forces() const;    // on this processor
     void report();
+    double missing_time() const;
     bool at_rest()
         const;    // strains have relaxed: in a minimization; in a rerun, which does not know them
     double **extrapolated_spin() const;    // nullptr without spins

@@ -354,11 +354,14 @@ namespace SPHDissipation {
       }
     }
 
-    // conduction of heat, after pass 2; ALIKE: particles with a volume have the same conductivity
+    // conduction of heat, after pass 2; ALIKE: particles with a volume have the same conductivity; NOISE: with a random
+    // flow, one number of each pair, of the particle with the lower ID
 
-    template <bool ALIKE>
-    void heat_loop(const LoopData &data, const Conductor *conductor, double *flow)
+    template <bool ALIKE, bool NOISE>
+    void heat_loop(const LoopData &data, const Conductor *conductor, const NoiseData *noise,
+                   double *flow)
     {
+      const NoiseStep step(NOISE ? *noise : NoiseData(), NoiseChannel::HEAT);
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         const Conductor own = conductor[i];
@@ -374,7 +377,15 @@ namespace SPHDissipation {
           const Vec mean = ALIKE ? all(own.conductivity)
                                  : mean_conductivity(own.conductivity, other[2]);
           const Vec vv = own.vol * other[0] * load(slope_of + k);
-          const Vec heat = heat_flow(mean, vv, own.temperature, other[1]);
+          Vec heat = heat_flow(mean, vv, own.temperature, other[1]);
+          if constexpr (NOISE) {
+            const PairCounter counter(step, noise->tag[i], gather(noise->tag, j));
+            Words random[4];
+            philox(counter.word, step.pair, random);
+            const Vec square = heat_noise(mean, vv, own.temperature, other[1]);
+            heat += counter.sign * uniform(random[0]) *
+                square_root(noise->heat * if_positive(square, square));
+          }
           total += heat;
           add_column<1>(flow, j, -heat);
         }
@@ -382,9 +393,10 @@ namespace SPHDissipation {
       }
     }
 
-    inline HeatLoop choose_heat_loop(bool alike)
+    inline HeatLoop choose_heat_loop(bool alike, bool noise)
     {
-      return alike ? heat_loop<true> : heat_loop<false>;
+      if (noise) return alike ? heat_loop<true, true> : heat_loop<false, true>;
+      return alike ? heat_loop<true, false> : heat_loop<false, false>;
     }
 
     template <bool WEIGHTED> Loop choose_kernel(Kernel kernel)

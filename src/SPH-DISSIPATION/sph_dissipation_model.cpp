@@ -147,7 +147,7 @@ void FluidModel::settings(int narg, char **arg)
                "Pair_style {} temp cannot be used with bulk volume: its friction matrix is not "
                "symmetric, so that no noise is in balance with it",
                style);
-  if (choice.thermal && choice.eos == Eos::IDEAL)
+  if (choice.thermal && !choice.own_temperatures && choice.eos == Eos::IDEAL)
     error->all(FLERR,
                "Pair_style {} temp cannot be used with eos ideal: the heat of the viscous forces, "
                "without end at a given temperature, would raise its pressure",

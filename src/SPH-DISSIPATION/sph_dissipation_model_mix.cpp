@@ -169,7 +169,7 @@ void FluidModel::check_balance(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   of a type: what its temperature needs; noise knows nothing of what it does
+   of a type: what its temperature needs; a heat bath of one temperature has none for what it does
 ------------------------------------------------------------------------- */
 
 void FluidModel::check_heat(int i) const
@@ -178,7 +178,7 @@ void FluidModel::check_heat(int i) const
   for (const auto &keyword :
        {std::make_pair("conductivity", CONDUCTIVITY), std::make_pair("gruneisen", GRUNEISEN)}) {
     if (!(a[keyword.second] > 0.0)) continue;
-    if (choice.thermal)
+    if (choice.thermal && !choice.own_temperatures)
       error->all(FLERR, Error::NOLASTLINE,
                  "Pair style {} temp cannot be used with {} of pair_coeff, which type {} has",
                  style, keyword.first, i);

@@ -34,13 +34,13 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
-    Stage(lmp, engine, exchange), clock(clock), form(), data()
+    Stage(lmp, engine, exchange), clock(clock), form(), data(), equal_masses(false)
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
-void NoiseStage::run(const double *bound, int not_fluid, bool continued)
+void NoiseStage::run(const double *bound, int not_fluid)
 {
   if (neighbor->ago == 0) check_box();
   const bool energy = engine.parameters().own_temperatures;
@@ -64,7 +64,9 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
 
   set_tags();
-  if (energy) set_temperatures(continued);
+  if (energy && neighbor->ago == 0) find_masses();
+  if (energy) set_temperatures();
+  data.heat = 2.0 * force->boltz / update->dt;
   add_pressure(factor, not_fluid);
   if (engine.parameters().drag) add_drag(factor, not_fluid);
   if (!set_coeffs(factor) && !energy) return;    // who pays for a random pressure is known by pairs
@@ -119,17 +121,15 @@ void NoiseStage::set_tags()
 }
 
 /* ----------------------------------------------------------------------
-   In a step, internal energies are those of its middle here and lack half of its work of compression.  A particle
-   without heat has temperature 0: it gets no noise, and friction warms it.
+   A particle without heat has temperature 0: it gets no noise, and friction warms it.
 ------------------------------------------------------------------------- */
 
-void NoiseStage::set_temperatures(bool continued)
+void NoiseStage::set_temperatures()
 {
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
-  const double missing = (update->setupflag && !continued) ? 0.0 : 0.5 * update->dt;
   const bool spins = engine.has_spin();
-  const StrainRows strains = engine.strains();
+  const StrainRows &strains = engine.rows().strains;
   const double *const inertia = Fields::of(atom)->inertia;
   row.assign(nall + BLOCK, NoiseRow());
   if (spins) spin_mobility.assign(nall + BLOCK, 0.0);
@@ -142,11 +142,7 @@ void NoiseStage::set_temperatures(bool continued)
     row[i].mobility = update->dt * force->ftm2v / atom->rmass[i];
     if (i >= nlocal) continue;
     if (spins && inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / inertia[i];
-    const Particle &particle = engine.particle[i];
-    const double c_inv = particle.vol / engine.weight(i);
-    const double p = particle.g / (c_inv * c_inv) - engine.zeta_term[i];
-    const double work = missing * p * particle.vol * engine.density[i].cdot * c_inv;
-    const double heat = strains.thermal_energy(i) + work;
+    const double heat = strains.thermal_energy(i);
     if (!(heat > 0.0)) without++;
     row[i].temperature = std::max(heat, 0.0) / capacity;
   }
@@ -221,10 +217,9 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
     const double random = strength * pressure[i] / sqrt(particle.vol);
     if (form.kind == NoiseKind::ENERGY) {
       const double own = random * sqrt(row[i].temperature);
-      const double change = own + row[i].softness * engine.zeta_term[i];
       row[i].pressure = own * c_inv * c_inv;
-      engine.zeta_term[i] += change;
-      particle.g += change * c_inv * c_inv;
+      engine.zeta_term[i] += own;
+      particle.g += row[i].pressure;
     } else
       particle.g += random * c_inv * c_inv;
   }
@@ -261,8 +256,6 @@ void NoiseStage::draw_for_strain()
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
   numbers.resize(AT_ONCE * static_cast<std::size_t>(n));
   change.assign(par.nprocess * static_cast<std::size_t>(nlocal), 0.0);
-  factor.clear();
-  if (par.own_temperatures) factor.assign(nlocal, 1.0);
   for (int first = 0; first < par.nprocess; first += AT_ONCE) {
     const int count = std::min(par.nprocess - first, AT_ONCE);
     const int channel = static_cast<int>(NoiseChannel::STRAIN) + first / AT_ONCE;
@@ -272,16 +265,62 @@ void NoiseStage::draw_for_strain()
       const TypeParameters &type = par.type[atom->type[i]];
       if (type.nprocess <= first) continue;
       double temperature = par.temperature;
-      if (par.own_temperatures) {
-        temperature = std::max(strains.temperature(i), 0.0);
-        factor[i] = 1.0 + force->boltz / (atom->rmass[i] * type.heat_capacity);
-      }
+      if (par.own_temperatures) temperature = std::max(strains.temperature(i), 0.0);
       const double strength = sqrt(force->boltz * temperature / atom->rmass[i]);
       for (int k = first; k < std::min(type.nprocess, first + count); k++)
         change[k * static_cast<std::size_t>(nlocal) + i] =
             -strength * type.process[k].noise * numbers[(k - first) * static_cast<bigint>(n) + i];
     }
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void NoiseStage::find_masses()
+{
+  double own[2] = {-1.0e300, -1.0e300}, all[2];    // minus the smallest one, the largest one
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (engine.parameters().type[atom->type[i]].other) continue;
+    own[0] = std::max(own[0], -atom->rmass[i]);
+    own[1] = std::max(own[1], atom->rmass[i]);
+  }
+  MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  equal_masses = (-all[0] == all[1]);
+}
+
+/* ----------------------------------------------------------------------
+   The pressure of i, random pressures left out, has the part f_i of the force on i by its pair with j, and -f_i of that
+   on j.
+------------------------------------------------------------------------- */
+
+void NoiseStage::share_work()
+{
+  if (equal_masses) return;
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  acceleration.assign(3 * static_cast<std::size_t>(nall + BLOCK), 0.0);
+  flow.assign(nall, 0.0);
+  for (int i = 0; i < nlocal; i++)
+    for (int d = 0; d < 3; d++)
+      acceleration[3 * i + d] = force->ftm2v * engine.force[i].f[d] / atom->rmass[i];
+  exchange.forward({{acceleration.data(), 3, 3}});
+
+  const LoopData &pairs = engine.pairs();
+  const double half = 0.5 * update->dt;
+  engine.visit_pairs([&](int i, int j, bigint entry) {
+    const Particle &a = engine.particle[i], &b = engine.particle[j];
+    double by_i = 0.0, by_j = 0.0;
+    for (int d = 0; d < 3; d++) {
+      const double r = a.x[d] - b.x[d];
+      by_i += r * acceleration[3 * i + d];
+      by_j += r * acceleration[3 * j + d];
+    }
+    const double heat = half * pairs.slope[entry] * engine.weight(i) * engine.weight(j) *
+        ((a.g - row[i].pressure) * by_j + (b.g - row[j].pressure) * by_i);
+    flow[i] += heat;
+    flow[j] -= heat;
+  });
+  const int n = force->newton_pair ? nall : nlocal;
+  for (int i = 0; i < n; i++) atom->desph[i] += flow[i];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -321,7 +360,8 @@ double NoiseStage::memory_usage() const
   return static_cast<double>(row.capacity() * sizeof(NoiseRow)) +
       static_cast<double>((spin_mobility.capacity() + tag.capacity() + reach.capacity() +
                            share.capacity() + eta.capacity() + drag.capacity() +
-                           numbers.capacity() + change.capacity() + factor.capacity() +
-                           drag_force.capacity() + pressure.capacity() + random.capacity()) *
+                           numbers.capacity() + change.capacity() + acceleration.capacity() +
+                           flow.capacity() + drag_force.capacity() + pressure.capacity() +
+                           random.capacity()) *
                           sizeof(double));
 }

@@ -35,7 +35,8 @@ namespace SPHDissipation {
   // have the covariance 1 + 2 zeta_i gamma_i gamma_i^T.  D_i is the bound of LimitStage.
   //
   // temp energy: each particle has the temperature T_i of its heat, what its internal energy has beyond the elastic one.
-  // Pairs have T_ij = 2 T_i T_j/(T_i + T_j) and more friction, by derivatives of T_ij, see the theory page.
+  // Pairs have T_ij = 2 T_i T_j/(T_i + T_j) and less friction, so that exp(S/k) prod dS_i is stationary, and conduction
+  // has a random flow, see the theory page.
 
   class NoiseStage : public Stage {
    public:
@@ -43,16 +44,25 @@ namespace SPHDissipation {
 
     // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and has it add the rest.
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure
-    // of their own; continued = the first forces of a run are to be the last ones of the run before
+    // of their own
 
-    void run(const double *bound, int not_fluid, bool continued);
+    void run(const double *bound, int not_fluid);
+
+    // After pass 2, with the forces on owned particles complete, in a fluid of different masses whose particles have
+    // temperatures: adds to the heating what each pair has of the work of the pressures at the mean velocities of the
+    // kick, and a particle has not of what it pays for its own kick, see the theory page
+
+    void share_work();
+
+    // what the random flow of heat needs, after run()
+
+    const NoiseData &numbers_of_step() const { return data; }
 
     // The noise of the relaxing processes of owned particles, for RelaxStage::advance(), after the forces of the last
     // step, in the next one
 
     void draw_for_strain();
     const double *strain_change() const { return change.data(); }
-    const double *strain_factor() const { return factor.empty() ? nullptr : factor.data(); }
 
     double memory_usage() const override;
 
@@ -64,12 +74,14 @@ namespace SPHDissipation {
     std::vector<NoiseRow> row;
     std::vector<double> spin_mobility;
     std::vector<double> tag, reach, share, eta, pressure, random, drag, drag_force;
-    std::vector<double> numbers, change, factor;
+    std::vector<double> numbers, change, acceleration, flow;
+    bool equal_masses;
 
     void check_box() const;
     void set_tags();
     void count_step();
-    void set_temperatures(bool continued);
+    void find_masses();
+    void set_temperatures();
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);

@@ -28,8 +28,9 @@ namespace SPHDissipation {
     PRESSURE,
     PAIR,
     DRAG,
-    STRAIN
-  };    // STRAIN: one for every four processes
+    STRAIN,    // one for every four processes
+    HEAT = STRAIN + (MOST_PROCESSES + 3) / 4
+  };
 
   // the step of the last random numbers, and what is added to a step to get numbers that no step before had
 
@@ -67,6 +68,7 @@ namespace SPHDissipation {
     const NoiseRow *row;            // if ENERGY
     const double *spin_mobility;    // dt/J, if ENERGY with spins
     std::uint64_t seed, step;
+    double heat;                // 2 k/dt, of the random flow of heat
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
     double *eta;                // sums of the numbers of a particle, accumulated
     double *random;             // for the numbers of the pairs of one particle

@@ -63,8 +63,8 @@ struct NoiseStep {
   PhiloxKeys pair;
   std::uint64_t low, high;
 
-  NoiseStep(const NoiseData &data) :
-      pair(keys_of(data, NoiseChannel::PAIR)), low(data.step & 0xffffffff), high(data.step >> 32)
+  NoiseStep(const NoiseData &data, NoiseChannel channel = NoiseChannel::PAIR) :
+      pair(keys_of(data, channel)), low(data.step & 0xffffffff), high(data.step >> 32)
   {
   }
   static PhiloxKeys keys_of(const NoiseData &data, NoiseChannel channel)
@@ -209,7 +209,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
       const Vec sum = own.temperature + other[TEMPERATURE] + TINY;
       const Vec share_i = own.temperature / sum, share_j = other[TEMPERATURE] / sum;
       const Vec common = 2.0 * own.temperature * share_j;
-      friction = 1.0 + own.softness * share_j * share_j + other[SOFTNESS] * share_i * share_i;
+      friction = 1.0 - share_i * share_j * (own.softness + other[SOFTNESS]);
       vv *= common;
       by_metric *= common;
     }

@@ -107,15 +107,15 @@ namespace SPHDissipation {
       for (int k = 0; k < nprocess; k++) relaxed[k][i] = 0.0;
     }
 
-    // one time step later: ln rho_r grows by (1 - e^-a) x, here times a factor, and by change[k * each] for process
-    // k, nullptr: by nothing else
+    // one time step later: ln rho_r grows by (1 - e^-a) x, and by change[k * each] for process k, nullptr: by nothing
+    // else
 
-    SPH_FUNCTION void advance(int i, double factor, const double *change, int each) const
+    SPH_FUNCTION void advance(int i, const double *change, int each) const
     {
       const TypeParameters &par = types[type[i]];
       for (int k = 0; k < par.nprocess; k++)
         relaxed[k][i] *=
-            exp_of(factor * par.process[k].part * strain(i, k) + (change ? change[k * each] : 0.0));
+            exp_of(par.process[k].part * strain(i, k) + (change ? change[k * each] : 0.0));
     }
 
     // m g phi x^2/2 of all processes
@@ -182,7 +182,8 @@ namespace SPHDissipation {
     int each;                // 0: it is 1 for all, 1
 
     const int *type, *mask;
-    const double *rmass, *esph;
+    const double *rmass;
+    double *esph;
     double *rho, *drho, *vfrac;
     double *desph;    // zero when the step begins
 
@@ -262,6 +263,19 @@ namespace SPHDissipation {
       if (par.thermal_pressure)    // heat is what the strain does not have
         strain_pressure[i] -=
             thermal_pressure(types[type[i]].eos, rho[i], strains.energy(i) / rmass[i]);
+    }
+
+    // The internal energy of an owned particle, which lacks the work of its pressure over this time, gets it.  The
+    // pressure is that of the result.
+
+    SPH_FUNCTION void complete_energy(int i, double time, int not_fluid) const
+    {
+      if (!is_fluid(i, not_fluid)) return;
+      const EosParams &eos = types[type[i]].eos;
+      const double shrinks = time * particle[i].vol * density[i].cdot / density[i].c;
+      double p = pressure(par.eos, eos, rho[i], esph[i] / rmass[i]);
+      if (par.nprocess) p += strain_pressure[i];
+      esph[i] += shrinks * p / (1.0 - shrinks * thermal_pressure(eos, rho[i], 1.0 / rmass[i]));
     }
 
     // What the conduction of heat reads: the temperature of an owned particle; of owned and ghost particles, with

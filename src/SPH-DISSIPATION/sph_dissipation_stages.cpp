@@ -40,16 +40,18 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
 /* ---------------------------------------------------------------------- */
 
 void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool at_rest,
-                       int not_fluid)
+                       double missing, int not_fluid)
 {
   const bool relaxes = engine.parameters().nprocess, conducts = engine.parameters().conducts;
-  if (!relaxes && !conducts) return run(list, vest, omegaest);
+  const bool completes = engine.parameters().own_temperatures;
+  if (!relaxes && !conducts && !completes) return run(list, vest, omegaest);
   engine.accumulate_density(list, vest, omegaest);
   exchange.reverse({field(engine.density, &engine.density->c, 2)});
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal, [&](int i) {
     rows.set_density(i);
     if (relaxes) rows.set_strain_pressure(i, not_fluid, at_rest);
+    if (completes) rows.complete_energy(i, missing, not_fluid);
     if (!conducts) return;
     rows.set_temperature(i);
     rows.set_conductor(i, not_fluid);
@@ -66,7 +68,7 @@ void DensityStage::send(bool with_strain, bool with_temperature, int not_fluid)
   const int energy = engine.parameters().thermal_pressure ? 1 : 0;    // of ghosts, for it
   Conductor *const conductor = engine.conductor.data();
   exchange.forward({field(engine.density, &engine.density->c, 2),
-                    {atom->esph, 1, energy},
+                    {engine.rows().esph, 1, energy},
                     {engine.strain_pressure, 1, with_strain ? 1 : 0},
                     field(conductor, with_temperature ? &conductor->temperature : nullptr,
                           with_temperature ? 1 : 0)});
@@ -185,7 +187,7 @@ double PressureStage::elastic_energy(double *each_atom, int not_fluid) const
 
 /* ---------------------------------------------------------------------- */
 
-void RelaxStage::advance(int not_fluid, const double *change, const double *factor) const
+void RelaxStage::advance(int not_fluid, const double *change) const
 {
   const StrainRows strains = engine.strains();
   const Parameters &par = engine.parameters();
@@ -194,7 +196,7 @@ void RelaxStage::advance(int not_fluid, const double *change, const double *fact
     if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid))
       strains.forget(i, par.nprocess);
     else
-      strains.advance(i, factor ? factor[i] : 1.0, change ? change + i : nullptr, nlocal);
+      strains.advance(i, change ? change + i : nullptr, nlocal);
   });
 }
 
@@ -222,9 +224,9 @@ double RelaxStage::energy(int groupbits, int not_fluid) const
 
 /* ---------------------------------------------------------------------- */
 
-void HeatStage::run()
+void HeatStage::run(const NoiseData *noise)
 {
-  engine.accumulate_heat(flow);
+  engine.accumulate_heat(noise, flow);
   double *const desph = atom->desph;
   engine.for_each(force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal, [&](int i) {
     desph[i] += flow[i];

@@ -27,6 +27,7 @@ namespace SPHDissipation {
   class Engine;
   class Exchange;
   class PairTally;
+  struct NoiseData;
 
   // A stage of the force computation: sums of its own over the pairs that pass 1 of the engine has
   // found, and what it sends to ghost atoms or gets back from them.  Fluid::compute() lists the stages
@@ -58,10 +59,13 @@ namespace SPHDissipation {
 
     void run(NeighList *, double **vest, double **omegaest);
 
-    // for forces, with the pressure of relaxing processes: at_rest, they have relaxed; and with the temperatures that
-    // conduction needs; not_fluid = bits of the groups of particles of walls and open zones
+    // for forces, with the pressure of relaxing processes: at_rest, they have relaxed; with the temperatures that
+    // conduction needs; and, where particles have the noise of their temperatures, with the internal energies at the end
+    // of the step, which lack the work of the pressure over this time.  not_fluid = bits of the groups of particles of
+    // walls and open zones
 
-    void run(NeighList *, double **vest, double **omegaest, bool at_rest, int not_fluid);
+    void run(NeighList *, double **vest, double **omegaest, bool at_rest, double missing,
+             int not_fluid);
 
    private:
     void send(bool with_strain, bool with_temperature, int not_fluid);
@@ -114,9 +118,9 @@ namespace SPHDissipation {
     using Stage::Stage;
 
     // Advance it by the time step for which the parameters hold, from the last forces; not_fluid as above.  Of
-    // thermal noise, nullptr without: change[k * nlocal + i] of ln rho_r of process k, factor[i] of what relaxes
+    // thermal noise, nullptr without: change[k * nlocal + i] of ln rho_r of process k
 
-    void advance(int not_fluid, const double *change, const double *factor) const;
+    void advance(int not_fluid, const double *change) const;
 
     // owned particles have no state of processes that their type does not have
     void forget_unused() const;
@@ -126,13 +130,14 @@ namespace SPHDissipation {
     double energy(int groupbits, int not_fluid) const;
   };
 
-  // Conduction of heat, after pass 2, onto the heating of LAMMPS as ForceStage: see HeatChannel
+  // Conduction of heat, after pass 2, onto the heating of LAMMPS as ForceStage: see HeatChannel; with the noise of
+  // NoiseStage, nullptr: without
 
   class HeatStage : public Stage {
    public:
     using Stage::Stage;
 
-    void run();
+    void run(const NoiseData *noise);
     double memory_usage() const override;
 
    private:

@@ -203,4 +203,4 @@ def test_temperatures_of_the_particles(lammps):
     for strain in (0.0, 0.3):
         text = start(lammps, particles, model, strain, timestep=0.002) + "compute T all sph/temp\nthermo_style custom step c_T[5]\n" + FULL
         heat.append(lammps(text + "run 0\n").thermo()[0]["c_T[5]"][0])
-    assert heat[0] - heat[1] == pytest.approx(0.5 * 80.0 * phi1(0.02) * 0.3**2 / 20.0, rel=1e-4)  # 1/T is a mean of 1/T_i
+    assert heat[0] - heat[1] == pytest.approx(0.5 * 80.0 * phi1(0.02) * 0.3**2 / 20.0, rel=1e-4)

@@ -1,0 +1,143 @@
+"""Noise of the heat: conduction, and gases whose pressure depends on the heat, with temp energy.
+
+Stationary distributions are those of the measure exp(S/k) prod dS_i, found here by quadrature or in closed form."""
+
+import numpy as np
+import pytest
+
+from helpers import disordered, dump, fluid, relative
+from test_relax import start
+
+APART = 20.0
+
+
+def groups(lammps, count, masses, heats, speed=0.0):
+    """count groups of particles on a line, a distance of 1 apart, each type with its mass; the first moves with speed, the others against it."""
+    size = len(masses)
+    atoms, velocities = "", ""
+    for k in range(count):
+        for one, (mass, heat) in enumerate(zip(masses, heats)):
+            tag = size * k + one + 1
+            atoms += f"{tag} {one + 1} {mass} {heat:.17g} {APART * k + 5.0 + one} 0 0\n"
+            velocities += f"{tag} {(speed if one == 0 else -speed / (size - 1)):.17g} 0 0\n"
+    lammps.path("groups.data").write_text(
+        f"groups\n\n{size * count} atoms\n{size} atom types\n0 {APART * count} xlo xhi\n-10 10 ylo yhi\n-0.5 0.5 zlo zhi\n\n"
+        f"Atoms # sph/bulk\n\n{atoms}\nVelocities\n\n{velocities}")
+    return "units lj\ndimension 2\natom_style sph/bulk\nread_data groups.data\nneighbor 1.0 bin\ncompute E all sph/energy\n"
+
+
+def blocks(values, number=10):
+    """Mean, and its standard error from the means of blocks."""
+    means = np.asarray(values)[:len(values) // number * number].reshape(number, -1).mean(axis=1)
+    return means.mean(), means.std(ddof=1) / np.sqrt(number)
+
+
+LONG = pytest.mark.long
+
+
+@pytest.mark.parametrize("capacity, masses", [
+    (3.0, (1.0, 3.0, 1.0)), pytest.param(3.0, (1.0, 1.0, 1.0), marks=LONG), pytest.param(6.0, (1.0, 1.0, 1.0), marks=LONG),
+    pytest.param(20.0, (1.0, 1.0, 1.0), marks=LONG)])
+def test_three_particles_share_their_heat(lammps, capacity, masses):
+    """Conduction alone: the shares of the heat have Dirichlet's distribution, prod Q_i^(C_i/k - 1)."""
+    total = 3.0
+    a = capacity * np.array(masses)
+    box = groups(lammps, 300, masses, total * a / a.sum())
+    coeffs = "".join(f"pair_coeff {i} {i} {m} 1e-9 0.0 intrinsic 3.0 conductivity 1.0\n" for i, m in enumerate(masses, 1))
+    squares = "".join(f"group G{i} type {i}\nvariable q{i} atom c_e\nvariable s{i} atom c_e*c_e\n"
+                      f"compute r{i} G{i} reduce ave v_q{i} v_s{i}\n" for i in (1, 2, 3))
+    values = " ".join(f"c_r{i}[{k}]" for i in (1, 2, 3) for k in (1, 2))
+    dt = 0.05 * capacity  # a tenth of the rate of the slowest mode
+    thermo = lammps(box + f"pair_style sph/bulk dim 1 temp energy {capacity} 77\n{coeffs}fix FLUID all sph/bulk\n"
+                    f"timestep {dt}\ncompute e all property/atom esph\n{squares}fix A all ave/time 5 400 2000 {values}\n"
+                    "thermo_style custom step c_E f_A[1] f_A[2] f_A[3] f_A[4] f_A[5] f_A[6]\nthermo 2000\n"
+                    "thermo_modify norm no format float %.17g\nrun 22000\n", timeout=300).thermo()[-1]
+    assert np.ptp(thermo["c_E"]) < 1e-12 * thermo["c_E"][0]
+    for i in range(3):
+        mean, error = blocks(thermo[f"f_A[{2 * i + 1}]"][2:])
+        square, error_of_square = blocks(thermo[f"f_A[{2 * i + 2}]"][2:])
+        exact = total * a[i] / a.sum()
+        variance = exact * (total - exact) / (a.sum() + 1.0)
+        assert abs(mean / exact - 1.0) < 4.0 * error / exact + 3e-3
+        assert abs(np.sqrt(square - mean**2) / np.sqrt(variance) - 1.0) < 2.0 * error_of_square / variance + 3e-3
+
+
+def gas_of_two(capacity, gamma, total, spring, dim=1, support=3.0):
+    """Means of distance, energy of motion, and heat of two particles of an ideal gas, mass 1, that springs hold at the ends of
+    a line of length 1: density exp(S/k) dS_1 dS_2 at constant energy, S_i = C (ln Q_i - Gamma ln rho_i)."""
+    r, dr = np.linspace(0.02, support - 0.02, 1500, retstep=True)
+    v = np.linspace(0.0, np.sqrt(4.0 * total), 1201)  # relative velocity, kinetic energy v^2/4
+    q = r / support
+    kernel = lambda q: np.where(q < 1.0, (1.0 - q)**4 * (1.0 + 4.0 * q), 0.0)  # Wendland C2 but for its norm
+    rho = kernel(0.0) + kernel(q)
+    motion = 0.25 * v[None, :]**2
+    heat = total - motion - 0.25 * spring * (r[:, None] - 1.0)**2
+    weight = np.where(heat > 0.0, np.maximum(heat, 1e-300)**(2.0 * capacity - 1.0), 0.0)
+    weight *= rho[:, None]**(-2.0 * (gamma - 1.0) * capacity)
+    mean = lambda field: (weight * field).sum() / weight.sum()
+    return mean(r[:, None]), mean(motion), mean(heat)
+
+
+@pytest.mark.parametrize("channel, gamma", [
+    ("kappa 0.6 conductivity 0.3", 5.0 / 3.0), ("mu 0.3 conductivity 0.3", 1.4), pytest.param("kappa 0.6", 1.4, marks=LONG),
+    pytest.param("mu 0.3", 5.0 / 3.0, marks=LONG)])
+def test_gas_and_springs(lammps, channel, gamma):
+    """Two particles of an ideal gas exchange energy by work, friction, and conduction, with each other and with springs."""
+    capacity, total, spring = 3.0, 5.0, 60.0
+    words = channel.split()
+    value = dict(zip(words[::2], words[1::2]))
+    box = groups(lammps, 400, (1.0, 1.0), (0.45 * total, 0.45 * total), np.sqrt(0.1 * total))
+    keywords = f" conductivity {value['conductivity']}" if "conductivity" in value else ""
+    text = (box + f"pair_style sph/bulk dim 1 eos ideal temp energy {capacity} 77\n"
+            f"pair_coeff * * 1.0 1.0 {value.get('mu', 0.0)} {value.get('kappa', 'intrinsic')} 3.0 gamma {gamma}{keywords}\n"
+            f"fix FLUID all sph/bulk\nfix SPRING all spring/self {spring}\ntimestep 0.01\n"
+            "compute e all property/atom esph\ncompute heat all reduce ave c_e\nvariable d atom x*(2*type-3)\n"
+            "compute distance all reduce ave v_d\nvariable motion equal c_E[1]/(0.5*count(all))\nvariable r equal 2*c_distance\n"
+            "variable heat equal 2*c_heat\nvariable sum equal c_E+f_SPRING\n"
+            "fix A all ave/time 2 250 500 v_r v_motion v_heat v_sum\n"
+            "thermo_style custom step f_A[1] f_A[2] f_A[3] f_A[4]\nthermo 500\nthermo_modify norm no format float %.17g\nrun 12000\n")
+    thermo = lammps(text, timeout=300).thermo()[-1]
+    energy = thermo["f_A[4]"][1:]
+    assert np.ptp(energy) < 0.003 * energy[0]
+    for k, exact in enumerate(gas_of_two(capacity, gamma, energy.mean() / 400.0, spring), 1):
+        mean, error = blocks(thermo[f"f_A[{k}]"][4:])
+        assert abs(mean - exact) < 4.0 * error + 0.003 * abs(exact), (k, mean, error, exact)
+
+
+@pytest.mark.parametrize("options, keywords", [
+    ("eos ideal", "pb 5.0 gamma 1.4 conductivity 2.0"), ("eos tait", "pb 5.0 gruneisen 0.3 1.0 conductivity 2.0"),
+    ("eos ideal volume mass", "gamma 1.4 conductivity 2.0 relax 4.0 0.1")])
+def test_energy_is_exact(lammps, options, keywords):
+    """Motion and heat together, over 500 steps; momentum; and the same forces and heats on any number of ranks."""
+    particles = disordered(2, 12, ntypes=2, speed=1.0)
+    particles.esph[:] = 40.0
+    model = fluid(2, f"temp energy 10.0 77 {options}", keywords=keywords)
+    text = start(lammps, particles, model, timestep=0.002) + "compute E all sph/energy\n"
+    reference = None
+    for ranks, newton in ((1, "on"), (2, "off"), (4, "on")):
+        lammps(text.replace("newton on", f"newton {newton}") + dump("a.dump", 3) + "run 3\n", ranks=ranks)
+        frame = lammps.frames("a.dump")[-1]
+        now = np.column_stack((frame["f"], frame["desph"]))
+        reference = now if reference is None else reference
+        assert relative(now - reference, reference) < 1e-11, (ranks, newton)
+    thermo = lammps(text + "thermo_style custom step c_E c_E[1]\nthermo 50\nthermo_modify norm no format float %.17g\nrun 500\n").thermo()[-1]
+    assert np.ptp(thermo["c_E"]) < 1e-12 * thermo["c_E"][0]
+    assert np.ptp(thermo["c_E[1]"]) > 1e-4 * thermo["c_E"][0]
+
+
+def test_unequal_masses_have_one_temperature(lammps):
+    """Motion and heat of light and heavy particles; the rest of the work of the pressures would make the heats differ by 1.7 percent."""
+    thermo = lammps(
+        "units lj\ndimension 2\natom_style sph/bulk\nlattice sq 1.0\nregion box block 0 20 0 20 -0.5 0.5\ncreate_box 2 box\n"
+        "create_atoms 1 box\nset group all type/fraction 2 0.5 77\nset type 1 mass 1.0\nset type 2 mass 4.0\n"
+        "displace_atoms all random 0.1 0.1 0.0 5\nvelocity all create 1.0 87 loop geom\npair_style sph/bulk temp energy 20.0 4711\n"
+        "pair_coeff 1 1 1.0 6.0 0.3 0.8 3.0 pb 20.0 conductivity 1.0\npair_coeff 2 2 4.0 6.0 0.3 0.8 3.0 pb 20.0 conductivity 1.0\n"
+        "fix FLUID all sph/bulk temperature 1.0\ntimestep 0.004\ngroup light type 1\ngroup heavy type 2\n"
+        "compute light light sph/temp\ncompute heavy heavy sph/temp\nrun 3000\nreset_timestep 0\n"
+        "fix A all ave/time 2 500 1000 c_light c_heavy c_light[5] c_heavy[5]\nthermo_style custom step f_A[*]\nthermo 1000\nrun 12000\n",
+        timeout=300).thermo()[-1]
+    light, heavy, warm_light, warm_heavy = (blocks(thermo[f"f_A[{k}]"][1:], 12) for k in (1, 2, 3, 4))
+    print(light, heavy, warm_light, warm_heavy)
+    assert abs(warm_light[0] / warm_heavy[0] - 1.0) < 0.003 + 4.0 * np.hypot(warm_light[1], warm_heavy[1])
+    for one in (light, heavy):
+        assert abs(one[0] / warm_heavy[0] - 1.0) < 0.003 + 4.0 * one[1]
