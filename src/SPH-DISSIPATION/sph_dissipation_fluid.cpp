@@ -336,7 +336,14 @@ void Fluid::sum_forces(PairTally *tally)
 
 void Fluid::sum_heat()
 {
-  conduction->run();
+  conduction->run([this](std::vector<double> &flow) {
+    boundary->add_surface_heat(flow);
+  });
+}
+
+double Fluid::received_heat(int groupbit) const
+{
+  return conduction->received(groupbit);
 }
 
 /* ----------------------------------------------------------------------
