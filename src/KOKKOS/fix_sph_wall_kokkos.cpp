@@ -164,6 +164,23 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate
 
 /* ---------------------------------------------------------------------- */
 
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::pre_force(int vflag)
+{
+  if (!heat_value.varies()) return;
+  atomKK->sync(Host, ALL_MASK);    // variables may be of any particles
+  FixSPHWall::pre_force(vflag);
+  if (!heat_value.is_by_atom()) return;
+  if ((int) heat_values.extent(0) < atom->nlocal) {
+    heat_values = {};
+    heat_values = decltype(heat_values)(Kokkos::NoInit("sph/wall:heat"), atom->nmax);
+  }
+  const auto on_host = Kokkos::create_mirror_view(heat_values);
+  for (int i = 0; i < atom->nlocal; i++) on_host(i) = heat_value(i);
+  Kokkos::deep_copy(heat_values, on_host);
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class DeviceType>
 void FixSPHWallKokkos<DeviceType>::move_surface_kokkos(
     const BoundaryDataKokkos<DeviceType> &boundary, bool before)
@@ -202,6 +219,11 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
   auto sums = boundary.sum;
   auto *const spin = data.spin;
   const int bit = groupbit;
+  const WallHeat kind = heat;
+  const bool with_heat = gives_heat(), by_atom = heat_value.is_by_atom();
+  const double value = heat_value.now();
+  auto values = heat_values;
+  auto heat_sums = boundary.heat_sum;
 
   atomKK->sync(execution_space, IMAGE_MASK);
   Kokkos::parallel_for(
@@ -216,6 +238,9 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
         from_point(i, now.point, r);
         now.acceleration_at(r, acceleration);
         extend_fluid(rows, i, wall, surface(k), sum, acceleration, w);
+        if (with_heat && heat_sums(k).weight > 0.0)
+          rows.conductor[i] = wall_conductor(kind, by_atom ? values(i) : value,
+                                             rows.particle[i].vol, surface(k), heat_sums(k));
       });
 }
 
@@ -285,6 +310,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*
       sums);
   std::copy_n(sums.value, NVALUES, total);
   total_summed = false;
+  book_heat();
   if constexpr (ON_HOST) return k_array.template modify<DeviceType>();
 
   Kokkos::View<double *[NVALUES], Kokkos::LayoutRight, DeviceType> packed(
@@ -422,7 +448,8 @@ void FixSPHWallKokkos<DeviceType>::unpack_exchange_kokkos(DAT::tdual_double_2d_l
 
 template <class DeviceType> double FixSPHWallKokkos<DeviceType>::memory_usage()
 {
-  return FixSPHWall::memory_usage() + (double) particles.extent(0) * sizeof(int);
+  return FixSPHWall::memory_usage() + (double) particles.extent(0) * sizeof(int) +
+      (double) heat_values.extent(0) * sizeof(double);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -42,6 +42,7 @@ class FixSPHWallKokkos :
   void setup_pre_exchange() override;
   void setup(int) override;
   void initial_integrate(int) override;
+  void pre_force(int) override;
   void post_force(int) override;
   void min_post_force(int) override;
 
@@ -67,6 +68,8 @@ class FixSPHWallKokkos :
   Kokkos::DualView<double *[6], Kokkos::LayoutRight, LMPDeviceType> k_array;    // array_atom
   Kokkos::View<int *, DeviceType> particles;    // owned ones of the wall, of the neighbor list
   int nparticles;
+  Kokkos::View<double *, DeviceType>
+      heat_values;    // by owned particle, if that is how they are given
 
   uint64_t spin_mask() const;
 };

@@ -188,12 +188,18 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
   auto number = boundary.number;
   auto surface = boundary.surface;
   auto sum = boundary.sum;
+  const bool with_heat = stage.gives_heat();
+  if (with_heat && (int) boundary.heat_sum.extent(0) != boundary.nowned)
+    boundary.heat_sum =
+        decltype(boundary.heat_sum)(Kokkos::NoInit("sph:boundary_heat_sum"), boundary.nowned);
+  auto heat_sum = boundary.heat_sum;
   auto loop = data;
   Kokkos::parallel_for(
       "sph:boundary_sum", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
         const Particle w = loop.particle[particles(k)];
         const Surface s = surface(k);
         BoundarySum total = {};
+        BoundaryHeatSum heat = {};
         for_neighbors(loop, particles(k), [&](int j, const double *r, double rsq) {
           if (number(j) >= 0) return;
           const Particle &f = loop.particle[j];
@@ -202,8 +208,75 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
           const double height = add_fluid(f, w, r, kernel_weight, s, loop.rho[j],
                                           loop.weight[j * loop.each], loop.zeta_term[j], total);
           if (loop.spin) add_fluid_spin(loop.spin[j].w, f.vol * kernel_weight, height, s, total);
+          if (with_heat) add_fluid_heat(loop.conductor[j], f.vol * kernel_weight, height, heat);
         });
         sum(k) = total;
+        if (with_heat) heat_sum(k) = heat;
+      });
+}
+
+// heat per time that the particle f of the fluid gets by the boundary particle w, r = x_w - x_f
+
+namespace {
+template <class DeviceType, class K> struct SurfaceHeat {
+  LoopDataKokkos<DeviceType> loop;
+  Kokkos::View<int *, DeviceType> number;
+  Kokkos::View<Surface *, DeviceType> surface;
+
+  KOKKOS_INLINE_FUNCTION double operator()(int f, int w, const double *r, double rsq) const
+  {
+    const double flux = loop.conductor[w].flux;
+    if (flux == 0.0 || !(loop.conductor[f].conductivity > 0.0)) return 0.0;
+    const double slope = loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support);
+    return surface_heat(flux, loop.particle[f].vol, r, slope, surface(number(w)));
+  }
+};
+}    // namespace
+
+/* ----------------------------------------------------------------------
+   each particle sums up its own pairs
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+void BoundaryStageKokkos<DeviceType>::add_surface_heat(const LoopDataKokkos<DeviceType> &data,
+                                                       double *flow)
+{
+  with_kernel(data.par.kernel, [&](auto kernel) {
+    sum_surface_heat<decltype(kernel)>(data, flow);
+  });
+}
+
+template <class DeviceType>
+template <class K>
+void BoundaryStageKokkos<DeviceType>::sum_surface_heat(const LoopDataKokkos<DeviceType> &data,
+                                                       double *flow)
+{
+  auto list = rows;
+  auto particles = boundary.particles;
+  auto number = boundary.number;
+  auto surface = boundary.surface;
+  auto loop = data;
+  const SurfaceHeat<DeviceType, K> heat_of = {loop, number, surface};
+  Kokkos::parallel_for(
+      "sph:surface_heat", Range(0, nrows), KOKKOS_LAMBDA(int k) {
+        const int i = list(k);
+        double total = 0.0;
+        for_neighbors(loop, i, [&](int j, const double *r, double rsq) {
+          if (number(j) < 0) return;
+          const double to_wall[3] = {-r[0], -r[1], -r[2]};
+          total += heat_of(i, j, to_wall, rsq);
+        });
+        loop.desph[i] += total;
+      });
+  Kokkos::parallel_for(
+      "sph:surface_heat_given", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
+        const int i = particles(k);
+        if (loop.conductor[i].flux == 0.0) return;
+        double total = 0.0;
+        for_neighbors(loop, i, [&](int j, const double *r, double rsq) {
+          if (number(j) < 0) total += heat_of(j, i, r, rsq);
+        });
+        flow[i] = -total;
       });
 }
 
@@ -242,7 +315,8 @@ template <class DeviceType> double BoundaryStageKokkos<DeviceType>::memory_usage
 {
   return (double) (boundary.number.extent(0) + rows.extent(0)) * sizeof(int) +
       (double) boundary.nall * (sizeof(int) + sizeof(Surface) + sizeof(NearKernel)) +
-      (double) boundary.nowned * sizeof(BoundarySum);
+      (double) boundary.nowned * sizeof(BoundarySum) +
+      (double) boundary.heat_sum.extent(0) * sizeof(BoundaryHeatSum);
 }
 
 /* ---------------------------------------------------------------------- */

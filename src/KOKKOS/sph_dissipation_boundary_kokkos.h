@@ -38,7 +38,8 @@ namespace SPHDissipation {
     Kokkos::View<int *, DeviceType> particles;
     Kokkos::View<int *, DeviceType> number;    // of each owned and ghost particle; -1: it is fluid
     Kokkos::View<Surface *, DeviceType> surface;
-    Kokkos::View<BoundarySum *, DeviceType> sum;    // of owned ones
+    Kokkos::View<BoundarySum *, DeviceType> sum;             // of owned ones
+    Kokkos::View<BoundaryHeatSum *, DeviceType> heat_sum;    // the same; empty if none gives heat
     Kokkos::View<NearKernel *, DeviceType> near;
   };
 
@@ -62,6 +63,11 @@ namespace SPHDissipation {
     // pair style to send to ghosts
     void run(LoopDataKokkos<DeviceType> &, int inum);
 
+    // after the conduction: heat of surfaces, as BoundaryStage::add_surface_heat(); flow is set of boundary particles,
+    // the heat per time that they get, and heating of LAMMPS of the fluid
+
+    void add_surface_heat(const LoopDataKokkos<DeviceType> &, double *flow);
+
     double memory_usage() const;
 
     // public because CUDA asks for it of functions with lambdas
@@ -71,6 +77,7 @@ namespace SPHDissipation {
     template <class K> void find_surface(const LoopDataKokkos<DeviceType> &);
     template <class K> void sum_fluid(const LoopDataKokkos<DeviceType> &);
     template <class K> void check(const LoopDataKokkos<DeviceType> &);
+    template <class K> void sum_surface_heat(const LoopDataKokkos<DeviceType> &, double *flow);
 
    private:
     typedef Kokkos::RangePolicy<DeviceType> Range;

@@ -328,6 +328,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
   data->zeta_term = reach(zeta_term, "sph:zeta_term", n);
   data->strain_pressure = reach(strain_pressure, "sph:strain_pressure", n);
   data->conductor = reach(conductor, "sph:conductor", engine->parameters().conducts ? n : 1);
+  if (boundary->gives_heat()) reach(heat_flow_of, "sph:heat_flow", n);
   data->spin = engine->has_spin() ? reach(spin, "sph:spin", n) : nullptr;
   for (auto &heat : data->heat) reach(heat, "sph:heat", n);
   data->weight = reach(weight, "sph:weight", data->each ? n : 1);
@@ -553,8 +554,10 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
   boundary_device->run(*data, pair->list->inum);
   Part<Spin> spins_of = {{}, 0, 3};
   if (engine->has_spin()) spins_of.array = spin;
+  Part<Conductor> heat = {{}, 0, 4};
+  if (boundary->gives_heat()) heat.array = conductor;
   send_to_ghosts(Part<Particle>{particle, 3, 5},    // u, vol and g
-                 Part<double>{zeta_term, 0, 1}, spins_of);
+                 Part<double>{zeta_term, 0, 1}, spins_of, heat);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -593,10 +596,29 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(PairTally *
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_heat()
 {
   if (!on_device) return Fluid::sum_heat();
+  double *const flow = boundary->gives_heat() ? heat_flow_of.data() : nullptr;
   with_kernel(model->choice.kernel, [&](auto kernel) {
     Kokkos::parallel_for("sph:heat", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-                         HeatLoopKokkos<DeviceType, decltype(kernel)>{*data});
+                         HeatLoopKokkos<DeviceType, decltype(kernel)>{*data, flow});
   });
+  if (flow) boundary_device->add_surface_heat(*data, flow);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> double FluidKokkos<DeviceType>::received_heat(int groupbit) const
+{
+  if (!on_device) return Fluid::received_heat(groupbit);
+  auto mask = atomKK->k_mask.template view<DeviceType>();
+  auto flow = heat_flow_of;
+  double total = 0.0;
+  Kokkos::parallel_reduce(
+      "sph:received_heat", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
+      KOKKOS_LAMBDA(int i, double &sum) {
+        if (mask(i) & groupbit) sum += flow(i);
+      },
+      total);
+  return total;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -635,8 +657,8 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
              sizeof(typename std::decay_t<decltype(view)>::non_const_value_type)));
   };
   return Fluid::memory_usage() + boundary_device->memory_usage() +
-      bytes(particle, density_sum, spin, zeta_term, strain_pressure, conductor, weight, bound_of,
-            gradient_of) +
+      bytes(particle, density_sum, spin, zeta_term, strain_pressure, conductor, heat_flow_of,
+            weight, bound_of, gradient_of) +
       (double) NCHANNEL * bytes(data->heat[0]);
 }
 

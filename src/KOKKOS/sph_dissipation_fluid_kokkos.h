@@ -59,6 +59,7 @@ namespace SPHDissipation {
     bigint compute(PairTally *) override;
     double elastic_energy(Moment) override;
     void heating(double *, double *) const override;
+    double received_heat(int groupbit) const override;
     void announce() override;
     double memory_usage() const override;
 
@@ -104,7 +105,8 @@ namespace SPHDissipation {
     Array<Spin> spin;
     Array<double> zeta_term, strain_pressure, weight;
     Array<Conductor> conductor;
-    Array<double> bound_of;    // of the limit, see LimitStage
+    Array<double> heat_flow_of;    // if boundaries give heat, see HeatStage
+    Array<double> bound_of;        // of the limit, see LimitStage
     Gradient gradient_of;
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
 

@@ -43,11 +43,13 @@ namespace SPHDissipation {
 
   template <class DeviceType, class K> struct HeatLoopKokkos {
     LoopDataKokkos<DeviceType> data;
+    double *flow;    // heat per time of each particle; nullptr: it is not asked for
 
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
     {
       const int i = data.ilist(ii);
       const Conductor own = data.conductor[i];
+      if (flow) flow[i] = 0.0;
       if (own.vol == 0.0) return;
       double sum = 0.0;
       for_neighbors(data, i, [&](int j, const double *, double rsq) {
@@ -57,6 +59,7 @@ namespace SPHDissipation {
                          own.vol * other.vol * slope, own.temperature, other.temperature);
       });
       data.desph[i] += sum;
+      if (flow) flow[i] = sum;
     }
   };
 

@@ -34,7 +34,9 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <set>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -47,7 +49,8 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), motion(new WallMotion(lmp, fmt::format("Fix {}", style))),
     exclusions(new Exclusions(lmp)),
     condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}), move(true),
-    noise(false), checked(false), total(), total_all(), total_summed(false)
+    noise(false), checked(false), total(), total_all(), total_summed(false),
+    heat(WallHeat::ADIABATIC), heat_rate(0.0), heat_given(0.0)
 {
   double *const gravity = condition->gravity;
   for (int iarg = 3; iarg < narg;) {
@@ -95,6 +98,24 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
       } else
         unknown(arg[iarg + 1]);
       iarg += 2;
+    } else if (keyword == "heat") {
+      needs(1);
+      const char *const word = arg[iarg + 1];
+      heat_value = Value();
+      if (strcmp(word, "adiabatic") == 0)
+        heat = WallHeat::ADIABATIC;
+      else if (strcmp(word, "temp") == 0)
+        heat = WallHeat::TEMPERATURE;
+      else if (strcmp(word, "flux") == 0)
+        heat = WallHeat::FLUX;
+      else
+        unknown(word);
+      if (gives_heat()) {
+        needs(2);
+        heat_value.set(lmp, arg[iarg + 2]);
+        iarg++;
+      }
+      iarg += 2;
     } else if (keyword == "gravity") {
       needs(3);
       for (int d = 0; d < 3; d++) gravity[d] = utils::numeric(FLERR, arg[iarg + 1 + d], false, lmp);
@@ -109,10 +130,11 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[igroup]);
 
   time_integrate = 1;
-  restart_global = motion->rotates();
+  restart_global = motion->rotates() || gives_heat();
   create_attribute = 1;
   vector_flag = peratom_flag = 1;
-  size_vector = size_peratom_cols = 6;
+  size_peratom_cols = 6;
+  size_vector = gives_heat() ? 8 : 6;
   global_freq = peratom_freq = 1;
   extvector = 1;
   maxexchange = 6;
@@ -138,7 +160,8 @@ FixSPHWall::~FixSPHWall()
 
 int FixSPHWall::setmask()
 {
-  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_FORCE | MIN_PRE_EXCHANGE | MIN_POST_FORCE;
+  return PRE_EXCHANGE | INITIAL_INTEGRATE | (heat_value.varies() ? PRE_FORCE : 0) | POST_FORCE |
+      MIN_PRE_EXCHANGE | MIN_POST_FORCE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -157,6 +180,10 @@ void FixSPHWall::init()
                style);
 
   motion->init();
+  if (!heat_value.init(lmp, fmt::format("fix {} heat", style), true))
+    error->all(FLERR, "Variable {} for fix {} heat is neither of equal style nor of atom style",
+               heat_value.name(), style);
+  if (!heat_value.varies()) check_heat();
   fluid->boundary->add(this);
 
   // no pairs of wall particles in the neighbor lists
@@ -167,7 +194,64 @@ void FixSPHWall::init()
   exclusions->set(walls);
 
   check_wall_particles(lmp, this);
-  check_wall_interacts(lmp, this, fluid, !checked);
+  const std::set<int> felt = check_wall_interacts(lmp, this, fluid, !checked);
+  const auto conducts = [&](int type) {
+    return HeatChannel::in_use(fluid->model->coeffs[type].keywords);
+  };
+  if (gives_heat() && !felt.empty() && std::none_of(felt.begin(), felt.end(), conducts))
+    error->all(FLERR,
+               "Fix {} heat: the fluid at the wall conducts no heat, keyword conductivity of "
+               "pair_coeff",
+               style);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixSPHWall::gives_heat() const
+{
+  return heat != WallHeat::ADIABATIC;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixSPHWall::is_wrong(double value) const
+{
+  return !std::isfinite(value) || (heat == WallHeat::TEMPERATURE && value < 0.0);
+}
+
+/* ----------------------------------------------------------------------
+   when the particles are where the forces are computed
+------------------------------------------------------------------------- */
+
+void FixSPHWall::setup_pre_force(int vflag)
+{
+  pre_force(vflag);
+}
+
+void FixSPHWall::pre_force(int /*vflag*/)
+{
+  if (!heat_value.varies()) return;
+  modify->clearstep_compute();
+  heat_value.evaluate(lmp, igroup);
+  modify->addstep_compute(update->ntimestep + 1);
+  check_heat();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHWall::check_heat() const
+{
+  const char *const what = (heat == WallHeat::TEMPERATURE) ? "temp must be >= 0"
+                                                           : "flux must be finite";
+  if (!heat_value.is_by_atom()) {
+    if (is_wrong(heat_value.now()))
+      error->all(FLERR, "Fix {} heat {}, not {}", style, what, heat_value.now());
+    return;
+  }
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit) && is_wrong(heat_value(i)))
+      error->one(FLERR, "Fix {} heat {}, not {} for particle {}", style, what, heat_value(i),
+                 atom->tag[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -306,6 +390,7 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
           surface_pressure(surfaces[i], eos.rho0, eos.pb, condition->gravity, acceleration));
     } else
       stage.extend_fluid(i, *condition, surfaces[i], sum, acceleration);
+    if (gives_heat()) stage.set_heat(i, heat, heat_value(i), surfaces[i]);
   }
 }
 
@@ -332,6 +417,20 @@ void FixSPHWall::post_force(int /*vflag*/)
       total[3 + d] += moment[d] + one[3 + d];
     }
   }
+  book_heat();
+}
+
+/* ----------------------------------------------------------------------
+   the heat of a step is that of the mean rate at both ends, as in the internal energies of the fluid
+------------------------------------------------------------------------- */
+
+void FixSPHWall::book_heat()
+{
+  if (!gives_heat()) return;
+  const double before = heat_rate;
+  heat_rate = -find_fluid(force)->received_heat(groupbit);
+  if (update->whichflag == 1 && !update->setupflag)
+    heat_given += 0.5 * update->dt * (before + heat_rate);
 }
 
 /* ----------------------------------------------------------------------
@@ -346,11 +445,16 @@ void FixSPHWall::min_post_force(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   force and torque of the fluid on the wall
+   force and torque of the fluid on the wall; heat per time that the wall gives the fluid, and heat
 ------------------------------------------------------------------------- */
 
 double FixSPHWall::compute_vector(int n)
 {
+  if (n >= 6) {
+    double all;
+    MPI_Allreduce((n == 6) ? &heat_rate : &heat_given, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+    return all;
+  }
   if (!total_summed) MPI_Allreduce(total, total_all, 6, MPI_DOUBLE, MPI_SUM, world);
   total_summed = true;
   return total_all[n];
@@ -367,24 +471,28 @@ void FixSPHWall::from_point(int i, const WallVelocity &now, double *r) const
 }
 
 /* ----------------------------------------------------------------------
-   the point on the axis has moved with the wall
+   the point on the axis has moved with the wall, and the wall has given heat
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::write_restart(FILE *fp)
 {
+  constexpr int N = WallMotion::NRESTART;
+  double buf[N + 1];
+  MPI_Reduce(&heat_given, buf + N, 1, MPI_DOUBLE, MPI_SUM, 0, world);
   if (comm->me != 0) return;
-  double buf[WallMotion::NRESTART];
   motion->pack_restart(buf);
   const int size = sizeof(buf);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(buf, sizeof(double), WallMotion::NRESTART, fp);
+  fwrite(buf, sizeof(double), N + 1, fp);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixSPHWall::restart(char *buf)
 {
-  motion->restart(reinterpret_cast<double *>(buf));
+  const auto *const numbers = reinterpret_cast<double *>(buf);
+  motion->restart(numbers);
+  if (gives_heat() && comm->me == 0) heat_given = numbers[WallMotion::NRESTART];
 }
 
 /* ----------------------------------------------------------------------
@@ -425,5 +533,5 @@ int FixSPHWall::unpack_exchange(int i, double *buf)
 
 double FixSPHWall::memory_usage()
 {
-  return 6.0 * atom->nmax * sizeof(double);
+  return 6.0 * atom->nmax * sizeof(double) + heat_value.memory_usage();
 }

@@ -23,12 +23,14 @@ FixStyle(sph/wall,FixSPHWall);
 #include "fix.h"
 
 #include "sph_dissipation_boundary.h"
+#include "sph_dissipation_value.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Exclusions;
   class WallMotion;
   struct WallCondition;
+  enum class WallHeat;
   struct WallVelocity;
 }    // namespace SPHDissipation
 
@@ -43,9 +45,11 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;
+  void setup_pre_force(int) override;
   void setup(int) override;
   void min_setup(int) override;
   void initial_integrate(int) override;
+  void pre_force(int) override;
   void post_force(int) override;
   void min_post_force(int) override;
   double compute_vector(int) override;
@@ -62,6 +66,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void move_surface(SPHDissipation::Surface *, bool) override;
   void set_boundary(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *,
                     const SPHDissipation::BoundarySum *) override;
+  bool gives_heat() const override;
 
  protected:
   SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
@@ -74,9 +79,20 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   double total[6], total_all[6];    // force and torque, of this rank and of all
   bool total_summed;
 
+  SPHDissipation::WallHeat heat;
+  SPHDissipation::Value heat_value;    // temperature, or heat per area and time
+
   bool turns_surface(bool before) const;
+  void book_heat();
 
  private:
+  double
+      heat_rate;    // heat per time that this rank's part of the wall gave the fluid in the last step
+  double
+      heat_given;    // since the fix was defined, on this rank; rank 0 has that of a restart file
+
+  bool is_wrong(double value) const;    // of heat_value
+  void check_heat() const;
   void from_point(int, const SPHDissipation::WallVelocity &, double *) const;
   bool set_velocity();    // returns whether that of an owned particle is another one than before
 };

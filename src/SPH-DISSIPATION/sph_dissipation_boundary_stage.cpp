@@ -98,6 +98,13 @@ void BoundaryStage::extend_fluid(int i, const WallCondition &condition, const Su
                                spin(i));
 }
 
+void BoundaryStage::set_heat(int i, WallHeat heat, double value, const Surface &surface_of)
+{
+  if (heat_sum[i].weight > 0.0)
+    engine.conductor[i] =
+        wall_conductor(heat, value, engine.particle[i].vol, surface_of, heat_sum[i]);
+}
+
 double *BoundaryStage::spin(int i)
 {
   return engine.has_spin() ? engine.spin[i].w : nullptr;
@@ -115,6 +122,7 @@ void BoundaryStage::run(NeighList *list)
   const bool found = (neighbor->ago == 0 || group_bits != rows_bits);
   if (found) find_rows(list);
   find_pairs();
+  surface.has_flux = gives_heat();
   if (found) surface.run(group_bits, pairs);
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
@@ -132,6 +140,9 @@ void BoundaryStage::extend()
     exchange.reverse({sums, field(sum, sum->wd3, 6)});
   else
     exchange.reverse({sums});
+  BoundaryHeatSum *const heat = heat_sum.data();
+  const bool with_heat = !heat_sum.empty();
+  if (with_heat) exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
   check();
   for (auto boundary : boundaries) boundary->set_boundary(*this, surface.surface, sum);
 
@@ -144,6 +155,35 @@ void BoundaryStage::extend()
     exchange.forward({state, zeta_term, field(engine.spin, engine.spin->w, 3)});
   else
     exchange.forward({state, zeta_term});
+  Conductor *const conductor = engine.conductor.data();
+  if (with_heat) exchange.forward({field(conductor, &conductor->vol, 4)});
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool BoundaryStage::gives_heat() const
+{
+  return std::any_of(boundaries.begin(), boundaries.end(), [](const Boundary *one) {
+    return one->gives_heat();
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::add_surface_heat(std::vector<double> &flow) const
+{
+  if (heat_sum.empty()) return;
+  for (const auto &pair : pairs) {
+    const double flux = engine.conductor[pair.wall].flux;
+    if (flux == 0.0 || !(engine.conductor[pair.fluid].conductivity > 0.0)) continue;
+    const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
+    double r[3];
+    for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
+    const double heat =
+        surface_heat(flux, f.vol, r, engine.pairs().slope[pair.entry], surface.surface[pair.wall]);
+    flow[pair.fluid] += heat;
+    flow[pair.wall] -= heat;
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -298,7 +338,8 @@ void BoundaryStage::accumulate()
   const double *const rho = atom->rho;
   const bool has_spin = engine.has_spin();
   const Parameters &par = engine.parameters();
-  const bool repulsive = has_energy();
+  const bool repulsive = has_energy(), with_heat = gives_heat();
+  heat_sum.assign(with_heat ? atom->nlocal + atom->nghost : 0, BoundaryHeatSum());
 
   with_kernel(engine.parameters().kernel, [&](auto k) {
     for (const auto &pair : pairs) {
@@ -315,6 +356,9 @@ void BoundaryStage::accumulate()
                     engine.zeta_term[pair.fluid], total);
       if (has_spin)
         add_fluid_spin(engine.spin[pair.fluid].w, f.vol * kernel_weight, height, s, total);
+      if (with_heat)
+        add_fluid_heat(engine.conductor[pair.fluid], f.vol * kernel_weight, height,
+                       heat_sum[pair.wall]);
       sum[pair.fluid].filled += near[pair.wall].at<decltype(k)>(distance);
       if (repulsive) sum[pair.fluid].occupied += contact[pair.wall].at<ContactKernel>(distance);
     }
@@ -342,6 +386,7 @@ void BoundaryStage::stop_for(int i) const
 
 const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 {
+  surface.has_flux = gives_heat();
   surface.run(group_bits, sides);
   return surface.surface;
 }
@@ -350,7 +395,8 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 
 double BoundaryStage::memory_usage() const
 {
-  return (double) nmax * sizeof(BoundarySum) + (double) pairs.capacity() * sizeof(BoundaryPair) +
-      (double) rows.capacity() * sizeof(int) +
+  return (double) nmax * sizeof(BoundarySum) +
+      (double) heat_sum.capacity() * sizeof(BoundaryHeatSum) +
+      (double) pairs.capacity() * sizeof(BoundaryPair) + (double) rows.capacity() * sizeof(int) +
       (double) (near.capacity() + contact.capacity()) * sizeof(NearKernel) + surface.memory_usage();
 }

@@ -37,6 +37,7 @@ namespace SPHDissipation {
     void remove(Boundary *);    // no effect if it is not there
     bool empty() const { return boundaries.empty(); }
     int bits() const { return group_bits; }    // of the groups of all boundaries
+    bool gives_heat() const;                   // any of them
 
     // after the densities: see ParticleRows::set_reference_volume()
     void set_reference_volume();
@@ -66,6 +67,15 @@ namespace SPHDissipation {
                       const double *acceleration);
     double *spin(int i);
 
+    // the same if it gives heat: temperature at the surface, or heat per area and time
+
+    void set_heat(int i, WallHeat, double value, const Surface &);
+
+    // after the conduction: heat per time of owned and ghost atoms by the surfaces that give one, added to the fluid and
+    // taken from the boundary particles
+
+    void add_surface_heat(std::vector<double> &flow) const;
+
     // what run() consists of, for another one that does the sums elsewhere: the surfaces of the
     // owned and ghost atoms, when the neighbor list is new, from the vectors toward the fluid of the
     // owned ones, in order; and the end of a run with a particle inside a wall
@@ -77,9 +87,10 @@ namespace SPHDissipation {
     double memory_usage() const override;
 
    private:
-    BoundarySum *sum;                   // of owned and ghost atoms
-    std::vector<BoundaryPair> pairs;    // of this step
-    const std::string style;            // of the pair style, for messages
+    BoundarySum *sum;                         // of owned and ghost atoms
+    std::vector<BoundaryHeatSum> heat_sum;    // the same; empty if no boundary gives heat
+    std::vector<BoundaryPair> pairs;          // of this step
+    const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
     int group_bits;
 

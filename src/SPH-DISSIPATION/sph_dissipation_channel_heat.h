@@ -49,12 +49,13 @@ SPH_INLINE Real heat_noise(Real conductivity, Real vv, double temperature_i, Rea
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // what the loop reads of a particle that conducts; all numbers are 0 of others
+  // What the loop reads of a particle that conducts; all numbers are 0 of others.  A boundary particle has either
+  // the volume, a temperature and a conductivity, or the heat that its surface gives.  Rows are read by fours.
   struct alignas(16) Conductor {
     double vol;             // V
     double temperature;     // T
     double conductivity;    // k
-    double unused;          // rows are read by fours
+    double flux;            // heat per area and time from a boundary particle to the fluid
   };
 
   struct HeatChannel : BaseChannel {

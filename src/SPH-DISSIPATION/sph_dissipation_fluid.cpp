@@ -345,7 +345,15 @@ void Fluid::sum_forces(PairTally *tally)
 
 void Fluid::sum_heat()
 {
-  conduction->run(model->choice.thermal ? &noise->numbers_of_step() : nullptr);
+  conduction->run(model->choice.thermal ? &noise->numbers_of_step() : nullptr,
+                  [this](std::vector<double> &flow) {
+                    boundary->add_surface_heat(flow);
+                  });
+}
+
+double Fluid::received_heat(int groupbit) const
+{
+  return conduction->received(groupbit);
 }
 
 /* ----------------------------------------------------------------------

@@ -279,7 +279,7 @@ namespace SPHDissipation {
     }
 
     // What the conduction of heat reads: the temperature of an owned particle; of owned and ghost particles, with
-    // their volumes, all else.  Particles that are not fluid conduct nothing.
+    // their volumes, all else.  Particles that are not fluid conduct nothing, unless a boundary says so later.
 
     SPH_FUNCTION void set_temperature(int i) const
     {
@@ -290,6 +290,7 @@ namespace SPHDissipation {
       const bool conducts = is_fluid(i, not_fluid);
       conductor[i].vol = conducts ? particle[i].vol : 0.0;
       conductor[i].conductivity = conducts ? types[type[i]].keywords.a[CONDUCTIVITY] : 0.0;
+      conductor[i].flux = 0.0;
     }
 
     // pressure and bulk term, of volume and density: what pass 2 multiplies with F r_ij, and the work of

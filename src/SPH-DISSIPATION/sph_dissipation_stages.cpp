@@ -224,13 +224,28 @@ double RelaxStage::energy(int groupbits, int not_fluid) const
 
 /* ---------------------------------------------------------------------- */
 
-void HeatStage::run(const NoiseData *noise)
+void HeatStage::run(const NoiseData *noise, const std::function<void(std::vector<double> &)> &add)
 {
   engine.accumulate_heat(noise, flow);
+  add(flow);
   double *const desph = atom->desph;
-  engine.for_each(force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal, [&](int i) {
+  engine.for_each(nheat(), [&](int i) {
     desph[i] += flow[i];
   });
+}
+
+int HeatStage::nheat() const
+{
+  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+}
+
+double HeatStage::received(int groupbit) const
+{
+  double total = 0.0;
+  const int n = nheat();
+  for (int i = 0; i < n; i++)
+    if (atom->mask[i] & groupbit) total += flow[i];
+  return total;
 }
 
 double HeatStage::memory_usage() const

@@ -17,6 +17,7 @@
 #include "pointers.h"
 #include "sph_dissipation_rows.h"
 
+#include <functional>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -137,11 +138,18 @@ namespace SPHDissipation {
    public:
     using Stage::Stage;
 
-    void run(const NoiseData *noise);
+    // with the heat per time of owned and ghost atoms that another stage adds
+    void run(const NoiseData *noise, const std::function<void(std::vector<double> &flow)> &add);
+
+    // heat per time that particles of a group got in run(), on this processor
+    double received(int groupbit) const;
+
     double memory_usage() const override;
 
    private:
-    std::vector<double> flow;
+    std::vector<double> flow;    // of owned and ghost atoms
+
+    int nheat() const;    // atoms that heat goes to
   };
 
   // Minus the gradient of the concentration of the particles, for particle shifting:

@@ -118,8 +118,8 @@ static bool have_pairs(LAMMPS *lmp, const Fluid *fluid, const Kind &a, const Kin
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Fluid *fluid,
-                                          bool warn)
+std::set<int> SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Fluid *fluid,
+                                                   bool warn)
 {
   int walls = 0;
   for (const auto &wall : lmp->modify->get_fix_by_style("^sph/wall")) walls |= wall->groupbit;
@@ -145,7 +145,7 @@ void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Flu
     });
     (feels ? felt : ignored).insert(f.first);
   }
-  if (ignored.empty()) return;
+  if (ignored.empty()) return felt;
   const char *const reason =
       "no pair coefficients of the fluid's style between their types, neigh_modify exclude, or "
       "neigh_modify include";
@@ -157,6 +157,7 @@ void SPHDissipation::check_wall_interacts(LAMMPS *lmp, const Fix *fix, const Flu
                         "A part of the fluid, of type {}, does not interact with the wall of fix "
                         "{} {}: {}",
                         *ignored.begin(), fix->id, fix->style, reason);
+  return felt;
 }
 
 /* ----------------------------------------------------------------------

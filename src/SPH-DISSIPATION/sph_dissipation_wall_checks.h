@@ -37,9 +37,9 @@ namespace SPHDissipation {
   void check_wall_particles(LAMMPS *, const Fix *);
 
   // pair coefficients, exclusions and neigh_modify include let the fluid feel the wall; if
-  // only a part of the fluid does, a warning if wanted
+  // only a part of the fluid does, a warning if wanted.  Returns the types of the fluid that do.
 
-  void check_wall_interacts(LAMMPS *, const Fix *, const Fluid *, bool warn);
+  std::set<int> check_wall_interacts(LAMMPS *, const Fix *, const Fluid *, bool warn);
 
   // the wall fills the support of the fluid at its surface; a warning if not.  Needs ghost atoms.
 

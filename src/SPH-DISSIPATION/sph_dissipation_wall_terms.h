@@ -32,7 +32,10 @@ namespace SPHDissipation {
     double normal[3];    // toward the fluid; zero: unknown
     double depth;        // distance of w from the surface
     double spacing;      // of the particles
-    double omega[3];     // angular velocity of the rigid body that w belongs to
+    double
+        curvature;    // divergence of the normal by dimensions of the surface; if a flux of heat needs it
+    double flux_volume;    // the same, see surface_heat()
+    double omega[3];       // angular velocity of the rigid body that w belongs to
   };
 
   // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
@@ -56,6 +59,15 @@ namespace SPHDissipation {
     double ud4[3];        // relative velocity times d^4
     double wd3[3];        // relative spin times d^3 (micropolar)
     double wd4[3];        // relative spin times d^4 (micropolar)
+  };
+
+  // the same of the fluid that conducts heat alone
+
+  struct BoundaryHeatSum {
+    double weight;               // 1
+    double d, d3, d4, d5, d6;    // d to the powers
+    double td3, td4;             // temperature times d^3, d^4
+    double conductivity;
   };
 
   SPH_FUNCTION double inner_product(const double *a, const double *b)
@@ -122,6 +134,7 @@ namespace SPHDissipation {
   // What a wall does to the fluid
 
   enum class WallSpin { ZERO, RATE, FREE };
+  enum class WallHeat { ADIABATIC, TEMPERATURE, FLUX };
 
   struct WallCondition {
     bool slip;
@@ -205,6 +218,24 @@ namespace SPHDissipation {
     }
   }
 
+  // the same for its temperature, weight = V_f W, height from add_fluid()
+
+  SPH_FUNCTION void add_fluid_heat(const Conductor &f, double weight, double height,
+                                   BoundaryHeatSum &total)
+  {
+    if (!(f.conductivity > 0.0)) return;
+    const double weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
+    total.weight += weight;
+    total.d += weight * height;
+    total.d3 += weight_d3;
+    total.d4 += weight_d4;
+    total.d5 += weight_d4 * height;
+    total.d6 += weight_d4 * height * height;
+    total.td3 += weight_d3 * f.temperature;
+    total.td4 += weight_d4 * f.temperature;
+    total.conductivity += weight * f.conductivity;
+  }
+
   // pressure at a wall particle of this acceleration, sum.weight > 0
 
   SPH_FUNCTION double wall_pressure(const BoundarySum &sum, const double *gravity,
@@ -228,6 +259,27 @@ namespace SPHDissipation {
     return pressure;
   }
 
+  // What turns sums of powers of the distance, sum.weight > 0, into means
+
+  struct DistanceNorms {
+    double d, d3, d4;
+    DistanceMeans mean;
+  };
+
+  template <class Sum>
+  SPH_FUNCTION DistanceNorms distance_norms(const Sum &sum, const Surface &surface)
+  {
+    const double norm = 1.0 / sum.weight;
+    const double needed = CLOSEST_MEAN * surface.spacing / (norm * sum.d);
+    const double stretch = (needed > 1.0) ? needed : 1.0;
+    const double norm_d3 = norm * stretch * stretch * stretch, norm_d4 = norm_d3 * stretch;
+    return {norm * stretch,
+            norm_d3,
+            norm_d4,
+            {norm_d3 * sum.d3, norm_d4 * sum.d4, norm_d4 * stretch * sum.d5,
+             norm_d4 * stretch * stretch * sum.d6}};
+  }
+
   // Velocity and spin of the fluid go on behind the surface as its condition says: added to those of
   // the wall, u and spin (nullptr: there is none) of one of its particles, sum.weight > 0
 
@@ -235,12 +287,9 @@ namespace SPHDissipation {
                                   const BoundarySum &sum, double *u, double *spin)
   {
     const double norm = 1.0 / sum.weight;
-    const double needed = CLOSEST_MEAN * surface.spacing / (norm * sum.d);
-    const double stretch = (needed > 1.0) ? needed : 1.0;
-    const double norm_d3 = norm * stretch * stretch * stretch, norm_d4 = norm_d3 * stretch;
-    const double mean_d = norm * stretch * sum.d;
-    const DistanceMeans distance = {norm_d3 * sum.d3, norm_d4 * sum.d4, norm_d4 * stretch * sum.d5,
-                                    norm_d4 * stretch * stretch * sum.d6};
+    const DistanceNorms norms = distance_norms(sum, surface);
+    const DistanceMeans &distance = norms.mean;
+    const double norm_d3 = norms.d3, norm_d4 = norms.d4, mean_d = norms.d * sum.d;
     const double *const normal = surface.normal;
     const double depth = surface.depth;
 
@@ -276,6 +325,42 @@ namespace SPHDissipation {
           : distance.stuck(s_d3, s_d4, depth, DistanceMeans::ALIKE_SPIN);
       spin[d] += at_surface + beyond.behind(depth);
     }
+  }
+
+  // What a wall particle of volume vol brings into the conduction of heat, sum.weight > 0.  value = temperature at the
+  // surface, behind which that of the fluid goes on as the velocity along it does, or heat per area and time.
+  // The conductivity is the mean of the fluid around it.
+
+  SPH_FUNCTION Conductor wall_conductor(WallHeat heat, double value, double vol,
+                                        const Surface &surface, const BoundaryHeatSum &sum)
+  {
+    if (heat == WallHeat::FLUX) return {0.0, 0.0, 0.0, value};
+    const DistanceNorms norms = distance_norms(sum, surface);
+    const Extension beyond = norms.mean.stuck(sum.td3 * norms.d3 - value * norms.mean.d3,
+                                              sum.td4 * norms.d4 - value * norms.mean.d4,
+                                              surface.depth, DistanceMeans::ALIKE);
+    return {vol, value + beyond.behind(surface.depth), sum.conductivity / sum.weight, 0.0};
+  }
+
+  // Heat per time that the particle f of the fluid gets from the surface, by a wall particle w, r = x_w - x_f.  The sum of
+  // 2 V_f V_w F r.n over all pairs is the area of the surface, for the integral of F z^2 over one half of space is 1/2, if n
+  // is the normal where the pair crosses it: on average that in the middle.  On cubic lattices the sum is the area itself:
+  // for this, V_w is the reference volume times flux_factor().
+
+  SPH_FUNCTION double surface_heat(double flux, double vol_f, const double *r, double slope,
+                                   const Surface &surface)
+  {
+    const double across = -inner_product(r, surface.normal);
+    const double along_sq = inner_product(r, r) - across * across;
+    return 2.0 * flux * vol_f * surface.flux_volume * slope *
+        (across + 0.5 * surface.curvature * along_sq);
+  }
+
+  // there the volumes V = 1/c are too small by the one sum, the number of pairs by the other
+
+  inline double flux_factor(const LatticeSums &sums)
+  {
+    return sums.zeroth / sums.second;
   }
 
   // What particle i of a wall with this acceleration brings into pass 2: the fluid goes on, sum.weight > 0
