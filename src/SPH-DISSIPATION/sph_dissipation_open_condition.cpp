@@ -429,7 +429,8 @@ void OpenCondition::velocity(int i, double *u) const
   double leaving = wave(ref);
   if (given_velocity() && !given_state()) leaving = changes(ref, leaving);
   double now = ref.out;
-  if (leaving != 0.0) now += wave_velocity(ref.rho * ref.c, leaving);    // a gas may have no heat yet
+  if (leaving != 0.0)
+    now += wave_velocity(ref.rho * ref.c, leaving);    // a gas may have no heat yet
   std::copy_n((given_velocity() && ref.out < 0.0) ? prescribed : atom->v[i], 3, u);
   const double change = -now - MathExtra::dot3(u, plane.normal);
   for (int d = 0; d < 3; d++) u[d] += change * plane.normal[d];
