@@ -26,6 +26,7 @@
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_integrate.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_shift_terms.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_value.h"
@@ -533,9 +534,17 @@ void FixSPHBulk::set_temperatures()
   if (!sets_temperatures()) return;
   for (const auto &ifix : modify->get_fix_by_style("^" + fluid_style))
     if (auto *const other = dynamic_cast<FixSPHBulk *>(ifix)) other->set_masses();
+
+  // open zones are in the group while the variable is evaluated
+
+  const int zone_bits = fluid->open->bits_of(groupbit);
+  const std::vector<int> masks(atom->mask, atom->mask + atom->nlocal);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (masks[i] & zone_bits) atom->mask[i] |= groupbit;
   modify->clearstep_compute();
   temperature->evaluate(lmp, igroup);
   modify->addstep_compute(update->ntimestep + 1);
+  std::copy(masks.begin(), masks.end(), atom->mask);
   const auto value = [this](int i) {
     return (*temperature)(i);
   };

@@ -182,12 +182,7 @@ void FixSPHOpen::init()
   const double support = fluid->support_radius();
   plane->init();
   values->init(fluid->model->choice.eos == Eos::IDEAL);
-  for (int i = 1; i <= atom->ntypes; i++) {
-    const double *const a = fluid->model->coeffs[i].keywords.a;
-    if (fluid->has_type(i) && (a[CONDUCTIVITY] > 0.0 || a[GRUNEISEN] > 0.0))
-      error->all(FLERR, "Fix {} cannot be used with {} of pair_coeff, which type {} has", style,
-                 a[GRUNEISEN] > 0.0 ? "gruneisen" : "conductivity", i);
-  }
+  check_open_heat(lmp, this, fluid, *values);
   condition->init(*fluid->model);
   if (area > 0.0)
     rows->set_distance([this](int i) {
@@ -242,6 +237,11 @@ bool FixSPHOpen::zone_near(const double *x, double reach) const
 void FixSPHOpen::setup_pre_exchange()
 {
   set_up = true;
+  states.clear();
+  condition->is_new = rows->are_new();
+  if (condition->is_new && condition->has_heat())
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) condition->density_of_energy(i) = atom->rho[i];
   check_open_places(lmp, this, *plane, fluidbit);
   values->evaluate(igroup);
   if (condition->given_velocity() && !samples->any()) {
@@ -263,6 +263,21 @@ void FixSPHOpen::setup_pre_exchange()
 void FixSPHOpen::setup_pre_force(int /*vflag*/)
 {
   find_members();
+}
+
+/* ----------------------------------------------------------------------
+   the internal energies of the zone follow the forces, which may be computed several times in a step
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::setup(int /*vflag*/)
+{
+  keep_states();
+}
+
+void FixSPHOpen::keep_states()
+{
+  for (const auto &one : states) condition->keep(one.first, one.second);
+  if (!states.empty()) condition->is_new = false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -361,8 +376,8 @@ void FixSPHOpen::enter(int i, const double *v)
 }
 
 /* ----------------------------------------------------------------------
-   Make a particle of the fluid one of the zone.  The integrator has extrapolated its internal energy to
-   the end of the step: the second half is taken back.
+   Make a particle of the fluid one of the zone, which has no strain.  The integrator has extrapolated its internal
+   energy to the end of the step: the second half is taken back, and the density is that of the same time.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::leave(int i)
@@ -371,6 +386,9 @@ void FixSPHOpen::leave(int i)
   atom->esph[i] -= 0.5 * update->dt * fields->desph_before[i];
   balance->carry(OpenBalance::OUT, i, atom->v[i], atom->esph[i], *fields);
   integrator->depart(i);
+  if (!condition->has_heat()) return;
+  atom->esph[i] -= fluid->open->strain_energy(i);
+  condition->density_of_energy(i) = atom->rho[i] + 0.5 * update->dt * atom->drho[i];
 }
 
 /* ----------------------------------------------------------------------
@@ -386,14 +404,15 @@ void FixSPHOpen::set_velocity(int i)
 }
 
 /* ----------------------------------------------------------------------
-   Set spin and internal energy of a particle of the zone to the given ones, if it moves into the fluid.
+   Set spin and internal energy of a particle of the zone to the given ones, if it moves into the fluid; the energy
+   with the state, if that includes the heat.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_spin(int i)
 {
-  if (values->given(OpenValues::ENERGY) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
-    atom->esph[i] =
-        atom->rmass[i] * ((*values)(OpenValues::ENERGY, i) + condition->elastic(i, atom->rho[i]));
+  if (values->given(OpenValues::ENERGY) && !condition->has_heat() &&
+      MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
+    atom->esph[i] = atom->rmass[i] * (*values)(OpenValues::ENERGY, i);
   if (!fields->has_spins) return;
   double *const omega = atom->omega[i];
   if (values->given(OpenValues::WX) && MathExtra::dot3(atom->v[i], plane->normal) > 0.0)
@@ -419,6 +438,7 @@ void FixSPHOpen::pre_exchange()
 void FixSPHOpen::final_integrate()
 {
   balance->advance(0.5 * update->dt);
+  keep_states();
   totals_known = false;
 }
 
@@ -435,8 +455,12 @@ void FixSPHOpen::set_states(OpenStage &stage)
 {
   set_times();
   sample(stage);
-  if (is_new) check_density();
+  if (is_new) {
+    check_density();
+    warn_of_cold_zone(lmp, this, fluid, *condition, members);
+  }
   is_new = false;
+  states.clear();
   for (const int i : members)
     if (atom->mask[i] & groupbit) set_state(stage, i);
   totals_known = false;
@@ -498,19 +522,21 @@ void FixSPHOpen::sample(const OpenStage &stage)
 
 void FixSPHOpen::set_state(OpenStage &stage, int i)
 {
-  double p, rho;
-  condition->state(i, p, rho);
-  if (!(rho > 0.0)) {
-    const double energy = condition->energy(i);
+  const OpenState state = condition->state(i);
+  if (!(state.rho > 0.0) || std::isinf(state.rho)) {
+    const double energy = condition->heat(i);
     if (fluid->model->choice.eos == Eos::IDEAL && !(energy > 0.0))
       error->one(FLERR,
                  "Fix {} {}: particle {} has an internal energy of {:g} per mass at step {}, from "
                  "which eos ideal makes no pressure: give the zone one by keyword energy or set",
                  style, id, atom->tag[i], energy, update->ntimestep);
     error->one(FLERR, "Fix {} {}: particle {} would have density {:g} and pressure {:g} at step {}",
-               style, id, atom->tag[i], rho, p, update->ntimestep);
+               style, id, atom->tag[i], state.rho, state.p, update->ntimestep);
   }
-  stage.set_state(i, rho, p);
+  stage.set_state(i, state.rho, state.p);
+  if (!condition->has_heat()) return;
+  stage.set_temperature(i, condition->temperature(i, state));
+  states.emplace_back(i, state);
 }
 
 /* ----------------------------------------------------------------------
@@ -590,5 +616,6 @@ void FixSPHOpen::warn_of_other_plane()
 double FixSPHOpen::memory_usage()
 {
   return samples->memory_usage() + values->memory_usage() +
-      static_cast<double>(members.capacity() * sizeof(int));
+      static_cast<double>(members.capacity() * sizeof(int) +
+                          states.capacity() * sizeof(std::pair<int, OpenState>));
 }

@@ -26,6 +26,7 @@ FixStyle(sph/open,FixSPHOpen);
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -38,6 +39,7 @@ namespace SPHDissipation {
   class OpenRows;
   class OpenSamples;
   class OpenValues;
+  struct OpenState;
 }    // namespace SPHDissipation
 
 // Open boundary of the fluids sph/bulk and sph/micropolar, a buffer zone: moves its particles, gives them
@@ -53,6 +55,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void init() override;
   void setup_pre_exchange() override;
   void setup_pre_force(int) override;
+  void setup(int) override;
   void initial_integrate(int) override;
   void post_integrate() override;
   void pre_force(int) override;
@@ -84,9 +87,11 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   double radius;               // of the fluid that is measured at the plane
   double area;                 // of the cross section of a row; 0: rows have a spacing
   std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
-  bool is_new;                 // no forces have been computed with this zone
-  bool supersonic, gap;        // has been warned of
-  bool set_up;                 // since it was defined
+  // of owned particles of a zone with heat: states that have gone into the last forces
+  std::vector<std::pair<int, SPHDissipation::OpenState>> states;
+  bool is_new;             // no forces have been computed with this zone
+  bool supersonic, gap;    // has been warned of
+  bool set_up;             // since it was defined
   bool totals_known;
   std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
@@ -101,6 +106,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void set_velocity(int i);
   void set_spin(int i);
   void check_density() const;
+  void keep_states();
   void sample(const SPHDissipation::OpenStage &);
   void set_state(SPHDissipation::OpenStage &, int i);
 };

@@ -458,8 +458,7 @@ void Engine::add_drag(int i, bool linear, double *force_of, double *heat) const
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum *torque_out,
-                               double *divergence_out)
+LoopData Engine::part(PairSubset &some) const
 {
   const std::size_t end = some.neighbor.size();
   some.neighbor.resize(end + 3 * BLOCK, data.spare);    // pass 2 looks ahead
@@ -470,10 +469,22 @@ void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum 
   part.count = some.count.data();
   part.neighbor = some.neighbor.data();
   part.slope = some.slope.data();
+  part.tally = nullptr;
+  return part;
+}
+
+void Engine::accumulate_heat(PairSubset &some, double *flow) const
+{
+  loops->heat(par->conducts_alike)(part(some), conductor.data(), flow);
+}
+
+void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum *torque_out,
+                               double *divergence_out)
+{
+  LoopData part = this->part(some);
   part.force = force_out;
   part.torque = torque_out;
   part.divergence = divergence_out;
-  part.tally = nullptr;
   (noisy_loop ? noisy_loop : force_loop)(part);
 }
 

@@ -176,9 +176,10 @@ namespace SPHDissipation {
     // for the spare ones
     void accumulate_heat(const NoiseData *noise, std::vector<double> &flow);
 
-    // forces, torques, heat and divergence of those pairs alone, added to arrays with room for the
+    // forces, torques, heat and divergence of those pairs alone, and their conduction, added to arrays with room for the
     // spare particles; after pass 2
     void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *, double *divergence);
+    void accumulate_heat(PairSubset &, double *flow) const;
 
     // drag of an owned particle, added to its force and, by channel, to its heat, energy per time; linear, and in a
     // minimization, which has no velocities: relative to rest
@@ -260,6 +261,7 @@ namespace SPHDissipation {
     void set_weights();
     void grow_pairs(NeighList *);
     LoopData part(int thread) const;
+    LoopData part(PairSubset &) const;
     void run_density(Loop);
     void run_forces(NeighList *, Loop, bool shared, bool linear);
   };

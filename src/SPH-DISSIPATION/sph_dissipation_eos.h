@@ -137,22 +137,6 @@ namespace SPHDissipation {
     return p + thermal_pressure(par, rho, e - elastic_energy(eos, par, rho));
   }
 
-  // density at pressure p; of the ideal gas: at heat q per mass.  Linear and tait: without heat
-
-  inline double density_at(Eos eos, const EosParams &par, double p, double q)
-  {
-    switch (eos) {
-      case Eos::TAIT: {
-        const double b = par.rho0 * par.c_el * par.c_el / par.gamma;
-        return par.rho0 * std::pow((p - par.pb_el) / b + 1.0, 1.0 / par.gamma);
-      }
-      case Eos::IDEAL:
-        return (p - par.pb_el) / (par.gruneisen * q);
-      default:
-        return par.rho0 + (p - par.pb_el) / (par.c_el * par.c_el);
-    }
-  }
-
   // speed of sound at density rho and internal energy e per mass, c^2 = dp/drho at constant entropy,
   // de = p/rho^2 drho
 
@@ -164,6 +148,63 @@ namespace SPHDissipation {
         ? par.c_el * std::sqrt(tait_power(rho / par.rho0, par.gamma) * par.rho0 / rho)
         : par.c_el;
     return (q == 0.0) ? c : std::sqrt(c * c + par.gruneisen * (par.gruneisen + 1.0) * q);
+  }
+
+  // heat per mass at density rho, at the entropy that heat q has at density rho_q
+
+  inline double heat_at(const EosParams &par, double q, double rho_q, double rho)
+  {
+    return (par.gruneisen == 0.0) ? q : q * std::pow(rho / rho_q, par.gruneisen);
+  }
+
+  // Density at pressure p, by Newton's method from a density rho, with the heat q per mass that it has there: it stays,
+  // n = 0, or goes with the density as at constant entropy, n = Gamma.  The pressure is a convex function of the
+  // density then.  NaN if there is no such density.
+
+  inline double density_by_steps(Eos eos, const EosParams &par, double p, double q, double rho,
+                                 double n)
+  {
+    constexpr int MOST = 100;
+    constexpr double CLOSE = 1.0e-10;    // the next step would be its square
+    const double start = rho;
+    for (int k = 0; k < MOST; k++) {
+      const double now = (n == 0.0) ? q : heat_at(par, q, start, rho);
+      const double c = sound_speed(eos, par, rho, elastic_energy(eos, par, rho) + now);
+      const double slope = c * c - par.gruneisen * (par.gruneisen - n) * now;
+      const double more = p - elastic_pressure(eos, par, rho) - thermal_pressure(par, rho, now);
+      rho += more / slope;
+      if (std::fabs(more / slope) <= CLOSE * rho) return rho;
+    }
+    return NAN;
+  }
+
+  // density at pressure p and heat q per mass
+
+  inline double density_at(Eos eos, const EosParams &par, double p, double q)
+  {
+    const double heat = par.gruneisen * q;
+    switch (eos) {
+      case Eos::TAIT: {
+        const double b = par.rho0 * par.c_el * par.c_el / par.gamma;
+        const double cold = par.rho0 * std::pow((p - par.pb_el) / b + 1.0, 1.0 / par.gamma);
+        return (heat == 0.0) ? cold : density_by_steps(eos, par, p, q, cold, 0.0);
+      }
+      case Eos::IDEAL:
+        return (p - par.pb_el) / heat;
+      default: {
+        const double cc = par.c_el * par.c_el;
+        if (heat == 0.0) return par.rho0 + (p - par.pb_el) / cc;
+        return (p - par.pb_el + cc * par.rho0) / (cc + heat);
+      }
+    }
+  }
+
+  // density at pressure p, at the entropy that heat q per mass has at density rho
+
+  inline double density_at_entropy(Eos eos, const EosParams &par, double p, double q, double rho)
+  {
+    if (par.gruneisen == 0.0) return density_at(eos, par, p, q);
+    return density_by_steps(eos, par, p, q, rho, par.gruneisen);
   }
 
 }    // namespace SPHDissipation

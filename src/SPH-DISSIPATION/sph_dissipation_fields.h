@@ -36,9 +36,10 @@ namespace SPHDissipation {
     static Fields *with_spins(Atom *);
 
     const bool has_spins;
-    double *desph_before;    // rate of the internal energy when the step began, see TimeStep
-    double *inertia;         // moment of inertia per mass, length^2; nullptr without spins
-    double **omegaest;       // spin at the end of the step, extrapolated; nullptr without spins
+    double *
+        desph_before;    // rate of the internal energy when the step began, see TimeStep; see OpenCondition for zones
+    double *inertia;      // moment of inertia per mass, length^2; nullptr without spins
+    double **omegaest;    // spin at the end of the step, extrapolated; nullptr without spins
 
     // relaxed density of each process that there is room for, mass/length^n, see RelaxChannel; of a new particle
     // 0, or minus the factor by which it differs from the density that the next forces find

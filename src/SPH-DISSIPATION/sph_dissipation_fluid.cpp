@@ -415,18 +415,24 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
   on_host([&]() {
     density->run(pair->list, nullptr, nullptr);
     const StrainRows strains = engine->strains();
+    const int zone_bits = open->bits_of(groupbit);
     for (int i = 0; i < atom->nlocal; i++) {
       const int type = atom->type[i];
-      if (!(atom->mask[i] & groupbit) || !has_type(type) || is_boundary(i)) continue;
+      const bool in_zone = atom->mask[i] & zone_bits;
+      if (!(in_zone || (atom->mask[i] & groupbit)) || !has_type(type) || is_boundary(i)) continue;
       const double temperature = value(i);
       if (model->heat_capacity(type) == 0.0)
         error->one(FLERR, "{} needs the heat capacity of type {}, keyword cv of pair_coeff", user,
                    type);
       if (!(temperature >= 0.0) || !std::isfinite(temperature))
         error->one(FLERR, "{} must be >= 0, not {}", user, temperature);
+      desph_before[i] = 0.0;
+      if (in_zone) {    // at a density that is not known yet
+        atom->esph[i] = atom->rmass[i] * model->heat_capacity(type) * temperature;
+        continue;
+      }
       strains.begin(i);
       atom->esph[i] = strains.energy_at(i, temperature);
-      desph_before[i] = 0.0;
     }
   });
 }

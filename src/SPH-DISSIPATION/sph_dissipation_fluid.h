@@ -117,8 +117,8 @@ namespace SPHDissipation {
     double strain_energy(int groupbits) const;
 
     // Temperatures of owned particles, with their densities and energies as they are now; 0 of those that have no heat
-    // capacity, and of walls.  Give a temperature to those of a group, where particles, with their ghosts, are
-    // now, by function(particle); errors, in the name of the user, if it is negative or there is no heat capacity
+    // capacity, and of walls.  Give a temperature to those of a group and of its open zones, where particles, with their
+    // ghosts, are now, by function(particle); errors, in the name of the user, if it is negative or there is no heat capacity
 
     void temperatures(double *) const;
     void set_temperature(int groupbit, const std::function<double(int)> &, const std::string &user);

@@ -27,6 +27,7 @@
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_open_condition.h"
 #include "sph_dissipation_open_plane.h"
 #include "sph_dissipation_wall_checks.h"
 #include "update.h"
@@ -219,6 +220,52 @@ void SPHDissipation::check_open_lists(LAMMPS *lmp, const Fix *fix, int fluid_bit
                       "with the fluid or with itself",
                       fix->style, fix->id);
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SPHDissipation::check_open_heat(LAMMPS *lmp, const Fix *fix, const Fluid *fluid,
+                                     const OpenValues &values)
+{
+  const Atom *const atom = lmp->atom;
+  const FluidModel &model = *fluid->model;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    const double *const a = model.coeffs[i].keywords.a;
+    if (fluid->has_type(i) && values.given(OpenValues::ENERGY) && model.choice.eos != Eos::IDEAL &&
+        (a[CONDUCTIVITY] > 0.0 || a[GRUNEISEN] > 0.0))
+      lmp->error->all(FLERR,
+                      "Fix {} energy cannot be used with {} of pair_coeff, which type {} has: give "
+                      "the temperature instead",
+                      fix->style, a[GRUNEISEN] > 0.0 ? "gruneisen" : "conductivity", i);
+  }
+  if (!values.given(OpenValues::TEMPERATURE)) return;
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & fix->groupbit) && model.heat_capacity(atom->type[i]) == 0.0)
+      lmp->error->one(FLERR, "{} needs the heat capacity of type {}, keyword cv of pair_coeff",
+                      fmt::format("Fix {} temperature", fix->style), atom->type[i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SPHDissipation::warn_of_cold_zone(LAMMPS *lmp, const Fix *fix, const Fluid *fluid,
+                                       const OpenCondition &condition,
+                                       const std::vector<int> &owned)
+{
+  const Parameters &par = fluid->model->parameters();
+  if (par.eos == Eos::IDEAL || !(par.thermal_pressure || par.conducts)) return;
+  bigint number[2] = {0, 0}, all[2];
+  for (const int i : owned) {
+    if (!(lmp->atom->mask[i] & fix->groupbit)) continue;
+    number[0]++;
+    if (!(condition.heat(i) > 0.0)) number[1]++;
+  }
+  MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+  if (all[1] && lmp->comm->me == 0)
+    lmp->error->warning(FLERR,
+                        "Fix {} {}: {} of {} particles of the zone have no heat, though heat is "
+                        "conducted or has a pressure; use keyword temperature of this fix or of "
+                        "that of the fluid",
+                        fix->style, fix->id, all[1], all[0]);
 }
 
 /* ----------------------------------------------------------------------

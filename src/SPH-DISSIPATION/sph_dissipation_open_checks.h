@@ -25,7 +25,9 @@ class LAMMPS;
 
 namespace SPHDissipation {
   class Fluid;
+  class OpenCondition;
   class OpenPlane;
+  class OpenValues;
 
   // Checks of a buffer zone and the fluid in front of it.  Called by all ranks; errors name the style of
   // the fix.
@@ -51,6 +53,15 @@ namespace SPHDissipation {
   // the neighbor lists have the pairs of the zone with the fluid and with itself, and are built anew
 
   void check_open_lists(LAMMPS *, const Fix *, int fluid_bit);
+
+  // the energy, or temperature, that is prescribed for the zone is enough for its heat
+
+  void check_open_heat(LAMMPS *, const Fix *, const Fluid *, const OpenValues &);
+
+  // A warning if particles of a new zone have no heat, though it conducts or has a pressure; owned = those of this processor
+
+  void warn_of_cold_zone(LAMMPS *, const Fix *, const Fluid *, const OpenCondition &,
+                         const std::vector<int> &owned);
 
   // a warning if other pair styles, whose forces are not in the balance, act between zone and fluid
 

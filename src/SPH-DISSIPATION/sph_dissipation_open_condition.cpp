@@ -22,6 +22,7 @@
 #include "sph_dissipation_characteristics.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_model.h"
 #include "update.h"
 
@@ -53,6 +54,7 @@ int OpenValues::keyword_argument(int iarg, int narg, char **arg)
                                          {"density", RHO, 1, true},
                                          {"pressure", P, 1, true},
                                          {"energy", ENERGY, 1, false},
+                                         {"temperature", TEMPERATURE, 1, false},
                                          {"spin", WX, 3, false}};
   for (const auto &keyword : KEYWORDS) {
     if (strcmp(arg[iarg], keyword.name) != 0) continue;
@@ -81,6 +83,9 @@ void OpenValues::check() const
   if (given(RHO) && given(P))
     error->all(FLERR, "{}: density and pressure cannot both be given, one follows from the other",
                owner);
+  if (given(ENERGY) && given(TEMPERATURE))
+    error->all(FLERR, "{}: energy and temperature cannot both be given, one follows from the other",
+               owner);
   if (given(WX) && !atom->omega)
     error->all(FLERR, "{} spin requires atom style sph/micropolar", owner);
 }
@@ -95,6 +100,9 @@ const char *OpenValues::fault(int k, double x) const
     if (k == WX || k == WY) return "spin must be along z in 2d";
   }
   if (k == ENERGY && needs_energy && !(x > 0.0)) return "energy must be > 0 with eos ideal";
+  if (k == TEMPERATURE && needs_energy && !(x > 0.0))
+    return "temperature must be > 0 with eos ideal";
+  if (k == TEMPERATURE && !(x >= 0.0)) return "temperature must be >= 0";
   return nullptr;
 }
 
@@ -158,8 +166,8 @@ double OpenValues::memory_usage() const
 OpenCondition::OpenCondition(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane,
                              const OpenValues &values, const OpenSamples &samples) :
     Pointers(lmp),
-    averaging_time(0.0), clock(0.0), owner(owner), plane(plane), values(values), samples(samples),
-    fluid(nullptr), kind(LAGGED), order(-1)
+    averaging_time(0.0), clock(0.0), is_new(false), owner(owner), plane(plane), values(values),
+    samples(samples), fluid(nullptr), fields(nullptr), warm(false), kind(LAGGED), order(-1)
 {
 }
 
@@ -210,6 +218,16 @@ void OpenCondition::check()
 
 /* ---------------------------------------------------------------------- */
 
+void OpenCondition::init(const FluidModel &fluid_in)
+{
+  fluid = &fluid_in;
+  fields = Fields::of(atom);
+  const Parameters &par = fluid->parameters();
+  warm = par.thermal_pressure || par.conducts || values.given(OpenValues::TEMPERATURE);
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool OpenCondition::given_velocity() const
 {
   return values.given(OpenValues::VX);
@@ -229,32 +247,80 @@ const EosParams &OpenCondition::eos(int i) const
    of waves that leave: between those of slow and fast ones, where processes relax
 ------------------------------------------------------------------------- */
 
-double OpenCondition::sound(int i, double rho, double e) const
+double OpenCondition::sound(int i, double rho, double q) const
 {
+  const Eos form = fluid->choice.eos;
   const int type = atom->type[i];
-  const double c = sound_speed(fluid->choice.eos, eos(i), rho, e);
+  const double e = warm ? elastic_energy(form, eos(i), rho) + q : 0.0;
+  const double c = sound_speed(form, eos(i), rho, e);
   const double more =
       RelaxChannel::stiffness(fluid->coeffs[type].keywords, eos(i).rho0, fluid->parameters().step);
   return (more > 0.0) ? sqrt(c * c + 0.5 * more) : c;
 }
 
+/* ---------------------------------------------------------------------- */
+
+bool OpenCondition::enters(int i) const
+{
+  return MathExtra::dot3(atom->v[i], plane.normal) > 0.0;
+}
+
 /* ----------------------------------------------------------------------
-   energy of the background pressure per mass at a density, which the energy of a zone is beyond; a
-   particle without a density yet has that of rho0
+   Particles of a zone have no rate of their energy.
 ------------------------------------------------------------------------- */
 
-double OpenCondition::elastic(int i, double rho) const
+double &OpenCondition::density_of_energy(int i) const
 {
-  const Eos form = fluid->choice.eos;
-  return (form == Eos::IDEAL && rho > 0.0) ? elastic_energy(form, eos(i), rho) : 0.0;
+  return fields->desph_before[i];
+}
+
+/* ----------------------------------------------------------------------
+   Tell whether a particle gets the heat that is prescribed: what enters, and all of a new zone.
+------------------------------------------------------------------------- */
+
+bool OpenCondition::gets_heat(int i, Side side) const
+{
+  return (values.given(OpenValues::ENERGY) || values.given(OpenValues::TEMPERATURE)) &&
+      (enters(i) || (is_new && side == ZONE));
+}
+
+/* ----------------------------------------------------------------------
+   Return density and heat that a particle has.  A density that is not known is rho0.
+------------------------------------------------------------------------- */
+
+OpenState OpenCondition::own_state(int i, Side side) const
+{
+  if (!warm) return {0.0, 0.0, 0.0};
+  double rho = (side == ZONE) ? density_of_energy(i) : atom->rho[i];
+  if (!(rho > 0.0)) rho = eos(i).rho0;
+  return {0.0, rho,
+          atom->esph[i] / atom->rmass[i] - elastic_energy(fluid->choice.eos, eos(i), rho)};
 }
 
 /* ---------------------------------------------------------------------- */
 
-double OpenCondition::energy(int i) const
+double OpenCondition::heat(int i) const
 {
-  if (values.given(OpenValues::ENERGY)) return values(OpenValues::ENERGY, i);
-  return atom->esph[i] / atom->rmass[i] - elastic(i, atom->rho[i]);
+  return reference(i, ZONE).q;
+}
+
+/* ----------------------------------------------------------------------
+   what is given holds for the whole zone, so that heat is conducted against a stream that leaves, too
+------------------------------------------------------------------------- */
+
+double OpenCondition::temperature(int i, const OpenState &state) const
+{
+  if (values.given(OpenValues::TEMPERATURE)) return values(OpenValues::TEMPERATURE, i);
+  const double cv = fluid->heat_capacity(atom->type[i]);
+  return (cv > 0.0) ? state.q / cv : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenCondition::keep(int i, const OpenState &state) const
+{
+  atom->esph[i] = atom->rmass[i] * (elastic_energy(fluid->choice.eos, eos(i), state.rho) + state.q);
+  density_of_energy(i) = state.rho;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -267,27 +333,43 @@ void OpenCondition::prescribed_velocity(int i, double *u) const
 
 /* ---------------------------------------------------------------------- */
 
-OpenCondition::Reference OpenCondition::reference(int i) const
+OpenCondition::Reference OpenCondition::reference(int i, Side side) const
 {
   const Eos form = fluid->choice.eos;
-  const double e = energy(i);
+  const EosParams &par = eos(i);
   Reference ref = Reference();
   ref.spot = plane.spot(atom->x[i]);
   ref.height = plane.height(atom->x[i]);
   ref.known = (given_velocity() && given_state()) || samples.average(ref.spot, ref.mean);
 
+  const OpenState own = own_state(i, side);
+  const bool gets = gets_heat(i, side);
+  ref.q = own.q;
+  if (gets)
+    ref.q = values.given(OpenValues::ENERGY)
+        ? values(OpenValues::ENERGY, i)
+        : fluid->heat_capacity(atom->type[i]) * values(OpenValues::TEMPERATURE, i);
+  ref.at_heat = gets || (side == ZONE && (is_new || !(density_of_energy(i) > 0.0)));
+
   if (values.given(OpenValues::RHO)) {
     ref.rho = values(OpenValues::RHO, i);
-    ref.p = pressure(form, eos(i), ref.rho, e + elastic(i, ref.rho));
+    if (!ref.at_heat) ref.q = heat_at(par, own.q, own.rho, ref.rho);
+    ref.p = elastic_pressure(form, par, ref.rho) + thermal_pressure(par, ref.rho, ref.q);
   } else {
     if (values.given(OpenValues::P))
       ref.p = values(OpenValues::P, i);
     else
-      ref.p = ref.known ? ref.mean.p
-                        : pressure(form, eos(i), eos(i).rho0, e);    // no elastic energy
-    ref.rho = density_at(form, eos(i), ref.p, e);
+      ref.p = ref.known
+          ? ref.mean.p
+          : elastic_pressure(form, par, par.rho0) + thermal_pressure(par, par.rho0, ref.q);
+    if (ref.at_heat)
+      ref.rho = density_at(form, par, ref.p, ref.q);
+    else {
+      ref.rho = density_at_entropy(form, par, ref.p, own.q, own.rho);
+      ref.q = heat_at(par, own.q, own.rho, ref.rho);
+    }
   }
-  ref.c = sound(i, ref.rho, e + elastic(i, ref.rho));
+  ref.c = sound(i, ref.rho, ref.q);
 
   double u[3];
   if (given_velocity())
@@ -343,10 +425,12 @@ void OpenCondition::velocity(int i, double *u) const
     return;
   }
 
-  const Reference ref = reference(i);
+  const Reference ref = reference(i, ZONE);
   double leaving = wave(ref);
   if (given_velocity() && !given_state()) leaving = changes(ref, leaving);
-  const double now = ref.out + wave_velocity(ref.rho * ref.c, leaving);
+  double now = ref.out;
+  if (leaving != 0.0)
+    now += wave_velocity(ref.rho * ref.c, leaving);    // a gas may have no heat yet
   std::copy_n((given_velocity() && ref.out < 0.0) ? prescribed : atom->v[i], 3, u);
   const double change = -now - MathExtra::dot3(u, plane.normal);
   for (int d = 0; d < 3; d++) u[d] += change * plane.normal[d];
@@ -354,25 +438,31 @@ void OpenCondition::velocity(int i, double *u) const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenCondition::state(int i, double &p, double &rho) const
+OpenState OpenCondition::state(int i) const
 {
   const Eos form = fluid->choice.eos;
-  const Reference ref = reference(i);
-  p = ref.p;
-  rho = ref.rho;
+  const EosParams &par = eos(i);
+  const Reference ref = reference(i, ZONE);
   if (kind == FIXED) {
     OpenSample inside;
-    if (!given_state() && samples.now(ref.spot, ref.height, order, inside)) {
-      p = inside.p;
-      rho = density_at(form, eos(i), p, energy(i));
-    }
-  } else {
-    double leaving = wave(ref);
-    if (!(given_velocity() && given_state())) leaving = changes(ref, leaving);
-    const double dp = wave_pressure(leaving);
-    p += dp;
-    rho = (form == Eos::IDEAL) ? rho + dp / (ref.c * ref.c) : density_at(form, eos(i), p, 0.0);
+    if (given_state() || !samples.now(ref.spot, ref.height, order, inside))
+      return {ref.p, ref.rho, ref.q};
+    if (ref.at_heat) return {inside.p, density_at(form, par, inside.p, ref.q), ref.q};
+    return at_pressure(i, ref, inside.p);
   }
+  double leaving = wave(ref);
+  if (!(given_velocity() && given_state())) leaving = changes(ref, leaving);
+  return at_pressure(i, ref, ref.p + wave_pressure(leaving));
+}
+
+/* ----------------------------------------------------------------------
+   Return the state at another pressure and the same entropy.
+------------------------------------------------------------------------- */
+
+OpenState OpenCondition::at_pressure(int i, const Reference &ref, double p) const
+{
+  const double rho = density_at_entropy(fluid->choice.eos, eos(i), p, ref.q, ref.rho);
+  return {p, rho, heat_at(eos(i), ref.q, ref.rho, rho)};
 }
 
 /* ---------------------------------------------------------------------- */
@@ -383,7 +473,7 @@ OpenSample OpenCondition::sample(int i, const Particle &particle, double more) c
       more + pressure(fluid->choice.eos, eos(i), atom->rho[i], atom->esph[i] / atom->rmass[i]);
   double wave = 0.0;
   if (kind != FIXED) {
-    const Reference ref = reference(i);
+    const Reference ref = reference(i, FLUID);
     const double du = (given_velocity() || ref.known)
         ? -MathExtra::dot3(particle.u, plane.normal) - ref.out
         : 0.0;
@@ -397,6 +487,6 @@ OpenSample OpenCondition::sample(int i, const Particle &particle, double more) c
 
 bool OpenCondition::is_supersonic(int i, const Particle &particle) const
 {
-  const double c = sound(i, atom->rho[i], atom->esph[i] / atom->rmass[i]);
+  const double c = sound(i, atom->rho[i], own_state(i, FLUID).q);
   return -MathExtra::dot3(particle.u, plane.normal) > c;
 }

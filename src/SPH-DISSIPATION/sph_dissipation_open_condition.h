@@ -25,18 +25,20 @@ namespace LAMMPS_NS {
 
 namespace SPHDissipation {
 
-  // What a buffer zone prescribes: velocity, density or pressure, internal energy, and spin
+  // What a buffer zone prescribes: velocity, density or pressure, internal energy or temperature, and spin
 
   class OpenValues : protected Pointers {
    public:
-    enum Quantity { VX, VY, VZ, RHO, P, ENERGY, WX, WY, WZ, NQUANTITY };
+    enum Quantity { VX, VY, VZ, RHO, P, ENERGY, TEMPERATURE, WX, WY, WZ, NQUANTITY };
 
     OpenValues(class LAMMPS *, const std::string &owner);    // owner: for messages
 
     // Set the quantities of the keyword at arg[iarg]; return its number of words, 0 if it is none of them.
     int keyword_argument(int iarg, int narg, char **arg);
     void check() const;
-    void init(bool needs_energy);    // finds the variables; the energies must then be > 0
+    void init(
+        bool
+            needs_energy);    // finds the variables; needs_energy: of an ideal gas, which must have heat
 
     bool given(Quantity k) const { return is_given[k]; }
     bool vary() const { return any_variable; }
@@ -57,11 +59,18 @@ namespace SPHDissipation {
     const char *fault(int k, double) const;    // what a value must not be; nullptr: nothing
   };
 
+  class Fields;
   class FluidModel;
   struct EosParams;
   struct Particle;
 
-  // Boundary condition of a buffer zone: velocity, pressure, and density of its particles, from what is
+  // State of a particle of a zone: pressure, density, heat per mass
+
+  struct OpenState {
+    double p, rho, q;
+  };
+
+  // Boundary condition of a buffer zone: velocity, pressure, density, and heat of its particles, from what is
   // prescribed and from what the fluid does.
   // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
 
@@ -72,24 +81,31 @@ namespace SPHDissipation {
 
     double averaging_time;    // 0: by the support radius
     double clock;             // time of the zone, which no command sets back
+    bool
+        is_new;    // no particle has got a state: the heat that is given, or that it has, is that without waves
 
     // Set what the keyword at arg[iarg] says; return its number of words, 0 if it is none of a condition.
     int keyword_argument(int iarg, int narg, char **arg);
     void check();    // refuse keywords without an effect, and too few of them
 
-    void init(const FluidModel &fluid_in) { fluid = &fluid_in; }
+    void init(const FluidModel &);
     bool given_velocity() const;
-    bool given_state() const;    // density or pressure
+    bool given_state() const;                 // density or pressure
+    bool has_heat() const { return warm; }    // states include the heat
 
     // of an owned particle of the zone
 
     void prescribed_velocity(int i, double *u) const;
     void velocity(int i, double *u) const;
-    void state(int i, double &p, double &rho) const;
-    double prescribed_density(int i) const { return reference(i).rho; }    // without waves
-    double energy(int i)
-        const;    // internal, per mass, which the ideal gas needs; without the elastic one, which is
-    double elastic(int i, double rho) const;    // that of the background pressure of the ideal gas
+    OpenState state(int i) const;
+    double prescribed_density(int i) const { return reference(i, ZONE).rho; }    // without waves
+    double heat(int i) const;                              // per mass, which the ideal gas needs
+    double temperature(int i, const OpenState &) const;    // with which it conducts heat
+
+    // density at which a particle of the zone has its internal energy, 0: not known; the state in which the zone leaves it
+
+    double &density_of_energy(int i) const;
+    void keep(int i, const OpenState &) const;
 
     // of an owned particle of the fluid near the plane; more = its pressure beyond the equation of state
 
@@ -98,12 +114,15 @@ namespace SPHDissipation {
 
    private:
     enum Kind { LAGGED, CHARACTERISTIC, FIXED };
+    enum Side { ZONE, FLUID };
 
     const std::string owner;
     const OpenPlane &plane;
     const OpenValues &values;
     const OpenSamples &samples;
     const FluidModel *fluid;
+    const Fields *fields;
+    bool warm;
     Kind kind;
     int order;    // of values from inside, kind fixed
 
@@ -116,12 +135,18 @@ namespace SPHDissipation {
       bool known;          // there is an average, or none is needed
       OpenSample mean;     // over time
       double p, rho, c;    // pressure, density, sound speed
+      double q;            // heat per mass
+      bool at_heat;        // which is known, and not the entropy
       double out;          // velocity out of the fluid
     };
 
     const EosParams &eos(int i) const;
-    double sound(int i, double rho, double e) const;
-    Reference reference(int i) const;
+    double sound(int i, double rho, double q) const;
+    bool enters(int i) const;
+    bool gets_heat(int i, Side) const;
+    OpenState own_state(int i, Side) const;
+    Reference reference(int i, Side) const;
+    OpenState at_pressure(int i, const Reference &, double p) const;
     double wave(const Reference &) const;
     double changes(const Reference &, double wave) const;
   };

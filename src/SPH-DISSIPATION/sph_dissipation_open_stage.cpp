@@ -71,12 +71,33 @@ void OpenStage::remove(OpenZone *zone)
 
 /* ---------------------------------------------------------------------- */
 
+int OpenStage::bits_of(int fluid_bit) const
+{
+  int bits = 0;
+  for (const auto &one : zones)
+    if (one->fluid_bit() == fluid_bit) bits |= one->zone_bit();
+  return bits;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double OpenStage::strain_energy(int i) const
+{
+  return engine.parameters().nprocess ? engine.strains().energy(i) : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void OpenStage::run()
 {
   for (auto zone : zones) zone->set_states(*this);
   set_zones();
   Particle *const particle = engine.particle;
-  exchange.forward({field(particle, &particle->vol, 2), {zone_of.data(), 1, 1}});
+  Conductor *const conductor = engine.conductor.data();
+  const bool conducts = engine.parameters().conducts;
+  exchange.forward({field(particle, &particle->vol, 2),
+                    {zone_of.data(), 1, 1},
+                    field(conductor, conducts ? &conductor->vol : nullptr, conducts ? 3 : 0)});
   update_ghosts();
 }
 
@@ -86,6 +107,15 @@ void OpenStage::set_state(int i, double rho, double pressure)
 {
   if (engine.parameters().bulk == Bulk::DENSITY) pressure += engine.zeta_term[i];
   engine.rows().set_state(i, rho, pressure);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenStage::set_temperature(int i, double temperature)
+{
+  if (!engine.parameters().conducts) return;
+  engine.rows().set_conductor(i, 0);
+  engine.conductor[i].temperature = temperature;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -147,7 +177,7 @@ void OpenStage::find_rows(NeighList *list)
 
 /* ----------------------------------------------------------------------
    Sum up what the pairs of a zone give their particles of the fluid: force, couple, half of the heat of
-   shear and spin, and the part P V w_j (-F r.u) / c of the work of the pressure.
+   shear and spin, the heat of conduction, and the part P V w_j (-F r.u) / c of the work of the pressure.
 ------------------------------------------------------------------------- */
 
 OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
@@ -156,6 +186,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   const double zone = static_cast<double>(k + 1);
   const Particle *const particle = engine.particle;
   const bool by_volume = (engine.parameters().bulk == Bulk::VOLUME);
+  const bool conducts = engine.parameters().conducts;
 
   // with newton off, what a pair of two processors gives to the ghost atom is known to its owner
 
@@ -185,14 +216,20 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   divergence.resize(forces.size());
   if (engine.has_spin()) torques.resize(forces.size());
   engine.accumulate_forces(pairs, forces.data(), torques.data(), divergence.data());
+  if (conducts) {
+    flow.resize(nrow);
+    engine.accumulate_heat(pairs, flow.data());
+  }
 
   pairs.visit([&](int i) {
     if (i < mine && zone_of[i] == 0.0) {
       total.add(particle[i], forces[i]);
       if (engine.has_spin()) total.add(engine.spin[i], torques[i]);
+      if (conducts) total.power += flow[i];
     }
     forces[i] = ForceSum();
     divergence[i] = 0.0;
+    if (conducts) flow[i] = 0.0;
     if (engine.has_spin()) torques[i] = TorqueSum();
   });
   return total;
@@ -205,7 +242,8 @@ double OpenStage::memory_usage() const
   double bytes = pairs.memory_usage();
   for (const auto &row : rows) bytes += static_cast<double>(row.capacity() * sizeof(int));
   return bytes +
-      static_cast<double>(
-             zone_of.capacity() * sizeof(double) + forces.capacity() * sizeof(ForceSum) +
-             torques.capacity() * sizeof(TorqueSum) + divergence.capacity() * sizeof(double));
+      static_cast<double>(zone_of.capacity() * sizeof(double) +
+                          forces.capacity() * sizeof(ForceSum) +
+                          torques.capacity() * sizeof(TorqueSum) +
+                          (divergence.capacity() + flow.capacity()) * sizeof(double));
 }

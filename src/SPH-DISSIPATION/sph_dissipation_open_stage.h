@@ -67,9 +67,14 @@ namespace SPHDissipation {
     void remove(OpenZone *);    // no effect if it is not there
     bool empty() const { return zones.empty(); }
     int bits() const { return zone_bits; }    // of the groups of all zones
+    int bits_of(int fluid_bit) const;         // of those whose fluid has this bit
+    double strain_energy(
+        int i) const;    // of relaxing processes of an owned particle, at the last densities
 
-    // from OpenZone::set_states(): density and pressure of a particle, which keeps its bulk term
+    // from OpenZone::set_states(): density and pressure of a particle, which keeps its bulk term; with which temperature it
+    // conducts heat, if the fluid does
     void set_state(int i, double rho, double pressure);
+    void set_temperature(int i, double temperature);
     const Particle &particle(int i) const { return engine.particle[i]; }
     double strain_pressure(int i) const    // of relaxing processes
     {
@@ -95,7 +100,7 @@ namespace SPHDissipation {
     // of these pairs; all zero but within impact(), which works in proportion to the pairs
     std::vector<ForceSum> forces;
     std::vector<TorqueSum> torques;
-    std::vector<double> divergence;
+    std::vector<double> divergence, flow;
 
     void set_zones();
     void update_ghosts();

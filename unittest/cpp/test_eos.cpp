@@ -127,7 +127,7 @@ TEST(Eos, shortcut_of_the_usual_exponent)
   EXPECT_EQ(tait_power(1.7, 2.5), std::pow(1.7, 2.5));
 }
 
-// density_at() is the inverse of pressure(), of the ideal gas at given heat
+// density_at() is the inverse of pressure() at given heat, density_at_entropy() along an adiabatic change
 
 TEST(Eos, density_at_a_pressure)
 {
@@ -142,6 +142,25 @@ TEST(Eos, density_at_a_pressure)
               << eos_name(eos) << " gamma = " << gamma << " rho = " << rho;
       }
       EXPECT_NEAR(density_at(Eos::TAIT, params(Eos::TAIT, gamma, pb), pb, 0.0), 1.3, 1e-15);
+      for (const Eos eos : {Eos::LINEAR, Eos::TAIT, Eos::IDEAL})
+        for (const double gruneisen : {0.0, 0.8}) {
+          const EosParams par = params(eos, gamma, pb, gruneisen, 0.5);
+          const auto p = [&](double rho, double q) {
+            return pressure(eos, par, rho, q + elastic_energy(eos, par, rho));
+          };
+          for (const double from : {0.9, 1.3, 1.7})
+            for (const double to : {0.8, 1.3, 2.0}) {
+              const double q = heat_at(par, 2.3, from, to);
+              EXPECT_NEAR(density_at(eos, par, p(to, 2.3), 2.3), to, 1e-13);
+              EXPECT_NEAR(density_at_entropy(eos, par, p(to, q), 2.3, from), to, 1e-13);
+
+              // dq = Gamma q/rho drho
+              const double step = 1e-5;
+              EXPECT_NEAR((heat_at(par, 2.3, from, to + step) - heat_at(par, 2.3, from, to - step)) /
+                              (2 * step),
+                          par.gruneisen * q / to, 1e-8 * q);
+            }
+        }
     }
 }
 

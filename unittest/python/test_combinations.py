@@ -137,7 +137,7 @@ FEATURES = {
                                  "variable dragy atom -0.3*c_state[1]*(c_state[3]+0.1)", "compute drag fluid reduce sum v_dragx v_dragy"))),
     "relax": Feature(Lines(room="relax 2", state="-0.99 0", keywords=("relax 4.0 0.02 3.0 0.5",))),
     "heat": Feature(Lines(keywords=("cv 1.0 conductivity 0.3 gruneisen 0.5 1.0",), energy=2.5),
-                    refused={"open": "gruneisen", "rerun": "conductivity", "noise": "conductivity", "warm": "conductivity", "gas": "gruneisen"}),
+                    refused={"rerun": "conductivity", "noise": "conductivity", "warm": "conductivity", "gas": "gruneisen"}),
     "idle_room": Feature(Lines(room="relax 1", state="0"), Lines(), effect=False),
     "gas": Feature(Lines(pair=("eos ideal",), energy=2.5), refused={"noise": "ideal"}),
     "warm": Feature(Lines(pair=("temp energy 100 4711",), energy=2.5),

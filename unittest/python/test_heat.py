@@ -566,15 +566,6 @@ def test_errors(lammps, options, keywords, extra, words):
     assert result.code and re.search(words, result.error, re.DOTALL), result.output[-600:]
 
 
-@pytest.mark.parametrize("keywords", ["cv 1.0 conductivity 1.0", "cv 1.0 gruneisen 0.5 1.0"])
-def test_open_zones_are_refused(lammps, keywords):
-    lattice(2, (20, 8)).write(lammps.path("box.data"))
-    result = lammps(header(2, boundary="f p p") + "read_data box.data\nregion IN block INF 6 INF INF INF INF units box\ngroup zone region IN\n"
-                    "group flow subtract all zone\n" + fluid(2, keywords=keywords)
-                    + "fix FLUID flow sph/bulk\nfix IN zone sph/open flow 6 4 0 1 0 0 6 velocity 1 0 0\nrun 1\n", check=False)
-    assert result.code and re.search("(conductivity|gruneisen) of pair_coeff, which type 1 has", result.error), result.output[-600:]
-
-
 def test_warning_without_heat(lammps):
     lattice(2, 8).write(lammps.path("box.data"))
     for keywords, warned in (("cv 1.0", False), ("cv 1.0 conductivity 1.0", True), ("cv 1.0 gruneisen 0.5 1.0", True)):
