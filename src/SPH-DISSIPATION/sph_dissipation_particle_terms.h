@@ -278,6 +278,19 @@ namespace SPHDissipation {
       conductor[i].conductivity = conducts ? types[type[i]].keywords.a[CONDUCTIVITY] : 0.0;
     }
 
+    // pressure without bulk term, of density and energy; work of it on the particle per time
+
+    SPH_FUNCTION double total_pressure(int i) const
+    {
+      const double p = pressure(par.eos, types[type[i]].eos, rho[i], esph[i] / rmass[i]);
+      return par.nprocess ? p + strain_pressure[i] : p;
+    }
+    SPH_FUNCTION double pressure_work(int i) const
+    {
+      const double vol = particle[i].vol, w = weight[i * each];
+      return total_pressure(i) * vol * (density[i].cdot * (vol / w));
+    }
+
     // pressure and bulk term, of volume and density: what pass 2 multiplies with F r_ij, and the work of
     // the pressure; zero for particles that are not fluid.  P1 (12), (18)
 
@@ -289,8 +302,7 @@ namespace SPHDissipation {
       }
       const double vol = particle[i].vol, w = weight[i * each];
       const double rate = density[i].cdot * (vol / w);
-      double p = pressure(par.eos, types[type[i]].eos, rho[i], esph[i] / rmass[i]);
-      if (par.nprocess) p += strain_pressure[i];
+      const double p = total_pressure(i);
       const double bulk_term = zeta(i, bound) * rate;
       zeta_term[i] = bulk_term;
       particle[i].g = pressure_term((par.bulk == Bulk::DENSITY) ? p + bulk_term : p, vol, w);
