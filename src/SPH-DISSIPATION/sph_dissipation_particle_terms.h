@@ -278,17 +278,26 @@ namespace SPHDissipation {
       conductor[i].conductivity = conducts ? types[type[i]].keywords.a[CONDUCTIVITY] : 0.0;
     }
 
-    // pressure without bulk term, of density and energy; work of it on the particle per time
+    // pressure without bulk term, of density and energy
 
     SPH_FUNCTION double total_pressure(int i) const
     {
       const double p = pressure(par.eos, types[type[i]].eos, rho[i], esph[i] / rmass[i]);
       return par.nprocess ? p + strain_pressure[i] : p;
     }
-    SPH_FUNCTION double pressure_work(int i) const
+
+    // work per time of that pressure on the particle: what heat adds to it, and all else, which becomes elastic energy
+    // or strain
+
+    struct Work {
+      double thermal, elastic;
+    };
+    SPH_FUNCTION Work work(int i) const
     {
-      const double vol = particle[i].vol, w = weight[i * each];
-      return total_pressure(i) * vol * (density[i].cdot * (vol / w));
+      const double rate = particle[i].vol * density[i].cdot / density[i].c;
+      const double thermal =
+          thermal_pressure(types[type[i]].eos, rho[i], strains.thermal_energy(i) / rmass[i]);
+      return {thermal * rate, (total_pressure(i) - thermal) * rate};
     }
 
     // pressure and bulk term, of volume and density: what pass 2 multiplies with F r_ij, and the work of

@@ -693,7 +693,12 @@ void TemperatureStage::run(int prescribed_in)
   statistics[SECONDS] = platform::walltime() - begin;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   The temperature belongs to an energy and to the density of this moment: what the pressure does to the elastic energy
+   is no source of heat, and what it has done since the middle of the step comes back.  The scheme
+   euler takes the temperature of the end of the interval, but the pressure needs that of its middle: so the work of the
+   thermal pressure counts half, which keeps sound undamped.
+------------------------------------------------------------------------- */
 
 void TemperatureStage::find_unknowns()
 {
@@ -709,18 +714,21 @@ void TemperatureStage::find_unknowns()
   resize();
   const double *const desph_before = Fields::of(atom)->desph_before;
   const double half = update->setupflag ? 1.0 : -0.5 * update->dt;
+  const double later = update->setupflag ? 0.0 : 0.5 * update->dt;
+  const ParticleRows &rows = engine.rows();
   for (std::size_t k = 0; k < unknown.size(); k++) {
     const int i = unknown[k];
     mass[k] = atom->rmass[i] * engine.parameters().type[atom->type[i]].heat_capacity;
     inverse_mass[k] = 1.0 / mass[k];
-    before[k] = temperature[i] + half * desph_before[i] * inverse_mass[k];
+    const ParticleRows::Work work = rows.work(i);
+    force[k] = -work.elastic - (takes_end() ? 0.5 * work.thermal : 0.0);
+    before[k] = temperature[i] + (half * desph_before[i] + later * work.elastic) * inverse_mass[k];
     guess[k] = (settings.mode == Viscous::RKL2) ? before[k] : temperature[i];
   }
 }
 
 /* ----------------------------------------------------------------------
-   The heat of the guess, with conduction.  T of the scheme euler is that of the end of the interval, but the energy
-   belongs to the density in its middle: so the work of the pressure counts half, which keeps sound undamped.
+   the heat at the guess, with conduction
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::gather()
@@ -731,11 +739,10 @@ void TemperatureStage::gather()
   for (int i = 0; i < n; i++) flow[i] += atom->desph[i];
   exchange.reverse({{flow.data(), 1, 1}});
 
-  const ParticleRows &rows = engine.rows();
   double sums[2] = {0.0, 0.0};
   for (std::size_t k = 0; k < unknown.size(); k++) {
     const int i = unknown[k];
-    force[k] = flow[i] - (takes_end() ? 0.5 * rows.pressure_work(i) : 0.0);
+    force[k] += flow[i];
     sums[0] += mass[k] * before[k];
     sums[1] += mass[k];
   }
