@@ -89,11 +89,22 @@ def test_energy_and_entropy(lammps, name, ranks, newton):
 @pytest.mark.parametrize("factor", [5.0, 30.0, 1000.0])
 @pytest.mark.parametrize("temperature", [RANDOM.format(1e4), "1.0+99.0*(id==30)"])
 def test_scheme_euler_has_no_new_extremum(lammps, temperature, factor):
-    """In no step, of random temperatures and of one hot particle; other schemes may have one."""
+    """In no step, of random temperatures and of one hot particle."""
     frames = at_rest(lammps, tight("euler"), temperature, factor)
     for before, after in zip(frames, frames[1:]):
         a, b = before["c_T"], after["c_T"]
         assert b.max() < a.max() * (1 + 1e-11) and b.min() > a.min() * (1 - 1e-11)
+
+
+def test_others_may_have_one(lammps):
+    """Near one hot particle, by a small part of the jump."""
+    lowest = {}
+    for name in SECOND_ORDER:
+        for factor in (30.0, 1000.0):
+            frames = at_rest(lammps, tight(name), "1.0+99.0*(id==30)", factor, steps=4)
+            lowest[name, factor] = min(frame["c_T"].min() for frame in frames) / 99.0
+    print(lowest)
+    assert -0.03 < min(lowest.values()) < -0.02 and lowest["rkl2", 30.0] < 0.0
 
 
 # ---- with motion, runs, ranks ------------------------------------------------------------------------------------
@@ -149,7 +160,8 @@ def test_sound_of_a_gas(lammps, name, k):
     exact = max(sums.sound(1.0, rho, 0.4, 1.0, rho + 0.4, 0.0, k, cv, rho), key=lambda s: s.imag)
     print(name, measured, exact)
     assert dt > (18.0 if k > 1.0 else 1.8) * steps_of(log.log)["heat"]
-    assert abs(measured - exact) < (2e-4 if name in SECOND_ORDER else 0.02)
+    assert measured.imag == pytest.approx(exact.imag, rel=2e-5 if name in SECOND_ORDER else 2e-3)
+    assert measured.real == pytest.approx(exact.real, rel=2e-4 if name in SECOND_ORDER else 0.02)
     assert 1 <= table["f_FLUID[5]"][1:].max() < 15
 
 
