@@ -184,9 +184,12 @@ void FixSPHOpen::init()
   values->init(fluid->model->choice.eos == Eos::IDEAL);
   for (int i = 1; i <= atom->ntypes; i++) {
     const double *const a = fluid->model->coeffs[i].keywords.a;
-    if (fluid->has_type(i) && (a[CONDUCTIVITY] > 0.0 || a[GRUNEISEN] > 0.0))
+    if (fluid->has_type(i) && (a[CONDUCTIVITY] > 0.0 || a[GRUNEISEN] > 0.0 || a[VIBRATION] > 0.0))
       error->all(FLERR, "Fix {} cannot be used with {} of pair_coeff, which type {} has", style,
-                 a[GRUNEISEN] > 0.0 ? "gruneisen" : "conductivity", i);
+                 a[GRUNEISEN] > 0.0          ? "gruneisen"
+                     : a[CONDUCTIVITY] > 0.0 ? "conductivity"
+                                             : "vibration",
+                 i);
   }
   condition->init(*fluid->model);
   if (area > 0.0)

@@ -232,8 +232,8 @@ void Engine::set_rows()
 
 StrainRows Engine::strains() const
 {
-  StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho,
-                     par->eos,         atom->esph, {}};
+  StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho, atom->drho,
+                     par->eos,         atom->esph, atom->desph, {}};
   if (par->nprocess) std::copy_n(Fields::of(atom)->rho_relaxed, par->nprocess, rows.relaxed);
   return rows;
 }

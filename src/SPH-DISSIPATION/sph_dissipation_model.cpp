@@ -329,6 +329,10 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
         for (int k = 1; k < nwords; k++) words += std::string(" ") + arg[iarg + k];
         error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff {}, not{}", violated, words);
       }
+      for (int k = 1; own->group && k < nwords; k += own->group)
+        if (a[k - 1] == 0.0)
+          error->all(FLERR, place(arg[iarg + k]), "Pair_coeff {}: {} {} is no process", keyword,
+                     arg[iarg + k], arg[iarg + k + 1]);
     } else if (keyword == "pb")
       one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     else if (keyword == "cv")

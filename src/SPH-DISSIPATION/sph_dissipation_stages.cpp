@@ -216,7 +216,8 @@ double RelaxStage::energy(int groupbits, int not_fluid) const
   const StrainRows strains = engine.strains();
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbits) && !(atom->mask[i] & not_fluid)) total += strains.energy(i);
+    if ((atom->mask[i] & groupbits) && !(atom->mask[i] & not_fluid))
+      total += strains.energy(i) + strains.vibrational_energy(i);
   return total;
 }
 

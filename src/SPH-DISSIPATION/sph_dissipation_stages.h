@@ -102,7 +102,7 @@ namespace SPHDissipation {
 
     void set_bulk_term(const double *bound, int not_fluid) const;
 
-    // elastic energy of owned particles, with that of relaxing processes; each_atom = what it is added to, or nullptr
+    // elastic energy of owned particles, with that of relaxing strains; each_atom = what it is added to, or nullptr
 
     double elastic_energy(double *each_atom, int not_fluid) const;
   };
@@ -121,7 +121,7 @@ namespace SPHDissipation {
     // owned particles have no state of processes that their type does not have
     void forget_unused() const;
 
-    // energy of the strain of owned particles of these groups, not_fluid as above
+    // energy of the strains and vibrations of owned particles of these groups, not_fluid as above
 
     double energy(int groupbits, int not_fluid) const;
   };
