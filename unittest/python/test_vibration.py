@@ -156,8 +156,8 @@ def test_sound(lammps, k_tau):
     signal, interval = standing_wave(lammps, 64, 5.0, tau, 0.001, 40, 2400)
     measured = sound(rates_of(signal, interval, 3))
     print(f"measured {measured:.5f}, discrete {exact:.5f}")
-    assert abs(measured - exact) < 1e-4 * abs(exact)
-    assert measured.real == pytest.approx(exact.real, rel=2e-3)
+    assert abs(measured - exact) < 2e-5 * abs(exact)
+    assert measured.real == pytest.approx(exact.real, rel=2e-4)
 
 
 def test_same_sound_as_a_relaxing_strain(lammps):
@@ -185,13 +185,11 @@ def test_short_times(lammps, a):
     """Time steps far above tau_v: sound of the total heat capacity, damped by p tau_v R cvib/(cv + cvib)^2."""
     dt = 0.004
     tau = dt / a * (CV + CVIB) / CV
-    exact = sound(Gas(64, 5.0).rates(tau))
+    exact = sound(Gas(64, 5.0).rates(tau, kappa=0.02))
     signal, interval = standing_wave(lammps, 64, 5.0, tau, dt, 10, 1500, kappa=0.02)
-    with_kappa = sound(Gas(64, 5.0).rates(tau, kappa=0.02))
     measured = sound(rates_of(signal, interval, 2))
-    print(measured, with_kappa, exact)
-    assert abs(measured - with_kappa) < 1e-3 * abs(with_kappa)
-    assert measured.real == pytest.approx(with_kappa.real, rel=0.01)
+    print(f"measured {measured:.5f}, discrete {exact:.5f}")
+    assert abs(measured - exact) < 3e-4 * abs(exact) and measured.real == pytest.approx(exact.real, rel=2e-3)
 
 
 class Dispersed:
@@ -213,68 +211,58 @@ class Dispersed:
         s = 1 / (1 + np.exp(np.linspace(-14, 14, 40001)))    # u between, finer at both ends
         u = self.u1 + (self.u0 - self.u1) * s[::-1]
         dx = u * slope(u) / (CVIB * self.T(u) - self.e_v(u)) / self.c0
-        self.u = u[::-1]    # from ahead
-        x = np.r_[0.0, np.cumsum(0.5 * (dx[1:] + dx[:-1]) * np.diff(u))]
-        self.x = (x - np.interp(0.5 * (self.u0 + self.u1), u, x))[::-1]
-        if self.x[0] > self.x[-1]:
-            self.u, self.x = self.u[::-1], self.x[::-1]
-
-    def at(self, x):
-        return np.interp(x, self.x, self.u)
+        x = np.r_[0.0, np.cumsum(0.5 * (dx[1:] + dx[:-1]) * np.diff(u))]    # falls with u
+        self.u, self.x = u[::-1], (x - np.interp(0.5 * (self.u0 + self.u1), u, x))[::-1]    # from ahead, along the stream
 
 
 @pytest.mark.parametrize("speed, u1, T1, width", [(1.01, .982774, 1.005012, 13.8801), (1.02, .966052, 1.009988, 6.9817), (1.03, .949815, 1.014933, 4.6779)])
 def test_reference_of_the_wave(speed, u1, T1, width):
     wave = Dispersed(speed)
     assert wave.u1 / wave.u0 == pytest.approx(u1, abs=1e-6) and wave.T(wave.u1) == pytest.approx(T1, abs=1e-6)
-    part = (wave.u - wave.u1) / (wave.u0 - wave.u1)
-    order = np.argsort(part)
-    ends = np.interp([0.1, 0.9], part[order], wave.x[order])
-    assert abs(ends[1] - ends[0]) == pytest.approx(width, rel=1e-3)
+    ends = np.interp([0.1, 0.9], (wave.u[::-1] - wave.u1) / (wave.u0 - wave.u1), wave.x[::-1])
+    assert ends[0] - ends[1] == pytest.approx(width, rel=1e-3)
 
 
-@pytest.mark.parametrize("spacing", [0.2, pytest.param(0.1, marks=pytest.mark.long)])
-def test_wave_without_a_shock(lammps, spacing):
-    """Faster than the sound of the total heat capacity, slower than that without vibrations: it goes on in its form."""
-    wave = Dispersed(1.03)
-    tau_v, length = 1.0 / wave.c0, 120.0    # c_0 tau_v = 1
-    assert wave.u[0] != wave.u[-1]
-    behind, ahead = (wave.u1, wave.u0)
-    # the wave goes to +x in a gas at rest: velocity u0 - u, u as a function of the distance ahead
-    rise = wave.x if wave.u[-1] > wave.u[0] else -wave.x
-    order = np.argsort(rise)
-    relative_speed = lambda xi: np.interp(xi, rise[order], wave.u[order], left=behind, right=ahead)
-    start = 40.0
+@pytest.mark.parametrize("spacing, bound", [(0.2, 0.015), pytest.param(0.1, 0.008, marks=pytest.mark.long)])
+def test_wave_without_a_shock(lammps, spacing, bound):
+    """Faster than the sound of the total heat capacity, slower than that without vibrations: it goes on in its form, into a gas at rest."""
+    wave = Dispersed(1.02)
+    tau_v, length, start, travel = 1.0 / wave.c0, 120.0, 40.0, 25.0    # c_0 tau_v = 1
+    against = lambda xi: np.interp(xi, -wave.x[::-1], wave.u[::-1], left=wave.u1, right=wave.u0)    # velocity relative to the wave
     grid = np.linspace(0.0, length, 200001)
-    density = wave.u0 / relative_speed(grid - start)
+    density = wave.u0 / against(grid - start)
     mass = np.r_[0.0, np.cumsum(0.5 * (density[1:] + density[:-1]) * np.diff(grid))]
     count = int(mass[-1] / spacing)
     particles = lattice(1, count, spacing)
     particles.hi[0] = length
     particles.x[:, 0] = np.interp((np.arange(count) + 0.5) * spacing, mass, grid)
-    u = relative_speed(particles.x[:, 0] - start)
+    u = against(particles.x[:, 0] - start)
     particles.mass[:] = spacing
     particles.v[:, 0] = wave.u0 - u
-    T_v = wave.e_v(u) / CVIB
-    write(lammps, particles, T_v, wave.T(u))
-    particles.type[:] = 1
-    time = 25.0 / wave.u0
-    steps = int(np.ceil(time / (0.1 * spacing)))
-    dt = time / steps
-    text = (room(1, boundary="f p p") + "read_data box.data\nchange_box all x final -5 130\n" + gas(1, tau_v, rc=5 * spacing, options="shear none")
-            + f"region IN block {8 * spacing} {length - 8 * spacing} INF INF INF INF\ngroup fluid region IN\ngroup ends subtract all fluid\n"
-            f"fix FLUID fluid sph/bulk\nfix MOVE ends nve/noforce\ntimestep {dt!r}\n" + BOTH + dump("wave.dump", steps, COLUMNS) + f"run {steps}\n")
-    lammps(text)
+    write(lammps, particles, wave.e_v(u) / CVIB, wave.T(u))
+    steps = int(np.ceil(travel / wave.u0 / (0.1 * spacing)))
+    # the ends go on with their velocity, as pistons
+    lammps(room(1, boundary="f p p") + "read_data box.data\n" + gas(1, tau_v, options="shear none", rc=6 * spacing)
+           + f"region IN block {8 * spacing} {length - 8 * spacing} INF INF INF INF\ngroup fluid region IN\ngroup ends subtract all fluid\n"
+           f"fix FLUID fluid sph/bulk\nfix ENDS ends nve/noforce\ntimestep {travel / wave.u0 / steps!r}\n" + BOTH
+           + dump("wave.dump", steps, COLUMNS) + f"run {steps}\n")
     frame = lammps.frame("wave.dump")
-    x = frame["x"][:, 0]
+    order = np.argsort(frame["x"][:, 0])
+    x, v, T_v = (column[order] for column in (frame["x"][:, 0], frame["v"][:, 0], frame["c_T[2]"]))
     inside = (x > 30.0) & (x < 100.0)    # what the ends have not reached
-    xi = x - start - wave.u0 * time
-    u = relative_speed(xi)
-    jump = wave.u0 - wave.u1
-    error = np.abs(frame["v"][:, 0] - (wave.u0 - u))[inside].max() / jump
-    warm = np.abs(frame["c_T[2]"] - wave.e_v(u) / CVIB)[inside].max() / (wave.T(wave.u1) - 1)
-    print(f"largest error of the velocity {error:.4f}, of T_v {warm:.4f} of the jump")
-    assert error < 0.02 and warm < 0.02
+    x, v, T_v = x[inside], v[inside], T_v[inside]
+
+    jump, exact = v[:20].mean(), wave.u0 - against(x - start - travel)
+    assert jump == pytest.approx(wave.u0 - wave.u1, rel=0.002)
+    place = lambda part, values, top: np.interp(-part * top, -values, x)
+    shift = place(0.5, v, jump) - place(0.5, exact, exact.max())
+    widths = [place(0.1, values, top) - place(0.9, values, top) for values, top in ((v, jump), (exact, exact.max()))]
+    moved = against(x - shift - start - travel)
+    form = np.abs(v / jump - (wave.u0 - moved) / (wave.u0 - wave.u1)).max()
+    warm = np.abs(T_v - wave.e_v(moved) / CVIB).max() / (wave.T(wave.u1) - 1)
+    print(f"slower by {-shift / travel:.4f}, width {widths}, form {form:.4f}, T_v {warm:.4f}")
+    assert abs(shift) < 0.5 * bound * travel and form < bound and warm < bound
+    assert widths[0] == pytest.approx(widths[1], rel=bound)
 
 
 # ---- conservation ------------------------------------------------------------------------------------------------
@@ -405,12 +393,12 @@ def test_what_it_cannot_be_used_with(lammps):
         text = room(2) + f"read_data box.data\npair_style sph/bulk {style}\n{PAIR} 1.0 0.1\nfix 1 all sph/bulk\nrun 0\n"
         result = lammps(text, check=False)
         assert result.code and message in result.error, result.error
-    text = heat_zone()
+    text = zone()
     result = lammps(text, check=False)
     assert result.code and "Fix sph/open cannot be used with vibration of pair_coeff, which type 1 has" in result.error, result.error
 
 
-def heat_zone():
+def zone():
     return (room(2, boundary="f p p") + "region BOX block 0 20 0 8 -0.5 0.5\ncreate_box 1 BOX\nlattice sq 1.0\ncreate_atoms 1 box\n"
             "set group all mass 1.0\nset group all sph/e 2.5\nregion IN block INF 9 INF INF INF INF\ngroup inlet region IN\n"
             "group flow subtract all inlet\npair_style sph/bulk eos ideal\n" + PAIR + " 1.0 0.1\n"
