@@ -266,7 +266,13 @@ bool Fluid::at_rest() const
 void Fluid::begin_run(double dt)
 {
   set_step(dt);
-  relaxation->forget_unused();
+  std::vector<int> states(atom->ntypes + 1,
+                          0);    // that their types have, of the kind of the last run
+  for (int i = 1; i <= atom->ntypes; i++) {
+    states[i] = std::min(engine->parameters().type[i].nprocess, model->coeffs[i].states);
+    model->coeffs[i].states = MOST_PROCESSES;
+  }
+  relaxation->keep(states);
 }
 
 void Fluid::begin_step(double dt)

@@ -200,13 +200,12 @@ void RelaxStage::advance(int not_fluid, const double *change, const double *fact
 
 /* ---------------------------------------------------------------------- */
 
-void RelaxStage::forget_unused() const
+void RelaxStage::keep(const std::vector<int> &states) const
 {
   const Fields *const fields = Fields::of(atom);
-  const Parameters &par = engine.parameters();
   for (int k = 0; k < fields->nprocess; k++)
     for (int i = 0; i < atom->nlocal; i++)
-      if (k >= par.type[atom->type[i]].nprocess) fields->rho_relaxed[k][i] = 0.0;
+      if (k >= states[atom->type[i]]) fields->rho_relaxed[k][i] = 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -118,8 +118,8 @@ namespace SPHDissipation {
 
     void advance(int not_fluid, const double *change, const double *factor) const;
 
-    // owned particles have no state of processes that their type does not have
-    void forget_unused() const;
+    // owned particles keep, by type, so many states only
+    void keep(const std::vector<int> &states) const;
 
     // energy of the strains and vibrations of owned particles of these groups, not_fluid as above
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from helpers import SUPPORT, disordered, dump, header, lattice, relative
+from helpers import SUPPORT, disordered, dump, header, lattice, relative, undump
 import test_heat as heat
 from test_heat import FULL, Line, rates_of
 import test_relax as relax
@@ -348,6 +348,28 @@ def test_restart_and_data_file(lammps, ranks):
     assert re.search(rf"cv 2.5 .*conductivity 0.5 vibration {CVIB:.17g} {0.02:.17g}", lammps.path("state.data").read_text())
     lammps(room(2) + "pair_style sph/bulk eos ideal\nread_data state.data\nfix FLUID all sph/bulk\n" + BOTH + dump("data.dump", 1, COLUMNS) + "run 0\n")
     assert relative(lammps.frame("data.dump")["c_T[2]"] - whole[0]["c_T[2]"], whole[0]["c_T[2]"]) < 1e-14
+
+
+def test_change_of_the_processes(lammps):
+    """What was a relaxed density is no temperature, and the other way round: such states begin anew, others stay."""
+    particles = disordered(2, 12)
+    relax.write(particles, lammps.path("box.data"), np.full((len(particles), 2), [0.5, 0.0]))
+    pair = "pair_coeff * * 1.0 1.0 0.5 1.0 3.0 gamma 1.4 cv 2.5"
+    text = room(2, 2) + "read_data box.data\npair_style sph/bulk eos ideal\nfix FLUID all sph/bulk\ntimestep 0.005\n"
+    for k, words in enumerate(("vibration 1.0 1e9", "relax 1.0 1e9 vibration 1.0 1e9", "relax 1.0 1e9 relax 1.0 1e9", "relax 1.0 1e9 vibration 1.0 1e9", "vibration 1.0 1e9")):
+        text += f"{pair} {words}\n" + dump(f"{k}.dump", 5, "d_rho_relaxed1 d_rho_relaxed2") + "run 5\n" + undump()
+    lammps(text)
+    for k, (first, second) in enumerate((("T", "none"), ("rho", "T"), ("kept", "rho"), ("kept", "T"), ("T", "none"))):
+        start, end = lammps.frames(f"{k}.dump")
+        one, two = start["d_rho_relaxed1"], start["d_rho_relaxed2"]
+        T = start["esph"] / start["mass"] / 3.5
+        exact = {"T": 0.5 + 0 * T if k == 0 else T, "rho": start["rho"], "none": 0 * T}
+        if first == "kept":
+            assert np.abs(one / before - 1).max() < 1e-6
+        else:
+            assert relative(one - exact[first], one) < 1e-3
+        assert np.abs(two - exact[second]).max() < 1e-3 * np.abs(T).max(), k
+        before = end["d_rho_relaxed1"]
 
 
 def test_time_step(lammps):
