@@ -359,17 +359,15 @@ def test_change_of_the_processes(lammps):
     for k, words in enumerate(("vibration 1.0 1e9", "relax 1.0 1e9 vibration 1.0 1e9", "relax 1.0 1e9 relax 1.0 1e9", "relax 1.0 1e9 vibration 1.0 1e9", "vibration 1.0 1e9")):
         text += f"{pair} {words}\n" + dump(f"{k}.dump", 5, "d_rho_relaxed1 d_rho_relaxed2") + "run 5\n" + undump()
     lammps(text)
+    last = None
     for k, (first, second) in enumerate((("T", "none"), ("rho", "T"), ("kept", "rho"), ("kept", "T"), ("T", "none"))):
         start, end = lammps.frames(f"{k}.dump")
         one, two = start["d_rho_relaxed1"], start["d_rho_relaxed2"]
         T = start["esph"] / start["mass"] / 3.5
-        exact = {"T": 0.5 + 0 * T if k == 0 else T, "rho": start["rho"], "none": 0 * T}
-        if first == "kept":
-            assert np.abs(one / before - 1).max() < 1e-6
-        else:
-            assert relative(one - exact[first], one) < 1e-3
-        assert np.abs(two - exact[second]).max() < 1e-3 * np.abs(T).max(), k
-        before = end["d_rho_relaxed1"]
+        exact = {"T": 0.5 + 0 * T if k == 0 else T, "rho": start["rho"], "none": 0 * T, "kept": last}
+        assert relative(one - exact[first], one) < (1e-6 if first == "kept" else 0.02), k
+        assert np.abs(two - exact[second]).max() < 0.02 * np.abs(T).max(), k
+        last = end["d_rho_relaxed1"]
 
 
 def test_time_step(lammps):
