@@ -192,6 +192,37 @@ def test_short_times(lammps, a):
     assert abs(measured - exact) < 3e-4 * abs(exact) and measured.real == pytest.approx(exact.real, rel=2e-3)
 
 
+def test_carbon_dioxide(lammps):
+    """In SI units, at 300 K and 1 atm: absorption per wavelength is largest at 30 kHz, 0.1315 Np; a standing wave there."""
+    R, p, T, tau_v = 8.314462618 / 44.010e-3, 101325.0, 300.0, 7.1e-6
+    cv, cvib, rho = 2.5 * R, 0.9772 * R, p / (R * T)
+    tau, slow, fast = tau_v * cv / (cv + cvib), (1 + R / (cv + cvib)) * R * T, (1 + R / cv) * R * T
+    omega = 2 * np.pi * np.linspace(1e4, 1e5, 9001)
+    speed = np.sqrt(slow + (fast - slow) * 1j * omega * tau / (1 + 1j * omega * tau))
+    absorption = -2 * np.pi * (1 / speed).imag / (1 / speed).real
+    peak = absorption.argmax()
+    assert absorption[peak] == pytest.approx(0.1315, abs=1e-4) and omega[peak] / (2 * np.pi) == pytest.approx(29.9e3, rel=0.005)
+    assert rho * tau * (fast - slow) == pytest.approx(p * tau_v * R * cvib / (cv + cvib) ** 2, rel=1e-12)
+
+    N = 96
+    length = 2 * np.pi / (omega[peak] / speed[peak]).real
+    k2 = (2 * np.pi / length) ** 2
+    theory = sound(np.roots([1, 1 / tau, fast * k2, slow * k2 / tau]))
+    particles = heat.line(N, length)
+    particles.mass *= rho
+    particles.lo[1], particles.hi[1] = -length, length
+    write(lammps, particles)
+    dt, every = 4e-8, 50
+    log = lammps(room(1).replace("units lj", "units si") + "read_data box.data\npair_style sph/bulk dim 1 eos ideal shear none\n"
+                 f"pair_coeff * * {rho} 280.0 0.0 0.0 {5 * length / N} gamma 1.4 cv {cv} vibration {cvib} {tau_v}\n"
+                 f"fix FLUID all sph/bulk temperature {T}\ntimestep {dt}\nvariable s atom sin(2*PI*x/{length})\nvariable u0 atom 0.01*v_s\n"
+                 "velocity all set v_u0 0 0\nvariable u atom vx*v_s\ncompute U all reduce sum v_u\nthermo_style custom step c_U\n"
+                 f"thermo {every}\n" + FULL + "run 2000\n")
+    measured = sound(rates_of(log.thermo()[-1]["c_U"], every * dt, 3))
+    print(f"measured {measured:.1f}, continuum {theory:.1f}")
+    assert measured.real == pytest.approx(theory.real, rel=0.02) and measured.imag == pytest.approx(theory.imag, rel=0.003)
+
+
 class Dispersed:
     """A wave of the speed U without a shock, c_0 < U < c_inf: velocity relative to it, temperatures, over x in units of c_0 tau_v.
 
