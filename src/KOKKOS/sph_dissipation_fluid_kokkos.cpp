@@ -249,12 +249,12 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_step(double dt)
 template <class DeviceType> void FluidKokkos<DeviceType>::advance_strain()
 {
   if (!on_device) {
-    atomKK->sync(Host, ENERGY | ESPH_MASK);
+    atomKK->sync(Host, HEAT);
     Fluid::advance_strain();
     return atomKK->modified(Host, RHO_RELAXED_MASK);
   }
   if (!copied) copy_coeffs();
-  atomKK->sync(pair->execution_space, STRAIN);
+  atomKK->sync(pair->execution_space, HEAT);
   set_strains();
   const ParticleRows rows = *data;
   const int bits = not_fluid(), nprocess = engine->parameters().nprocess;
@@ -281,8 +281,10 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_strains()
                    data->type,
                    atomKK->k_rmass.template view<DeviceType>().data(),
                    avec.k_rho.template view<DeviceType>().data(),
+                   avec.k_drho.template view<DeviceType>().data(),
                    model->choice.eos,
                    avec.k_esph.template view<DeviceType>().data(),
+                   avec.k_desph.template view<DeviceType>().data(),
                    {}};
   for (int k = 0; k < avec.nprocess; k++)
     data->strains.relaxed[k] = avec.k_rho_relaxed[k].template view<DeviceType>().data();

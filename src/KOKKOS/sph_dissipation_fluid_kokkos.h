@@ -84,6 +84,7 @@ namespace SPHDissipation {
    private:
     static constexpr uint64_t STRAIN = SPH_RHO_MASK | TYPE_MASK | MASK_MASK | RHO_RELAXED_MASK;
     static constexpr uint64_t ENERGY = STRAIN | RMASS_MASK;
+    static constexpr uint64_t HEAT = ENERGY | ESPH_MASK | DESPH_MASK | DRHO_MASK;
 
     bool on_device;
     bool copied;    // coefficients on the device are those of the model

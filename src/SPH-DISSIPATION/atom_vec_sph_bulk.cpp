@@ -28,10 +28,10 @@ using namespace SPHDissipation;
 // names known to compute property/atom, in the order of their index, those of spins last; LAMMPS has a property
 // temperature itself
 
-static constexpr const char *PROPERTY[] = {"numden",  "dnumden",   "vol",       "rho",      "esph",
-                                           "desph",   "tsph",      "vestx",     "vesty",    "vestz",
-                                           "inertia", "omegaestx", "omegaesty", "omegaestz"};
-enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, TSPH, VESTX };
+static constexpr const char *PROPERTY[] = {
+    "numden", "dnumden", "vol",   "rho",     "esph",      "desph",     "tsph",     "tvib",
+    "vestx",  "vesty",   "vestz", "inertia", "omegaestx", "omegaesty", "omegaestz"};
+enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, TSPH, TVIB, VESTX };
 enum { INERTIA = VESTX + 3, OMEGAESTX, NPROPERTY = OMEGAESTX + 3 };
 
 static constexpr int CUSTOM_DOUBLE = 1;    // data type of Atom::add_custom()
@@ -275,7 +275,9 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
 {
   const int *mask = atom->mask;
   const int nlocal = atom->nlocal;
-  const std::vector<double> temperature = (index == TSPH) ? temperatures() : std::vector<double>();
+  const bool heat = (index == TSPH || index == TVIB);
+  const std::vector<double> temperature = heat ? temperatures(index == TVIB)
+                                               : std::vector<double>();
 
   for (int i = 0, n = 0; i < nlocal; i++, n += nvalues) {
     buf[n] = 0.0;
@@ -300,6 +302,7 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
         buf[n] = desph[i];
         break;
       case TSPH:
+      case TVIB:
         buf[n] = temperature[i];
         break;
       case INERTIA:
@@ -315,15 +318,20 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
    which the pair style knows, with its heat capacities
 ------------------------------------------------------------------------- */
 
-std::vector<double> AtomVecSPHBulk::temperatures() const
+std::vector<double> AtomVecSPHBulk::temperatures(bool of_vibrations) const
 {
-  const Fluid *const fluid = find_fluid(lmp, "Compute property/atom tsph");
+  const char *const name = PROPERTY[of_vibrations ? TVIB : TSPH];
+  const Fluid *const fluid = find_fluid(lmp, fmt::format("Compute property/atom {}", name));
   if (!fluid->is_set_up())
     error->all(FLERR,
-               "Compute property/atom tsph needs the coefficients of the pair style that is there "
-               "now: use run 0 first");
+               "Compute property/atom {} needs the coefficients of the pair style that is there "
+               "now: use run 0 first",
+               name);
   std::vector<double> result(atom->nlocal);
-  fluid->temperatures(result.data());
+  if (of_vibrations)
+    fluid->vibrational_temperatures(result.data());
+  else
+    fluid->temperatures(result.data());
   return result;
 }
 

@@ -63,7 +63,7 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
 
  private:
   void add_spins();
-  std::vector<double> temperatures() const;    // of owned particles
+  std::vector<double> temperatures(bool of_vibrations) const;    // of owned particles
 
   struct OwnArray {
     std::string name;

@@ -182,6 +182,10 @@ void FixSPHOpen::init()
   const double support = fluid->support_radius();
   plane->init();
   values->init(fluid->model->choice.eos == Eos::IDEAL);
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (fluid->has_type(i) && fluid->model->coeffs[i].keywords.a[VIBRATION] > 0.0)
+      error->all(FLERR, "Fix {} cannot be used with vibration of pair_coeff, which type {} has",
+                 style, i);
   check_open_heat(lmp, this, fluid, *values);
   condition->init(*fluid->model);
   if (area > 0.0)

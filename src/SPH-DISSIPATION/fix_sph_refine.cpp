@@ -199,7 +199,7 @@ void FixSPHRefine::init()
     error->all(FLERR, "Variable {} for Fix {} is neither of equal style nor of atom style",
                target.name(), style);
   if (!target.varies()) check_target(target.now(), 0);
-  event->init(support, merge_below);
+  event->init(*fluid, merge_below);
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
   set_up = true;
 }

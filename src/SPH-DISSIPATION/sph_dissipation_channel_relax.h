@@ -21,6 +21,15 @@
 // the forces ln rho_r grows by (1 - e^-a) x.  For a -> 0 this is the equation, for a -> infinity the bulk
 // term kappa_r dlnrho/dt, and the mean power of a wave is positive at every frequency (theory page).
 // Thermal noise adds sqrt(2 kB T dt/(m g tau)) xi to x.
+//
+// Vibration is the same of a gas, by energies: m cvib T_v of the internal energy of a particle is that of the
+// vibrations of its molecules, the pressure is that of the temperature T of the rest, m cv T, and
+//   dT_v/dt = (T - T_v)/tau_v,   dT/dt = w - cvib/cv (T - T_v)/tau_v
+// with the rate w from work and all other heat.  In a time step dt of constant w, with
+// tau_r = tau_v cv/(cv + cvib) and a = dt/tau_r, T_v grows by exactly
+//   tau_r/tau_v [(1 - e^-a) (T - T_v) + w (dt - tau_r (1 - e^-a))].
+// For sound it is the spring of tau = tau_r and rho g tau = p tau_v R cvib/(cv + cvib)^2, R = (gamma - 1) cv.
+// K. F. Herzfeld, T. A. Litovitz, Absorption and Dispersion of Ultrasonic Waves (1959).
 // Included by sph_dissipation_channels.h, which has the notation.
 
 #ifndef CHANNEL_TERMS
@@ -37,6 +46,14 @@ namespace SPHDissipation {
     double part;         // 1 - e^-a, of the strain that relaxes
     double fluidity;     // 1/(g tau), time/velocity^2
     double noise;        // sqrt(2 dt/(g tau)), 1/velocity
+  };
+
+  // the vibrations of a type, in one time step
+  struct Vibration {
+    double heat_capacity;    // cvib, per mass
+    double rate;             // 1/tau_v
+    double part;             // of T - T_v, by which T_v grows
+    double delay;            // of w, by which T_v grows, time
   };
 
   struct RelaxChannel : BaseChannel {
@@ -87,6 +104,43 @@ namespace SPHDissipation {
         if (!none && !(one[0] > 0.0 && one[1] > 0.0 && finite))
           return "relax must have kappa_r > 0 and tau > 0";
       }
+      return nullptr;
+    }
+  };
+
+  struct VibrationChannel : BaseChannel {
+    static constexpr const char *NAME = "vibration";
+    static constexpr bool ELASTIC = true;
+    static constexpr bool OF_MOTION = false;    // its heat is of enum RELAXATION
+
+    static bool in_use(const TypeCoeffs &type) { return type.a[VIBRATION] > 0.0; }
+
+    // number of the state among those of the processes of a type; MOST_PROCESSES without vibrations
+    static int state(const TypeCoeffs &type)
+    {
+      return in_use(type) ? RelaxChannel::count(type) : MOST_PROCESSES;
+    }
+
+    // of a type of the heat capacity cv per mass without vibrations, in a time step dt
+    static Vibration process(const TypeCoeffs &type, double cv, double dt)
+    {
+      const double cvib = type.a[VIBRATION], tau_v = type.a[VIBRATION_TAU];
+      const double share = cv / (cv + cvib), tau = tau_v * share, a = dt / tau;
+      const double part = -std::expm1(-a);
+      return {cvib, 1.0 / tau_v, share * part, share * tau * (a - part)};
+    }
+
+    template <class Add>
+    static void add_columns(const PairFluid &fluid, const PairCoeff &, Add &&add)
+    {
+      add("cvib", fluid.type.a[VIBRATION]);
+    }
+    static const char *inadmissible_type(const TypeCoeffs &type, int)
+    {
+      const double cvib = type.a[VIBRATION], tau_v = type.a[VIBRATION_TAU];
+      if (cvib == 0.0 && tau_v == 0.0) return nullptr;
+      if (!(cvib > 0.0 && tau_v > 0.0 && std::isfinite(cvib) && std::isfinite(tau_v)))
+        return "vibration must have cvib > 0 and tau_v > 0";
       return nullptr;
     }
   };

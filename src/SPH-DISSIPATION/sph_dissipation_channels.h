@@ -134,6 +134,8 @@ namespace SPHDissipation {
     CONDUCTIVITY,
     GRUNEISEN,    // of the equation of state: Gamma, and the temperature of c0 and pb
     GRUNEISEN_T0,
+    VIBRATION,    // heat capacity cvib and time tau_v
+    VIBRATION_TAU,
     RELAX,    // kappa_r and tau of each process
     NTYPECOEFF = RELAX + 2 * MOST_PROCESSES
   };
@@ -145,6 +147,7 @@ namespace SPHDissipation {
   constexpr TypeKeyword TYPE_KEYWORDS[] = {{"drag", DRAG_B, 4, 0},
                                            {"conductivity", CONDUCTIVITY, 1, 0},
                                            {"gruneisen", GRUNEISEN, 2, 0},
+                                           {"vibration", VIBRATION, 2, 2},
                                            {"relax", RELAX, 2 * MOST_PROCESSES, 2},
                                            {nullptr, NTYPECOEFF, 0, 0}};
   struct TypeVariable {
@@ -274,7 +277,7 @@ namespace SPHDissipation {
     }
   };
   using Channels = ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel, DragChannel,
-                               RelaxChannel, HeatChannel>;
+                               RelaxChannel, HeatChannel, VibrationChannel>;
 
   inline PairCoeff pair_coefficients(const PairFluid &fluid)
   {

@@ -270,7 +270,7 @@ void SPHDissipation::check_processes(LAMMPS *lmp, const std::string &style, cons
   const int room = Fields::of(lmp->atom)->nprocess;
   for (int i = 1; i <= lmp->atom->ntypes; i++) {
     const TypeCoeff &type = model.coeffs[i];
-    const int count = RelaxChannel::count(type.keywords);
+    const int count = RelaxChannel::count(type.keywords) + VibrationChannel::in_use(type.keywords);
     if (!type.other && count > room)
       lmp->error->all(FLERR, Error::NOLASTLINE,
                       "Pair style {}: the relaxing processes of type {} are {}, but particles have "

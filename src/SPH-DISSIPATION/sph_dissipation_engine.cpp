@@ -238,8 +238,8 @@ void Engine::set_rows()
 
 StrainRows Engine::strains() const
 {
-  StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho,
-                     par->eos,         atom->esph, {}};
+  StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho, atom->drho,
+                     par->eos,         atom->esph, atom->desph, {}};
   if (par->nprocess) std::copy_n(Fields::of(atom)->rho_relaxed, par->nprocess, rows.relaxed);
   return rows;
 }
@@ -357,7 +357,7 @@ void Engine::run_density(Loop loop)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_heat(const NoiseData *noise, std::vector<double> &flow)
+void Engine::accumulate_heat(std::vector<double> &flow, const NoiseData *noise)
 {
   const int nall = atom->nlocal + atom->nghost;
   const HeatLoop loop = loops->heat(par->conducts_alike, noise);
@@ -475,7 +475,7 @@ LoopData Engine::part(PairSubset &some) const
 
 void Engine::accumulate_heat(PairSubset &some, double *flow) const
 {
-  loops->heat(par->conducts_alike)(part(some), conductor.data(), flow);
+  loops->heat(par->conducts_alike, false)(part(some), conductor.data(), nullptr, flow);
 }
 
 void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum *torque_out,

@@ -174,7 +174,7 @@ namespace SPHDissipation {
 
     // heat per time that owned and ghost atoms get by conduction, of conductor[], with noise unless it is nullptr; room
     // for the spare ones
-    void accumulate_heat(const NoiseData *noise, std::vector<double> &flow);
+    void accumulate_heat(std::vector<double> &flow, const NoiseData *noise = nullptr);
 
     // forces, torques, heat and divergence of those pairs alone, and their conduction, added to arrays with room for the
     // spare particles; after pass 2

@@ -42,7 +42,8 @@ namespace SPHDissipation {
     double **omegaest;    // spin at the end of the step, extrapolated; nullptr without spins
 
     // relaxed density of each process that there is room for, mass/length^n, see RelaxChannel; of a new particle
-    // 0, or minus the factor by which it differs from the density that the next forces find
+    // 0, or minus the factor by which it differs from the density that the next forces find.  After those of the
+    // strains of its type, the temperature of the vibrations; of a new particle 0
     int nprocess;
     double *rho_relaxed[MOST_PROCESSES];
 

@@ -291,7 +291,13 @@ bool Fluid::at_rest() const
 void Fluid::begin_run(double dt)
 {
   set_step(dt);
-  relaxation->forget_unused();
+  std::vector<int> states(atom->ntypes + 1,
+                          0);    // that their types have, of the kind of the last run
+  for (int i = 1; i <= atom->ntypes; i++) {
+    states[i] = std::min(engine->parameters().type[i].nprocess, model->coeffs[i].states);
+    model->coeffs[i].states = MOST_PROCESSES;
+  }
+  relaxation->keep(states);
 }
 
 void Fluid::begin_step(double dt)
@@ -432,6 +438,13 @@ void Fluid::temperatures(double *temperature) const
     temperature[i] = (has_type(atom->type[i]) && !is_boundary(i)) ? strains.temperature(i) : 0.0;
 }
 
+void Fluid::vibrational_temperatures(double *temperature) const
+{
+  const StrainRows strains = engine->strains();
+  for (int i = 0; i < atom->nlocal; i++)
+    temperature[i] = strains.vibrates(i) ? strains.vibration(i) : 0.0;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void Fluid::set_temperature(int groupbit, const std::function<double(int)> &value,
@@ -457,7 +470,7 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
         atom->esph[i] = atom->rmass[i] * model->heat_capacity(type) * temperature;
         continue;
       }
-      strains.begin(i);
+      strains.begin(i, temperature);
       atom->esph[i] = strains.energy_at(i, temperature);
     }
   });
@@ -613,6 +626,7 @@ CoeffTable Fluid::coeff_table()
   const double inertia = smallest_inertia();
   const int n = atom->ntypes;
   const Eos eos = model->choice.eos;
+  const StrainRows strains = engine->strains();
   std::vector<double> mine(2 * (n + 1), 0.0), all(2 * (n + 1));
   double *const speed = all.data(), *const thinness = speed + n + 1;    // rho0/rho
   for (int i = 0; i < atom->nlocal; i++) {
@@ -622,8 +636,9 @@ CoeffTable Fluid::coeff_table()
     const double rho = atom->rho[i];
     const bool cold =
         is_boundary(i) && eos != Eos::IDEAL && coeff.eos.gruneisen > 0.0;    // no heat
+    const double energy = atom->esph[i] - strains.vibrational_energy(i);     // of fast sound
     const double sound = cold ? coeff.eos.c0
-                              : sound_speed(eos, coeff.eos, rho, atom->esph[i] / atom->rmass[i]);
+                              : sound_speed(eos, coeff.eos, rho, energy / atom->rmass[i]);
     mine[type] = std::max(mine[type], sound + MathExtra::len3(atom->v[i]));
     if (!is_boundary(i)) mine[n + 1 + type] = std::max(mine[n + 1 + type], coeff.eos.rho0 / rho);
   }

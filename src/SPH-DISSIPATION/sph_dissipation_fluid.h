@@ -114,15 +114,17 @@ namespace SPHDissipation {
     enum Moment { LAST_FORCES, NOW };
     virtual double elastic_energy(Moment);
 
-    // energy of the strain of relaxing processes on this processor, of particles of these groups, a part of the former
+    // energy of relaxing strains and of vibrations on this processor, of particles of these groups
 
     double strain_energy(int groupbits) const;
 
     // Temperatures of owned particles, with their densities and energies as they are now; 0 of those that have no heat
     // capacity, and of walls.  Give a temperature to those of a group and of its open zones, where particles, with their
-    // ghosts, are now, by function(particle); errors, in the name of the user, if it is negative or there is no heat capacity
+    // ghosts, are now, by function(particle); errors, in the name of the user, if it is negative or there is no heat
+    // capacity.  Those of the vibrations of owned particles; 0 of those that have none
 
     void temperatures(double *) const;
+    void vibrational_temperatures(double *) const;
     void set_temperature(int groupbit, const std::function<double(int)> &, const std::string &user);
 
     // of the last forces: see ForceStage::heating(); force and torque on an owned particle, without

@@ -31,7 +31,8 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 TypeCoeff::TypeCoeff() :
-    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0), other(0)
+    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0), other(0),
+    states(MOST_PROCESSES)
 {
 }
 
@@ -329,6 +330,10 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
         for (int k = 1; k < nwords; k++) words += std::string(" ") + arg[iarg + k];
         error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff {}, not{}", violated, words);
       }
+      for (int k = 1; own->group && k < nwords; k += own->group)
+        if (a[k - 1] == 0.0)
+          error->all(FLERR, place(arg[iarg + k]), "Pair_coeff {}: {} {} is no process", keyword,
+                     arg[iarg + k], arg[iarg + k + 1]);
     } else if (keyword == "pb")
       one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     else if (keyword == "cv")
@@ -342,7 +347,11 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
                "Pair_coeff {}, not mu = {} kappa = {}", violated, arg[4], arg[5]);
 
   int count = 0;
+  const int state = VibrationChannel::state(one.keywords);
   for (int i = std::max(ilo, jlo); i <= std::min(ihi, jhi); i++) {
+    const int before = VibrationChannel::state(coeffs[i].keywords);
+    const bool other_kinds = setflag[i][i] && before != state;
+    one.states = std::min(coeffs[i].states, other_kinds ? std::min(before, state) : MOST_PROCESSES);
     coeffs[i] = one;
     setflag[i][i] = 1;
     count++;

@@ -176,7 +176,8 @@ void FluidModel::check_heat(int i) const
 {
   const double *const a = coeffs[i].keywords.a;
   for (const auto &keyword :
-       {std::make_pair("conductivity", CONDUCTIVITY), std::make_pair("gruneisen", GRUNEISEN)}) {
+       {std::make_pair("conductivity", CONDUCTIVITY), std::make_pair("gruneisen", GRUNEISEN),
+        std::make_pair("vibration", VIBRATION)}) {
     if (!(a[keyword.second] > 0.0)) continue;
     if (choice.thermal && !choice.own_temperatures)
       error->all(FLERR, Error::NOLASTLINE,
@@ -191,6 +192,11 @@ void FluidModel::check_heat(int i) const
                "Pair_coeff gruneisen of type {} cannot be used with eos ideal, whose constant is "
                "gamma - 1",
                i);
+  if (a[VIBRATION] > 0.0 && choice.eos != Eos::IDEAL)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair_coeff vibration of type {} needs eos ideal, not {}, whose pressure does not "
+               "follow from its heat alone",
+               i, eos_name(choice.eos));
   if (!(coeffs[i].eos.c_el > 0.0))
     error->all(
         FLERR, Error::NOLASTLINE,

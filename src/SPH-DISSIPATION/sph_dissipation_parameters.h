@@ -63,8 +63,10 @@ namespace SPHDissipation {
     double heat_capacity = 0.0;    // per mass
     TypeCoeffs keywords;           // of the channels
     int other = 1;                 // its particles belong to another style of pair_style hybrid
-    int nprocess = 0;              // relaxing processes
-    Relaxation process[MOST_PROCESSES] = {};
+    int nprocess = 0;              // relaxing processes: strains, then vibration
+    int nstrain = 0;
+    Relaxation process[MOST_PROCESSES] = {};    // of the strains
+    Vibration vibration = {};
   };
 
   // what belongs to all types: a device copies it as a whole
@@ -144,10 +146,14 @@ namespace SPHDissipation {
     step = dt;
     nprocess = 0;
     for (TypeParameters &one : type) {
-      one.nprocess = one.other ? 0 : RelaxChannel::count(one.keywords);
-      nprocess = std::max(nprocess, one.nprocess);
-      for (int k = 0; k < one.nprocess; k++)
+      one.nprocess = one.nstrain = one.other ? 0 : RelaxChannel::count(one.keywords);
+      for (int k = 0; k < one.nstrain; k++)
         one.process[k] = RelaxChannel::process(one.keywords, k, one.eos.rho0, dt);
+      if (!one.other && VibrationChannel::in_use(one.keywords)) {
+        one.nprocess++;
+        one.vibration = VibrationChannel::process(one.keywords, one.heat_capacity, dt);
+      }
+      nprocess = std::max(nprocess, one.nprocess);
     }
   }
 

@@ -50,15 +50,16 @@ namespace SPHDissipation {
     return 1.0 + x * (1.0 + x * (1.0 / 2.0 + x * (1.0 / 6.0 + x * far)));
   }
 
-  // The relaxing processes and the heat of owned particles, on the host or on a device, with their densities, relaxed
-  // densities and internal energies; energies are those of the last forces.  See RelaxChannel and Eos.
+  // The relaxing processes and the heat of owned particles, on the host or on a device, with their densities and
+  // internal energies, and the rates of these; energies are those of the last forces.  The state of a process is the
+  // relaxed density of a strain, or the temperature T_v of the vibrations.  See RelaxChannel and Eos.
 
   struct StrainRows {
     const TypeParameters *types;    // by type, from 1
     const int *type;
-    const double *rmass, *rho;
+    const double *rmass, *rho, *drho;
     Eos eos;
-    const double *esph;
+    const double *esph, *desph;
     double *relaxed[MOST_PROCESSES];
 
     // strain x at a density, of the relaxed density rest; of process k
@@ -73,31 +74,61 @@ namespace SPHDissipation {
 
     SPH_FUNCTION static double state_of(double x) { return -std::exp(-x); }
 
-    // set the state of a new particle
+    // of the vibrations: whether there are any, temperature, energy
+
+    SPH_FUNCTION bool vibrates(int i) const
+    {
+      const TypeParameters &par = types[type[i]];
+      return par.nprocess > par.nstrain;
+    }
+    SPH_FUNCTION double &vibration(int i) const { return relaxed[types[type[i]].nstrain][i]; }
+    SPH_FUNCTION double vibrational_energy(int i) const
+    {
+      if (!vibrates(i)) return 0.0;
+      return rmass[i] * types[type[i]].vibration.heat_capacity * vibration(i);
+    }
+
+    // Set the state of a new particle: its vibrations are in equilibrium with the rest of its heat; or they have the
+    // temperature that the rest gets.
 
     SPH_FUNCTION void begin(int i) const
     {
-      for (int k = 0; k < types[type[i]].nprocess; k++) {
+      begin_strains(i);
+      if (!vibrates(i) || vibration(i) > 0.0) return;
+      const TypeParameters &par = types[type[i]];
+      vibration(i) = 0.0;
+      const double heat = thermal_energy(i);
+      if (heat > 0.0)
+        vibration(i) = heat / (rmass[i] * (par.heat_capacity + par.vibration.heat_capacity));
+    }
+    SPH_FUNCTION void begin(int i, double temperature) const
+    {
+      begin_strains(i);
+      if (vibrates(i) && !(vibration(i) > 0.0)) vibration(i) = temperature;
+    }
+    SPH_FUNCTION void begin_strains(int i) const
+    {
+      for (int k = 0; k < types[type[i]].nstrain; k++) {
         double &rest = relaxed[k][i];
         if (!(rest > 0.0)) rest = (rest < 0.0) ? -rest * rho[i] : rho[i];
       }
     }
 
-    // pressure rho g phi x of all processes
+    // pressure rho g phi x of all strains
 
     SPH_FUNCTION double pressure(int i) const
     {
       const TypeParameters &par = types[type[i]];
       double sum = 0.0;
-      for (int k = 0; k < par.nprocess; k++) sum += par.process[k].stiffness * strain(i, k);
+      for (int k = 0; k < par.nstrain; k++) sum += par.process[k].stiffness * strain(i, k);
       return rho[i] * sum;
     }
 
-    // the processes have relaxed
+    // the strains have relaxed
 
     SPH_FUNCTION void relax(int i) const
     {
-      for (int k = 0; k < types[type[i]].nprocess; k++) relaxed[k][i] = rho[i];
+      for (int k = 0; k < types[type[i]].nstrain; k++) relaxed[k][i] = rho[i];
     }
 
     // particles that are not fluid have no state
@@ -108,47 +139,69 @@ namespace SPHDissipation {
     }
 
     // one time step later: ln rho_r grows by (1 - e^-a) x, and by change[k * each] for process k, nullptr: by nothing
-    // else
+    // else; T_v by that of T - T_v and of the rate of T
 
     SPH_FUNCTION void advance(int i, const double *change, int each) const
     {
       const TypeParameters &par = types[type[i]];
-      for (int k = 0; k < par.nprocess; k++)
+      const double rate = vibrates(i) ? temperature_rate(i) : 0.0;
+      for (int k = 0; k < par.nstrain; k++)
         relaxed[k][i] *=
             exp_of(par.process[k].part * strain(i, k) + (change ? change[k * each] : 0.0));
+      if (vibrates(i))
+        vibration(i) +=
+            par.vibration.part * (temperature(i) - vibration(i)) + par.vibration.delay * rate;
     }
 
-    // m g phi x^2/2 of all processes
+    // rate of the temperature at constant states: of what the rate of the internal energy leaves besides the energy
+    // of the equation of state without heat, and of the strains
+
+    SPH_FUNCTION double temperature_rate(int i) const
+    {
+      const TypeParameters &par = types[type[i]];
+      const double p = elastic_pressure(eos, par.eos, rho[i]) + pressure(i);
+      return (desph[i] / rmass[i] - p * drho[i] / (rho[i] * rho[i])) / par.heat_capacity;
+    }
+
+    // m g phi x^2/2 of all strains
 
     SPH_FUNCTION double energy(int i) const
     {
       const TypeParameters &par = types[type[i]];
       double sum = 0.0;
-      for (int k = 0; k < par.nprocess; k++) {
+      for (int k = 0; k < par.nstrain; k++) {
         const double x = strain(i, k);
         sum += par.process[k].stiffness * x * x;
       }
       return 0.5 * rmass[i] * sum;
     }
 
-    // energy per time that becomes heat, V p^2/kappa_r of all processes
+    // energy per time that becomes heat, V p^2/kappa_r of all strains; of the vibrations T times the rate of entropy,
+    // m cvib/tau_v (T - T_v)^2/T_v
 
     SPH_FUNCTION double heat(int i) const
     {
       const TypeParameters &par = types[type[i]];
       double sum = 0.0;
-      for (int k = 0; k < par.nprocess; k++) {
+      for (int k = 0; k < par.nstrain; k++) {
         const double p = par.process[k].stiffness * strain(i, k);
         sum += p * p * par.process[k].fluidity;
+      }
+      if (vibrates(i) && vibration(i) > 0.0) {
+        const double difference = temperature(i) - vibration(i);
+        sum += par.vibration.heat_capacity * par.vibration.rate * difference * difference /
+            vibration(i);
       }
       return rmass[i] * sum;
     }
 
-    // what the internal energy has beyond that of the equation of state without heat, and of the strain
+    // what the internal energy has beyond that of the equation of state without heat, of the strains, and of the
+    // vibrations
 
     SPH_FUNCTION double thermal_energy(int i) const
     {
-      return esph[i] - energy(i) - rmass[i] * elastic_energy(eos, types[type[i]].eos, rho[i]);
+      return esph[i] - (energy(i) + vibrational_energy(i)) -
+          rmass[i] * elastic_energy(eos, types[type[i]].eos, rho[i]);
     }
 
     // temperature, 0 without heat capacity; the internal energy at a temperature
@@ -162,7 +215,7 @@ namespace SPHDissipation {
     {
       const TypeParameters &par = types[type[i]];
       return rmass[i] * (elastic_energy(eos, par.eos, rho[i]) + par.heat_capacity * temperature) +
-          energy(i);
+          (energy(i) + vibrational_energy(i));
     }
   };
 
@@ -260,9 +313,9 @@ namespace SPHDissipation {
       if (at_rest) strains.relax(i);
       strains.begin(i);
       strain_pressure[i] = strains.pressure(i);
-      if (par.thermal_pressure)    // heat is what the strain does not have
-        strain_pressure[i] -=
-            thermal_pressure(types[type[i]].eos, rho[i], strains.energy(i) / rmass[i]);
+      if (!par.thermal_pressure) return;    // heat is what strains and vibrations do not have
+      const double held = strains.energy(i) + strains.vibrational_energy(i);
+      strain_pressure[i] -= thermal_pressure(types[type[i]].eos, rho[i], held / rmass[i]);
     }
 
     // The internal energy of an owned particle, which lacks the work of its pressure over this time, gets it.  The

@@ -23,6 +23,8 @@
 #include "sph_dissipation_balance.h"
 #include "sph_dissipation_create.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_fluid.h"
+#include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
 #include "update.h"
 
@@ -41,15 +43,16 @@ static constexpr double NEXT = 1.6;         // distance of neighbors that split 
 
 RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
     Pointers(lmp), items(lmp, fix), highest(0), balance(balance), pairs(lmp, items),
-    residual(lmp, items, pairs), support(0.0), smallest(0.0), fields(nullptr)
+    residual(lmp, items, pairs), support(0.0), smallest(0.0), fields(nullptr), parameters(nullptr)
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
-void RefineEvent::init(double support_in, double smallest_share)
+void RefineEvent::init(const Fluid &fluid, double smallest_share)
 {
-  support = support_in;
+  support = fluid.support_radius();
+  parameters = &fluid.model->parameters();
   smallest = smallest_share;
   fields = Fields::of(atom);
   residual.init(RESIDUAL_RADIUS * support);
@@ -81,11 +84,17 @@ void RefineEvent::set(int i, RefineState state, double volume, double most, doub
 }
 
 /* ----------------------------------------------------------------------
-   of a relaxing process, at the density at the end of the step
+   of a relaxing process: the strain at the density at the end of the step, or the temperature of the vibrations
 ------------------------------------------------------------------------- */
 
-double RefineEvent::strain(int i, int process) const
+bool RefineEvent::is_strain(int i, int process) const
 {
+  return process < parameters->type[atom->type[i]].nstrain;
+}
+
+double RefineEvent::relaxing(int i, int process) const
+{
+  if (!is_strain(i, process)) return fields->rho_relaxed[process][i];
   return StrainRows::strain_at(atom->rho[i] + update->dt * atom->drho[i],
                                fields->rho_relaxed[process][i]);
 }
@@ -98,7 +107,7 @@ Lump RefineEvent::lump(int i) const
   one.mass = atom->rmass[i];
   one.energy = atom->esph[i];
   one.energy_rate = fields->desph_before[i];
-  for (int k = 0; k < fields->nprocess; k++) one.strain[k] = strain(i, k);
+  for (int k = 0; k < fields->nprocess; k++) one.relaxing[k] = relaxing(i, k);
   std::copy_n(atom->x[i], 3, one.x);
   std::copy_n(atom->v[i], 3, one.u);
   std::copy_n(atom->vest[i], 3, one.u_end);
@@ -130,11 +139,12 @@ void RefineEvent::set_lump(int i, const Lump &one)
    of a particle that has split or merged, whose density changes with that
 ------------------------------------------------------------------------- */
 
-void RefineEvent::set_strain(int i, const Lump &one)
+void RefineEvent::set_relaxing(int i, const Lump &one)
 {
   for (int k = 0; k < fields->nprocess; k++)
     if (fields->rho_relaxed[k][i] != 0.0)    // its type has this process
-      fields->rho_relaxed[k][i] = StrainRows::state_of(one.strain[k]);
+      fields->rho_relaxed[k][i] = is_strain(i, k) ? StrainRows::state_of(one.relaxing[k])
+                                                  : one.relaxing[k];
 }
 
 /* ----------------------------------------------------------------------
@@ -310,7 +320,7 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
     }
     whole.energy += force->mvv2e * (one.heat - residual.work(one.i));
     set_lump(one.i, whole);
-    set_strain(one.i, whole);
+    set_relaxing(one.i, whole);
     balance.count(1.0, whole);
     balance.merged(force->mvv2e * one.heat);
     changed(one.i, 0.0);
@@ -367,7 +377,7 @@ void RefineEvent::create(const std::vector<tagint> &first, const Changed &change
     for (int m = 0; m < n; m++) {
       const int j = (m == 0) ? i : create_copy(lmp, i, first[k] + m - 1, atom->x[i]);
       set_lump(j, daughters[m]);
-      set_strain(j, daughters[m]);
+      set_relaxing(j, daughters[m]);
       balance.count(1.0, daughters[m]);
       changed(j, family);
     }

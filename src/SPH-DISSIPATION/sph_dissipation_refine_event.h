@@ -26,7 +26,9 @@ class NeighList;
 namespace SPHDissipation {
 
   class Fields;
+  class Fluid;
   class RefineBalance;
+  struct Parameters;
 
   // Does all splits and merges of one time step, on all processors at once: plan() decides with the
   // particles as they are, carry_out() changes them.
@@ -35,7 +37,7 @@ namespace SPHDissipation {
    public:
     RefineEvent(class LAMMPS *, Fix *, RefineBalance &);
 
-    void init(double support, double smallest_share);
+    void init(const Fluid &, double smallest_share);
 
     // Set what each owned particle is to do, its volume now and that of its target.
     void begin();
@@ -59,6 +61,7 @@ namespace SPHDissipation {
     double support;
     double smallest;    // volume of a daughter over the target
     Fields *fields;
+    const Parameters *parameters;    // of the fluid
 
     struct Split {
       int i;
@@ -74,10 +77,11 @@ namespace SPHDissipation {
     std::vector<Split> splits;
     std::vector<Merge> merges;
 
-    double strain(int i, int process) const;
+    bool is_strain(int i, int process) const;
+    double relaxing(int i, int process) const;
     Lump lump(int i) const;
     void set_lump(int i, const Lump &);
-    void set_strain(int i, const Lump &);
+    void set_relaxing(int i, const Lump &);
     bool merging(int i) const;
     bool families() const;    // all daughters of one split can merge as a whole
     bool find_stencil(NeighList *full, int i, Stencil &) const;

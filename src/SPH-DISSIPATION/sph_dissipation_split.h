@@ -56,7 +56,7 @@ namespace SPHDissipation {
     double inertia = 0.0;    // per mass
     double energy = 0.0;     // internal, and its rate
     double energy_rate = 0.0;
-    double strain[MOST_PROCESSES] = {};    // of relaxing processes
+    double relaxing[MOST_PROCESSES] = {};    // strains, and temperature of the vibrations
     double x[3] = {};
     double u[3] = {}, spin[3] = {};
     double u_end[3] = {}, spin_end[3] = {};
@@ -179,7 +179,7 @@ namespace SPHDissipation {
     }
     for (int k = 0; k < n; k++)
       for (int l = 0; l < MOST_PROCESSES; l++)
-        whole.strain[l] += parts[k].mass / whole.mass * parts[k].strain[l];
+        whole.relaxing[l] += parts[k].mass / whole.mass * parts[k].relaxing[l];
 
     // relative to one of the parts, for the sake of round-off
 

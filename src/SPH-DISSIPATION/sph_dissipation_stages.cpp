@@ -202,13 +202,12 @@ void RelaxStage::advance(int not_fluid, const double *change) const
 
 /* ---------------------------------------------------------------------- */
 
-void RelaxStage::forget_unused() const
+void RelaxStage::keep(const std::vector<int> &states) const
 {
   const Fields *const fields = Fields::of(atom);
-  const Parameters &par = engine.parameters();
   for (int k = 0; k < fields->nprocess; k++)
     for (int i = 0; i < atom->nlocal; i++)
-      if (k >= par.type[atom->type[i]].nprocess) fields->rho_relaxed[k][i] = 0.0;
+      if (k >= states[atom->type[i]]) fields->rho_relaxed[k][i] = 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -218,7 +217,8 @@ double RelaxStage::energy(int groupbits, int not_fluid) const
   const StrainRows strains = engine.strains();
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbits) && !(atom->mask[i] & not_fluid)) total += strains.energy(i);
+    if ((atom->mask[i] & groupbits) && !(atom->mask[i] & not_fluid))
+      total += strains.energy(i) + strains.vibrational_energy(i);
   return total;
 }
 
@@ -226,7 +226,7 @@ double RelaxStage::energy(int groupbits, int not_fluid) const
 
 void HeatStage::run(const NoiseData *noise, const std::function<void(std::vector<double> &)> &add)
 {
-  engine.accumulate_heat(noise, flow);
+  engine.accumulate_heat(flow, noise);
   add(flow);
   double *const desph = atom->desph;
   engine.for_each(nheat(), [&](int i) {

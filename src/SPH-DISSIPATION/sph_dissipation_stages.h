@@ -107,7 +107,7 @@ namespace SPHDissipation {
 
     void set_bulk_term(const double *bound, int not_fluid) const;
 
-    // elastic energy of owned particles, with that of relaxing processes; each_atom = what it is added to, or nullptr
+    // elastic energy of owned particles, with that of relaxing strains; each_atom = what it is added to, or nullptr
 
     double elastic_energy(double *each_atom, int not_fluid) const;
   };
@@ -123,10 +123,10 @@ namespace SPHDissipation {
 
     void advance(int not_fluid, const double *change) const;
 
-    // owned particles have no state of processes that their type does not have
-    void forget_unused() const;
+    // owned particles keep, by type, so many states only
+    void keep(const std::vector<int> &states) const;
 
-    // energy of the strain of owned particles of these groups, not_fluid as above
+    // energy of the strains and vibrations of owned particles of these groups, not_fluid as above
 
     double energy(int groupbits, int not_fluid) const;
   };

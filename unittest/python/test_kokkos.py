@@ -152,13 +152,16 @@ def test_drag(lammps, style, ranks):
 
 @pytest.mark.parametrize("ranks, options", [(1, "eos ideal"), (2, "volume mass"), (4, "")])
 def test_relaxing_processes(lammps, style, ranks, options):
-    """Two of one type and one of the other, changed on the way; particles are sorted, and move between processors."""
+    """Two of one type and one of the other, changed on the way; of the gas another one of the vibrations; particles are sorted, and
+    move between processors."""
     particles = disordered(2, 14, seed=4, jitter=0.1, ntypes=2, speed=2.0, spread=0.0)
     particles.esph[:] = 80.0
     strain = np.random.default_rng(3).uniform(-0.05, 0.05, (len(particles), 2))
     strain[particles.type == 2, 1] = 0.0
     relax.write(particles, lammps.path("room.txt"), relax.strained(strain), style)
     words = {"pair_coeff 1 1": " relax 8.0 0.01 4.0 1.0", "pair_coeff 2 2": " relax 5.0 0.2"}
+    if "ideal" in options:
+        words["pair_coeff 2 2"] += " cv 2.5 vibration 1.0 0.05"
     model = "".join(line + words.get(line[:14], "") + "\n" for line in fluids(style, 2, 2, options).splitlines())
     extra = f"variable T equal 0.2+0.002*step\nfix CHANGE all adapt 5 pair {style} tau 2 2 v_T\natom_modify sort 5 1.5\n"
     text = script(style, particles, model, 50, extra=extra).replace("data.txt", "room.txt")

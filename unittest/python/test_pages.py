@@ -73,7 +73,7 @@ def fluid_for(text):
     types = 2 if re.search(r"pair_coeff [12] 2\b", text) else 1
     z = "-6 6" if solid else "-0.5 0.5"
     file = re.search(r"(fluids|gases)\.sph", text)
-    room = " relax 2" if re.search(r"gases\.sph| relax |d_rho_relaxed|kappa_r", text) else ""
+    room = " relax 2" if re.search(r"gases\.sph| relax | vibration |d_rho_relaxed|kappa_r", text) else ""
     lines = [f"units {'si' if file else 'lj'}", f"dimension {3 if solid else 2}", f"atom_style {style}{room}", "atom_modify map yes",
              f"region box block -6 6 -6 6 {z} units box", f"create_box {types} box",
              f"lattice {'sc' if solid else 'sq'} 1.0", "create_atoms 1 box", "set group all mass 1.0",
