@@ -37,7 +37,7 @@ class Run:
         self.exact = (effusivity * self.T0).sum() / effusivity.sum()
 
     def profile(self, x, contact):
-        """H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids, section 2.15."""
+        """H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids, the infinite composite solid."""
         side = np.where(x < 0, 0, 1)
         return contact + (self.T0[side] - contact) * erf(np.abs(x) / np.sqrt(4 * (self.k / (self.rho * self.cv))[side] * self.time))
 
