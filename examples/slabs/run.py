@@ -67,9 +67,9 @@ def plot(path, runs):
             x, first = np.unique(run.x, return_index=True)
             some = np.flatnonzero(np.diff(x // np.where(np.abs(x) < 0.06, 0.007, 0.02), prepend=np.nan))
             axis.plot(x[some], run.T[first][some], mark, color=color, ms=4, mfc="none", label=style)
-        axis.set_title(title)
+        axis.set_title(title, fontsize=10)
         axis.set_xlabel("distance from the contact")
-        axis.set_ylim(0.4, 2.45)
+        axis.set_ylim(0.3, 2.45)
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("temperature")
     axes[0].legend(loc="lower right")
@@ -84,7 +84,7 @@ def main():
     example.run({run.name: run.variables for run in runs}, {run.name: HERE / INPUTS[run.style] for run in runs})
     table = example.out / "slabs.csv"
     print(f"\n{n} particles per unit length\n\n"
-          "conduction by       slabs                             contact, exact   measured   profile, rms   largest error")
+          "conduction by       slabs                                  contact, exact   measured   profile, rms   largest error")
     with open(table, "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["style", "slabs", "contact_exact", "contact", "rms", "largest"])
@@ -92,7 +92,7 @@ def main():
             run.measure(example.out)
             row = [f"{run.exact:.5f}", f"{run.contact:.5f}", f"{run.rms:.5f}", f"{run.largest:.5f}"]
             writer.writerow([run.style, run.title, *row])
-            print(f"{run.style:<19} {run.title:<33} {row[0]:<16} {row[1]:<10} {row[2]:<14} {row[3]}")
+            print(f"{run.style:<19} {run.title:<38} {row[0]:<16} {row[1]:<10} {row[2]:<14} {row[3]}")
     print()
     for run in runs:
         if run.style == "sph/bulk":
