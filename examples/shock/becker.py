@@ -7,6 +7,7 @@
 
 import csv
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -54,7 +55,7 @@ class Run:
         self.mach, self.share, self.n = mach, share, n
         self.exact = Becker(mach)
         self.name = f"becker.M{mach}.{share.replace('/', '_')}"
-        self.variables = {"mach": mach, "share": f"{float(eval(share)):.15g}", "n": n, "sweep": sweep}
+        self.variables = {"mach": mach, "share": f"{float(Fraction(share)):.15g}", "n": n, "sweep": sweep}
 
     def measure(self, out):
         words = (out / f"{self.name}.end.txt").read_text().split()
