@@ -78,7 +78,7 @@ class Run:
 
 def plot(path, runs):
     plt = pyplot()
-    figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8))
+    figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8), layout="constrained")
     x = np.linspace(-REACH, REACH, 1000)
     for color, mach in zip(("C0", "C1"), MACHS):
         exact = Becker(mach)
@@ -89,14 +89,14 @@ def plot(path, runs):
             for run in runs:
                 if (run.mach, run.share) == (mach, share):
                     some = slice(shift * len(run.x) // 60, None, len(run.x) // 20)
-                    axes[0].plot(run.x[some], run.rho[some], mark, color=color, ms=5, mfc="none", label=f"M = {mach}, {SHARES[share]}")
+                    axes[0].plot(run.x[some], run.rho[some], mark, color=color, ms=5, mfc="none", label=f"M = {mach}, {SHARES[share]}".replace("mu", "$\\mu$").replace("kappa", "$\\kappa$"))
                     axes[1].plot(run.x[some], run.T[some], mark, color=color, ms=5, mfc="none")
     for axis, label in zip(axes, ("density", "temperature")):
-        axis.set_xlabel("distance from the shock [thicknesses]")
-        axis.set_ylabel(f"{label} over that before the shock")
+        axis.set_xlabel("distance from the shock / thickness")
+        axis.set_ylabel(f"{label} / that before the shock")
         axis.grid(alpha=0.3)
-    axes[0].legend(fontsize=7)
-    return save(figure, path, dpi=110, tight=True)
+    axes[0].legend()
+    return save(figure, path)
 
 
 def main():

@@ -57,7 +57,7 @@ class Run:
 
 def plot(path, runs):
     plt = pyplot()
-    figure, axes = plt.subplots(1, len(CASES), figsize=(10.5, 3.6))
+    figure, axes = plt.subplots(1, len(CASES), figsize=(10.5, 3.6), layout="constrained")
     for axis, title in zip(axes, CASES):
         for mark, color, style in zip("ox", ("C0", "C1"), INPUTS):
             (run,) = (run for run in runs if (run.style, run.title) == (style, title))
@@ -67,13 +67,13 @@ def plot(path, runs):
             x, first = np.unique(run.x, return_index=True)
             some = np.flatnonzero(np.diff(x // np.where(np.abs(x) < 0.06, 0.007, 0.02), prepend=np.nan))
             axis.plot(x[some], run.T[first][some], mark, color=color, ms=4, mfc="none", label=style)
-        axis.set_title(title, fontsize=10)
-        axis.set_xlabel("distance from the contact")
+        axis.set_title(title, fontsize=9)
+        axis.set_xlabel("distance from the contact (lj units)")
         axis.set_ylim(0.3, 2.45)
         axis.grid(alpha=0.3)
-    axes[0].set_ylabel("temperature")
+    axes[0].set_ylabel("temperature (lj units)")
     axes[0].legend(loc="lower right")
-    return save(figure, path, dpi=110, tight=True)
+    return save(figure, path)
 
 
 def main():

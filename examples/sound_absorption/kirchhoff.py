@@ -97,7 +97,7 @@ class Run:
 
 def plot(path, runs):
     plt = pyplot()
-    figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8), gridspec_kw={"width_ratios": (3, 2)})
+    figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8), layout="constrained", gridspec_kw={"width_ratios": (3, 2)})
     space = [run for run in runs if run.dim == 3]
     for color, mark, run in zip(("C0", "C1", "C2", "k"), "osD^", (run for run in space if run.gas.name == "N2")):
         period = run.gas.wavelength / run.gas.c
@@ -106,8 +106,8 @@ def plot(path, runs):
         axes[0].semilogy(run.t[crests] / period, abs(run.amplitude[crests]), mark, color=color, ms=5, mfc="none", label=run.part)
     axes[0].set_yticks((0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1), ("0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1"))
     axes[0].minorticks_off()
-    axes[0].set_xlabel("time [periods]")
-    axes[0].set_ylabel("crests of the velocity over the first")
+    axes[0].set_xlabel("time / period")
+    axes[0].set_ylabel("crests of the velocity / the first")
     axes[0].set_title("nitrogen; lines: Kirchhoff")
     names = [name for name in TITLES if any(run.gas.name == name for run in space)]
     for place, name in enumerate(names):
@@ -123,14 +123,14 @@ def plot(path, runs):
                 bottom += height
         axes[1].plot(place, group["all"].damping * unit, "ko", ms=5, label="all, SPH" if name == "N2" else None)
     axes[1].set_xticks(range(len(names)), [TITLES[name] for name in names])
-    axes[1].set_ylabel("$\\alpha/f^2$ [$10^{-11}$ s$^2$/m]")
+    axes[1].set_ylabel("$\\alpha/f^2$ ($10^{-11}$ s$^2$/m)")
     axes[1].set_title("bars: Stokes and Kirchhoff")
     for axis in axes:
         axis.grid(alpha=0.3)
     axes[0].legend()
     axes[1].legend(loc="upper right", ncols=2)
     axes[1].set_ylim(0, 2.5)
-    return save(figure, path, dpi=110, tight=True)
+    return save(figure, path)
 
 
 def main():
