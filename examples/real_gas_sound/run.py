@@ -15,7 +15,7 @@ from scipy.interpolate import CubicSpline
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE.parents[1] / "tools")]
 import fluids      # noqa: E402
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, exponents, frames, pyplot, save      # noqa: E402
 
 CO2, CO2_PER_DECADE = (1e3, 1e6), (10, 4)         # [Hz]; waves in a factor of ten: all, quick
 CONSTANT, CONSTANT_PER_DECADE = (1e3, 1e5), (4, 2)    # with all of kappa at once
@@ -66,13 +66,9 @@ class Standing:
         self.variables = {"wavelength": f"{wavelength:.10g}", **coefficients(gas)}
 
     def measure(self, out):
-        """Linear prediction: each value of the series from as many before as there are modes, two of sound, one of each process."""
+        """Two modes are of sound, one of each process."""
         time, y = np.loadtxt(out / f"{self.name}.wave.txt", usecols=(1, 2)).T
-        order = 2 + self.processes
-        rows = np.lib.stride_tricks.sliding_window_view(y, order + 1)
-        factors = np.linalg.lstsq(rows[:, :order], rows[:, order], rcond=1e-10)[0]
-        modes = np.log(np.roots([1, *-factors[::-1]]).astype(complex)) / time[1]
-        self.s = min(modes, key=lambda s: abs(s - 1j * self.k * float(self.variables["c"])))
+        self.s = min(exponents(time[1], y, 2 + self.processes), key=lambda s: abs(s - 1j * self.k * float(self.variables["c"])))
         self.frequency = self.s.imag / (2 * np.pi)
 
 

@@ -63,24 +63,36 @@ def kh(n):
     return np.pi * SUPPORT / 2**(1 / 3) / n
 
 
-def lattice_damping(fluid, model, n):
-    """Damping of the same wave in infinitely many particles on the lattice, from sums over one neighborhood."""
-    reach = int(np.ceil(SUPPORT / 2**(1 / 3))) + 1
-    grid = np.stack(np.meshgrid(*[np.arange(-reach, reach + 1.0)] * 3, indexing="ij"), -1).reshape(-1, 3)
-    points = np.concatenate([grid, grid + 0.5])            # in cells
+def lattice_sums(n, wavelength, dim=3):
+    """What stands for k^2 in a longitudinal wave of n cells in infinitely many particles, from sums over one neighborhood [1/m^2]:
+    of the divergence (density), of the second derivative of the kernel (curvature), of the shear term over that of the
+    divergence with lambda + 2 mu = 3 mu (shear), of the Laplacian (heat); and the density over its number in the input."""
+    cell = {1: 1.0, 2: np.sqrt(0.75), 3: 0.5}[dim]         # volume of a particle, in edges of cells
+    support = SUPPORT * cell**(1 / dim)
+    grid = np.stack(np.meshgrid(*[np.arange(-np.ceil(support) - 1, np.ceil(support) + 2)] * dim, indexing="ij"), -1).reshape(-1, dim)
+    points = grid if dim == 1 else np.concatenate([grid, grid + 0.5])
+    if dim == 2:
+        points *= [1, np.sqrt(3)]
     r = np.linalg.norm(points, axis=1)
-    support = SUPPORT / 2**(1 / 3)
     x, r = points[r < support, 0], r[r < support]
-    norm = 21 / (2 * np.pi * support**3)
+    norm = {1: 3 / 2, 2: 7 / np.pi, 3: 21 / (2 * np.pi)}[dim] / support**dim
     volume = 1 / (norm * (1 - r / support)**4 * (1 + 4 * r / support)).sum()
-    slope = 20 * norm / support**2 * (1 - r / support)**3
-    k = 2 * np.pi / n
-    away = r > 0
-    divergence = (slope * x * np.sin(k * x)).sum()
-    central = (slope * x**2 * (1 - np.cos(k * x)))[away] @ (1 / r[away]**2)
+    slope = 20 * norm / support**2 * (1 - r / support)**3  # -W'/r
+    k, away = 2 * np.pi / n, r > 0
+    x2, rest = np.where(away, x / np.where(away, r, 1), 0)**2, 1 - np.cos(k * x)
+    second = slope * (4 * r / support - 1) / (1 - r / support)            # W''
+    edges = (n / wavelength)**2 * volume
+    return {"density": edges * volume * (slope * x * np.sin(k * x)).sum()**2,
+            "curvature": edges * ((second * x2 - slope * (1 - x2)) * rest).sum(),
+            "shear": edges * 2 * (dim + 2) / 3 * (slope * x2 * rest).sum(),
+            "heat": edges * 2 * (slope * rest).sum(), "rho": cell / volume}
+
+
+def lattice_damping(fluid, model, n):
+    """Damping of the same wave in infinitely many particles on the lattice."""
+    sums = lattice_sums(n, fluid.wavelength)
     zeta = fluid.bulk_viscosity(model) - 5 / 3 * fluid.mu
-    force = zeta * volume**3 * divergence**2 + 10 * fluid.mu * volume**2 * central
-    return force / (0.5 * fluid.rho) / 2 * (n / fluid.wavelength)**2
+    return (zeta * sums["density"] + 3 * fluid.mu * sums["shear"]) / (2 * fluid.rho * sums["rho"])
 
 
 class Run:
