@@ -237,7 +237,6 @@ bool FixSPHOpen::zone_near(const double *x, double reach) const
 void FixSPHOpen::setup_pre_exchange()
 {
   set_up = true;
-  states.clear();
   condition->is_new = rows->are_new();
   if (condition->is_new && condition->has_heat())
     for (int i = 0; i < atom->nlocal; i++)
@@ -277,7 +276,8 @@ void FixSPHOpen::setup(int /*vflag*/)
 void FixSPHOpen::keep_states()
 {
   for (const auto &one : states) condition->keep(one.first, one.second);
-  if (!states.empty()) condition->is_new = false;
+  states.clear();
+  condition->is_new = false;
 }
 
 /* ---------------------------------------------------------------------- */
