@@ -94,8 +94,10 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
 
-  // of owned particles of a zone with heat: their states in the last forces
+  // of owned particles of a zone with heat, in ascending order: their states in the last forces, and their sums over
+  // the neighbors; until they move on
   std::vector<std::pair<int, SPHDissipation::OpenState>> states;
+  std::vector<double> sums;
 
   int keyword_argument(int, int, char **);
   void set_times();
@@ -103,6 +105,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   bool has_lost_members() const;
   void warn_of_other_plane();
   void enter(int i, const double *v);
+  void compress(int i);
   void leave(int i);
   void set_velocity(int i);
   void set_spin(int i);

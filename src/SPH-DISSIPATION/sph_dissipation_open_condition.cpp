@@ -316,6 +316,15 @@ double OpenCondition::temperature(int i, const OpenState &state) const
 
 /* ---------------------------------------------------------------------- */
 
+OpenState OpenCondition::at_density(int i, const OpenState &state, double rho) const
+{
+  const double q = heat_at(eos(i), state.q, state.rho, rho);
+  return {elastic_pressure(fluid->choice.eos, eos(i), rho) + thermal_pressure(eos(i), rho, q), rho,
+          q};
+}
+
+/* ---------------------------------------------------------------------- */
+
 void OpenCondition::keep(int i, const OpenState &state) const
 {
   atom->esph[i] = atom->rmass[i] * (elastic_energy(fluid->choice.eos, eos(i), state.rho) + state.q);

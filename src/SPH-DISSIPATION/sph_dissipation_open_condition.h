@@ -99,6 +99,7 @@ namespace SPHDissipation {
     double heat(int i) const;                              // per mass, without waves
     double temperature(int i, const OpenState &) const;    // with which it conducts heat
 
+    OpenState at_density(int i, const OpenState &, double rho) const;    // and the same entropy
     void keep(int i, const OpenState &) const;    // the particle has this state
 
     // Density at which a particle has its internal energy, 0: not known.  No force computation changes it, and it
