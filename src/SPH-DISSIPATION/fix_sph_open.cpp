@@ -281,7 +281,7 @@ void FixSPHOpen::setup(int /*vflag*/)
 void FixSPHOpen::keep_states()
 {
   for (const auto &one : states) condition->keep(one.first, one.second);
-  if (!states.empty()) condition->is_new = false;
+  condition->is_new = false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -338,7 +338,10 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 
 void FixSPHOpen::post_integrate()
 {
-  if (has_lost_members()) find_members();
+  if (has_lost_members()) {
+    find_members();
+    states.clear();
+  }
   values->evaluate(igroup);
   double farthest = 0.0;
   for (const int i : members) {
@@ -364,6 +367,7 @@ void FixSPHOpen::post_integrate()
     }
   }
   rows->note_motion(farthest);
+  states.clear();
   totals_known = false;
 }
 
@@ -375,8 +379,24 @@ void FixSPHOpen::enter(int i, const double *v)
 {
   atom->mask[i] = (atom->mask[i] & ~groupbit) | fluidbit;
   std::copy_n(v, 3, atom->v[i]);
+  compress(i);
   integrator->arrive(i);
   balance->carry(OpenBalance::IN, i, v, atom->esph[i], *fields);
+}
+
+/* ----------------------------------------------------------------------
+   Bring a particle to the density that it will have in the fluid, a sum over its neighbors, at constant entropy.
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::compress(int i)
+{
+  const auto found =
+      std::lower_bound(states.begin(), states.end(), i, [](const auto &one, int other) {
+        return one.first < other;
+      });
+  if (found == states.end() || found->first != i) return;
+  const double rho = sums[found - states.begin()] + update->dt * atom->drho[i];
+  condition->keep(i, condition->at_density(i, found->second, rho));
 }
 
 /* ----------------------------------------------------------------------
@@ -465,6 +485,7 @@ void FixSPHOpen::set_states(OpenStage &stage)
   }
   is_new = false;
   states.clear();
+  sums.clear();
   for (const int i : members)
     if (atom->mask[i] & groupbit) set_state(stage, i);
   totals_known = false;
@@ -527,6 +548,7 @@ void FixSPHOpen::sample(const OpenStage &stage)
 void FixSPHOpen::set_state(OpenStage &stage, int i)
 {
   const OpenState state = condition->state(i);
+  const double sum = atom->rho[i];
   if (!(state.rho > 0.0) || std::isinf(state.rho)) {
     const double energy = condition->heat(i);
     if (fluid->model->choice.eos == Eos::IDEAL && !(energy > 0.0))
@@ -541,6 +563,7 @@ void FixSPHOpen::set_state(OpenStage &stage, int i)
   if (!condition->has_heat()) return;
   stage.set_temperature(i, condition->temperature(i, state));
   states.emplace_back(i, state);
+  sums.push_back(sum);
 }
 
 /* ----------------------------------------------------------------------
@@ -621,5 +644,6 @@ double FixSPHOpen::memory_usage()
 {
   return samples->memory_usage() + values->memory_usage() +
       static_cast<double>(members.capacity() * sizeof(int) +
-                          states.capacity() * sizeof(std::pair<int, OpenState>));
+                          states.capacity() * sizeof(std::pair<int, OpenState>) +
+                          sums.capacity() * sizeof(double));
 }

@@ -87,14 +87,17 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   double radius;               // of the fluid that is measured at the plane
   double area;                 // of the cross section of a row; 0: rows have a spacing
   std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
-  // of owned particles of a zone with heat: states that have gone into the last forces
-  std::vector<std::pair<int, SPHDissipation::OpenState>> states;
-  bool is_new;             // no forces have been computed with this zone
-  bool supersonic, gap;    // has been warned of
-  bool set_up;             // since it was defined
+  bool is_new;                 // no forces have been computed with this zone
+  bool supersonic, gap;        // has been warned of
+  bool set_up;                 // since it was defined
   bool totals_known;
   std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
+
+  // of owned particles of a zone with heat, in ascending order: their states in the last forces, and their sums over
+  // the neighbors; until they move on
+  std::vector<std::pair<int, SPHDissipation::OpenState>> states;
+  std::vector<double> sums;
 
   int keyword_argument(int, int, char **);
   void set_times();
@@ -102,6 +105,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   bool has_lost_members() const;
   void warn_of_other_plane();
   void enter(int i, const double *v);
+  void compress(int i);
   void leave(int i);
   void set_velocity(int i);
   void set_spin(int i);

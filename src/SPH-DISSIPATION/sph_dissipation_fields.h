@@ -36,8 +36,10 @@ namespace SPHDissipation {
     static Fields *with_spins(Atom *);
 
     const bool has_spins;
-    double *
-        desph_before;    // rate of the internal energy when the step began, see TimeStep; see OpenCondition for zones
+
+    // rate of the internal energy when the step began, see TimeStep; of a particle of an open zone, see OpenCondition
+    double *desph_before;
+
     double *inertia;      // moment of inertia per mass, length^2; nullptr without spins
     double **omegaest;    // spin at the end of the step, extrapolated; nullptr without spins
 

@@ -36,7 +36,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 OpenValues::OpenValues(LAMMPS *lmp, const std::string &owner) :
-    Pointers(lmp), owner(owner), is_given(), any_variable(false), needs_energy(false)
+    Pointers(lmp), owner(owner), is_given(), any_variable(false), needs_heat(false)
 {
 }
 
@@ -99,19 +99,18 @@ const char *OpenValues::fault(int k, double x) const
     if (k == VZ) return "velocity must lie in the plane in 2d";
     if (k == WX || k == WY) return "spin must be along z in 2d";
   }
-  if (k == ENERGY && needs_energy && !(x > 0.0)) return "energy must be > 0 with eos ideal";
-  if (k == TEMPERATURE && needs_energy && !(x > 0.0))
-    return "temperature must be > 0 with eos ideal";
+  if (k == ENERGY && needs_heat && !(x > 0.0)) return "energy must be > 0 with eos ideal";
+  if (k == TEMPERATURE && needs_heat && !(x > 0.0)) return "temperature must be > 0 with eos ideal";
   if (k == TEMPERATURE && !(x >= 0.0)) return "temperature must be >= 0";
   return nullptr;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenValues::init(bool needs_energy_in)
+void OpenValues::init(bool needs_heat_in)
 {
   any_variable = false;
-  needs_energy = needs_energy_in;
+  needs_heat = needs_heat_in;
   for (int k = 0; k < NQUANTITY; k++) {
     if (!is_given[k]) continue;
     Value &one = value[k];
@@ -266,7 +265,7 @@ bool OpenCondition::enters(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Particles of a zone have no rate of their energy.
+   in the place of a rate, which particles of a zone do not have
 ------------------------------------------------------------------------- */
 
 double &OpenCondition::density_of_energy(int i) const
@@ -313,6 +312,15 @@ double OpenCondition::temperature(int i, const OpenState &state) const
   if (values.given(OpenValues::TEMPERATURE)) return values(OpenValues::TEMPERATURE, i);
   const double cv = fluid->heat_capacity(atom->type[i]);
   return (cv > 0.0) ? state.q / cv : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+OpenState OpenCondition::at_density(int i, const OpenState &state, double rho) const
+{
+  const double q = heat_at(eos(i), state.q, state.rho, rho);
+  return {elastic_pressure(fluid->choice.eos, eos(i), rho) + thermal_pressure(eos(i), rho, q), rho,
+          q};
 }
 
 /* ---------------------------------------------------------------------- */

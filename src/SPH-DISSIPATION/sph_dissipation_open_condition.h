@@ -36,9 +36,7 @@ namespace SPHDissipation {
     // Set the quantities of the keyword at arg[iarg]; return its number of words, 0 if it is none of them.
     int keyword_argument(int iarg, int narg, char **arg);
     void check() const;
-    void init(
-        bool
-            needs_energy);    // finds the variables; needs_energy: of an ideal gas, which must have heat
+    void init(bool needs_heat);    // finds the variables; heat must then be > 0
 
     bool given(Quantity k) const { return is_given[k]; }
     bool vary() const { return any_variable; }
@@ -54,7 +52,7 @@ namespace SPHDissipation {
     const std::string owner;
     Value value[NQUANTITY];
     bool is_given[NQUANTITY];
-    bool any_variable, needs_energy;
+    bool any_variable, needs_heat;
 
     const char *fault(int k, double) const;    // what a value must not be; nullptr: nothing
   };
@@ -81,8 +79,7 @@ namespace SPHDissipation {
 
     double averaging_time;    // 0: by the support radius
     double clock;             // time of the zone, which no command sets back
-    bool
-        is_new;    // no particle has got a state: the heat that is given, or that it has, is that without waves
+    bool is_new;              // no particle has a state yet: the heat of each is that without waves
 
     // Set what the keyword at arg[iarg] says; return its number of words, 0 if it is none of a condition.
     int keyword_argument(int iarg, int narg, char **arg);
@@ -99,13 +96,16 @@ namespace SPHDissipation {
     void velocity(int i, double *u) const;
     OpenState state(int i) const;
     double prescribed_density(int i) const { return reference(i, ZONE).rho; }    // without waves
-    double heat(int i) const;                              // per mass, which the ideal gas needs
+    double heat(int i) const;                              // per mass, without waves
     double temperature(int i, const OpenState &) const;    // with which it conducts heat
 
-    // density at which a particle of the zone has its internal energy, 0: not known; the state in which the zone leaves it
+    OpenState at_density(int i, const OpenState &, double rho) const;    // and the same entropy
+    void keep(int i, const OpenState &) const;    // the particle has this state
+
+    // Density at which a particle has its internal energy, 0: not known.  No force computation changes it, and it
+    // moves to other processors and into restart files with the particle.
 
     double &density_of_energy(int i) const;
-    void keep(int i, const OpenState &) const;
 
     // of an owned particle of the fluid near the plane; more = its pressure beyond the equation of state
 

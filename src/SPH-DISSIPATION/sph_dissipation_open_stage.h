@@ -68,8 +68,7 @@ namespace SPHDissipation {
     bool empty() const { return zones.empty(); }
     int bits() const { return zone_bits; }    // of the groups of all zones
     int bits_of(int fluid_bit) const;         // of those whose fluid has this bit
-    double strain_energy(
-        int i) const;    // of relaxing processes of an owned particle, at the last densities
+    double strain_energy(int i) const;        // of relaxing processes, at the last densities
 
     // from OpenZone::set_states(): density and pressure of a particle, which keeps its bulk term; with which temperature it
     // conducts heat, if the fluid does

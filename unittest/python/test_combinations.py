@@ -105,7 +105,7 @@ FEATURES = {
     "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
     "gravity": Feature(body("gravity 5.0 vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
     "walls": Feature(walls("v_U"), walls("0.3")),
-    "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), not_plain_with=("gas",), refused={"noise": "temp", "rerun": "rerun"}),
+    "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), not_plain_with=("gas", "heat"), refused={"noise": "temp", "rerun": "rerun"}),
     "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom {TARGET}", "fix R fluid sph/refine 5 volume v_t")),
                      Lines(pair=("volume mass",), fixes=(f"variable t atom sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
                      refused={"rerun": "rerun"}),
