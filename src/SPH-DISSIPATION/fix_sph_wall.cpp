@@ -430,7 +430,7 @@ void FixSPHWall::book_heat()
 {
   if (!gives_heat()) return;
   const double before = heat_rate;
-  heat_rate = -find_fluid(force)->received_heat(groupbit);
+  heat_rate = 0.0 - find_fluid(force)->received_heat(groupbit);
   if (update->whichflag == 1 && !update->setupflag)
     heat_given += 0.5 * update->dt * (before + heat_rate);
 }
