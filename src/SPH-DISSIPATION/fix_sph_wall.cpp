@@ -198,7 +198,9 @@ void FixSPHWall::init()
   const auto conducts = [&](int type) {
     return HeatChannel::in_use(fluid->model->coeffs[type].keywords);
   };
-  if (gives_heat() && !felt.empty() && std::none_of(felt.begin(), felt.end(), conducts))
+  if (gives_heat() &&
+      (!fluid->model->parameters().conducts ||
+       (!felt.empty() && std::none_of(felt.begin(), felt.end(), conducts))))
     error->all(FLERR,
                "Fix {} heat: the fluid at the wall conducts no heat, keyword conductivity of "
                "pair_coeff",
@@ -428,7 +430,7 @@ void FixSPHWall::book_heat()
 {
   if (!gives_heat()) return;
   const double before = heat_rate;
-  heat_rate = -find_fluid(force)->received_heat(groupbit);
+  heat_rate = 0.0 - find_fluid(force)->received_heat(groupbit);
   if (update->whichflag == 1 && !update->setupflag)
     heat_given += 0.5 * update->dt * (before + heat_rate);
 }

@@ -37,7 +37,7 @@ namespace SPHDissipation {
     void remove(Boundary *);    // no effect if it is not there
     bool empty() const { return boundaries.empty(); }
     int bits() const { return group_bits; }    // of the groups of all boundaries
-    bool gives_heat() const;                   // any of them
+    bool gives_heat() const;                   // any of them, to a fluid that conducts it
 
     // after the densities: see ParticleRows::set_reference_volume()
     void set_reference_volume();

@@ -374,7 +374,7 @@ void Fluid::sum_heat()
 
 double Fluid::received_heat(int groupbit) const
 {
-  return conduction->received(groupbit);
+  return model->parameters().conducts ? conduction->received(groupbit) : 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -399,6 +399,12 @@ void Fluid::find_viscous_velocity()
 
 void Fluid::find_temperature()
 {
+  if (update->setupflag && boundary->gives_heat())
+    error->all(
+        FLERR,
+        "Fix {} viscous rkl2 or implicit cannot be used with heat temp or flux of fix sph/wall, "
+        "which needs viscous explicit",
+        style);
   if (neighbor->ago == 0 || temperature->has_old_rates())
     temperature->set_rate(coeff_table().fastest_heat_rate());
   temperature->run(not_fluid());

@@ -55,8 +55,8 @@ void FluidModel::derive(int dim, double support)
     derived.eos = type.eos;
     derived.other = type.other;
     if (!type.other && Channels::drag(type.keywords) > 0.0) par.drag = true;
-    if (choice.thermal) check_balance(i);
     if (!type.other) check_heat(i);
+    if (choice.thermal) check_balance(i);
   }
   par.set_uniform();
   par.set_heat();
