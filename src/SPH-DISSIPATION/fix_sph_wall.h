@@ -35,7 +35,8 @@ namespace SPHDissipation {
 }    // namespace SPHDissipation
 
 // Solid wall of particles for the fluids sph/bulk and sph/micropolar: moves them, extrapolates
-// velocity, pressure and spin of the fluid to them, sums up force and torque on them.
+// velocity, pressure, spin and temperature of the fluid to them, sums up force and torque on them
+// and the heat that they give.
 // S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012).
 
 class FixSPHWall : public Fix, public SPHDissipation::Boundary {
@@ -86,10 +87,10 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void book_heat();
 
  private:
-  double
-      heat_rate;    // heat per time that this rank's part of the wall gave the fluid in the last step
-  double
-      heat_given;    // since the fix was defined, on this rank; rank 0 has that of a restart file
+  // by this rank's part of the wall to the fluid; rank 0 has what a restart file knows
+
+  double heat_rate;     // heat per time in the last step
+  double heat_given;    // heat since the fix was defined
 
   bool is_wrong(double value) const;    // of heat_value
   void check_heat() const;

@@ -133,8 +133,7 @@ namespace SPHDissipation {
     bool
     has_forces() const;    // on all processors, for the particles that are there now; asked by all
     virtual void heating(double *heat, double *power) const;
-    virtual double
-    received_heat(int groupbit) const;    // by conduction, per time, on this processor
+    virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank
     const double *own_force(int i) const;
     const double *own_torque(int i) const;
 

@@ -224,7 +224,8 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
 }
 
 /* ----------------------------------------------------------------------
-   by least squares from the normals around a particle; none where they change too much for a smooth surface
+   Divergence of the normals over the dimensions of the surface, by least squares from those around a particle; none where
+   they change too much for a smooth surface
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &owned)

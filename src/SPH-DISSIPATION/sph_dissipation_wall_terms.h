@@ -16,7 +16,7 @@
 
 // Motion of a rigid wall, what the fluid around its particles adds up to, and what follows from it for
 // one of them: S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012), and the extension of
-// velocity and spin behind the surface.  No LAMMPS include.
+// velocity, spin and temperature behind the surface.  No LAMMPS include.
 
 #include "sph_dissipation_extension.h"
 #include "sph_dissipation_particle_terms.h"
@@ -29,12 +29,11 @@ namespace SPHDissipation {
   // Where the surface is, seen from a boundary particle w
 
   struct Surface {
-    double normal[3];    // toward the fluid; zero: unknown
-    double depth;        // distance of w from the surface
-    double spacing;      // of the particles
-    double
-        curvature;    // divergence of the normal by dimensions of the surface; if a flux of heat needs it
-    double flux_volume;    // the same, see surface_heat()
+    double normal[3];      // toward the fluid; zero: unknown
+    double depth;          // distance of w from the surface
+    double spacing;        // of the particles
+    double curvature;      // mean one, for a flux of heat: see surface_heat()
+    double flux_volume;    // the same
     double omega[3];       // angular velocity of the rigid body that w belongs to
   };
 
@@ -344,7 +343,8 @@ namespace SPHDissipation {
 
   // Heat per time that the particle f of the fluid gets from the surface, by a wall particle w, r = x_w - x_f.  The sum of
   // 2 V_f V_w F r.n over all pairs is the area of the surface, for the integral of F z^2 over one half of space is 1/2, if n
-  // is the normal where the pair crosses it: on average that in the middle.  On cubic lattices the sum is the area itself:
+  // is the normal where the pair crosses it: on average that in the middle, n_w + C t/2 with the part t of -r along the surface and
+  // the divergence C of the normals over its dimensions.  On cubic lattices the sum is the area itself:
   // for this, V_w is the reference volume times flux_factor().
 
   SPH_FUNCTION double surface_heat(double flux, double vol_f, const double *r, double slope,

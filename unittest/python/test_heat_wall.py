@@ -326,6 +326,18 @@ def test_restart(lammps, ranks):
     assert pre_no["f_W0[8]"][-1] == pytest.approx(whole["f_W0[8]"][-1], rel=1e-12)
 
 
+def test_no_heat_without_conduction(lammps):
+    """In a minimization, which has no time, and after fix adapt has set the conductivity of all types to zero."""
+    end = "".join(f"variable k{i} equal {one['k']}*(step<40)\nfix A{i} all adapt 1 pair sph/bulk conductivity {i} {i} v_k{i}\n"
+                  for i, one in enumerate(FLUIDS, 1))
+    first, pause, last = lammps(vessel(lammps) + MOVING + "thermo 10\nrun 10\nminimize 0 1e-6 5 5\nreset_timestep 30\n" + end + "run 20\n").thermo()
+    for wall in ("W0", "W1"):
+        rate, given = f"f_{wall}[7]", f"f_{wall}[8]"
+        assert (first[rate] != 0.0).all() and (pause[rate] == 0.0).all() and (pause[given] == first[given][-1]).all()
+        assert last[rate][0] != 0.0 and (last[rate][1:] == 0.0).all()
+        assert last[given][0] == first[given][-1] and last[given][1] == last[given][2] != last[given][0]
+
+
 def test_adiabatic_is_the_default(lammps):
     """To the last bit, and with a vector of 6."""
     frames = []
