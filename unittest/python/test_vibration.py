@@ -416,7 +416,7 @@ def test_time_step(lammps):
 
 # ---- bad input ---------------------------------------------------------------------------------------------------
 
-PAIR = "pair_coeff * * 1.0 1.0 0.1 0.1 3.0 cv 1.0 vibration"
+PAIR = "pair_coeff * * 1.0 1.0 0.1 0.3 3.0 cv 1.0 vibration"
 POSITIVE = "vibration must have cvib > 0 and tau_v > 0, not "
 
 
