@@ -215,6 +215,24 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
       });
 }
 
+// heat per time that the particle f of the fluid gets by the boundary particle w, r = x_w - x_f
+
+namespace {
+template <class DeviceType, class K> struct SurfaceHeat {
+  LoopDataKokkos<DeviceType> loop;
+  Kokkos::View<int *, DeviceType> number;
+  Kokkos::View<Surface *, DeviceType> surface;
+
+  KOKKOS_INLINE_FUNCTION double operator()(int f, int w, const double *r, double rsq) const
+  {
+    const double flux = loop.conductor[w].flux;
+    if (flux == 0.0 || !(loop.conductor[f].conductivity > 0.0)) return 0.0;
+    const double slope = loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support);
+    return surface_heat(flux, loop.particle[f].vol, r, slope, surface(number(w)));
+  }
+};
+}    // namespace
+
 /* ----------------------------------------------------------------------
    each particle sums up its own pairs
 ------------------------------------------------------------------------- */
@@ -238,13 +256,7 @@ void BoundaryStageKokkos<DeviceType>::sum_surface_heat(const LoopDataKokkos<Devi
   auto number = boundary.number;
   auto surface = boundary.surface;
   auto loop = data;
-  auto heat_of = KOKKOS_LAMBDA(int f, int w, const double *r, double rsq)
-  {
-    const double flux = loop.conductor[w].flux;
-    if (flux == 0.0 || !(loop.conductor[f].conductivity > 0.0)) return 0.0;
-    const double slope = loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support);
-    return surface_heat(flux, loop.particle[f], loop.particle[w], r, slope, surface(number(w)));
-  };
+  const SurfaceHeat<DeviceType, K> heat_of = {loop, number, surface};
   Kokkos::parallel_for(
       "sph:surface_heat", Range(0, nrows), KOKKOS_LAMBDA(int k) {
         const int i = list(k);

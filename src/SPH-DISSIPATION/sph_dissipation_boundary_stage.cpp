@@ -179,7 +179,7 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow) const
     double r[3];
     for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
     const double heat =
-        surface_heat(flux, f, w, r, engine.pairs().slope[pair.entry], surface.surface[pair.wall]);
+        surface_heat(flux, f.vol, r, engine.pairs().slope[pair.entry], surface.surface[pair.wall]);
     flow[pair.fluid] += heat;
     flow[pair.wall] -= heat;
   }

@@ -133,6 +133,28 @@ namespace SPHDissipation {
            });
   }
 
+  // Sums of V W and of V F r^2/n over a cubic lattice of this spacing, V = spacing^n: the integrals of both are 1
+
+  struct LatticeSums {
+    double zeroth, second;
+  };
+
+  inline LatticeSums kernel_lattice_sums(Kernel kernel, int n, double support, double spacing)
+  {
+    const int reach = static_cast<int>(support / spacing);
+    LatticeSums sum = {0.0, 0.0};
+    double vol = 1.0;
+    for (int d = 0; d < n; d++) vol *= spacing;
+    for (int i = -reach; i <= reach; i++)
+      for (int j = (n > 1) ? -reach : 0; j <= ((n > 1) ? reach : 0); j++)
+        for (int k = (n > 2) ? -reach : 0; k <= ((n > 2) ? reach : 0); k++) {
+          const double r = spacing * std::sqrt(static_cast<double>(i * i + j * j + k * k));
+          sum.zeroth += vol * kernel_weight(kernel, n, r, support);
+          sum.second += vol * r * r * kernel_slope(kernel, n, r, support) / n;
+        }
+    return sum;
+  }
+
   // integral of F, units 1/length^2: 14/R^2 for Wendland C2 in 2 and 3 dimensions
 
   inline double kernel_slope_integral(Kernel kernel, int n, double support)

@@ -110,17 +110,21 @@ void SurfaceStage::find(int bits)
 {
   const int dim = engine.parameters().dim;
   std::vector<int> owned, all, outer;
-  double spacing = 0.0;
+  const double support = engine.parameters().support;
+  double spacing = 0.0, last = 0.0, factor = 0.0;
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     if (!(atom->mask[i] & bits)) continue;
     const double own = pow(atom->vfrac[i], 1.0 / dim);
     surface[i].spacing = own;
+    if (own != last)
+      factor =
+          flux_factor(kernel_lattice_sums(engine.parameters().kernel, dim, support, last = own));
+    surface[i].flux_volume = factor * atom->vfrac[i];
     spacing = std::max(spacing, own);
     all.push_back(i);
     if (i < atom->nlocal) owned.push_back(i);
   }
 
-  const double support = engine.parameters().support;
   const double radius = (spacing > 0.0) ? std::min(support, CUTOFF * spacing) : support;
   find_outer_layer(Cells(atom->x, all, radius), owned);
   const Field normal = field(surface, surface->normal, 3),

@@ -29,10 +29,11 @@ namespace SPHDissipation {
   // Where the surface is, seen from a boundary particle w
 
   struct Surface {
-    double normal[3];    // toward the fluid; zero: unknown
-    double depth;        // distance of w from the surface
-    double spacing;      // of the particles
-    double omega[3];     // angular velocity of the rigid body that w belongs to
+    double normal[3];      // toward the fluid; zero: unknown
+    double depth;          // distance of w from the surface
+    double spacing;        // of the particles
+    double flux_volume;    // see surface_heat()
+    double omega[3];       // angular velocity of the rigid body that w belongs to
   };
 
   // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
@@ -339,14 +340,21 @@ namespace SPHDissipation {
     return {vol, value + beyond.behind(surface.depth), sum.conductivity / sum.weight, 0.0};
   }
 
-  // Heat per time that the particle f of the fluid gets from the surface, by the wall particle w, r = x_w - x_f: the sum
-  // of 2 V_f V_w F r.n over all pairs is the area of the surface, for the integral of F z^2 over one half of space is 1/2
+  // Heat per time that the particle f of the fluid gets from the surface, by a wall particle w, r = x_w - x_f.  The sum of
+  // 2 V_f V_w F r.n over all pairs is the area of the surface, for the integral of F z^2 over one half of space is 1/2.  On
+  // cubic lattices the sum is the area itself: for this, V_w is the reference volume times flux_factor().
 
-  template <class P>
-  SPH_FUNCTION double surface_heat(double flux, const P &f, const P &w, const double *r,
-                                   double slope, const Surface &surface)
+  SPH_FUNCTION double surface_heat(double flux, double vol_f, const double *r, double slope,
+                                   const Surface &surface)
   {
-    return -2.0 * flux * f.vol * w.vol * slope * inner_product(r, surface.normal);
+    return -2.0 * flux * vol_f * surface.flux_volume * slope * inner_product(r, surface.normal);
+  }
+
+  // there the volumes V = 1/c are too small by the one sum, the number of pairs by the other
+
+  inline double flux_factor(const LatticeSums &sums)
+  {
+    return sums.zeroth / sums.second;
   }
 
   // What particle i of a wall with this acceleration brings into pass 2: the fluid goes on, sum.weight > 0
