@@ -18,11 +18,11 @@ from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 PRANDTL = 0.71
 CAVITY = {                                  # Rayleigh number: particles per side, duration, averages over the last part
-    "1e5": (96, 50, 15),
-    "1e4": (64, 28, 8),
-    "1e3": (48, 14, 4),
+    "1e5": (80, 48, 12),
+    "1e4": (64, 27, 9),
+    "1e3": (48, 18, 6),
 }
-QUICK = {"1e3": (24, 12, 4)}
+QUICK = {"1e3": (24, 16, 4)}
 LIMITS = {"1e3": 0.015, "1e4": 0.015, "1e5": 0.03}      # of the Nusselt number
 SPEED = 0.03                                # of the largest velocities
 PLACE = 0.01                                # of their positions, over the side
@@ -31,7 +31,7 @@ BALANCE = 1e-3                              # of heat in and heat out
 CRITICAL = 1707.76                          # plates with given temperatures
 LENGTH = 2.0                                # of a roll pair over the distance of the plates; the critical one is 2 pi/3.117
 ONSET = (1500, 1900)
-BEGIN = 0.15                                # growth rates are those after this time, in H^2/alpha
+BEGIN = 0.1                                 # growth rates are those after this time, in H^2/alpha
 
 
 def published():
@@ -161,7 +161,7 @@ def main():
     cases = {Ra: case for Ra, case in cases.items() if Ra in (args.cases or CAVITY)}
     onset = ONSET if not args.cases or "onset" in args.cases else ()
     jobs = {f"cavity.{Ra}": {"Ra": Ra, "Pr": PRANDTL, "N": N, "end": end, "mean": mean} for Ra, (N, end, mean) in cases.items()}
-    jobs |= {f"onset.{Ra}": {"Ra": Ra} for Ra in onset}
+    jobs |= {f"onset.{Ra}": {"Ra": Ra, "N": 20 if args.quick else 32} for Ra in onset}
     if not args.no_run:
         example.run(jobs, {name: HERE / "in.convection_onset" for name in jobs if name.startswith("onset")})
 
