@@ -58,7 +58,7 @@ static double edge(double rsq, double radius)
 /* ---------------------------------------------------------------------- */
 
 SurfaceStage::SurfaceStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
-    Stage(lmp, engine, exchange), surface(nullptr), nmax(0)
+    Stage(lmp, engine, exchange), surface(nullptr), has_flux(false), nmax(0)
 {
 }
 
@@ -116,7 +116,7 @@ void SurfaceStage::find(int bits)
     if (!(atom->mask[i] & bits)) continue;
     const double own = pow(atom->vfrac[i], 1.0 / dim);
     surface[i].spacing = own;
-    if (own != last)
+    if (has_flux && own != last)
       factor =
           flux_factor(kernel_lattice_sums(engine.parameters().kernel, dim, support, last = own));
     surface[i].flux_volume = factor * atom->vfrac[i];
@@ -135,6 +135,9 @@ void SurfaceStage::find(int bits)
     if (MathExtra::lensq3(surface[i].normal) > 0.0) outer.push_back(i);
   find_depth(Cells(atom->x, outer, 0.5 * support), owned);
   exchange.forward({normal, depth});
+  if (!has_flux) return;
+  find_curvature(Cells(atom->x, all, radius), owned);
+  exchange.forward({field(surface, &surface->curvature, 1)});
 }
 
 /* ----------------------------------------------------------------------
@@ -218,6 +221,32 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
     found.push_back(s);
   }
   for (std::size_t k = 0; k < owned.size(); k++) surface[owned[k]] = found[k];
+}
+
+/* ----------------------------------------------------------------------
+   by least squares from the normals around a particle; none where they change too much for a smooth surface
+------------------------------------------------------------------------- */
+
+void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &owned)
+{
+  constexpr double SMOOTH = 0.25;
+  const double support = engine.parameters().support;
+  for (const int i : owned) {
+    Surface &s = surface[i];
+    if (!(MathExtra::lensq3(s.normal) > 0.0)) continue;
+    const double radius = std::min(support, CUTOFF * s.spacing);
+    double turn = 0.0, norm = 0.0;
+    cells.near(atom->x[i], radius, [&](int j, const double *r, double rsq) {
+      const Surface &other = surface[j];
+      const double along = MathExtra::dot3(r, s.normal);
+      const double weight = edge(rsq, radius);
+      turn += weight *
+          (MathExtra::dot3(other.normal, r) - along * MathExtra::dot3(other.normal, s.normal));
+      norm += weight * (rsq - along * along);
+    });
+    const double curvature = turn / norm;
+    s.curvature = (std::fabs(curvature) * s.spacing < SMOOTH) ? curvature : 0.0;
+  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -49,6 +49,7 @@ namespace SPHDissipation {
     double memory_usage() const override;
 
     Surface *surface;    // of owned and ghost atoms
+    bool has_flux;       // of heat: what that needs is found, too
 
    private:
     int nmax;
@@ -58,6 +59,7 @@ namespace SPHDissipation {
     void find_sides(const std::vector<BoundaryPair> &);
     void find_outer_layer(const Cells &, const std::vector<int> &);
     void find_depth(const Cells &, const std::vector<int> &);
+    void find_curvature(const Cells &, const std::vector<int> &);
   };
 
 }    // namespace SPHDissipation

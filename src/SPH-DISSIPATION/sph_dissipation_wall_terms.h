@@ -29,10 +29,12 @@ namespace SPHDissipation {
   // Where the surface is, seen from a boundary particle w
 
   struct Surface {
-    double normal[3];      // toward the fluid; zero: unknown
-    double depth;          // distance of w from the surface
-    double spacing;        // of the particles
-    double flux_volume;    // see surface_heat()
+    double normal[3];    // toward the fluid; zero: unknown
+    double depth;        // distance of w from the surface
+    double spacing;      // of the particles
+    double
+        curvature;    // divergence of the normal by dimensions of the surface; if a flux of heat needs it
+    double flux_volume;    // the same, see surface_heat()
     double omega[3];       // angular velocity of the rigid body that w belongs to
   };
 
@@ -355,13 +357,17 @@ namespace SPHDissipation {
   }
 
   // Heat per time that the particle f of the fluid gets from the surface, by a wall particle w, r = x_w - x_f.  The sum of
-  // 2 V_f V_w F r.n over all pairs is the area of the surface, for the integral of F z^2 over one half of space is 1/2.  On
-  // cubic lattices the sum is the area itself: for this, V_w is the reference volume times flux_factor().
+  // 2 V_f V_w F r.n over all pairs is the area of the surface, for the integral of F z^2 over one half of space is 1/2, if n
+  // is the normal where the pair crosses it: on average that in the middle.  On cubic lattices the sum is the area itself:
+  // for this, V_w is the reference volume times flux_factor().
 
   SPH_FUNCTION double surface_heat(double flux, double vol_f, const double *r, double slope,
                                    const Surface &surface)
   {
-    return -2.0 * flux * vol_f * surface.flux_volume * slope * inner_product(r, surface.normal);
+    const double across = -inner_product(r, surface.normal);
+    const double along_sq = inner_product(r, r) - across * across;
+    return 2.0 * flux * vol_f * surface.flux_volume * slope *
+        (across + 0.5 * surface.curvature * along_sq);
   }
 
   // there the volumes V = 1/c are too small by the one sum, the number of pairs by the other
