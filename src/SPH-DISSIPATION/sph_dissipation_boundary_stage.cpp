@@ -127,7 +127,7 @@ void BoundaryStage::run(NeighList *list)
   const bool found = (neighbor->ago == 0 || group_bits != rows_bits);
   if (found) find_rows(list);
   find_pairs();
-  surface.has_flux = gives_heat();
+  surface.has_flux = conducts();
   if (found) surface.run(group_bits, pairs);
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
@@ -390,7 +390,7 @@ void BoundaryStage::stop_for(int i) const
 
 const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 {
-  surface.has_flux = gives_heat();
+  surface.has_flux = conducts();
   surface.run(group_bits, sides);
   return surface.surface;
 }
