@@ -220,7 +220,7 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
   auto *const spin = data.spin;
   const int bit = groupbit;
   const WallHeat kind = heat;
-  const bool with_heat = boundary.heat_sum.extent(0) > 0, by_atom = heat_value.is_by_atom();
+  const bool with_heat = data.par.conducts, by_atom = heat_value.is_by_atom();
   const double value = heat_value.now();
   auto values = heat_values;
   auto heat_sums = boundary.heat_sum;

@@ -198,7 +198,9 @@ void FixSPHWall::init()
   const auto conducts = [&](int type) {
     return HeatChannel::in_use(fluid->model->coeffs[type].keywords);
   };
-  if (gives_heat() && !felt.empty() && std::none_of(felt.begin(), felt.end(), conducts))
+  if (gives_heat() &&
+      (!fluid->model->parameters().conducts ||
+       (!felt.empty() && std::none_of(felt.begin(), felt.end(), conducts))))
     error->all(FLERR,
                "Fix {} heat: the fluid at the wall conducts no heat, keyword conductivity of "
                "pair_coeff",

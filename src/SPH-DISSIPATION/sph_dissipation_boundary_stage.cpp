@@ -100,7 +100,7 @@ void BoundaryStage::extend_fluid(int i, const WallCondition &condition, const Su
 
 void BoundaryStage::set_heat(int i, WallHeat heat, double value, const Surface &surface_of)
 {
-  if (heat_sum[i].weight > 0.0)
+  if (!heat_sum.empty() && heat_sum[i].weight > 0.0)
     engine.conductor[i] = wall_conductor(heat, value, engine.particle[i].vol, conductivity(i),
                                          surface_of, heat_sum[i]);
 }

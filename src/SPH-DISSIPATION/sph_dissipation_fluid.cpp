@@ -343,7 +343,7 @@ void Fluid::sum_heat()
 
 double Fluid::received_heat(int groupbit) const
 {
-  return conduction->received(groupbit);
+  return model->parameters().conducts ? conduction->received(groupbit) : 0.0;
 }
 
 /* ----------------------------------------------------------------------
