@@ -188,7 +188,7 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
   auto number = boundary.number;
   auto surface = boundary.surface;
   auto sum = boundary.sum;
-  const bool with_heat = stage.gives_heat();
+  const bool with_heat = stage.conducts();
   if (with_heat && (int) boundary.heat_sum.extent(0) != boundary.nowned)
     boundary.heat_sum =
         decltype(boundary.heat_sum)(Kokkos::NoInit("sph:boundary_heat_sum"), boundary.nowned);
@@ -200,6 +200,7 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
         const Surface s = surface(k);
         BoundarySum total = {};
         BoundaryHeatSum heat = {};
+        const double conductivity = loop.types[loop.type[particles(k)]].keywords.a[CONDUCTIVITY];
         for_neighbors(loop, particles(k), [&](int j, const double *r, double rsq) {
           if (number(j) >= 0) return;
           const Particle &f = loop.particle[j];
@@ -208,7 +209,10 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
           const double height = add_fluid(f, w, r, kernel_weight, s, loop.rho[j],
                                           loop.weight[j * loop.each], loop.zeta_term[j], total);
           if (loop.spin) add_fluid_spin(loop.spin[j].w, f.vol * kernel_weight, height, s, total);
-          if (with_heat) add_fluid_heat(loop.conductor[j], f.vol * kernel_weight, height, heat);
+          if (with_heat)
+            add_fluid_heat(loop.conductor[j], f.vol * kernel_weight,
+                           loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support),
+                           height, conductivity, heat);
         });
         sum(k) = total;
         if (with_heat) heat_sum(k) = heat;

@@ -39,7 +39,7 @@ namespace SPHDissipation {
     Kokkos::View<int *, DeviceType> number;    // of each owned and ghost particle; -1: it is fluid
     Kokkos::View<Surface *, DeviceType> surface;
     Kokkos::View<BoundarySum *, DeviceType> sum;             // of owned ones
-    Kokkos::View<BoundaryHeatSum *, DeviceType> heat_sum;    // the same; empty if none gives heat
+    Kokkos::View<BoundaryHeatSum *, DeviceType> heat_sum;    // the same; empty if nothing conducts
     Kokkos::View<NearKernel *, DeviceType> near;
   };
 

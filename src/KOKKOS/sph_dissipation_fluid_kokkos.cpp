@@ -330,7 +330,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
   data->zeta_term = reach(zeta_term, "sph:zeta_term", n);
   data->strain_pressure = reach(strain_pressure, "sph:strain_pressure", n);
   data->conductor = reach(conductor, "sph:conductor", engine->parameters().conducts ? n : 1);
-  if (boundary->gives_heat()) reach(heat_flow_of, "sph:heat_flow", n);
+  if (boundary->conducts()) reach(heat_flow_of, "sph:heat_flow", n);
   data->spin = engine->has_spin() ? reach(spin, "sph:spin", n) : nullptr;
   for (auto &heat : data->heat) reach(heat, "sph:heat", n);
   data->weight = reach(weight, "sph:weight", data->each ? n : 1);
@@ -557,7 +557,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
   Part<Spin> spins_of = {{}, 0, 3};
   if (engine->has_spin()) spins_of.array = spin;
   Part<Conductor> heat = {{}, 0, 4};
-  if (boundary->gives_heat()) heat.array = conductor;
+  if (boundary->conducts()) heat.array = conductor;
   send_to_ghosts(Part<Particle>{particle, 3, 5},    // u, vol and g
                  Part<double>{zeta_term, 0, 1}, spins_of, heat);
 }
@@ -598,7 +598,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(PairTally *
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_heat()
 {
   if (!on_device) return Fluid::sum_heat();
-  double *const flow = boundary->gives_heat() ? heat_flow_of.data() : nullptr;
+  double *const flow = boundary->conducts() ? heat_flow_of.data() : nullptr;
   with_kernel(model->choice.kernel, [&](auto kernel) {
     Kokkos::parallel_for("sph:heat", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
                          HeatLoopKokkos<DeviceType, decltype(kernel)>{*data, flow});
@@ -610,7 +610,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_heat()
 
 template <class DeviceType> double FluidKokkos<DeviceType>::received_heat(int groupbit) const
 {
-  if (!on_device || !boundary->gives_heat()) return Fluid::received_heat(groupbit);
+  if (!on_device || !boundary->conducts()) return Fluid::received_heat(groupbit);
   auto mask = atomKK->k_mask.template view<DeviceType>();
   auto flow = heat_flow_of;
   double total = 0.0;

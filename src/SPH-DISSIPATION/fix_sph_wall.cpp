@@ -392,7 +392,7 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
           surface_pressure(surfaces[i], eos.rho0, eos.pb, condition->gravity, acceleration));
     } else
       stage.extend_fluid(i, *condition, surfaces[i], sum, acceleration);
-    if (gives_heat()) stage.set_heat(i, heat, heat_value(i), surfaces[i]);
+    if (stage.conducts()) stage.set_heat(i, heat, heat_value(i), surfaces[i]);
   }
 }
 

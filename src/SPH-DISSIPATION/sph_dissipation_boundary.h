@@ -39,10 +39,6 @@ namespace SPHDissipation {
 
     virtual void set_boundary(BoundaryStage &, const Surface *, const BoundarySum *) = 0;
 
-    // it sets what its particles bring into the conduction of heat, too: BoundaryStage::set_heat()
-
-    virtual bool gives_heat() const { return false; }
-
    protected:
     ~Boundary() = default;    // nobody deletes a fix through this
   };

@@ -101,8 +101,13 @@ void BoundaryStage::extend_fluid(int i, const WallCondition &condition, const Su
 void BoundaryStage::set_heat(int i, WallHeat heat, double value, const Surface &surface_of)
 {
   if (!heat_sum.empty() && heat_sum[i].weight > 0.0)
-    engine.conductor[i] =
-        wall_conductor(heat, value, engine.particle[i].vol, surface_of, heat_sum[i]);
+    engine.conductor[i] = wall_conductor(heat, value, engine.particle[i].vol, conductivity(i),
+                                         surface_of, heat_sum[i]);
+}
+
+double BoundaryStage::conductivity(int i) const
+{
+  return engine.parameters().type[atom->type[i]].keywords.a[CONDUCTIVITY];
 }
 
 double *BoundaryStage::spin(int i)
@@ -122,7 +127,7 @@ void BoundaryStage::run(NeighList *list)
   const bool found = (neighbor->ago == 0 || group_bits != rows_bits);
   if (found) find_rows(list);
   find_pairs();
-  surface.has_flux = gives_heat();
+  surface.has_flux = conducts();
   if (found) surface.run(group_bits, pairs);
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
@@ -161,12 +166,9 @@ void BoundaryStage::extend()
 
 /* ---------------------------------------------------------------------- */
 
-bool BoundaryStage::gives_heat() const
+bool BoundaryStage::conducts() const
 {
-  return engine.parameters().conducts &&
-      std::any_of(boundaries.begin(), boundaries.end(), [](const Boundary *one) {
-           return one->gives_heat();
-         });
+  return !boundaries.empty() && engine.parameters().conducts;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -339,7 +341,7 @@ void BoundaryStage::accumulate()
   const double *const rho = atom->rho;
   const bool has_spin = engine.has_spin();
   const Parameters &par = engine.parameters();
-  const bool repulsive = has_energy(), with_heat = gives_heat();
+  const bool repulsive = has_energy(), with_heat = conducts();
   heat_sum.assign(with_heat ? atom->nlocal + atom->nghost : 0, BoundaryHeatSum());
 
   with_kernel(engine.parameters().kernel, [&](auto k) {
@@ -358,8 +360,9 @@ void BoundaryStage::accumulate()
       if (has_spin)
         add_fluid_spin(engine.spin[pair.fluid].w, f.vol * kernel_weight, height, s, total);
       if (with_heat)
-        add_fluid_heat(engine.conductor[pair.fluid], f.vol * kernel_weight, height,
-                       heat_sum[pair.wall]);
+        add_fluid_heat(engine.conductor[pair.fluid], f.vol * kernel_weight,
+                       par.slope_norm * k.slope(distance / par.support), height,
+                       conductivity(pair.wall), heat_sum[pair.wall]);
       sum[pair.fluid].filled += near[pair.wall].at<decltype(k)>(distance);
       if (repulsive) sum[pair.fluid].occupied += contact[pair.wall].at<ContactKernel>(distance);
     }
@@ -387,7 +390,7 @@ void BoundaryStage::stop_for(int i) const
 
 const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 {
-  surface.has_flux = gives_heat();
+  surface.has_flux = conducts();
   surface.run(group_bits, sides);
   return surface.surface;
 }

@@ -37,7 +37,7 @@ namespace SPHDissipation {
     void remove(Boundary *);    // no effect if it is not there
     bool empty() const { return boundaries.empty(); }
     int bits() const { return group_bits; }    // of the groups of all boundaries
-    bool gives_heat() const;                   // any of them, to a fluid that conducts it
+    bool conducts() const;                     // they take part in the conduction of heat
 
     // after the densities: see ParticleRows::set_reference_volume()
     void set_reference_volume();
@@ -67,7 +67,7 @@ namespace SPHDissipation {
                       const double *acceleration);
     double *spin(int i);
 
-    // the same if it gives heat: temperature at the surface, or heat per area and time
+    // the same if the fluid conducts heat: temperature at the surface, or heat per area and time
 
     void set_heat(int i, WallHeat, double value, const Surface &);
 
@@ -88,7 +88,7 @@ namespace SPHDissipation {
 
    private:
     BoundarySum *sum;                         // of owned and ghost atoms
-    std::vector<BoundaryHeatSum> heat_sum;    // the same; empty if no boundary gives heat
+    std::vector<BoundaryHeatSum> heat_sum;    // the same; empty if nothing conducts
     std::vector<BoundaryPair> pairs;          // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
@@ -110,6 +110,7 @@ namespace SPHDissipation {
     bigint surface_step;    // that the normals of the surface are for
 
     bool has_energy() const;    // with thermal noise
+    double conductivity(int i) const;
     double over(int i) const;
     double stiffness() const;
     int nforce() const;    // # of owned and, with newton on, ghost particles

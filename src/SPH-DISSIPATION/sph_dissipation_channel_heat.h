@@ -50,7 +50,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   // What the loop reads of a particle that conducts; all numbers are 0 of others.  A boundary particle has either
-  // the volume, a temperature and a conductivity, or the heat that its surface gives.  Rows are read by fours.
+  // a volume, a temperature and a conductivity, or the heat that its surface gives.  Rows are read by fours.
   struct alignas(16) Conductor {
     double vol;             // V
     double temperature;     // T

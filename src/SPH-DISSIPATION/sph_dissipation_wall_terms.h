@@ -67,6 +67,8 @@ namespace SPHDissipation {
     double d, d3, d4, d5, d6;    // d to the powers
     double td3, td4;             // temperature times d^3, d^4
     double conductivity;
+    double flow,
+        tflow;    // heat that flows to the boundary particle, per its volume and temperature; times temperature
   };
 
   SPH_FUNCTION double inner_product(const double *a, const double *b)
@@ -217,10 +219,10 @@ namespace SPHDissipation {
     }
   }
 
-  // the same for its temperature, weight = V_f W, height from add_fluid()
+  // the same for its temperature, weight = V_f W, slope = F, height from add_fluid(); conductivity of the boundary particle
 
-  SPH_FUNCTION void add_fluid_heat(const Conductor &f, double weight, double height,
-                                   BoundaryHeatSum &total)
+  SPH_FUNCTION void add_fluid_heat(const Conductor &f, double weight, double slope, double height,
+                                   double conductivity, BoundaryHeatSum &total)
   {
     if (!(f.conductivity > 0.0)) return;
     const double weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
@@ -233,6 +235,11 @@ namespace SPHDissipation {
     total.td3 += weight_d3 * f.temperature;
     total.td4 += weight_d4 * f.temperature;
     total.conductivity += weight * f.conductivity;
+    if (!(conductivity > 0.0)) return;
+    const double flow =
+        f.vol * slope * f.conductivity * conductivity / (f.conductivity + conductivity);
+    total.flow += flow;
+    total.tflow += flow * f.temperature;
   }
 
   // pressure at a wall particle of this acceleration, sum.weight > 0
@@ -329,10 +336,17 @@ namespace SPHDissipation {
   // What a wall particle of volume vol brings into the conduction of heat, sum.weight > 0.  value = temperature at the
   // surface, behind which that of the fluid goes on as the velocity along it does, or heat per area and time.
   // The conductivity is the mean of the fluid around it.
+  // Without either it has the temperature at which it gets no heat.  Heat that flows along the surface passes pairs on
+  // both of its sides and those across it, which are shared by both: so it has one half of its volume.
 
   SPH_FUNCTION Conductor wall_conductor(WallHeat heat, double value, double vol,
-                                        const Surface &surface, const BoundaryHeatSum &sum)
+                                        double conductivity, const Surface &surface,
+                                        const BoundaryHeatSum &sum)
   {
+    if (heat == WallHeat::ADIABATIC) {
+      if (!(sum.flow > 0.0)) return {0.0, 0.0, 0.0, 0.0};
+      return {0.5 * vol, sum.tflow / sum.flow, conductivity, 0.0};
+    }
     if (heat == WallHeat::FLUX) return {0.0, 0.0, 0.0, value};
     const DistanceNorms norms = distance_norms(sum, surface);
     const Extension beyond = norms.mean.stuck(sum.td3 * norms.d3 - value * norms.mean.d3,
