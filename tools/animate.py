@@ -20,6 +20,7 @@ sys.path.insert(0, str(EXAMPLES))
 from run_lammps import frames, pyplot      # noqa: E402
 
 LARGEST = 1_000_000     # bytes
+COLORS = 32
 WIDTH, HEIGHT = 600, 420        # pixels, at most
 TWO_FLUIDS = ("#E69F00", "#56B4E9")
 
@@ -38,10 +39,10 @@ FLOWS = {
                         lambda p: np.hypot(p["vx"], p["vy"]), (0, 1), "viridis", ((0, 1), (0, 1)), 30),
     "pulse_exit": ([("velocity across the stream, outlet on the right", {"end": 10})], "in.pulse_exit_vortex", "run $(ceil(v_end*v_unit))",
                    ("fluid", "$(ceil(v_end*v_unit/50))"), lambda p: p["vy"], (-0.25, 0.25), "RdBu_r", ((0, 12), (0, 8)), 40),
-    "cylinder": ([("velocity across the stream, Re = 100", {"Re": 100, "n": 8, "width": 8, "up": 4, "down": 10, "support": 3, "kick": 0.5, "end": 44, "mean": 14})],
-                 "in.cylinder", "run ${window}", ("fluid", "$(floor(v_window/56))"), lambda p: p["vy"], (-0.8, 0.8), "RdBu_r", ((-4, 10), (-4, 4)), 8),
-    "cavity": ([("speed, Re = 400", {"N": 50, "Re": 400, "end": 13, "mean": 12})], "in.cavity", "run ${window}", ("fluid", "$(floor(v_window/50))"),
-               lambda p: np.hypot(p["vx"], p["vy"]), (0, 0.8), "viridis", ((0, 1), (0, 1)), 16),
+    "cylinder": ([("velocity across the stream, Re = 100", {"Re": 100, "n": 10, "width": 8, "up": 4, "down": 10, "support": 3, "kick": 0.5, "end": 48, "mean": 6})],
+                 "in.cylinder", "run ${window}", ("fluid", "$(floor(v_window/24))"), lambda p: p["vy"], (-0.6, 0.6), "RdBu_r", ((-4, 10), (-4, 4)), 8),
+    "cavity": ([("speed, Re = 400", {"N": 40, "Re": 400, "end": 8, "mean": 8})], "in.cavity", "run ${window}", ("fluid", "$(floor(v_window/40))"),
+               lambda p: np.hypot(p["vx"], p["vy"]), (0, 0.8), "viridis", ((0, 1), (0, 1)), 30),
 }
 
 
@@ -63,7 +64,7 @@ def run(lmp, name, out, title, variables, script, shown, group, every):
 
 
 def draw(path, panels, value, limits, colors, box, size):
-    """panels: {title: frames}. Pillow takes the palette of the last picture for all, which the motion has filled with colors."""
+    """panels: {title: frames}. The pictures have the colors of the map, and greys."""
     from matplotlib.colors import ListedColormap
     from PIL import Image
 
@@ -90,7 +91,9 @@ def draw(path, panels, value, limits, colors, box, size):
         figure.canvas.draw()
         pictures.append(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB"))
     plt.close(figure)
-    palette = pictures[len(pictures) // 2].quantize(48)
+    steps = [*dots[0].cmap(np.linspace(0, 1, COLORS))[:, :3], *np.linspace((0, 0, 0), (1, 1, 1), 12)]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(np.rint(255 * np.array(steps)).astype(int).ravel().tolist())
     pictures = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
     pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=80, loop=0, optimize=True)
     if path.stat().st_size > LARGEST:
