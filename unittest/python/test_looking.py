@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from helpers import dump      # noqa: F401, which finds the readers of the examples
-from run_lammps import frames
+sys.path.append(str(Path(__file__).resolve().parents[2] / "examples"))
+from run_lammps import frames      # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "doc" / "src" / "Howto_sph_looking.rst").read_text()
