@@ -103,9 +103,9 @@ def draw_fields(path, runs):
         exact, upper = run.exact.u(x, y, t), frame["y"] > 0
         top = exact.max()
         row[0].contourf(x, y, exact, levels=np.linspace(0, top, 41))
-        dots = row[1].scatter(frame["x"][upper], frame["y"][upper], s=3, c=frame["vx"][upper], vmin=0, vmax=top, lw=0, rasterized=True)
+        dots = row[1].scatter(frame["x"][upper], frame["y"][upper], s=7, c=frame["vx"][upper], vmin=0, vmax=top, lw=0, rasterized=True)
         row[0].set(ylabel="height $y/L$", title=f"$\\sigma = {sigma}$, $t U_0/L = {t:.3g}$: exact")
-        row[1].set(title="particles", xlim=(-1, 1), ylim=(0, 1))
+        row[1].set(title="particles", xlim=(-1, 1), ylim=(0, 1), xticks=(-1, -0.5, 0, 0.5, 1))
         figure.colorbar(dots, ax=row, label="velocity $u/U_0$")
         for axis in row:
             axis.set_aspect("equal")
