@@ -157,7 +157,7 @@ class Report:
             return      # hundreds of short runs
         self.told = time.monotonic()
         mean = sum(self.seconds) / len(self.seconds)
-        tell(f"[{len(self.seconds)}/{self.count}] {name}: {duration(seconds)}" + (f", {duration(mean * left / self.workers)} left" if left else ""))
+        tell(f"[{len(self.seconds)}/{self.count}] {name}: {duration(seconds)}" + (f", at most {duration(mean * left / self.workers)} left" if left else ""))
 
     def running(self):
         """Steps of the runs under way, and how long each takes at its speed since the last time."""
