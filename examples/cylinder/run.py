@@ -81,9 +81,9 @@ def plot(path, out, runs, n):
     top, *below = figure.subfigures(1 + len(runs), 1, height_ratios=[3.4] + [3.0] * len(runs))
     axes = top.subplots(1, 3)
     for color, (Re, run) in zip(("C0", "C1", "C2"), runs.items()):
-        late = run.t > 0.5
-        drag = np.convolve(run.drag_t, np.ones(window := max(1, len(run.t) // 200)) / window, "same")
-        axes[0].plot(run.t[late], drag[late], "-", color=color, label=f"Re = {Re}")
+        many = max(1, len(run.t) // 200)        # the noise of single particles that pass the surface
+        t, drag = (np.convolve(value, np.ones(many) / many, "valid") for value in (run.t, run.drag_t))
+        axes[0].plot(t[t > 0.5], drag[t > 0.5], "-", color=color, label=f"Re = {Re}")
         axes[2].plot(run.x, run.u, "o-", ms=2.5, color=color, label=f"Re = {Re}")
         if Re > 50:
             axes[1].plot(run.t, run.lift_t, "-", color=color)
