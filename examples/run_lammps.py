@@ -3,6 +3,7 @@
 results.txt; a copy beside the README is what the numbers of the README are compared with."""
 
 import argparse
+import csv
 import os
 import re
 import shlex
@@ -10,8 +11,18 @@ import shutil
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from pathlib import Path
+
+
+TABLE = Path(__file__).with_name("examples.csv")    # what each example shows, takes, and has for a picture
+PATIENCE = 30      # seconds without a word, at most
+
+
+def table():
+    """Rows of the table of all examples: {name: {column: text}}."""
+    with open(TABLE, newline="", encoding="utf-8") as file:
+        return {row["example"]: row for row in csv.DictReader(file)}
 
 
 class Kept:
@@ -48,6 +59,7 @@ class Example:
                                  help='more switches of LAMMPS, in one word, for instance "-k on g 1 -sf kk"')
         self.parser.add_argument("--out", type=Path, default=folder / "results", metavar="DIR",
                                  help="folder for results (%(default)s)")
+        self.parser.add_argument("--no-run", action="store_true", help="tables and figures of what an earlier run has left in --out")
         self.parser.add_argument("--check", action="store_true", help="exit with 1 if a figure of merit is missed")
 
     def arguments(self):
@@ -57,6 +69,9 @@ class Example:
         self.out = self.args.out.resolve()
         self.out.mkdir(parents=True, exist_ok=True)
         script = Path(sys.argv[0]).stem
+        row = table().get(self.name, {})
+        if script == "run" and not self.args.quick and row.get("processor time"):
+            tell(f"{self.name}: processor time of all runs: {row['processor time']}")
         sys.stdout = Kept(self.out / ("results.txt" if script == "run" else f"results_{script}.txt"))
         return self.args
 
@@ -64,20 +79,34 @@ class Example:
         """jobs: {name: variables of in.<example>}, the longest first; output files begin with the name.
         inputs: {name: path} of those that have an input of their own
         """
+        if self.args.no_run:
+            return
         path = os.environ.get("SPHD_LMP") or str(self.folder.parent.parent / "build" / "lmp")
         lmp = shutil.which(path)
         if lmp is None:
             raise SystemExit(f"{self.name}: no LAMMPS executable {path}; set SPHD_LMP or run ./sphd run {self.name}")
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
         ranks = self.args.np
-        tell(f"{len(jobs)} runs of {lmp} on {ranks} MPI rank(s) each")
-        with ThreadPoolExecutor(max(1, cores // ranks)) as pool:
-            started = [pool.submit(self._run, os.path.abspath(lmp), name, variables, ranks, cores, (inputs or {}).get(name))
-                       for name, variables in jobs.items()]
-            for job in started:
-                job.result()
+        workers = max(1, min(len(jobs), cores // ranks))
+        tell(f"{len(jobs)} runs of {lmp} on {ranks} MPI rank(s) each, {workers} at a time")
+        report = Report(self.out, len(jobs), workers)
+        with ThreadPoolExecutor(workers) as pool:
+            waiting = {pool.submit(self._run, os.path.abspath(lmp), name, variables, ranks, cores, (inputs or {}).get(name), report)
+                       for name, variables in jobs.items()}
+            try:
+                while waiting:
+                    finished, waiting = wait(waiting, PATIENCE, FIRST_COMPLETED)
+                    for job in finished:
+                        report.done(*job.result())
+                    if not finished:
+                        report.running()
+            finally:
+                for job in waiting:
+                    job.cancel()
 
-    def _run(self, lmp, name, variables, ranks, cores, path=None):
+    def _run(self, lmp, name, variables, ranks, cores, path, report):
+        """Name and seconds of a run that has ended well."""
+        begin = report.began[name] = time.monotonic()
         mpi = shlex.split(os.environ.get("SPHD_MPIEXEC") or "mpiexec") + ["-n", str(ranks)] if ranks > 1 else []
         words = [word for key, value in {**variables, "out": name}.items() for word in ("-var", key, str(value))]
         command = [*mpi, lmp, "-in", str(path or self.folder / f"in.{self.name}"), "-screen", "none",
@@ -90,6 +119,7 @@ class Example:
             tail = log.read_text().splitlines()[-15:] if log.exists() else []
             raise SystemExit("\n".join([f"{self.name}: LAMMPS failed ({done.returncode}) for {name}:",
                                         done.stdout.strip(), *tail]))
+        return name, time.monotonic() - begin
 
     def merit(self, what, value, lower, upper):
         """One figure of merit: printed, and missed if outside of the range."""
@@ -102,12 +132,49 @@ class Example:
     def finish(self, *paths):
         for path in paths:
             tell(f"wrote {path}")
-        tell(f"{self.name}: {time.monotonic() - self.begin:.1f} s")
+        mine = os.times()
+        tell(f"{self.name}: {time.monotonic() - self.begin:.1f} s, {sum(mine[:4]):.1f} s of processor time")
         if self.missed:
             print("\n  ".join(["missed:", *self.missed]))
         elif self.args.check:
             print("all figures of merit reached")
         return 1 if self.args.check and self.missed else 0
+
+
+class Report:
+    """What the screen says of runs under way: which has ended, how many of how many, and how long the others take."""
+
+    def __init__(self, out, count, workers):
+        self.out, self.count, self.workers = out, count, workers
+        self.began, self.seconds, self.seen, self.told = {}, [], {}, 0.0
+
+    def done(self, name, seconds):
+        """The longest runs come first: what those that have ended took is the most that the others take."""
+        self.began.pop(name)
+        self.seconds.append(seconds)
+        left = self.count - len(self.seconds)
+        if left and time.monotonic() - self.told < 1:
+            return      # hundreds of short runs
+        self.told = time.monotonic()
+        mean = sum(self.seconds) / len(self.seconds)
+        tell(f"[{len(self.seconds)}/{self.count}] {name}: {duration(seconds)}" + (f", at most {duration(mean * left / self.workers)} left" if left else ""))
+
+    def running(self):
+        """Steps of the runs under way, and how long each takes at its speed since the last time."""
+        for name, begin in list(self.began.items()):
+            now, log = time.monotonic(), self.out / f"{name}.log"
+            step, last = progress(log.read_text(errors="replace")) if log.exists() else (None, None)
+            before, self.seen[name] = self.seen.get(name), (step, last, now)
+            line = f"[{len(self.seconds)}/{self.count}] {name}: runs for {duration(now - begin)}"
+            if step is not None and step < last:
+                line += f", step {step} of {last}"
+                if before and before[1] == last and before[0] < step:
+                    line += f", {duration((last - step) * (now - before[2]) / (step - before[0]))} left"
+            tell(line)
+
+
+def duration(seconds):
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
 
 
 def environment(ranks, cores):
@@ -190,6 +257,15 @@ def read_array(path):
     return found
 
 
+def progress(log):
+    """Last step in the text of a log file, and step at which this run ends; (None, None) before the first output."""
+    start = re.split(r"^run\s+(\d+)(.*)$", log, flags=re.MULTILINE)[-3:]
+    rows = re.findall(r"^ *(\d+) +[-\d.]\S*.*$", start[-1].partition("Step")[2], re.MULTILINE) if len(start) == 3 else []
+    if not rows:
+        return None, None
+    return int(rows[-1]), int(start[0]) + (0 if "upto" in start[1] else int(rows[0]))
+
+
 def thermo(log):
     """Thermodynamic output of every run in the text of a log file: [{column: values}]."""
     import numpy as np
@@ -214,24 +290,20 @@ def exponents(interval, values, count):
 # figures
 
 
-def pyplot(sizes=True, **settings):
-    """matplotlib.pyplot for files, with settings of matplotlib (_ for .); sizes: with those of letters that most figures have."""
+def pyplot():
+    """matplotlib.pyplot for files, with the style of all figures: sph.mplstyle."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    common = {"font_size": 9, "legend_fontsize": 8} if sizes else {}
-    plt.rcParams.update({name.replace("_", "."): value for name, value in {**common, **settings}.items()})
+    plt.style.use(Path(__file__).with_name("sph.mplstyle"))
     return plt
 
 
-def save(figure, path, dpi=90, framed=(), tight=False):
-    """Write a figure and forget it; framed: axes that get a grid and a legend. Returns the path."""
-    for axes in framed:
-        axes.grid(alpha=0.3)
+def save(figure, path, legends=()):
+    """Write a figure and forget it; legends: axes that get one. Returns the path."""
+    for axes in legends:
         axes.legend()
-    if tight:
-        figure.tight_layout()
-    figure.savefig(path, dpi=dpi)
-    pyplot(sizes=False).close(figure)
+    figure.savefig(path)
+    pyplot().close(figure)
     return path

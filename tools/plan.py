@@ -250,12 +250,12 @@ class Plan:
         pressure = f" pb {self.rho * self.c0**2:.6g}" if self.wave else ""
         relax, room = ("", "") if not self.fluid.relax else (relax_words(self.fluid), f" relax {len(self.fluid.relax)}")
         flow = f"velocity        all set {args.velocity:g} 0.0 0.0 units box    # put the flow here\n"
-        output = ""
+        output = "thermo_style    custom step time ke press cpuremain\n"
         if self.wave:
             flow = (f'variable        wave atom sin(2.0*PI*x/lx)\nvariable        ux atom {args.velocity:g}*v_wave\n'
                     "velocity        all set v_ux NULL NULL units box    # put another wave here\n")
             output = ("variable        part atom 2.0*vx*v_wave\ncompute         amplitude all reduce ave v_part\n"
-                      "thermo_style    custom step time c_amplitude press\n")
+                      "thermo_style    custom step time c_amplitude press cpuremain\n")
         box = " ".join(f"0 {n}" for n in self.cells) + (" -0.5 0.5" if self.dim == 2 else "")
         return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
 units           {self.units}

@@ -25,6 +25,7 @@ SOURCES = ROOT / "src" / PACKAGE
 KOKKOS = ROOT / "src" / "KOKKOS"
 PAGES = ROOT / "doc" / "src"
 EXAMPLES = Path("examples/PACKAGES/sph-dissipation")
+PICTURES = "../../examples/"    # of the pages: those of the examples
 
 # one line about each style, for the lists of the manual
 
@@ -64,8 +65,10 @@ RENAMED = {
     "index": None,
     "Build_SPH_DISSIPATION": None,
     "Howto_sph_clusters": None,
+    "Howto_sph_gallery": None,
 }
-LINKS = {"index": "Howto_sph_overview", "Build_SPH_DISSIPATION": "Build_package", "Howto_sph_clusters": "Build_package"}
+LINKS = {"index": "Howto_sph_overview", "Build_SPH_DISSIPATION": "Build_package", "Howto_sph_clusters": "Build_package",
+         "Howto_sph_gallery": "Howto_sph_overview"}
 
 # files of an example that belong there: inputs, logs, what makes initial states
 
@@ -287,11 +290,13 @@ def add_pages(tree):
         for old, new in RENAMED.items():
             text = re.sub(rf"<{old}>`", f"<{new or LINKS[old]}>`", text)
             text = re.sub(rf":doc:`{old}`", f":doc:`{new or LINKS[old]}`", text)
+        for figure in re.findall(r"^\.\. (?:image|figure):: *(\S+)", text, re.MULTILINE):
+            if not figure.startswith(PICTURES):
+                raise SystemExit(f"upstream: {page.name} has a picture that is not of an example: {figure}")
+            image = f"JPG/sph_{figure[len(PICTURES):].replace('/', '_')}"
+            text = text.replace(f":: {figure}\n", f":: {image}\n")
+            tree.add_picture(f"doc/src/{image}", PAGES / figure)
         tree.add_text(f"doc/src/{name}.rst", text)
-        for image in re.findall(r"^\.\. (?:image|figure):: *(\S+)", text, re.MULTILINE):
-            if not image.startswith("JPG/"):
-                raise SystemExit(f"upstream: {page.name} has a picture outside JPG: {image}")
-            tree.add_picture(f"doc/src/{image}", PAGES / image)
     howtos = sorted(page_name(page.stem) for page in PAGES.glob("*.rst")
                     if (page_name(page.stem) or "").startswith("Howto_"))
     tree.replace("doc/src/Howto.rst", "   Howto_rheo\n", "   Howto_rheo\n" + "".join(f"   {name}\n" for name in howtos))

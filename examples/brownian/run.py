@@ -83,13 +83,13 @@ def hydrodynamic_radius(mobility, length):
 
 def plot(path, found):
     plt = pyplot()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.5), layout="constrained")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.5))
     for index, ((cells, kind), r) in enumerate((key, r) for key, r in found.items() if "lags" in r and key[1] == 2):
         left.plot(r["lags"], r["spread"], f"C{index}.", ms=4, label=f"heavy particle, L = {r['length']:.2f}")
         late = r["lags"] >= LAGS[0]
         line = 6 * T * r["mobility"] * (r["lags"] - r["lags"][late][0]) + r["spread"][late][0]
         left.plot(r["lags"][late], line[late], f"C{index}", lw=0.9, label="slope $6 k_BT\\,U/F$ from $t = 3$")
-    left.set(xlabel="$t$", title="mean square displacement", xlim=(0, None), ylim=(0, None))
+    left.set(xlabel="time $t$ (lj units)", ylabel="mean square displacement", xlim=(0, None), ylim=(0, None))
     for kind, color in ((2, "C0"), (1, "C2")):
         mine = [r for (_, k), r in found.items() if k == kind]
         inverse = np.array([1 / r["length"] for r in mine])
@@ -101,8 +101,8 @@ def plot(path, found):
                        label=f"diffusion, {NAMES[kind]}")
         x = np.linspace(1e-9, 1.1 * inverse.max(), 60)
         right.plot(x, drag(mine[-1]["radius"], 1 / x), color, lw=0.9)
-    right.set(xlabel="$1/L$", title="$6\\pi\\mu\\,U/F$ and $6\\pi\\mu\\,D/k_BT$")
-    save(figure, path, framed=(left, right))
+    right.set(xlabel="one over the length of the box, $1/L$", ylabel="mobility $6\\pi\\mu\\,U/F$, diffusion $6\\pi\\mu\\,D/k_BT$")
+    save(figure, path, legends=(left, right))
 
 
 def main():

@@ -3,7 +3,7 @@
 """Lid-driven cavity of a Newtonian and of a micropolar fluid against Ghia, Ghia and Shin and finite differences.
 
     ./sphd run cavity          or
-    SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check] [--size N] [--cases NAME ...] [--switches WORDS] [--sample N] [--no-run]
+    SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check] [--size N] [--cases NAME ...] [--switches WORDS] [--sample N]
 """
 
 import csv
@@ -139,30 +139,28 @@ COLORS = {"re100": "C0", "re400": "C2", "re1000": "C3", "k3": "C1", "k3b": "C4"}
 
 
 def plot_energy(path, runs, references):
-    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.2)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 3.8), layout="constrained")
+    plt = pyplot()
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 3.8))
     for base, run in runs.items():
         left.plot(run.t, run.energy, color=COLORS[base], label=run.label, alpha=0.9)
         left.plot(run.t, references.energy_at(run.case, run.t), "k--", lw=0.9)
         right.plot(run.lid_x, run.lid_stress, "o", color=COLORS[base], ms=3, mfc="none", label=run.label)
         right.plot(references.lid["x"], references.lid[run.case], "k--", lw=0.9)
     left.plot([], [], "k--", lw=0.9, label="finite differences")
-    left.set(xlabel="$tU/L$", ylabel="kinetic energy$\\,/\\,\\rho U^2 L^2$", xlim=(0, None), ylim=(0, None))
+    left.set(xlabel="time $tU/L$", ylabel="kinetic energy$\\,/\\,\\rho U^2 L^2$", xlim=(0, None), ylim=(0, None))
     left.legend(loc="lower right")
-    right.set(xlabel="$x/L$", ylabel="shear stress on the lid$\\,/\\,\\rho U^2$", xlim=(0, 1), ylim=(0, 0.4))
-    for axes in (left, right):
-        axes.grid(True)
-    save(figure, path, dpi=95)
+    right.set(xlabel="place $x/L$", ylabel="shear stress on the lid$\\,/\\,\\rho U^2$", xlim=(0, 1), ylim=(0, 0.4))
+    save(figure, path)
 
 
 def plot_profiles(path, runs, references):
-    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.2)
+    plt = pyplot()
     newtonian = [base for base in runs if base.startswith("re")]
     spinning = [base for base in runs if base in ("re400", "k3", "k3b")] if {"k3", "k3b"} & set(runs) else []
     rows = [["u", "u", "u", "v", "v", "v"]] if newtonian else []
     if spinning:
         rows.append(["u3", "u3", "v3", "v3", "w", "w"] if "k3" in runs else ["u3", "u3", "u3", "v3", "v3", "v3"])
-    figure, axes = plt.subplot_mosaic(rows, figsize=(10, 3.7 * len(rows)), layout="constrained")
+    figure, axes = plt.subplot_mosaic(rows, figsize=(10, 3.7 * len(rows)))
     for suffix, group in (("", newtonian), ("3", spinning)):
         if not group:
             continue
@@ -180,8 +178,8 @@ def plot_profiles(path, runs, references):
         left.plot([], [], "k--", lw=0.8, label="finite differences")
         if not suffix:
             left.plot([], [], "ko", ms=4, mfc="none", label="Ghia et al. (1982)")
-        left.set(xlabel="$u/U$ at $x = L/2$", ylabel="$y/L$", ylim=(0, 1))
-        right.set(xlabel="$x/L$", ylabel="$v/U$ at $y = L/2$", xlim=(0, 1))
+        left.set(xlabel="velocity along x, $u/U$, at $x = L/2$", ylabel="height $y/L$", ylim=(0, 1))
+        right.set(xlabel="place $x/L$", ylabel="velocity along y, $v/U$, at $y = L/2$", xlim=(0, 1))
         left.legend(loc="lower right")
     if "w" in axes:
         axes["w"].plot(runs["k3"].profile_spin, runs["k3"].s, color=COLORS["k3"])
@@ -189,39 +187,37 @@ def plot_profiles(path, runs, references):
         axes["w"].plot(references.profiles["spin_k3"], references.profiles["s"], "k:", lw=0.8, label="steady")
         axes["w"].legend(loc="lower left")
         axes["w"].set(xlabel="spin$\\,L/U$ at $x = L/2$", ylim=(0, 1), title=runs["k3"].label)
-    for axis in axes.values():
-        axis.grid(True)
-    save(figure, path, dpi=95)
+    save(figure, path)
 
 
 def plot_streamlines(path, runs, references):
-    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.2)
+    plt = pyplot()
     chosen = [base for base in ("re400", "k3", "re1000") if base in runs] or list(runs)
-    figure, axes = plt.subplots(1, len(chosen), figsize=(3.7 * len(chosen), 3.9), squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(1, len(chosen), figsize=(3.7 * len(chosen), 3.9), squeeze=False)
     levels = [-0.115, -0.11, -0.1, -0.085, -0.07, -0.05, -0.03, -0.015, -0.005, 0.0004, 0.0008, 0.0014]
     grid = np.unique(references.psi["x"])
     for axis, base in zip(axes[0], chosen):
         run = runs[base]
         axis.contour(run.cell[1:-1], run.edge, run.psi[:, 1:-1], levels, colors=COLORS[base], linestyles="-", linewidths=1.2)
         axis.contour(grid, grid, references.psi[run.case].reshape(len(grid), -1), levels, colors="k", linestyles="--", linewidths=0.7)
-        axis.set(xlim=(0, 1), ylim=(0, 1), aspect="equal", xlabel="$x/L$", title=run.label)
-    axes[0, 0].set_ylabel("$y/L$")
-    save(figure, path, dpi=95)
+        axis.set(xlim=(0, 1), ylim=(0, 1), aspect="equal", xlabel="place $x/L$", title=run.label)
+    axes[0, 0].set_ylabel("height $y/L$")
+    save(figure, path)
 
 
 def plot_particles(path, runs, disorder):
-    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.2)
+    plt = pyplot()
     panels = [(runs[base].label, runs[base].particles) for base in sorted(runs, key=["re1000", "k3", "re400", "re100", "k3b"].index)][:2]
     if disorder:
         panels.append(("Re = 1000, $N = 50$, without shifting", np.loadtxt(disorder, skiprows=9)))
-    figure, axes = plt.subplots(1, len(panels), figsize=(4.3 * len(panels), 4.1), squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(1, len(panels), figsize=(4.3 * len(panels), 4.1), squeeze=False)
     for axis, (label, particles) in zip(axes[0], panels):
         _, x, y, vx, vy, _ = particles.T
         shown = axis.scatter(x, y, c=np.hypot(vx, vy), s=2 * 100**2 / len(x), vmin=0, vmax=0.8, cmap="viridis", lw=0)
-        axis.set(xlim=(0, 1), ylim=(0, 1), aspect="equal", xlabel="$x/L$", title=label)
-    axes[0, 0].set_ylabel("$y/L$")
+        axis.set(xlim=(0, 1), ylim=(0, 1), aspect="equal", xlabel="place $x/L$", title=label)
+    axes[0, 0].set_ylabel("height $y/L$")
     figure.colorbar(shown, ax=axes[0], label="speed$\\,/\\,U$", shrink=0.85)
-    save(figure, path, dpi=110)
+    save(figure, path)
 
 
 def main():
@@ -229,7 +225,6 @@ def main():
     example.parser.add_argument("--size", type=int, metavar="N", help="particles per side (100, and 50 for comparison; --quick: 50)")
     example.parser.add_argument("--cases", nargs="+", choices=CASES, help="some of the cases only")
     example.parser.add_argument("--sample", type=int, metavar="N", help="steps between the values that means over time are taken of (1)")
-    example.parser.add_argument("--no-run", action="store_true", help="evaluate what an earlier run has left in --out")
     args = example.arguments()
     sizes = [args.size] if args.size else [50] if args.quick else [100, 50]
     cases = [base for base in CASES if base in (args.cases or (["re100", "k3"] if args.quick else CASES))]
@@ -246,8 +241,7 @@ def main():
     disorder = "re1000.noshift"         # for the figure of the particles only
     if not (args.quick or args.cases or args.size):
         jobs[disorder] = {"N": 50, **CASES["re1000"][2], "shift": 0, "end": 20, "mean": 5}
-    if not args.no_run:
-        example.run(jobs)
+    example.run(jobs)
     references = References()
     runs = {key: Run(example.out, *key, variables[key], references) for key in keys}
 

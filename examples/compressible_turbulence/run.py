@@ -43,7 +43,7 @@ class Run:
 
 
 def plot(out, runs):
-    plt = pyplot(axes_grid=True, grid_alpha=0.3)
+    plt = pyplot()
     figure, axes = plt.subplots(1, 3, figsize=(11, 3.4))
     for number, run in enumerate(runs):
         color, label = f"C{number}", f"$\\kappa/\\mu$ = {run.kappa:g}"
@@ -53,13 +53,13 @@ def plot(out, runs):
         k, _, solenoidal, dilatational = run.last_spectrum(out)[:4]
         axes[2].loglog(k[1:], solenoidal[1:], "-", color=color)
         axes[2].loglog(k[1:], dilatational[1:], "--", color=color, label=label)
-    axes[0].set_ylabel("energy: $E^s$ (lines), $E^d$ (dashed)")
-    axes[1].set_ylabel("rms div u")
-    axes[2].set_ylabel("$E^s$ (lines), $E^d$ (dashed), end")
-    for axis, x in zip(axes, ("time", "time", "wave number")):
+    axes[0].set_ylabel("energy, solenoidal (lines), dilatational (dashed)")
+    axes[1].set_ylabel("root mean square of div u")
+    axes[2].set_ylabel("spectra at the end, the same")
+    for axis, x in zip(axes, ("time (lj units)", "time (lj units)", "wave number")):
         axis.set_xlabel(x)
         axis.legend()
-    return save(figure, out / "turbulence.png", dpi=130, tight=True)
+    return save(figure, out / "turbulence.png")
 
 
 def main():

@@ -80,15 +80,15 @@ def order(sizes, errors):
 def plot(path, kind, runs, sizes):
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.0)
-    figure, axes = plt.subplots(1, 3, figsize=(12, 3.9), layout="constrained")
+    plt = pyplot()
+    figure, axes = plt.subplots(1, 3, figsize=(12, 3.9))
     plane = kind == "plane"
     run = runs[kind, sorted(sizes)[-2] if len(sizes) > 1 else sizes[0]]
     place = np.linspace(0, 1, 301) if plane else np.linspace(1, 2, 301)
-    for color, time in zip(("C0", "C1", "C2", "C4", "C3"), run.profiles):
+    for color, time in zip(("C0", "C1", "C2", "C3", "C4"), run.profiles):
         axes[0].plot(place, run.exact.u(place, time), "-", color=color)
         axes[0].plot(*run.profiles[time], "o", color=color, ms=3.5, mfc="none", label=f"$t = {time:g}$")
-    axes[0].set(xlabel="$y/\\mathrm{gap}$" if plane else "$r/R_1$", ylabel="$u/U$" if plane else "$u_\\theta/(\\omega R_1)$",
+    axes[0].set(xlabel="height over the gap" if plane else "radius $r/R_1$", ylabel="velocity $u/U$" if plane else "velocity $u_\\theta/(\\omega R_1)$",
                 ylim=(-0.03, 1.03), title=f"{run.n} {'rows' if plane else 'rings'}, t in gap$^2/\\nu$; lines: exact")
     axes[0].legend()
     late = run.t > 0.008
@@ -97,10 +97,10 @@ def plot(path, kind, runs, sizes):
     for color, name, value, exact in zip(("C0", "C3"), names, (run.first, run.second), (run.exact_first, run.exact_second)):
         axes[1].plot(run.t[late], exact[late] / scale, "-", color=color)
         axes[1].plot(run.t[late], value[late] / scale, "o", color=color, ms=3, mfc="none", label=name)
-    axes[1].set(xlabel="$t\\,\\nu/\\mathrm{gap}^2$", title="stress on the walls over $\\mu U/\\mathrm{gap}$" if plane
+    axes[1].set(xlabel="time $t\\,\\nu/\\mathrm{gap}^2$", title="stress on the walls over $\\mu U/\\mathrm{gap}$" if plane
                 else "torque on the cylinders over the steady one", ylim=(-4, 1.5) if plane else (-3, 1.5))
     axes[1].legend()
-    for color, marker, time in zip(("C0", "C1", "C2", "C4", "C3"), "os^vD", run.profiles):
+    for color, marker, time in zip(("C0", "C1", "C2", "C3", "C4"), "os^vD", run.profiles):
         errors = [runs[kind, n].errors[time] for n in sizes]
         axes[2].loglog(sizes, errors, marker + "-", color=color, mfc="none", ms=5,
                        label=f"$t = {time:g}$: order {order(sizes, errors):.2f}")
@@ -108,7 +108,6 @@ def plot(path, kind, runs, sizes):
     low, high = axes[2].get_ylim()
     axes[2].set_ylim(low / 12, high)        # room for the legend
     axes[2].loglog(line, 0.5 * high * line[0] / line, "k--", lw=0.8, label="order 1")
-    axes[2].axhline(SMALL, color="0.5", ls=":", lw=0.8)
     axes[2].set(xlabel="rows between the walls" if plane else "rings between the cylinders", title="relative L2 error of the velocity")
     axes[2].set_xticks(sizes, [str(n) for n in sizes])
     axes[2].xaxis.set_minor_formatter(NullFormatter())
@@ -116,7 +115,7 @@ def plot(path, kind, runs, sizes):
     axes[2].yaxis.set_major_formatter("{x:g}")
     axes[2].yaxis.set_minor_formatter(NullFormatter())
     axes[2].legend(loc="lower left")
-    save(figure, path, dpi=95)
+    save(figure, path)
 
 
 def main():

@@ -64,8 +64,9 @@ class Run:
 
 
 def plot(path, runs):
-    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.0, legend_fontsize=7.5)
-    figure, axes = plt.subplots(1, 4, figsize=(15.0, 3.8), layout="constrained")
+    plt = pyplot()
+    figure, axes = plt.subplots(2, 2, figsize=(9.6, 6.8))
+    axes = axes.ravel()
     fine = np.linspace(-1, 1, 401)
     for color, fluid in zip(("k", "C3"), FLUIDS):
         run = runs[fluid, max(n for name, n in runs if name == fluid)]
@@ -77,14 +78,14 @@ def plot(path, runs):
         axes[2].plot(run.x, (run.p - 0.5) / MU, "o", color=color, ms=4, mfc="none")
         start = run.mass[0] + run.mass_out[0] - run.mass_in[0]
         axes[3].plot(run.mass_in, 1e3 * (run.mass / start - 1), "-", color=color, lw=0.8)
-    axes[2].plot([0, LENGTH], [2 * LENGTH, 0], "b-", lw=0.8, label="$-2\\mu U/H^2$")
-    axes[0].set(xlabel="$y/H$", ylabel="$u\\,/\\,U$", ylim=(0, 1.25), title=f"velocity, {run.n} rows; lines: exact")
-    axes[1].set(xlabel="$y/H$", ylabel="$\\Omega H/U$", title="spin; line: exact")
-    axes[2].set(xlabel="$x/H$", ylabel="$(p - p_\\mathrm{out}) H/(\\mu U)$", title="pressure along the channel")
+    axes[2].plot([0, LENGTH], [2 * LENGTH, 0], "k--", lw=0.8, label="$-2\\mu U/H^2$")
+    axes[0].set(xlabel="height $y/H$", ylabel="velocity $u\\,/\\,U$", ylim=(0, 1.25), title=f"{run.n} rows; lines: exact")
+    axes[1].set(xlabel="height $y/H$", ylabel="spin $\\Omega H/U$", title="line: exact")
+    axes[2].set(xlabel="place along the channel, $x/H$", ylabel="pressure $(p - p_\\mathrm{out}) H/(\\mu U)$")
     axes[3].set(xlabel="mass that has entered, over $\\rho H^2$", title="change of the mass in the channel, $10^{-3}$")
     axes[0].legend(loc="upper center")
     axes[2].legend()
-    save(figure, path, dpi=95)
+    save(figure, path)
 
 
 def main():

@@ -99,11 +99,11 @@ class Run:
 
 
 def plot_drop(path, runs, T, n):
-    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.2)
+    plt = pyplot()
     sizes = sorted(run.n for name, run in runs.items() if name.startswith("kappa_"))
     main, mg, fine = runs[f"kappa_{n}"], runs["mg"], runs[f"kappa_{sizes[-1]}"]
     end = main.t[-1] / T
-    figure = plt.figure(figsize=(10.5, 9.0))
+    figure = plt.figure(figsize=(10.5, 9.0), constrained_layout=False)
     top = figure.add_gridspec(1, 5, left=0.06, right=0.97, top=0.975, bottom=0.725, wspace=0.12, width_ratios=[1, 1, 1, 1, 0.06])
     last = round(4 * fine.t[-1] / T - 1) / 4
     for column, periods in enumerate((0, 0.25, 0.5, last)):
@@ -112,14 +112,14 @@ def plot_drop(path, runs, T, n):
         p = P0 * (frame["mass"] / frame["c_volume"]) ** GAMMA
         picture = axes.scatter(frame["x"], frame["y"], c=p, s=90 / fine.n**1.1, lw=0, vmin=0, vmax=1, cmap="viridis", rasterized=True)
         angle = np.linspace(0, 2 * np.pi, 300)
-        axes.plot(*(np.sqrt(fine.R2) * F @ np.array([np.cos(angle), np.sin(angle)])), "r-", lw=0.7)
+        axes.plot(*(np.sqrt(fine.R2) * F @ np.array([np.cos(angle), np.sin(angle)])), "k-", lw=0.7)
         axes.set(xlim=(-2.05, 2.05), ylim=(-2.05, 2.05), aspect="equal", xlabel="$x/R$", xticks=range(-2, 3), yticks=range(-2, 3))
-        axes.set_title(f"$t = {periods:g}\\,T$" + (f", n = {fine.n}" if column == 0 else ""), fontsize=9)
+        axes.set_title(f"$t = {periods:g}\\,T$" + (f", n = {fine.n}" if column == 0 else ""))
         if column:
             axes.set_yticklabels([])
         else:
             axes.set_ylabel("$y/R$")
-    figure.colorbar(picture, cax=figure.add_subplot(top[0, 4]), label="$p/(\\rho B^2R^2)$")
+    figure.colorbar(picture, cax=figure.add_subplot(top[0, 4]), label="pressure $p/(\\rho B^2R^2)$")
 
     grid = figure.add_gridspec(2, 3, left=0.06, right=0.985, top=0.635, bottom=0.055, hspace=0.33, wspace=0.23)
     axes = figure.add_subplot(grid[0, :])
@@ -129,9 +129,8 @@ def plot_drop(path, runs, T, n):
                   label=None if k else f"$\\kappa$ = {KAPPA:g}, no shear viscosity, n = {main.n}")
         axes.plot(mg.t / T, mg.along[:, k], "C3", ls=style,
                   label=None if k else f"$\\mu$ = {MU:.3f}, no bulk term: the same damping of sound, n = {mg.n}")
-    axes.set(xlim=(0, end), ylim=(0.35, 2.45), xlabel="$t/T$", ylabel="$a/R$, $b/R$", title="semi-axes along x (lines) and y (dashed)")
+    axes.set(xlim=(0, end), ylim=(0.35, 2.45), xlabel="time over the period, $t/T$", ylabel="semi-axes $a/R$, $b/R$", title="semi-axes along x (lines) and y (dashed)")
     axes.legend(ncol=3, loc="upper center")
-    axes.grid(True)
 
     left, middle, right = (figure.add_subplot(grid[1, k]) for k in range(3))
     for k, size in enumerate(sizes):
@@ -150,14 +149,13 @@ def plot_drop(path, runs, T, n):
     middle.set(ylim=(-0.02, 0.5), title="lost part of the mechanical energy")
     right.set(ylim=(0, 1.5), title="pressure in the centre $/(\\rho B^2R^2)$")
     for axes, stop in ((left, end), (middle, end), (right, fine.t[-1] / T)):
-        axes.set(xlim=(0, stop), xlabel="$t/T$")
-        axes.grid(True)
+        axes.set(xlim=(0, stop), xlabel="time over the period, $t/T$")
         axes.legend(loc="lower right" if axes is left else "upper right", ncol=2 if axes is right else 1, framealpha=0.9)
     save(figure, path)
 
 
 def plot_spin(path, runs, T):
-    plt = pyplot(sizes=False)
+    plt = pyplot()
     figure, (picture, left, middle, right) = plt.subplots(1, 4, figsize=(12.5, 3.3), gridspec_kw={"width_ratios": [0.95, 1.1, 1, 1]})
     cases = {"spin": ("C0", f"$\\kappa$ = {KAPPA:g}"), "spin_mg": ("C1", f"mg, $\\mu$ = {MU:.3f}"), "spin_morris": ("C3", "morris, the same")}
     run = runs["spin"]
@@ -167,7 +165,7 @@ def plot_spin(path, runs, T):
         picture.scatter(frame["x"], frame["y"], s=40 / run.n**1.1, lw=0, color=color, label=f"$t = {periods}\\,T$")
         picture.plot(*(np.sqrt(run.R2) * F @ np.array([np.cos(angle), np.sin(angle)])), "k-", lw=0.7)
     picture.set(xlim=(-2.1, 2.1), ylim=(-2.1, 2.1), aspect="equal", xlabel="$x/R$", ylabel="$y/R$", title=f"$\\kappa$, n = {run.n}; lines: exact")
-    picture.legend(fontsize=8, markerscale=6, loc="lower left")
+    picture.legend(markerscale=6, loc="lower left")
     left.plot(run.t / T, run.exact.axes, "k-", lw=2.6, alpha=0.3)
     for name, (color, label) in cases.items():
         run = runs[name]
@@ -176,16 +174,12 @@ def plot_spin(path, runs, T):
         right.semilogy(run.t[1:] / T, np.maximum(np.abs(run.momentum[1:] / run.momentum[0] - 1), 1e-16), color, lw=0.8, label=label)
     estimate = Drop(1.0, run.W, run.t, MU / run.R2, "laplace")
     middle.plot(run.t / T, estimate.momentum / estimate.momentum[0], "k:", lw=1.2, label="estimate for morris")
-    right.axhline(CONSERVED, color="0.5", lw=0.8, ls="--")
-    right.text(run.t[-1] / T, 1.6e-12, "required", ha="right", color="0.4", fontsize=8)
     left.set(title="semi-axes $/R$; grey: exact", ylim=(0.4, 2.1))
     middle.set(title="angular momentum $L/L(0)$", ylim=(0, 1.05))
-    right.set(title="$|L - L(0)|/L(0)$", ylim=(5e-17, 3))
+    right.set(title="change of the angular momentum, relative", ylim=(5e-17, 3))
     for axes in (left, middle, right):
-        axes.set(xlabel="$t/T$", xlim=(0, run.t[-1] / T))
-        axes.grid(True, alpha=0.3)
-    middle.legend(fontsize=8, loc="lower left")
-    figure.tight_layout()
+        axes.set(xlabel="time over the period, $t/T$", xlim=(0, run.t[-1] / T))
+    middle.legend(loc="lower left")
     save(figure, path)
 
 

@@ -91,22 +91,22 @@ class Run:
 
 
 def plot(path, runs):
-    plt = pyplot(sizes=False)
+    plt = pyplot()
     figure, (left, right, work) = plt.subplots(1, 3, figsize=(12.6, 3.8))
-    for color, run in zip(("C0", "C1", "C2", "C3", "C4", "C5", "C6", "C7"), [r for r in runs if r.mode == "rkl2"]):
+    for color, run in zip(plt.cm.viridis(np.linspace(0, 0.9, len(RATIOS))), [r for r in runs if r.mode == "rkl2"]):
         left.plot(run.t, run.continuum.amplitude(run.t), "-", color=color, lw=0.8)
         left.plot(run.t[::8], run.amplitude[::8], "o", color=color, ms=3, mfc="none", label=f"{run.ratio}")
-    left.set_xlabel("time $c/\\lambda$")
+    left.set_xlabel("time $t\\,c/\\lambda$")
     left.set_ylabel("amplitude of the density")
-    left.legend(title="$\\kappa/\\mu$", ncol=2, fontsize=7, title_fontsize=7)
+    left.legend(title="$\\kappa/\\mu$", ncol=2)
     ratio = np.logspace(0, 3.1, 400)
     waves = [Wave(r) for r in ratio]
     right.loglog([w.number for w in waves], [w.rate() / K for w in waves], "k-", lw=0.8, label="dispersion relation")
     for mark, mode in zip("ox", MODES):
         some = [run for run in runs if run.mode == mode]
         right.loglog([r.continuum.number for r in some], [r.rate / K for r in some], mark, mfc="none", label=mode)
-    right.set_xlabel("$\\Gamma k/c$")
-    right.set_ylabel("decay rate / $ck$")
+    right.set_xlabel("damping over frequency, $\\Gamma k/c$")
+    right.set_ylabel("decay rate over $ck$")
     right.legend()
     for mark, mode in zip("ox", MODES):
         some = [run for run in runs if run.mode == mode]
@@ -116,9 +116,7 @@ def plot(path, runs):
     work.set_xlabel("largest viscous rate times the time step")
     work.set_ylabel("force computations per step")
     work.legend()
-    for axis in (left, right, work):
-        axis.grid(alpha=0.3)
-    return save(figure, path, dpi=110, tight=True)
+    return save(figure, path)
 
 
 def main():

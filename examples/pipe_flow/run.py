@@ -94,32 +94,32 @@ class Run:
 
 
 def draw_fields(path, runs):
-    """As figure 4 of the paper: velocity at the start, exact, and that of the particles halfway."""
-    plt = pyplot(sizes=False)
-    figure, axes = plt.subplots(len(runs), 2, figsize=(8.4, 2.1 * len(runs)), layout="constrained", squeeze=False)
+    """Velocity halfway through the decay: exact, and that of the particles."""
+    plt = pyplot()
+    figure, axes = plt.subplots(len(runs), 2, figsize=(8.4, 2.1 * len(runs)), squeeze=False, sharex=True, sharey=True)
     x, y = np.meshgrid(np.linspace(-1, 1, 201), np.linspace(0, 1, 101))
     for row, (sigma, run) in zip(axes, runs.items()):
-        picture = row[0].contourf(x, y, run.exact.u(x, y), levels=np.linspace(0, 1, 21), cmap="turbo")
-        row[0].set(ylabel="$y/L$", title=f"$\\sigma = {sigma}$, $t = 0$: exact")
-        figure.colorbar(picture, ax=row[0], label="$u/U_0$", ticks=[0, 0.5, 1])
         t, frame = list(run.frames.items())[len(run.frames) // 2]
-        upper = frame["y"] > 0
-        dots = row[1].scatter(frame["x"][upper], frame["y"][upper], s=3, c=frame["vx"][upper], cmap="turbo", vmin=0,
-                              vmax=np.exp(-run.exact.beta * t), lw=0, rasterized=True)
-        row[1].set(title=f"$t U_0/L = {t:.3g}$: particles", xlim=(-1, 1), ylim=(0, 1))
-        figure.colorbar(dots, ax=row[1], label="$u/U_0$")
+        exact, upper = run.exact.u(x, y, t), frame["y"] > 0
+        top = exact.max()
+        row[0].contourf(x, y, exact, levels=np.linspace(0, top, 41))
+        dots = row[1].scatter(frame["x"][upper], frame["y"][upper], s=7, c=frame["vx"][upper], vmin=0, vmax=top, lw=0, rasterized=True)
+        row[0].set(ylabel="height $y/L$", title=f"$\\sigma = {sigma}$, $t U_0/L = {t:.3g}$: exact")
+        row[1].set(title="particles", xlim=(-1, 1), ylim=(0, 1), xticks=(-1, -0.5, 0, 0.5, 1))
+        figure.colorbar(dots, ax=row, label="velocity $u/U_0$")
         for axis in row:
             axis.set_aspect("equal")
     for axis in axes[-1]:
-        axis.set_xlabel("$x/L$")
-    save(figure, path, dpi=110)
+        axis.set_xlabel("place along the pipe, $x/L$")
+    save(figure, path)
 
 
 def draw_decay(path, runs, wrong):
     """As figure 5 of the paper, with what goes wrong beside it."""
-    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.2, legend_fontsize=7.5)
-    figure, axes = plt.subplots(1, 4, figsize=(16.0, 4.0), layout="constrained")
-    for color, (sigma, run) in zip(("C0", "C2", "C1", "C3"), runs.items()):
+    plt = pyplot()
+    figure, axes = plt.subplots(2, 2, figsize=(9.6, 7.4))
+    axes = axes.ravel()
+    for color, (sigma, run) in zip(("C0", "C1", "C2", "C3"), runs.items()):
         fine = np.linspace(0, run.at[-1], 200)
         axes[0].semilogy(run.at, run.u, "-", color=color, label=f"$\\sigma = {sigma}$")
         axes[0].semilogy(fine, run.exact.center(fine), "k-.", lw=0.8)
@@ -129,7 +129,7 @@ def draw_decay(path, runs, wrong):
         axes[3].plot(run.time, run.energy / run.exact.kinetic(run.time) - 1, "-", color=color)
     axes[0].legend(title="lines: particles, dash-dotted: exact")
     for number, (what, run) in enumerate(wrong.items()):
-        look = {"color": f"C{4 + number}", "ls": "--" if number < 2 else ":"}
+        look = {"color": ("C4", "C5", "C6")[number % 3], "ls": "--" if number < 3 else ":"}
         axes[2].plot(run.at, run.u / run.exact.center(run.at) - 1, label=what, **look)
         axes[3].plot(run.time, run.energy / run.exact.kinetic(run.time) - 1, **look)
     axes[0].set(title="velocity at the centre over $U_0$")
@@ -138,19 +138,20 @@ def draw_decay(path, runs, wrong):
     axes[3].set(ylim=(-0.2, 0.2), title="kinetic energy, relative error")
     axes[2].legend(title=f"for $\\sigma = {next(iter(wrong.values())).sigma}$ with")
     for axis in axes:
-        axis.set_xlabel("$t U_0/L$")
-    save(figure, path, dpi=95)
+        axis.set_xlabel("time $t U_0/L$")
+    save(figure, path)
 
 
 def draw_refined(path, constant, changing):
     """Errors with and without splitting and merging, and where the particles are halfway."""
-    plt = pyplot(sizes=False)
-    figure, axes = plt.subplots(1, 4, figsize=(15.0, 3.2), layout="constrained")
+    plt = pyplot()
+    figure, axes = plt.subplots(2, 2, figsize=(9.6, 5.4))
+    axes = axes.ravel()
     for look, (what, run) in zip(("-", "--"), (("constant particles", constant), ("splitting and merging", changing))):
         axes[0].plot(run.at, 100 * (run.u / run.exact.center(run.at) - 1), look, label=what)
         axes[1].plot(run.time, 100 * (run.energy / run.exact.kinetic(run.time) - 1), look)
-    axes[0].set(xlabel="$t U_0/L$", title="velocity at the centre, error in %")
-    axes[1].set(xlabel="$t U_0/L$", title="kinetic energy, error in %")
+    axes[0].set(xlabel="time $t U_0/L$", title="velocity at the centre, error in %")
+    axes[1].set(xlabel="time $t U_0/L$", title="kinetic energy, error in %")
     axes[0].legend()
     for axis, run in zip(axes[2:], (constant, changing)):
         t, frame = list(run.frames.items())[len(run.frames) // 2]
@@ -158,7 +159,7 @@ def draw_refined(path, constant, changing):
         axis.plot(frame["x"][inside], frame["y"][inside], ".", ms=1.5)
         axis.set(xlim=(-1, 1), ylim=(0, 0.5), xlabel="$x/L$", ylabel="$y/L$",
                  title=f"{'constant' if run is constant else 'splitting and merging'}, $t = {t:.3g}$")
-    save(figure, path, dpi=95)
+    save(figure, path)
 
 
 def main():

@@ -84,11 +84,12 @@ def order(sizes, errors):
 
 
 def plot(path, runs, sizes):
-    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.0, legend_fontsize=7.5)
-    figure, axes = plt.subplots(1, 4, figsize=(14.5, 4.0), layout="constrained")
+    plt = pyplot()
+    figure, axes = plt.subplots(2, 2, figsize=(9.6, 7.6))
+    axes = axes.ravel()
     fine = np.linspace(-1, 1, 401)
     shown = min(sizes, key=lambda n: abs(n - 25))
-    for color, marker, fluid in zip(("k", "C0", "C3", "C2", "C1"), "os^vD", FLUIDS):
+    for color, marker, fluid in zip(("k", "C0", "C3", "C2", "C4"), "os^vD", FLUIDS):
         run = runs[fluid, shown]
         axes[0].plot(fine, run.exact.u(fine), "-", color=color)
         axes[0].plot(run.y, run.u, marker, color=color, ms=4, mfc="none", label=title(fluid))
@@ -101,17 +102,16 @@ def plot(path, runs, sizes):
             errors = [runs[fluid, n].spin_error for n in mine]
             axes[3].loglog(mine, errors, marker + "-", color=color, ms=5, mfc="none", label=f"{title(fluid)}: {order(mine, errors):.2f}")
     axes[1].plot(fine, fine, "k:", label="half of the Newtonian vorticity")
-    axes[0].set(xlabel="$y/H$", ylabel="$u\\,/\\,U$", ylim=(0, 1.45), title=f"velocity, {shown} rows; lines: exact")
-    axes[1].set(xlabel="$y/H$", ylabel="$\\Omega H/U$", title=f"spin, {shown} rows; lines: exact")
+    axes[0].set(xlabel="height $y/H$", ylabel="velocity $u\\,/\\,U$", ylim=(0, 1.45), title=f"{shown} rows; lines: exact")
+    axes[1].set(xlabel="height $y/H$", ylabel="spin $\\Omega H/U$", title=f"{shown} rows; lines: exact")
     axes[0].legend(loc="upper center", ncols=2)
     axes[1].legend(loc="upper left")
     from matplotlib.ticker import LogLocator, NullFormatter
-    for axis, what, small in zip(axes[2:], ("velocity", "spin"), (SMALL, SMALL_SPIN)):
+    for axis, what in zip(axes[2:], ("velocity", "spin")):
         line = np.array([min(sizes), max(sizes)])
         low, high = axis.get_ylim()
         axis.set_ylim(low / 8, high)        # room for the legend
         axis.loglog(line, 0.35 * high * line[0] / line, "k--", lw=0.8, label="order 1")
-        axis.axhline(small, color="0.5", lw=0.8, ls=":")
         axis.set(xlabel="rows across the channel", title=f"relative L2 error of the {what}; order")
         axis.set_xticks(sizes, [str(n) for n in sizes])
         axis.xaxis.set_minor_formatter(NullFormatter())
@@ -119,8 +119,8 @@ def plot(path, runs, sizes):
         axis.yaxis.set_major_formatter("{x:g}")
         axis.yaxis.set_minor_formatter(NullFormatter())
         axis.grid(which="minor", alpha=0.15)
-        axis.legend(loc="lower left", fontsize=7)
-    save(figure, path, dpi=95)
+        axis.legend(loc="lower left")
+    save(figure, path)
 
 
 def main():

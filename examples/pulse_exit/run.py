@@ -87,8 +87,9 @@ def pulse(outlet, width, stream, angle=0, wavelength=0, length=None):
 def plot(path, straight, oblique, vortices):
     from matplotlib.ticker import NullFormatter
 
-    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.0, legend_fontsize=7.5)
-    figure, axes = plt.subplots(1, 4, figsize=(15.5, 4.2), layout="constrained")
+    plt = pyplot()
+    figure, axes = plt.subplots(2, 2, figsize=(9.6, 7.6))
+    axes = axes.ravel()
     for axis, stream in zip(axes, STREAMS):
         for outlet, (color, *_) in OUTLETS.items():
             runs = {width: run for (o, width, s), run in straight.items() if o == outlet and s == stream}
@@ -98,8 +99,8 @@ def plot(path, straight, oblique, vortices):
             widths = sorted(runs)
             axis.loglog([2 * np.pi * w for w in widths], [runs[w].reflection for w in widths], "o", color=color, ms=4, mfc="none",
                         label=TITLE[outlet])
-        axis.set(xlabel="wavelength or $2\\pi$ width, spacings", ylim=(3e-3, 100), xlim=(15, 250), xticks=(20, 50, 100, 200),
-                 title="reflection, " + ("at rest" if stream == 0 else f"stream of {stream:g} $c_0$"))
+        axis.set(xlabel="wavelength or $2\\pi$ width, spacings", ylim=(3e-3, 30), xlim=(15, 250), xticks=(20, 50, 100, 200),
+                 ylabel="reflected part of the amplitude", title="fluid at rest" if stream == 0 else f"stream of {stream:g} $c_0$")
         axis.xaxis.set_major_formatter("{x:g}")
         axis.xaxis.set_minor_formatter(NullFormatter())
     axes[0].legend(loc="upper left")
@@ -108,14 +109,13 @@ def plot(path, straight, oblique, vortices):
     for (outlet, angle, wave, stream), run in oblique.items():
         axes[2].plot(angle, run.reflection, "os"[stream > 0], color=OUTLETS[outlet][0], ms=5, mfc="none",
                      label=TITLE[outlet] + (", stream" if stream > 0 else "") if angle == 0 else None)
-    axes[2].set(xlabel="angle between the pulse and the outlet's normal, degrees", ylim=(0, 1.25), title=f"reflection, oblique waves of {WAVE} spacings")
+    axes[2].set(xlabel="angle between the pulse and the outlet's normal, degrees", ylabel="reflected part of the amplitude", ylim=(0, 1.25), title=f"oblique waves of {WAVE} spacings")
     axes[2].legend(loc="upper right")
     for outlet, (t, energy) in vortices.items():
         axes[3].semilogy(t, energy / energy[0], "-", color=OUTLETS[outlet][0], label=TITLE[outlet])
-    axes[3].axhline(LEFT, color="0.5", ls=":", lw=0.8)
-    axes[3].set(xlabel="time, core radii over stream", title="kinetic energy of a vortex carried out")
+    axes[3].set(xlabel="time, core radii over stream", ylabel="kinetic energy over that at the start", title="a vortex is carried out")
     axes[3].legend()
-    save(figure, path, dpi=95)
+    save(figure, path)
 
 
 def main():

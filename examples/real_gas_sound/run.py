@@ -29,7 +29,7 @@ WIDTH, EVERY = 0.4e-3, 5                          # [m]; frames, over tau
 FRONT_TIMES, BODY_TIMES, SHOWN = (5, 40), (100, 150), (0, 10, 25, 60, 150)     # over tau
 PEAK_PLACE, PEAK_HEIGHT, SPEED, DECIBEL, LINE = 0.02, 0.03, 0.005, 0.03, 0.002
 PROFILE = 0.12 / (50e-6)**2                       # difference of a pulse, over the square of the spacing [1/m^2]
-COLORS, MARKS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000"), "osD^v"    # of Okabe and Ito
+COLORS, MARKS = ("C0", "C3", "C2", "C4", "k"), "osD^v"
 
 
 def iso_9613(frequency, humidity):
@@ -194,7 +194,7 @@ def plot_co2(path, gas, relaxing, constant):
     axes[0].set_ylim(268, 284)
     axes[1].set_yscale("log")
     axes[1].set_ylabel("absorption per wavelength [Np]")
-    return save(figure, path, dpi=110, framed=axes, tight=True)
+    return save(figure, path, legends=axes)
 
 
 def plot_air(path, measured):
@@ -208,9 +208,8 @@ def plot_air(path, measured):
     plain(axis.yaxis)
     axis.set_xlabel("frequency [kHz]")
     axis.set_ylabel("absorption [dB/km]")
-    axis.grid(alpha=0.3)
-    axis.legend(title="relative humidity\nmarks: SPH, lines: ISO 9613-1", title_fontsize=8, alignment="left")
-    return save(figure, path, dpi=110, tight=True)
+    axis.legend(title="relative humidity\nmarks: SPH, lines: ISO 9613-1", alignment="left")
+    return save(figure, path)
 
 
 def plot_pulses(path, pulses):
@@ -232,12 +231,10 @@ def plot_pulses(path, pulses):
         axis.set_xlabel("distance ahead of a wave with $c_0$ [mm]")
     axes[0].set_xlim(-11, 11)
     axes[1].set_xlim(-2.5, 2.5)
-    for axis in axes:
-        axis.grid(alpha=0.3)
     axes[0].set_ylabel("velocity over its first maximum")
-    axes[0].legend(title="time; marks: SPH, lines: continuum,\ntriangles: moved with $c_\\infty$", title_fontsize=8,
+    axes[0].legend(title="time; marks: SPH, lines: continuum,\ntriangles: moved with $c_\\infty$",
                    alignment="left")
-    return save(figure, path, dpi=110, tight=True)
+    return save(figure, path)
 
 
 def main():

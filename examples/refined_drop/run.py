@@ -32,18 +32,18 @@ class Run:
 
 def plot(path, runs):
     plt = pyplot()
-    figure, (picture, left, right) = plt.subplots(1, 3, figsize=(11, 3.4), constrained_layout=True)
+    figure, (picture, left, right) = plt.subplots(1, 3, figsize=(11, 3.4))
     frame = max(runs["bulk"].frames.values(), key=lambda frame: len(frame["x"]))
-    picture.scatter(frame["x"], frame["y"], s=14 * frame["mass"], c=frame["mass"], cmap="viridis", lw=0)
-    picture.set(aspect="equal", xticks=[], yticks=[], title="a fine and a coarse half")
+    dots = picture.scatter(frame["x"], frame["y"], s=14 * frame["mass"], c=frame["mass"], lw=0)
+    figure.colorbar(dots, ax=picture, label="mass of the particle (lj units)", shrink=0.8)
+    picture.set(aspect="equal", xlabel="x (lj units)", ylabel="y (lj units)", title="fine on the right, coarse on the left")
     for (name, run), color in zip(runs.items(), ("C0", "C1")):
         left.semilogy(run.step[1:], np.maximum(run.change[1:], 1e-17), color=color, lw=0.7, label=f"sph/{name}")
         right.plot(run.step, run.kinetic / run.kinetic[0] - 1, color=color, label=f"kinetic, sph/{name}")
         right.plot(run.step, run.ledger[11] / run.kinetic[0], color=color, ls="--", label="elastic, by events")
-    left.axhline(CONSERVED, color="0.5", lw=0.8, ls="--")
-    left.set(title="$|L - L(0)|\\,/\\,L(0)$", xlabel="step", ylim=(1e-17, 1e-10))
-    right.set(title="change of energy / initial kinetic energy", xlabel="step", ylim=(-0.05, 0.3))
-    save(figure, path, framed=(left, right))
+    left.set(ylabel="change of the angular momentum, relative", xlabel="time step", ylim=(1e-17, 1e-10))
+    right.set(ylabel="change of energy over initial kinetic energy", xlabel="time step", ylim=(-0.05, 0.3))
+    save(figure, path, legends=(left, right))
 
 
 def main():

@@ -19,7 +19,7 @@ from swirl import Swirl                     # noqa: E402
 
 CASES = {        # variables of the input, legend, color
     "mg": ({"shear": "mg"}, "mg", "C0"),
-    "mg_bulk": ({"shear": "mg", "bulk": "density"}, "mg + bulk", "C2"),
+    "mg_bulk": ({"shear": "mg", "bulk": "density"}, "mg + bulk", "C1"),
     "morris": ({"shear": "morris"}, "morris", "C3"),
 }
 CORE, MU, SWIRL, SUPPORT = 0.6, (0.10, 0.02), 0.5, 4      # as in the input
@@ -83,8 +83,8 @@ class Run:
 
 
 def plot(path, runs, theory, dim):
-    plt = pyplot(grid_alpha=0.3, lines_linewidth=1.4)
-    figure = plt.figure(figsize=(9.6, 5.8))
+    plt = pyplot()
+    figure = plt.figure(figsize=(9.6, 5.8), constrained_layout=False)
     grid = figure.add_gridspec(2, 12, height_ratios=[1, 1.15], left=0.05, right=0.985, top=0.95, bottom=0.085, hspace=0.16, wspace=1.5)
     first, end = next(iter(runs.values())).frames[0], next(iter(runs.values())).t[-1]
     pictures = [("$t = 0$", first)] + [(f"{CASES[name][1]}, $t = {end:g}$", run.frames[-1]) for name, run in runs.items()]
@@ -115,16 +115,13 @@ def plot(path, runs, theory, dim):
     run = runs["mg"]
     right.plot(run.t, run.rigid / run.kinetic[0], "k:", lw=1.0, label="$L^2/(2I)$")
     left.set(title="angular momentum $L/L(0)$", ylim=(0, 1.05))
-    middle.set(title="$|L - L(0)|\\,/\\,L(0)$", ylim=(5e-17, 3))
-    middle.axhline(1e-12, color="0.5", lw=0.8, ls="--")
-    middle.text(run.t[-1], 1.6e-12, "required", ha="right", color="0.4", fontsize=8)
-    right.set(title="kinetic energy $/$ initial", ylim=(0, 1.05))
+    middle.set(title="change of $L$, relative", ylim=(5e-17, 3))
+    right.set(title="kinetic energy over initial", ylim=(0, 1.05))
     for axes in (left, middle, right):
-        axes.set_xlabel("$t\\,\\Omega_0$")
+        axes.set_xlabel("time $t\\,\\Omega_0$")
         axes.set_xlim(0, run.t[-1])
-        axes.grid(True, alpha=0.3)
-    left.legend(loc="upper right", bbox_to_anchor=(1, 0.93), framealpha=0.9)
-    right.legend(loc="center right", framealpha=0.9)
+    left.legend(loc="upper right", bbox_to_anchor=(1, 0.93))
+    right.legend(loc="center right")
     middle.annotate("morris", (0.55 * run.t[-1], 0.3), (0.5 * run.t[-1], 1e-4), color="C3")
     middle.annotate("mg, mg + bulk", (0.35 * run.t[-1], 3e-14), color="k")
     save(figure, path)

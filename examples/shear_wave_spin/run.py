@@ -31,7 +31,7 @@ def eigenvalues(k, mu_r, gamma1, I):
 
 def plot(path, found):
     plt = pyplot()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.6), layout="constrained")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.6))
     k = np.linspace(0.08, 0.31, 60)
     for color, (name, values) in zip(("C0", "C1", "C2"), SETS.items()):
         theory = [eigenvalues(one, **values) for one in k]
@@ -43,13 +43,10 @@ def plot(path, found):
             exact = np.array([eigenvalues(one, **values)[mode] for one in points[:, 0]])
             right.plot(points[:, 0] * SUPPORT / 2, points[:, 1] / exact, color + mark + ("-" if mode == "slow" else "--"),
                        mfc="none", ms=5)
-    left.set(xlabel="$k\\,dx$", title="decay rates; lines: eigenvalues", ylim=(0.002, 30))
+    left.set(xlabel="wave number times spacing, $k\\,\\Delta x$", ylabel="decay rate (lj units)", title="lines: eigenvalues", ylim=(0.002, 30))
     left.legend(ncols=2, fontsize=6.5)
-    right.axvline(0.2, color="0.5", lw=0.8, ls=":")
     right.axhline(1, color="k", lw=0.8)
-    right.set(xlabel="$kh$", title="rate over eigenvalue")
-    for axes in (left, right):
-        axes.grid(alpha=0.3)
+    right.set(xlabel="wave number times smoothing length, $kh$", ylabel="rate over eigenvalue")
     save(figure, path)
 
 

@@ -87,7 +87,7 @@ class Run:
 
 
 def plot(path, runs):
-    plt = pyplot(sizes=False)
+    plt = pyplot()
     figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8))
     u = U2 + (U1 - U2) * (1 - np.cos(np.linspace(1e-4, np.pi - 1e-4, 4000))) / 2
     for color, viscosity in zip(("C0", "C1", "C2"), VISCOSITIES):
@@ -102,11 +102,10 @@ def plot(path, runs):
         axes[1].plot(-exact(u, viscosity), energy(u) / ENERGY_1, "k-", lw=0.8)
     for axis, label in zip(axes, ("density", "internal energy")):
         axis.set_xlim(-0.12, 0.12)
-        axis.set_xlabel("distance from the shock")
+        axis.set_xlabel("distance from the shock (lj units)")
         axis.set_ylabel(f"{label}, of that before the shock")
-        axis.grid(alpha=0.3)
-    axes[0].legend(title="$\\lambda + 2\\mu$", fontsize=7, title_fontsize=7)
-    return save(figure, path, dpi=110, tight=True)
+    axes[0].legend(title="$\\lambda + 2\\mu$")
+    return save(figure, path)
 
 
 def main():

@@ -126,22 +126,24 @@ def extrapolate(runs):
 
 
 def plot(out, measured, alone):
-    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.2, legend_framealpha=0.9)
+    plt = pyplot()
     paths = [out / "absorption.png", out / "convergence.png"]
-    figure, axes = plt.subplots(2, 2, figsize=(8.6, 6.2), sharex=True, sharey=True)
+    figure = plt.figure(figsize=(8.6, 6.2))
+    top, below = figure.subfigures(2, 1, height_ratios=(0.06, 1))
+    axes = below.subplots(2, 2, sharex=True, sharey=True)
     for axis, (name, runs) in zip(axes.flat, measured.items()):
         fluid, run, bare = runs[-1].fluid, runs[-1], alone[name]
         periods = run.t[-1] / fluid.period
         t = np.linspace(0, periods, 1200)
         axis.plot(t, np.exp(-bare.fluid.damping("intrinsic") * fluid.period * t), "--", color="C3",
                   label="Stokes, $\\kappa = 5\\mu/3$")
-        top = slice(0, None, 20)        # every half period: crest or trough
-        axis.plot(bare.t[top] / fluid.period, np.abs(bare.amplitude[top]), "s", color="C3", ms=3.5, mfc="none",
+        some = slice(0, None, 20)        # every half period: crest or trough
+        axis.plot(bare.t[some] / fluid.period, np.abs(bare.amplitude[some]), "s", color="C3", ms=3.5, mfc="none",
                   label="SPH, shear term alone")
         axis.plot(t, fluid.wave("file", t * fluid.period), "-", color="0.7", lw=0.7)
         axis.plot(t, np.exp(-fluid.damping("file") * fluid.period * t), "k-",
                   label="Stokes, $\\kappa$ of the fluid")
-        axis.plot(run.t[top] / fluid.period, np.abs(run.amplitude[top]), "o", color="C0", ms=4.5, mfc="none",
+        axis.plot(run.t[some] / fluid.period, np.abs(run.amplitude[some]), "o", color="C0", ms=4.5, mfc="none",
                   mew=1.2, label="SPH, $\\kappa$ of the fluid")
         ratio = fluid.kappa / fluid.mu
         axis.set_title(f"{fluid.title}:  $\\kappa/\\mu$ = {ratio:.3g}" if ratio < 1000 else
@@ -152,14 +154,13 @@ def plot(out, measured, alone):
         axis.set_xlabel("time / period")
     for axis in axes[:, 0]:
         axis.set_ylabel("velocity at the antinode / initial")
-    figure.tight_layout(rect=(0, 0, 1, 0.955))
     handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="upper center", ncol=4)
-    save(figure, paths[0], dpi=110)
+    top.legend(handles, labels, loc="center", ncol=4)
+    save(figure, paths[0])
 
     figure, axis = plt.subplots(figsize=(5.6, 3.9))
     fine = np.linspace(min(QUICK_CELLS), 2000, 4000)
-    for color, mark, (name, runs) in zip(("C0", "C1", "C2", "C4"), "os^D", measured.items()):
+    for color, mark, (name, runs) in zip(("C0", "C1", "C2", "C3"), "os^D", measured.items()):
         fluid = runs[0].fluid
         axis.plot(kh(fine)**2, [lattice_damping(fluid, "file", n) / fluid.damping("file") for n in fine], "-",
                   color=color, lw=0.8)
@@ -174,7 +175,7 @@ def plot(out, measured, alone):
     axis.set_xlabel("$(k h)^2$,  $h$ = half the support radius")
     axis.set_ylabel("measured damping / Stokes")
     axis.legend(loc="lower left", title="marks: SPH, lines: lattice sums\nfilled at 0: extrapolated")
-    save(figure, paths[1], dpi=110, tight=True)
+    save(figure, paths[1])
     return paths
 
 

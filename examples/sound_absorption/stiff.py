@@ -70,7 +70,7 @@ class Run(absorption.Run):
 
 
 def plot(path, runs):
-    plt = pyplot(sizes=False)
+    plt = pyplot()
     figure, axis = plt.subplots(figsize=(5.6, 3.9))
     for mark, mode in zip("osx+", MODES):
         some = [run for run in runs if run.mode == mode and run.fluid.name == "CO2"]
@@ -83,7 +83,7 @@ def plot(path, runs):
     axis.set_ylabel("force computations per step of sound")
     axis.legend()
     axis.grid(alpha=0.3, which="both")
-    return save(figure, path, dpi=110, tight=True)
+    return save(figure, path)
 
 
 def main():

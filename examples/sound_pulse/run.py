@@ -127,14 +127,14 @@ MARKS = {64: ("o", "C0"), 128: ("s", "C1"), 256: ("^", "C2"), 512: ("v", "C3")}
 
 
 def plot(out, cases, solutions):
-    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.2, legend_framealpha=0.9)
+    plt = pyplot()
     paths = []
     wendland = [case for case in cases if "quintic" not in case]
     A, L, c0 = reference.AMPLITUDE, reference.LENGTH, reference.C0
     x = np.linspace(reference.XLO, reference.XLO + L, 600)
 
     def keep(figure, name):
-        paths.append(save(figure, out / name, dpi=110, tight=True))
+        paths.append(save(figure, out / name))
 
     figure, axes = plt.subplots(2, 2, figsize=(8.6, 6.0), sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     for column, case in enumerate(wendland):
@@ -157,10 +157,10 @@ def plot(out, cases, solutions):
         if top < 0.5:
             upper.set_ylim(-top, top)
         lower.axhline(0, color="k", lw=0.8)
-        lower.set_xlabel("$x$")
+        lower.set_xlabel("place $x$ (lj units)")
         lower.set_xlim(reference.XLO, reference.XLO + L)
-    axes[0, 0].set_ylabel("$v\\,/\\,(A c_0)$")
-    axes[1, 0].set_ylabel("$(v - v_\\mathrm{ref})\\,/\\,(A c_0)$  [%]")
+    axes[0, 0].set_ylabel("velocity $v\\,/\\,(A c_0)$")
+    axes[1, 0].set_ylabel("difference [%]")
     axes[0, 0].legend(loc="lower right")
     keep(figure, "velocity.png")
 
@@ -178,10 +178,10 @@ def plot(out, cases, solutions):
         upper.set_title(CASES[case][3])
         upper.set_ylim(0, 1.03)
         lower.axhline(0, color="k", lw=0.8)
-        lower.set_xlabel("$t\\,c_0/L$")
+        lower.set_xlabel("time $t\\,c_0/L$")
         lower.set_xlim(0, reference.TIME * c0 / L)
-    axes[0, 0].set_ylabel("$E_\\mathrm{kin}(t)\\,/\\,E_\\mathrm{kin}(0)$")
-    axes[1, 0].set_ylabel("difference  [%]")
+    axes[0, 0].set_ylabel("kinetic energy over that at the start")
+    axes[1, 0].set_ylabel("difference [%]")
     axes[0, 1].legend(loc="upper right")
     keep(figure, "kinetic_energy.png")
 

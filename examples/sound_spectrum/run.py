@@ -147,7 +147,7 @@ def spectrum(z, dt, parts):
 
 def plot(path, results):
     plt = pyplot()
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.5, 3.4), layout="constrained")
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.5, 3.4))
     for index, kappa in enumerate(results):
         color = f"C{index}"
         # two waves of the same length
@@ -166,11 +166,9 @@ def plot(path, results):
             few = max(1, len(time) // 60)
             axes.plot(time[::few], found[::few], color + ".", ms=3, label=f"$\\kappa/\\mu$ = {kappa}")
             axes.plot(time, answer, color, lw=0.9)
-    left.set(xlim=(0, 2.5), ylim=(1e-2, 1e2), xlabel="$\\omega$", title="dynamic structure factor $S(k,\\omega)/S(k)$")
-    middle.set(xlabel="$t$", title="longitudinal current")
-    right.set(xlabel="$t$", title="transverse current", ylim=(0, 1))
-    for axes in (left, middle, right):
-        axes.grid(alpha=0.3)
+    left.set(xlim=(0, 2.5), ylim=(1e-2, 1e2), xlabel="frequency $\\omega$ (lj units)", ylabel="dynamic structure factor $S(k,\\omega)/S(k)$")
+    middle.set(xlabel="time (lj units)", ylabel="correlation of the longitudinal current")
+    right.set(xlabel="time (lj units)", ylabel="correlation of the transverse current", ylim=(0, 1))
     left.legend()
     right.legend()
     save(figure, path)

@@ -23,7 +23,7 @@ THEORY = 0.01       # of the spin viscosities, extrapolated to kh = 0
 
 def plot(path, found, lines):
     plt = pyplot()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4))
     for color, (mode, points) in zip(("C0", "C3"), found.items()):
         for nx, (k, _, time, amplitude) in points.items():
             left.semilogy(MODES[mode] * k**2 / INERTIA * time, amplitude, color + "osv"[CELLS.index(nx)], mfc="none", ms=4,
@@ -34,10 +34,10 @@ def plot(path, found, lines):
         right.plot(x, np.polyval(lines[mode], x) / MODES[mode], color, lw=0.8)
     time = np.linspace(0, 1, 20)
     left.semilogy(time, np.exp(-time), "k", lw=0.8)
-    left.set(xlabel="time over relaxation time of the continuum", title="amplitude; line: continuum")
+    left.set(xlabel="time over relaxation time of the continuum", ylabel="amplitude of the spin", title="line: continuum")
     right.axhline(1, color="k", lw=0.8)
-    right.set(xlabel="$(kh)^2$", title="spin viscosity over the one asked for")
-    save(figure, path, framed=(left, right))
+    right.set(xlabel="(wave number times smoothing length)$^2$, $(kh)^2$", ylabel="spin viscosity, measured over given")
+    save(figure, path, legends=(left, right))
 
 
 def main():

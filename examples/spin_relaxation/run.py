@@ -37,7 +37,7 @@ def lattice_factor(dim, rc):
 
 def plot(path, runs):
     plt = pyplot()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4))
     for index, ((dim, support), data) in enumerate(runs.items()):
         time, spin = data[:, 1], data[:, 2]
         label = f"{dim}d, rc = {support} dx"
@@ -46,10 +46,8 @@ def plot(path, runs):
         right.plot(time[1:], -np.log(spin[1:]) / time[1:], color + "-" * (dim - 1), label=label)
     left.semilogy(time, np.exp(-time), "k", lw=0.8, label="$\\exp(-4\\mu_rt/(\\rho I))$")
     right.axhline(1, color="k", lw=0.8)
-    left.set(xlabel="$4\\mu_rt/(\\rho I)$", title="$\\Omega(t)/\\Omega(0)$")
-    right.set(xlabel="$4\\mu_rt/(\\rho I)$", title="rate over $4\\mu_r/(\\rho I)$")
-    for axes in (left, right):
-        axes.grid(alpha=0.3)
+    left.set(xlabel="time $4\\mu_rt/(\\rho I)$", ylabel="spin $\\Omega(t)/\\Omega(0)$")
+    right.set(xlabel="time $4\\mu_rt/(\\rho I)$", ylabel="rate over $4\\mu_r/(\\rho I)$")
     left.legend()
     save(figure, path)
 

@@ -87,14 +87,14 @@ def rates(matrix):
 
 def plot(path, time, found, answer, exact):
     plt = pyplot()
-    figure, axes = plt.subplots(figsize=(5.2, 3.6), layout="constrained")
+    figure, axes = plt.subplots(figsize=(5.2, 3.6))
     for (a, b), label in NAMES.items():
         norm = SCALE[a] * SCALE[b]
         line, = axes.plot(time[::3], found[a, b, ::3] / norm, ".", ms=4, label=label)
         axes.plot(time, answer[a, b] / norm, color=line.get_color(), lw=1)
         axes.plot(time, exact[a, b] / norm, color=line.get_color(), lw=0.8, ls=":")
-    axes.set(xlabel="$t$", title="correlations, over their thermal values")
-    save(figure, path, framed=[axes])
+    axes.set(xlabel="time (lj units)", ylabel="correlation over its thermal value")
+    save(figure, path, legends=[axes])
 
 
 def main():

@@ -82,7 +82,7 @@ def extrapolate(group):
 
 def plot(path, groups):
     plt = pyplot()
-    figure, both = plt.subplots(1, 2, figsize=(8.6, 3.6), layout="constrained", sharey=True)
+    figure, both = plt.subplots(1, 2, figsize=(8.6, 3.6), sharey=True)
     for axes, dim in zip(both, MU_R):
         axes.axhspan(1 - MERIT, 1 + MERIT, color="0.92", zorder=0)
         axes.axhline(1, color="k", lw=0.8)
@@ -93,10 +93,9 @@ def plot(path, groups):
                 axes.plot(x, np.polyval(extrapolate(group)[0], x), color + ("-" if first else "--"), lw=1)
                 axes.plot([w.q for w in group], [w.ratio for w in group], color + ("o" if first else "s"), mfc="none", ms=5,
                           label=f"${WAVES[wave]}$, $\\mu_r = {mu_r:.3g}\\mu$")
-        axes.set(xlabel="$(kh)^2$", title={2: "2d, hexagonal", 3: "3d, bcc"}[dim])
-        axes.grid(alpha=0.3)
+        axes.set(xlabel="(wave number times smoothing length)$^2$, $(kh)^2$", title={2: "2d, hexagonal", 3: "3d, bcc"}[dim])
         axes.legend(loc="lower left")
-    both[0].set_ylabel("measured / asked for")
+    both[0].set_ylabel("viscosity, measured over given")
     save(figure, path)
 
 

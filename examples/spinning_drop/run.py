@@ -23,18 +23,16 @@ RIGID = 0.02             # spin part over what rigid rotation with this L has, m
 
 def plot(path, runs):
     plt = pyplot()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4))
     for color, (mu_r, (data, _)) in zip(("C0", "C3"), runs.items()):
         time, total, orbital, spin = data[1:, 1:].T
         left.semilogx(time, orbital / total, color, label=f"orbital, $\\mu_r = {mu_r}$")
         left.semilogx(time, spin / total, color + "--", label=f"spin, $\\mu_r = {mu_r}$")
         right.loglog(time, np.maximum(np.abs(total / data[0, 2] - 1), 1e-16), color, lw=0.7, label=f"$\\mu_r = {mu_r}$")
     left.axhline(1, color="k", lw=1, label="sum")
-    left.set(xlabel="$t$", title="angular momentum, parts of the total")
-    right.axhline(CONSERVED, color="0.5", ls="--", lw=0.8)
-    right.set(xlabel="$t$", title="$|L-L(0)|/L(0)$; dashed: required", ylim=(5e-17, 1e-11))
+    left.set(xlabel="time (lj units)", ylabel="part of the angular momentum")
+    right.set(xlabel="time (lj units)", ylabel="change of the angular momentum, relative", ylim=(5e-17, 1e-11))
     for axes in (left, right):
-        axes.grid(alpha=0.3)
         axes.legend(loc="best")
     save(figure, path)
 

@@ -67,7 +67,7 @@ def fields(path):
 
 
 def plot(out, runs):
-    plt = pyplot(axes_grid=True, grid_alpha=0.3)
+    plt = pyplot()
     figure, axes = plt.subplots(1, 3, figsize=(11, 3.4))
     for re in sorted({run.re for run in runs}):
         t, energy, power = reference.load(re)
@@ -83,9 +83,9 @@ def plot(out, runs):
     axes[1].plot([], [], "o", ms=3, color="0.4", label="power of the spectra")
     axes[1].set_ylim(0, None)
     axes[0].set_ylabel("kinetic energy")
-    axes[1].set_ylabel("loss of energy")
+    axes[1].set_ylabel("loss of energy per time")
     for axis in axes[:2]:
-        axis.set_xlabel("time")
+        axis.set_xlabel("time (lj units)")
         axis.legend()
     frames = runs[0].spectra(out)
     for time, color in zip(range(0, len(frames), max(1, len(frames) // 4)), ("0.7", "C0", "C1", "C2", "C3")):
@@ -93,10 +93,10 @@ def plot(out, runs):
         axes[2].loglog(k[1:], solenoidal[1:], "-", color=color, label=f"t = {time}")
         axes[2].loglog(k[1:], dilatational[1:], ":", color=color)
     axes[2].set_xlabel("wave number")
-    axes[2].set_ylabel("$E^s$ (lines), $E^d$ (dots)")
+    axes[2].set_ylabel("spectra, solenoidal (lines), dilatational (dots)")
     axes[2].set_ylim(1e-10, 1)
     axes[2].legend()
-    return save(figure, out / "energy.png", dpi=130, tight=True)
+    return save(figure, out / "energy.png")
 
 
 def vorticity(side, dz, u):
@@ -111,7 +111,7 @@ def vorticity(side, dz, u):
 
 def plot_vorticity(out, run):
     """|omega| in the planes z = 0 and z = pi/2 for the times of the fields, and of the spectral solution in the second one."""
-    import matplotlib.pyplot as plt
+    plt = pyplot()
     from scipy.ndimage import map_coordinates
 
     found, flow, dt = fields(out / f"{run.name}.grid"), reference.Flow(32, run.re), 0.05
@@ -137,8 +137,7 @@ def plot_vorticity(out, run):
         time += 2.5
     figure.colorbar(image, ax=axes, shrink=0.8, label="$|\\omega|$")
     path = out / "vorticity.png"
-    figure.savefig(path, dpi=130, bbox_inches="tight")
-    return path
+    return save(figure, path)
 
 
 def main():

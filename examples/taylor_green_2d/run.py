@@ -38,7 +38,7 @@ class Run:
 
 
 def plot(out, runs):
-    plt = pyplot(axes_grid=True, grid_alpha=0.3)
+    plt = pyplot()
     figure, axes = plt.subplots(1, 2, figsize=(8.6, 3.4))
     for axis, re in zip(axes, sorted({run.re for run in runs})):
         some = [run for run in runs if run.re == re]
@@ -49,10 +49,10 @@ def plot(out, runs):
                           color={0: "C0", 1: "C3"}[sorted({r.n for r in some}).index(run.n)],
                           label=f"n = {run.n}, {SPEEDS[run.shift]}")
         axis.set_title(f"Re = {re}")
-        axis.set_xlabel("time")
+        axis.set_xlabel("time (lj units)")
         axis.legend()
     axes[0].set_ylabel("kinetic energy per volume")
-    return save(figure, out / "decay.png", dpi=130, tight=True)
+    return save(figure, out / "decay.png")
 
 
 def main():

@@ -48,20 +48,20 @@ def moments(center, density):
 
 def plot(path, runs, shapes):
     plt = pyplot()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4))
     rate = RATE * np.array(list(runs))
     for column, label, mark in ((0, "x", "o"), (1, "y", "s"), (3, "spin", "^"), (12, "between the steps", "kx")):
         values = np.array([run[0][column] for run in runs.values()])
         errors = np.array([run[1][column] for run in runs.values()])
         left.errorbar(rate, values, errors, fmt=mark, ms=4, mfc="none", label=label)
     left.axhline(1, color="k", lw=0.8)
-    left.set(xlabel="largest viscous rate times time step", title="$T/T_0$", xscale="log")
+    left.set(xlabel="largest viscous rate times time step", ylabel="temperature $T/T_0$", xscale="log")
     x = np.linspace(-5, 5, 200)
     right.semilogy(x, np.exp(-0.5 * x**2) / np.sqrt(2 * np.pi), "k", lw=0.8)
     for (name, (center, density, _)), mark in zip(shapes.items(), "os"):
         right.semilogy(center, np.clip(density, 1e-7, None), mark, ms=3, mfc="none", label=name)
-    right.set(xlabel="$v\\sqrt{m/k_BT}$, $\\Omega\\sqrt{J/k_BT}$", title="distribution", ylim=(1e-6, 1))
-    save(figure, path, framed=(left, right))
+    right.set(xlabel="velocity $v\\sqrt{m/k_BT}$, spin $\\Omega\\sqrt{J/k_BT}$", ylabel="distribution", ylim=(1e-6, 1))
+    save(figure, path, legends=(left, right))
 
 
 def main():

@@ -77,7 +77,7 @@ class Run:
 
 
 def plot(path, runs, n):
-    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.2)
+    plt = pyplot()
     figure, axes = plt.subplots(1, 3, figsize=(11.5, 4.0), gridspec_kw={"width_ratios": [1, 1, 1.05]})
     for axis, (ratio, etas) in zip(axes, RATIOS.items()):
         for shear, (stress, marker, color) in SHEARS.items():
@@ -91,8 +91,8 @@ def plot(path, runs, n):
         axis.axvspan(R1, 1, color="#a8c4e0", alpha=0.25, lw=0)
         for x, name in ((R1 / 2, "\\eta_1"), ((1 + R1) / 2, "\\eta_2")):
             axis.text(x, 0.04, f"${name}$", ha="center", color="0.35", fontsize=11, transform=axis.get_xaxis_transform())
-        axis.set(xlim=(0, 1), ylim=(0, 1.65), xlabel="$r/R_2$", title=f"$\\eta_2/\\eta_1 = {ratio}$")
-    axes[0].set_ylabel("$\\Omega(r)\\,/\\,\\Omega_0$")
+        axis.set(xlim=(0, 1), ylim=(0, 1.65), xlabel="radius $r/R_2$", title=f"$\\eta_2/\\eta_1 = {ratio}$")
+    axes[0].set_ylabel("angular velocity $\\Omega(r)\\,/\\,\\Omega_0$")
     axes[0].legend(loc="upper right")
     axis = axes[2]
     for ratio, etas in RATIOS.items():
@@ -106,9 +106,9 @@ def plot(path, runs, n):
             axis.plot(run.t, exact, "-" if shear == "mg" else "--", color="k", lw=1)
             axis.plot(run.t[::6], run.inside[::6], marker, color=color, ms=3.5, mfc="none")
             axis.text(run.t[-1], run.omega + (0.05 if shear == "morris" else -0.1 if ratio == "0.2" else 0.04),
-                      f"$\\eta_2/\\eta_1 = {ratio}$", ha="right", color=color, fontsize=8)
-    axis.set(xlim=(0, run.t[-1]), ylim=(0, 1.65), xlabel="$t\\,\\Omega_0$", title="inner fluid, $\\Omega_\\mathrm{in}(t)/\\Omega_0$")
-    save(figure, path, dpi=95, tight=True)
+                      f"$\\eta_2/\\eta_1 = {ratio}$", ha="right", color=color)
+    axis.set(xlim=(0, run.t[-1]), ylim=(0, 1.65), xlabel="time $t\\,\\Omega_0$", title="inner fluid, $\\Omega_\\mathrm{in}(t)/\\Omega_0$")
+    save(figure, path)
 
 
 def main():

@@ -355,11 +355,11 @@ def write_tables(out, rows, results):
 
 
 def plot(out, results, rows):
-    plt = pyplot(axes_grid=True, grid_alpha=0.3, lines_linewidth=1.2, legend_framealpha=0.9)
+    plt = pyplot()
     paths = []
 
     def keep(figure, name):
-        paths.append(save(figure, out / name, dpi=110, tight=True))
+        paths.append(save(figure, out / name))
 
     shown = {"2d hex, support 4": ("hexagonal", "o", "C0"), "3d bcc [100], support 4": ("bcc", "s", "C1"),
              "3d fcc [100], support 4": ("fcc", "D", "C2"), "2d random, support 4": ("2d disordered", "^", "C3"),
@@ -404,7 +404,7 @@ def plot(out, results, rows):
         axis.set_xscale("symlog", linthresh=0.4)
         axis.set_xlim(-0.15, 2000)
         axis.set_ylim(0.975, 1.02)
-        axis.set_title(f"{title}: measured / requested")
+        axis.set_title(f"{title}: measured over requested")
     axes[0].set_title("bulk viscosity")
     for axis in axes:
         axis.set_xlabel("requested $\\kappa/\\mu$")
@@ -428,7 +428,7 @@ def plot(out, results, rows):
             axis.plot(0, r.ratio, marker, color=f"C{i}", ms=5)
         axis.axhline(1, color="k", lw=0.8)
         axis.set_title(title + ", support 4 $\\Delta x$")
-        axis.set_xlabel("$(kh)^2$")
+        axis.set_xlabel("(wave number times smoothing length)$^2$, $(kh)^2$")
         axis.legend(loc="lower left")
     axes[0].set_ylabel("viscosity, measured / requested")
     for i, (name, label) in enumerate((("2d hex, support 4", "hexagonal"), ("3d bcc [100], support 4", "bcc"))):
@@ -436,8 +436,8 @@ def plot(out, results, rows):
         axes[2].plot(q, [r.lattice.sound_speed(np.sqrt(x) / r.where.h) for x in q], "-", color=f"C{i}", lw=1)
         axes[2].plot([w.q for w in r.waves], [w.speed for w in r.waves], "os"[i], color=f"C{i}", mfc="none", ms=5, label=f"mg, {label}")
     axes[2].axhline(1, color="k", lw=0.8)
-    axes[2].set_title("speed of sound / $c_0$")
-    axes[2].set_xlabel("$(kh)^2$")
+    axes[2].set_title("speed of sound over $c_0$")
+    axes[2].set_xlabel("(wave number times smoothing length)$^2$, $(kh)^2$")
     axes[2].legend(loc="lower left")
     keep(figure, "wavelength.png")
 

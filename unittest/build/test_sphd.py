@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = {"g++", "make", "cmake", "ninja-build", "ccache", "ca-certificates", "openmpi-bin", "libopenmpi-dev",
-         "libfftw3-dev"}
+         "libfftw3-dev", "libpng-dev"}
 TESTS = {"libeigen3-dev", "libgtest-dev", "libgmock-dev", "libyaml-dev", "valgrind", "git", "hunspell-en-us"}
 SYSTEM = ["awk", "bash", "cat", "cp", "cut", "date", "df", "dirname", "env", "flock", "grep", "head", "id", "ls", "mkdir", "nproc",
           "python3", "realpath", "rm", "sed", "sh", "sha256sum", "sort", "tail", "tee", "tput"]
@@ -143,6 +143,14 @@ def test_mpi_without_its_headers(machine, tmp_path):
     write(tmp_path / "bin", {**TOOLS, "mpicxx": "exit 1"})
     status, output, installed, options = machine("build")
     assert "libopenmpi-dev" in installed and "openmpi-bin" not in installed and options
+
+
+def test_more_packages_have_a_folder_of_their_own(machine, tmp_path):
+    machine("build")
+    folders = len(list((tmp_path / "cache" / "build").glob("*.lock")))
+    status, output, installed, options = machine("build", SPHD_PACKAGES="KSPACE VTK")
+    assert "SPH_DISSIPATION_PACKAGES=KSPACE;VTK" in options.splitlines()[-1]
+    assert len(list((tmp_path / "cache" / "build").glob("*.lock"))) == folders + 1
 
 
 def test_build_asks_for_python(machine, tmp_path):

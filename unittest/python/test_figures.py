@@ -16,7 +16,7 @@ from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
-import pictures  # noqa: E402
+import gallery  # noqa: E402
 
 NUMBER = r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 TABLE = re.compile(r"^\.\. numbers of (\S+)\n\n((?:(?: .*)?\n|\.\. list-table.*\n)+)", re.MULTILINE)
@@ -154,25 +154,52 @@ def test_viscosities_of_rows_in_the_manual():
         assert [float(number) for number in re.findall(r"     - (\S+)", row[1])] == wanted
 
 
-@pytest.mark.parametrize("name, source", pictures.SOURCES.items())
-def test_pictures_are_those_of_the_examples(name, source):
-    """If not: tools/pictures.py makes them anew."""
-    picture = pictures.PICTURES / name
-    assert picture.stat().st_size < 100_000
-    theirs = np.array(pictures.reduced(source).convert("RGB"), dtype=float)
-    ours = np.array(Image.open(picture).convert("RGB"), dtype=float)
-    assert ours.shape == theirs.shape
-    assert np.abs(ours - theirs).mean() < 1.0    # of 255, for other versions of the library
+@pytest.mark.parametrize("path, text", [(gallery.README, gallery.readme), (gallery.PAGE, gallery.page)], ids=["README", "page"])
+def test_gallery_is_that_of_the_table(path, text):
+    """If not: tools/gallery.py makes both anew."""
+    assert path.read_text(encoding="utf-8") == text()
+
+
+def test_table_has_each_example():
+    rows = gallery.table()
+    assert sorted(rows) == sorted(path.parent.name for path in (ROOT / "examples").glob("*/run.py"))
+    for name, row in rows.items():
+        assert all(row.values()), row
+        assert (ROOT / "examples" / name / row["picture"]).exists(), row
+        assert gallery.styles(name), name
+
+
+def test_animations():
+    """at most 1 MB each; the table shows each"""
+    for path in (ROOT / "examples").glob("*/*.gif"):
+        with Image.open(path) as picture:
+            assert path.stat().st_size <= 1_000_000 and picture.n_frames >= 20, path
+        assert gallery.table()[path.parent.name]["picture"] == path.name
+
+
+def test_figures_have_one_style():
+    """that of examples/sph.mplstyle: its resolution, sizes, and colors"""
+    for script in (ROOT / "examples").glob("*/*.py"):
+        found = re.findall(r"\bdpi=|rcParams|matplotlib\.use|savefig|\bturbo\b|\bjet\b|tight_layout|pyplot\([^)]", script.read_text(encoding="utf-8"))
+        assert not found, (script, found)
+
+
+FIGURE = re.compile(r"^\.\. figure:: (\S+)\n((?:   .*\n|\n)+)", re.MULTILINE)
+FIGURES = [pytest.param(name, text, id=f"{page.stem}-{name}") for page in sorted((ROOT / "doc" / "src").glob("*.rst"))
+           for name, text in FIGURE.findall(page.read_text(encoding="utf-8"))]
+
+
+@pytest.mark.parametrize("name, text", FIGURES)
+def test_figures_of_pages(name, text):
+    """Each is that of an example, and has words for those who do not see it."""
+    assert re.match(r"\.\./\.\./examples/\w+/\w+\.(png|gif)$", name) and (ROOT / "doc" / "src" / name).exists()
+    assert ":alt: " in text
 
 
 def test_commands_below_pictures():
     """Each figure of the start page names the example that draws it."""
-    page = (ROOT / "doc" / "src" / "Howto_sph_overview.rst").read_text()
-    figures = re.findall(r"^\.\. figure:: JPG/(\S+)\n(?: .*\n|\n)+", page, re.MULTILINE)
-    captions = re.split(r"^\.\. figure:: JPG/", page, flags=re.MULTILINE)[1:]
-    assert sorted(figures) == sorted(pictures.SOURCES)
-    for name, caption in zip(figures, captions):
-        assert f"``./sphd run {pictures.SOURCES[name].split('/')[0]}``" in re.split(r"\n\n(?=\S)", caption)[0]
+    for name, text in FIGURE.findall((ROOT / "doc" / "src" / "Howto_sph_overview.rst").read_text()):
+        assert f"``./sphd run {name.split('/')[-2]}``" in text
 
 
 def test_logs_of_examples():
