@@ -99,7 +99,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
   restart_global = 1;
   if (!has_viscous_stage()) return;
   vector_flag = 1;
-  size_vector = ViscousStage::NSTATISTICS;
+  size_vector = 2 * StiffStage::NSTATISTICS;
   extvector = 0;
   global_freq = 1;
 }
@@ -264,6 +264,7 @@ void FixSPHBulk::init_viscous()
                "on the temperatures",
                style, style);
   fluid->viscous->configure(settings, integrated_groups, fluid_style);
+  fluid->temperature->configure(settings, integrated_groups, fluid_style);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -274,13 +275,15 @@ bool FixSPHBulk::has_viscous_stage() const
 }
 
 /* ----------------------------------------------------------------------
-   of the friction, see ViscousStage
+   of the friction, then of the conduction of heat, see StiffStage
 ------------------------------------------------------------------------- */
 
 double FixSPHBulk::compute_vector(int n)
 {
   const auto *now = find_fluid(force);    // it may have been replaced since
-  return now ? now->viscous->statistics[n] : 0.0;
+  if (!now) return 0.0;
+  constexpr int each = StiffStage::NSTATISTICS;
+  return (n < each) ? now->viscous->statistics[n] : now->temperature->statistics[n - each];
 }
 
 /* ----------------------------------------------------------------------

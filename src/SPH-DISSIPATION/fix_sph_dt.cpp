@@ -148,7 +148,7 @@ void FixSPHDt::end_of_step()
 
 /* ----------------------------------------------------------------------
    a stage of its own for the viscous terms allows any time step; the limit is then one of accuracy, if
-   it is asked for; conduction of heat has no such stage.  Without any limit the time step stays
+   it is asked for.  Without any limit the time step stays
 ------------------------------------------------------------------------- */
 
 double FixSPHDt::allowed_step()
@@ -156,8 +156,7 @@ double FixSPHDt::allowed_step()
   const SPHDissipation::CoeffTable table = fluid->coeff_table();
   limits[ACOUSTIC] = part_of(part[ACOUSTIC] / SPHDissipation::ACOUSTIC, table.acoustic_step());
   const bool limited = given[VISCOUS] || !fluid->viscous->active();
-  limits[VISCOUS] = std::min(part_of(part[VISCOUS], table.dissipative_step(limited)),
-                             part_of(std::min(part[VISCOUS], 1.0), table.dissipative_step(false)));
+  limits[VISCOUS] = limited ? part_of(part[VISCOUS], table.dissipative_step()) : UNLIMITED_STEP;
   double step = *std::min_element(limits, limits + NLIMIT);
   if (step >= UNLIMITED_STEP && largest >= UNLIMITED_STEP) step = update->dt;
   return std::max(smallest, std::min(step, largest));

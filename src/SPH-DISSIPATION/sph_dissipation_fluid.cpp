@@ -62,9 +62,10 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     boundary(new BoundaryStage(lmp, *engine, *exchange, style)),
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
-    viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)), continued(false),
-    dim(0), support(0.0), stale(false), set_up(false), announced(false), changed(false),
-    warned_step(0.0), noise_step(0.0)
+    viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
+    temperature(new TemperatureStage(lmp, *engine, *exchange)), continued(false), dim(0),
+    support(0.0), stale(false), set_up(false), announced(false), changed(false), warned_step(0.0),
+    noise_step(0.0)
 {
 }
 
@@ -106,6 +107,7 @@ void Fluid::init()
 {
   shift->wanted = continued = false;
   viscous->configure(ViscousSettings(), 0, style);
+  temperature->configure(ViscousSettings(), 0, style);
   check_setup();
   derive_coeffs();
   set_up = true;
@@ -188,6 +190,7 @@ void Fluid::derive_coeffs()
     changed = true;
   }
   viscous->forget_rates();
+  temperature->forget_rates();
   model->derive(dim, support);
   engine->setup(model->parameters());
 }
@@ -210,14 +213,26 @@ bigint Fluid::compute(PairTally *tally)
 {
   if (neighbor->ago == 0) check_masses(lmp, style, *model);
 
-  if (continued && !changed && update->setupflag)
+  const Parameters &par = model->parameters();
+  const bool known = continued && !changed && update->setupflag;
+  const bool stiff_heat = par.conducts && temperature->active() && !known;
+  if (known) {
     viscous->begin_run();
-  else if (viscous->active())
+    temperature->begin_run();
+  } else if (viscous->active())
     find_viscous_velocity();
+  if (stiff_heat && par.thermal_pressure) {
+    temperature->set_aside();
+    sum_before_forces();
+    sum_forces(nullptr);
+    find_temperature();
+    temperature->restore();
+  }
   const bigint nbeyond = sum_before_forces();
   if (shift->wanted) sum_gradient();
   sum_forces(tally);
-  if (model->parameters().conducts) sum_heat();
+  if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
+  if (par.conducts) sum_heat();
   if (!open->empty()) open->sum_impacts(pair->list);
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
   changed = false;
@@ -360,6 +375,17 @@ void Fluid::find_viscous_velocity()
   const bool symmetric =
       (boundary->empty() || model->choice.thermal) && model->choice.bulk != Bulk::VOLUME;
   viscous->run(pair->list, bound(), symmetric);
+}
+
+/* ----------------------------------------------------------------------
+   after pass 2, whose heat is that of the velocities of the step
+------------------------------------------------------------------------- */
+
+void Fluid::find_temperature()
+{
+  if (neighbor->ago == 0 || temperature->has_old_rates())
+    temperature->set_rate(coeff_table().fastest_heat_rate());
+  temperature->run(not_fluid());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -549,7 +575,7 @@ void Fluid::announce_noise(double rate)
 
 void Fluid::check_time_step(const CoeffTable &table)
 {
-  const double smallest = viscous->active() ? table.explicit_step() : table.smallest_step();
+  const double smallest = viscous->active() ? table.acoustic_step() : table.smallest_step();
   if (!(update->dt > smallest) || update->dt == warned_step) return;
   warned_step = update->dt;
   if (comm->me == 0)
@@ -682,5 +708,5 @@ double Fluid::memory_usage() const
 {
   return engine->memory_usage() + limit->memory_usage() + open->memory_usage() +
       boundary->memory_usage() + shift->memory_usage() + noise->memory_usage() +
-      viscous->memory_usage() + conduction->memory_usage();
+      viscous->memory_usage() + temperature->memory_usage() + conduction->memory_usage();
 }

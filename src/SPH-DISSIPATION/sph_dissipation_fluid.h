@@ -41,6 +41,7 @@ namespace SPHDissipation {
   class PairTally;
   class PressureStage;
   class RelaxStage;
+  class TemperatureStage;
   class ViscousStage;
 
   // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -79,6 +80,7 @@ namespace SPHDissipation {
     const std::unique_ptr<ShiftStage> shift;
     const std::unique_ptr<NoiseStage> noise;
     const std::unique_ptr<ViscousStage> viscous;
+    const std::unique_ptr<TemperatureStage> temperature;    // of viscous as well
 
     // From the pair style: its commands; init() at the start of every run; derive_anew() after another
     // command has changed coefficients
@@ -206,6 +208,7 @@ namespace SPHDissipation {
     bigint sum_before_forces();
     const double *bound() const;    // of the limit, nullptr without
     void find_viscous_velocity();
+    void find_temperature();
     void check_time_step(const CoeffTable &);
     double stability_length() const;
     double smallest_inertia() const;

@@ -362,6 +362,8 @@ namespace SPHDissipation {
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         const Conductor own = conductor[i];
+        const double minus = -own.vol;    // what the other particle gets is added to it
+        const Vec own_mean = all(minus * own.conductivity);
         const int n = data.count[ii];
         const int *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
@@ -369,14 +371,17 @@ namespace SPHDissipation {
 
         for (int k = 0; k < n; k += LANES) {
           const int *const j = neighbor + k;
-          Vec other[4];
-          load_4_columns<WIDTH<Conductor>>(numbers(conductor), j, other);
-          const Vec mean = ALIKE ? all(own.conductivity)
-                                 : mean_conductivity(own.conductivity, other[2]);
-          const Vec vv = own.vol * other[0] * load(slope_of + k);
-          const Vec heat = heat_flow(mean, vv, own.temperature, other[1]);
-          total += heat;
-          add_column<1>(flow, j, -heat);
+          Vec other[4], mean = own_mean;
+          if constexpr (ALIKE)
+            load_2_columns<WIDTH<Conductor>>(numbers(conductor), j, other);
+          else {
+            load_4_columns<WIDTH<Conductor>>(numbers(conductor), j, other);
+            mean = minus * mean_conductivity(own.conductivity, other[2]);
+          }
+          const Vec vol = other[0] * load(slope_of + k);
+          const Vec given = heat_flow(mean, vol, own.temperature, other[1]);
+          total -= given;
+          add_column<1>(flow, j, given);
         }
         flow[i] += sum(total);
       }

@@ -279,6 +279,28 @@ namespace SPHDissipation {
       conductor[i].flux = 0.0;
     }
 
+    // pressure without bulk term, of density and energy
+
+    SPH_FUNCTION double total_pressure(int i) const
+    {
+      const double p = pressure(par.eos, types[type[i]].eos, rho[i], esph[i] / rmass[i]);
+      return par.nprocess ? p + strain_pressure[i] : p;
+    }
+
+    // work per time of that pressure on the particle: what heat adds to it, and all else, which becomes elastic energy
+    // or strain
+
+    struct Work {
+      double thermal, elastic;
+    };
+    SPH_FUNCTION Work work(int i) const
+    {
+      const double rate = particle[i].vol * density[i].cdot / density[i].c;
+      const double thermal =
+          thermal_pressure(types[type[i]].eos, rho[i], strains.thermal_energy(i) / rmass[i]);
+      return {thermal * rate, (total_pressure(i) - thermal) * rate};
+    }
+
     // pressure and bulk term, of volume and density: what pass 2 multiplies with F r_ij, and the work of
     // the pressure; zero for particles that are not fluid.  P1 (12), (18)
 
@@ -290,8 +312,7 @@ namespace SPHDissipation {
       }
       const double vol = particle[i].vol, w = weight[i * each];
       const double rate = density[i].cdot * (vol / w);
-      double p = pressure(par.eos, types[type[i]].eos, rho[i], esph[i] / rmass[i]);
-      if (par.nprocess) p += strain_pressure[i];
+      const double p = total_pressure(i);
       const double bulk_term = zeta(i, bound) * rate;
       zeta_term[i] = bulk_term;
       particle[i].g = pressure_term((par.bulk == Bulk::DENSITY) ? p + bulk_term : p, vol, w);

@@ -31,7 +31,7 @@
 //   prefetch(p)         the cache line of p will be read soon
 //
 // Rows are structures of N doubles, one per particle; columns are the same numbers, each member in one
-// Vec.  load_4_columns<N>(row, i, column) reads the first four members of the rows i[0] to i[LANES-1],
+// Vec.  load_4_columns<N>(row, i, column) reads the first four members of the rows i[0] to i[LANES-1], load_2_columns<N>() two,
 // add_4_columns<N>(), add_2_columns<N>() and add_column<N>() add to the first members of the rows,
 // one row after another: an index may occur twice.
 
@@ -149,6 +149,24 @@ namespace SPHDissipation {
       column[1] = _mm512_shuffle_f64x2(ab_odd, cd_odd, 0x88);
       column[2] = _mm512_shuffle_f64x2(ab_even, cd_even, 0xdd);
       column[3] = _mm512_shuffle_f64x2(ab_odd, cd_odd, 0xdd);
+    }
+
+    SPH_INLINE Vec load_4_of_128(const double *a, const double *b, const double *c, const double *d)
+    {
+      Vec r = _mm512_castpd128_pd512(_mm_loadu_pd(a));
+      r = _mm512_insertf64x2(r, _mm_loadu_pd(b), 1);
+      r = _mm512_insertf64x2(r, _mm_loadu_pd(c), 2);
+      return _mm512_insertf64x2(r, _mm_loadu_pd(d), 3);
+    }
+
+    template <int N> SPH_INLINE void load_2_columns(const double *row, const int *i, Vec *column)
+    {
+      const Vec even =
+          load_4_of_128(at<N>(row, i[0]), at<N>(row, i[2]), at<N>(row, i[4]), at<N>(row, i[6]));
+      const Vec odd =
+          load_4_of_128(at<N>(row, i[1]), at<N>(row, i[3]), at<N>(row, i[5]), at<N>(row, i[7]));
+      column[0] = _mm512_unpacklo_pd(even, odd);
+      column[1] = _mm512_unpackhi_pd(even, odd);
     }
 
     SPH_INLINE void add_256(double *to, __m256d a)
@@ -305,6 +323,16 @@ namespace SPHDissipation {
       transpose(column[0], column[1], column[2], column[3]);
     }
 
+    template <int N> SPH_INLINE void load_2_columns(const double *row, const int *i, Vec *column)
+    {
+      const Vec even =
+          _mm256_set_m128d(_mm_loadu_pd(at<N>(row, i[2])), _mm_loadu_pd(at<N>(row, i[0])));
+      const Vec odd =
+          _mm256_set_m128d(_mm_loadu_pd(at<N>(row, i[3])), _mm_loadu_pd(at<N>(row, i[1])));
+      column[0] = _mm256_unpacklo_pd(even, odd);
+      column[1] = _mm256_unpackhi_pd(even, odd);
+    }
+
     template <int N> SPH_INLINE void add_4_columns(double *row, const int *i, const Vec *column)
     {
       Vec r[4] = {column[0], column[1], column[2], column[3]};
@@ -400,6 +428,10 @@ namespace SPHDissipation {
     template <int N> SPH_INLINE void load_4_columns(const double *row, const int *i, Vec *column)
     {
       for (int c = 0; c < 4; c++) column[c] = at<N>(row, *i)[c];
+    }
+    template <int N> SPH_INLINE void load_2_columns(const double *row, const int *i, Vec *column)
+    {
+      for (int c = 0; c < 2; c++) column[c] = at<N>(row, *i)[c];
     }
     template <int N> SPH_INLINE void add_4_columns(double *row, const int *i, const Vec *column)
     {

@@ -39,16 +39,23 @@ std::string CoeffTable::text(double dt) const
           "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
           "of the largest stable time step\n",
           ONE_PERCENT_STEP, TENTH_PERCENT_STEP);
-  if (viscous < UNLIMITED_STEP) {
-    const double rate = fastest_rate() * dt, stages = RKL2::stages_for(rate);
-    result += fmt::format("  largest stable time step with viscous explicit {:.4g}, with rkl2 or "
-                          "implicit {:.4g}; the time step {:g} times the largest viscous rate is "
-                          "{:.3g}: rkl2 {}\n",
-                          smallest, explicit_only, dt, rate,
-                          (stages <= RKL2::MOST) ? fmt::format("takes {:.0f} stages", stages)
-                                                 : "cannot be used");
-  }
-  return result;
+  if (!(dissipative < UNLIMITED_STEP)) return result;
+  const auto stages_for = [](double rate) {
+    const double stages = RKL2::stages_for(rate);
+    return (stages <= RKL2::MOST) ? fmt::format("takes {:.0f} stages", stages)
+                                  : std::string("cannot be used");
+  };
+  const double rate = fastest_rate() * dt, of_heat = fastest_heat_rate() * dt;
+  result += fmt::format("  largest stable time step with viscous explicit {:.4g}, with rkl2 or "
+                        "implicit {:.4g}; the time step {:g} times the largest ",
+                        smallest, acoustic, dt);
+  if (rate > 0.0) result += fmt::format("viscous rate is {:.3g}: rkl2 {}", rate, stages_for(rate));
+  if (rate > 0.0 && of_heat > 0.0) result += ", times that ";
+  if (rate == 0.0) result += "rate ";
+  if (of_heat > 0.0)
+    result +=
+        fmt::format("of the conduction of heat is {:.3g}: rkl2 {}", of_heat, stages_for(of_heat));
+  return result + "\n";
 }
 
 /* ---------------------------------------------------------------------- */
@@ -80,7 +87,6 @@ void CoeffTable::add_row(int i, int j, const PairFluid &fluid, const PairInertia
   steps.emplace_back("all", combined_step(acoustic_of_pair, numbers));
   smallest = std::min(smallest, steps.back().second);
   acoustic = std::min(acoustic, acoustic_of_pair);
-  explicit_only = std::min(explicit_only, combined_step(acoustic_of_pair, of_heat));
   viscous = std::min(viscous, combined_step(UNLIMITED_STEP, of_motion));
   dissipative = std::min(dissipative, combined_step(UNLIMITED_STEP, numbers));
   heat = std::min(heat, combined_step(UNLIMITED_STEP, of_heat));

@@ -30,8 +30,7 @@ namespace SPHDissipation {
     // largest = coefficients by keyword of any type
     explicit CoeffTable(const TypeCoeffs &largest) :
         largest(largest), smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP),
-        explicit_only(UNLIMITED_STEP), viscous(UNLIMITED_STEP), dissipative(UNLIMITED_STEP),
-        heat(UNLIMITED_STEP)
+        viscous(UNLIMITED_STEP), dissipative(UNLIMITED_STEP), heat(UNLIMITED_STEP)
     {
     }
 
@@ -41,19 +40,16 @@ namespace SPHDissipation {
     std::string text(double dt) const;
     double smallest_step() const { return smallest; }    // with all terms together, of all rows
     double acoustic_step() const { return acoustic; }    // of sound alone
-    // with sound and the terms that are explicit always, which conduction of heat is
-    double explicit_step() const { return explicit_only; }
-    // without sound: of these terms alone, or with the viscous ones
-    double dissipative_step(bool with_viscous) const { return with_viscous ? dissipative : heat; }
-    double fastest_rate() const    // of the viscous terms
-    {
-      return (viscous < UNLIMITED_STEP) ? 1.0 / viscous : 0.0;
-    }
+    double dissipative_step() const { return dissipative; }       // without sound
+    double fastest_rate() const { return rate_of(viscous); }      // of the viscous terms
+    double fastest_heat_rate() const { return rate_of(heat); }    // of conduction
 
    private:
     const TypeCoeffs largest;
     std::string lines;
-    double smallest, acoustic, explicit_only, viscous, dissipative, heat;
+    double smallest, acoustic, viscous, dissipative, heat;
+
+    static double rate_of(double step) { return (step < UNLIMITED_STEP) ? 1.0 / step : 0.0; }
   };
 
 }    // namespace SPHDissipation

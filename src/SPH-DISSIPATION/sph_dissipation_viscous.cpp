@@ -16,11 +16,13 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "force.h"
 #include "neighbor.h"
 #include "platform.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_integrate.h"
 #include "sph_dissipation_solvers.h"
 #include "sph_dissipation_stages.h"
@@ -36,19 +38,33 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                           const PressureStage &pressure, BoundaryStage &boundary) :
-    Stage(lmp, engine, exchange),
-    statistics(), pressure(pressure), boundary(boundary), groups(0), known_rate(0.0), rate(0.0),
-    outdated(true), warned(false), list(nullptr), bound(nullptr), omegaest(nullptr),
-    symmetric(true), prescribed(0), width(3), h(0.0), mean()
+StiffStage::StiffStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &where) :
+    Stage(lmp, engine, exchange), statistics(), groups(0), symmetric(true), prescribed(0), width(1),
+    where(where), known_rate(0.0), rate(0.0), outdated(true), warned(false), h(0.0)
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
-void ViscousStage::configure(const ViscousSettings &settings_in, int groups_in,
-                             const std::string &style_in)
+ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
+                           const PressureStage &pressure, BoundaryStage &boundary) :
+    StiffStage(lmp, engine, exchange, ""),
+    pressure(pressure), boundary(boundary), list(nullptr), bound(nullptr), omegaest(nullptr), mean()
+{
+  width = 3;
+}
+
+/* ---------------------------------------------------------------------- */
+
+TemperatureStage::TemperatureStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
+    StiffStage(lmp, engine, exchange, " in the conduction of heat"), mean(0.0)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void StiffStage::configure(const ViscousSettings &settings_in, int groups_in,
+                           const std::string &style_in)
 {
   settings = settings_in;
   groups = groups_in;
@@ -96,7 +112,13 @@ void ViscousStage::begin(int prescribed_in, double **omegaest_in, const double *
   width = omegaest ? 6 : 3;
   find_unknowns(inertia);
   set_guess();
+  set_aside();
+}
 
+/* ---------------------------------------------------------------------- */
+
+void StiffStage::set_aside()
+{
   const std::size_t nall = atom->nlocal + atom->nghost;
   if (nall == 0) return;
   double *const f = atom->f[0];
@@ -111,7 +133,7 @@ void ViscousStage::begin(int prescribed_in, double **omegaest_in, const double *
 
 /* ---------------------------------------------------------------------- */
 
-void ViscousStage::restore()
+void StiffStage::restore()
 {
   if (atom->nlocal + atom->nghost == 0) return;
   std::copy(forces_before.begin(), forces_before.end(), atom->f[0]);
@@ -121,7 +143,7 @@ void ViscousStage::restore()
 
 /* ---------------------------------------------------------------------- */
 
-void ViscousStage::begin_run()
+void StiffStage::begin_run()
 {
   warned = false;
   statistics[APPLICATIONS] = 0.0;
@@ -135,11 +157,6 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
   list = list_in;
   bound = bound_in;
   symmetric = symmetric_in;
-  if (update->setupflag) {
-    begin_run();
-    outdated = true;
-  }
-  statistics[ITERATIONS] = statistics[RESIDUAL] = 0.0;
 
   const Field f = {atom->nmax ? atom->f[0] : nullptr, 3, 3};
   if (omegaest)
@@ -150,21 +167,43 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
   restore();
   if (!boundary.empty()) find_rest();
 
+  solve_step();
+  add_velocities(x);
+  statistics[SECONDS] = platform::walltime() - begin;
+}
+
+/* ----------------------------------------------------------------------
+   from before, guess, and force
+------------------------------------------------------------------------- */
+
+void StiffStage::solve_step()
+{
+  if (update->setupflag) {
+    begin_run();
+    outdated = true;
+  }
+  statistics[ITERATIONS] = statistics[RESIDUAL] = 0.0;
   if (update->setupflag)
     start();
   else
     step(update->dt);
-  add_velocities(x);
   outdated = false;
-  statistics[SECONDS] = platform::walltime() - begin;
 }
 
 /* ---------------------------------------------------------------------- */
 
-bool ViscousStage::is_unknown(int i) const
+bool StiffStage::is_unknown(int i) const
 {
   return (atom->mask[i] & groups) && !(atom->mask[i] & prescribed) &&
       !engine.parameters().type[atom->type[i]].other;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void StiffStage::resize()
+{
+  for (Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force})
+    one->resize(width * unknown.size());
 }
 
 /* ----------------------------------------------------------------------
@@ -177,9 +216,8 @@ void ViscousStage::find_unknowns(const double *inertia)
   for (int i = 0; i < atom->nlocal; i++)
     if (is_unknown(i)) unknown.push_back(i);
 
-  const std::size_t n = width * unknown.size();
-  for (Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force, &others})
-    one->resize(n);
+  resize();
+  others.resize(x.size());
   for (std::size_t k = 0; k < unknown.size(); k++) {
     const int i = unknown[k];
     for (int d = 0; d < width; d++) {
@@ -311,7 +349,6 @@ void ViscousStage::find_rest()
 
 void ViscousStage::friction(const Unknowns &in, Unknowns &out)
 {
-  statistics[APPLICATIONS] += 1.0;
   set_velocities(in);
   set_bulk_term();
   if (!boundary.empty()) {
@@ -344,15 +381,16 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
 
 /* ---------------------------------------------------------------------- */
 
-void ViscousStage::apply(const Unknowns &in, Unknowns &out)
+void StiffStage::apply(const Unknowns &in, Unknowns &out)
 {
+  statistics[APPLICATIONS] += 1.0;
   friction(in, out);
   for (std::size_t k = 0; k < in.size(); k++) out[k] = mass[k] * in[k] + h * out[k];
 }
 
 /* ---------------------------------------------------------------------- */
 
-void ViscousStage::sum(double *values, int n) const
+void StiffStage::sum(double *values, int n) const
 {
   MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, world);
 }
@@ -380,10 +418,10 @@ double ViscousStage::scale_sq() const
    (M + h Gamma) x = residual
 ------------------------------------------------------------------------- */
 
-void ViscousStage::solve()
+void StiffStage::solve()
 {
   std::fill(x.begin(), x.end(), 0.0);
-  Krylov<ViscousStage> krylov(*this, settings.tolerance, settings.iterations);
+  Krylov<StiffStage> krylov(*this, settings.tolerance, settings.iterations);
   const Solution found = symmetric ? krylov.conjugate_gradients() : krylov.bi_conjugate_gradients();
   statistics[ITERATIONS] += found.applications;
   statistics[RESIDUAL] = std::max(statistics[RESIDUAL], found.residual);
@@ -395,40 +433,47 @@ void ViscousStage::solve()
                "Fix {} viscous implicit: there is a motion with negative friction at step {}; the "
                "bulk viscosity is too small for the arrangement of the particles, use limit yes of "
                "pair style {} or a larger kappa",
-               style, update->ntimestep, style);
+               style, moment(), style);
   const std::string message =
       fmt::format("Fix {} viscous implicit: residual {:.3g}, above the tolerance {:g}, after {} "
                   "iterations at step {}",
-                  style, found.residual, settings.tolerance, found.applications, update->ntimestep);
+                  style, found.residual, settings.tolerance, found.applications, moment());
   if (settings.must_converge) error->all(FLERR, Error::NOLASTLINE, message);
   if (found.residual >= 1.0)
     error->all(
         FLERR, Error::NOLASTLINE,
         "Fix {} viscous implicit: residual {:.3g}, which is no solution, after {} iterations "
         "at step {}; use a smaller time step or more iterations",
-        style, found.residual, found.applications, update->ntimestep);
+        style, found.residual, found.applications, moment());
   if (!warned && comm->me == 0) error->warning(FLERR, message);
   warned = true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string StiffStage::moment() const
+{
+  return fmt::format("{}{}", update->ntimestep, where);
 }
 
 /* ----------------------------------------------------------------------
    the same on all processors
 ------------------------------------------------------------------------- */
 
-void ViscousStage::check_finite(bool finite) const
+void StiffStage::check_finite(bool finite) const
 {
   if (!finite)
     error->all(FLERR, Error::NOLASTLINE,
                "Fix {} viscous rkl2 or implicit: positions, velocities, or forces are not finite "
                "numbers at step {}",
-               style, update->ntimestep);
+               style, moment());
 }
 
 /* ----------------------------------------------------------------------
    x = v_b - guess
 ------------------------------------------------------------------------- */
 
-void ViscousStage::step(double interval)
+void StiffStage::step(double interval)
 {
   if (settings.mode == Viscous::RKL2)
     rkl2_step(interval);
@@ -445,7 +490,7 @@ void ViscousStage::step(double interval)
    trapezoidal step is that of half the interval with the others.
 ------------------------------------------------------------------------- */
 
-void ViscousStage::start()
+void StiffStage::start()
 {
   const double interval = (settings.trapezoidal() ? 3.0 : 1.5) * update->dt;
   const Unknowns guess_before = guess;
@@ -460,7 +505,7 @@ void ViscousStage::start()
    M (v_b - v-) = h F(v_b) with v_b = guess + x, F(v_b) = F(guess) - Gamma x
 ------------------------------------------------------------------------- */
 
-void ViscousStage::implicit_step(double part)
+void StiffStage::implicit_step(double part)
 {
   h = part;
   for (std::size_t k = 0; k < x.size(); k++)
@@ -474,7 +519,7 @@ void ViscousStage::implicit_step(double part)
    application of Gamma
 ------------------------------------------------------------------------- */
 
-void ViscousStage::sdirk2_step(double interval)
+void StiffStage::sdirk2_step(double interval)
 {
   constexpr double GAMMA = SDIRK2_GAMMA;
   implicit_step(GAMMA * interval);
@@ -492,7 +537,7 @@ void ViscousStage::sdirk2_step(double interval)
    where volumes are large, the fastest mode may be faster than the coefficients tell.
 ------------------------------------------------------------------------- */
 
-double ViscousStage::estimated_rate()
+double StiffStage::estimated_rate()
 {
   constexpr int NITERATION = 12;
   constexpr double WAVES[6] = {391.7, 577.3, 733.1, 811.9, 929.3, 1117.7};    // per support radius
@@ -515,6 +560,7 @@ double ViscousStage::estimated_rate()
     estimate = sqrt(square);
     if (iteration == NITERATION || !(square > 0.0)) break;
     for (std::size_t k = 0; k < n; k++) u[k] = inverse_mass[k] * drag[k] / estimate;
+    statistics[APPLICATIONS] += 1.0;
     friction(u, drag);
   }
   return estimate;
@@ -525,7 +571,7 @@ double ViscousStage::estimated_rate()
    M Y_j = dt (theta_j F(v-) - Gamma Z_j) with theta_s = 1: v_b = v- + Z_s, x = Z_s for the guess is v-.
 ------------------------------------------------------------------------- */
 
-void ViscousStage::rkl2_step(double interval)
+void StiffStage::rkl2_step(double interval)
 {
   constexpr int OFTEN = 20;          // steps between estimates
   constexpr double SAFETY = 1.15;    // for they are too low
@@ -543,7 +589,7 @@ void ViscousStage::rkl2_step(double interval)
         "Fix {} viscous rkl2: the largest viscous rate times the time step is {:.4g} at step "
         "{}, which needs {:.4g} stages, more than the {} that there may be; use viscous "
         "implicit or a smaller time step",
-        style, modes, update->ntimestep, needed, static_cast<int>(RKL2::MOST));
+        style, modes, moment(), needed, static_cast<int>(RKL2::MOST));
   const int fewest = static_cast<int>(needed);
   const int s = !settings.stages ? fewest
       : update->setupflag        ? std::max(settings.stages, fewest)
@@ -553,7 +599,7 @@ void ViscousStage::rkl2_step(double interval)
         FLERR, Error::NOLASTLINE,
         "Fix {} viscous rkl2: the largest viscous rate times the time step is {:.4g} at step {}, "
         "which needs {} stages, not {}",
-        style, modes, update->ntimestep, fewest, s);
+        style, modes, moment(), fewest, s);
   statistics[ITERATIONS] = s;
 
   const RKL2 rkl2(s);
@@ -572,6 +618,7 @@ void ViscousStage::rkl2_step(double interval)
       std::swap(z[k], z_old[k]);
     }
     if (j == s) break;
+    statistics[APPLICATIONS] += 1.0;
     friction(y, drag);
     for (std::size_t k = 0; k < n; k++) {
       y_old[k] = stage.mu * y[k] + stage.nu * y_old[k] + stage.gamma_rate * first[k] +
@@ -597,12 +644,166 @@ void ViscousStage::add_velocities(const Unknowns &increment)
 
 /* ---------------------------------------------------------------------- */
 
-double ViscousStage::memory_usage() const
+double StiffStage::memory_usage() const
 {
   double values = 0.0;
-  for (const Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force, &others,
-                              &ahead, &ahead_spin, &forces_before, &torques_before, &heat_before})
+  for (const Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force,
+                              &forces_before, &torques_before, &heat_before})
     values += static_cast<double>(one->capacity());
-  return values * sizeof(double) + static_cast<double>(unknown.capacity() * sizeof(int)) +
+  return values * sizeof(double) + static_cast<double>(unknown.capacity() * sizeof(int));
+}
+
+double ViscousStage::memory_usage() const
+{
+  const std::size_t values = others.capacity() + ahead.capacity() + ahead_spin.capacity();
+  return StiffStage::memory_usage() + static_cast<double>(values * sizeof(double)) +
       static_cast<double>(rest.capacity() * sizeof(Rest));
+}
+
+double TemperatureStage::memory_usage() const
+{
+  const std::size_t values = flow.capacity() + temperature.capacity();
+  return StiffStage::memory_usage() + static_cast<double>(values * sizeof(double));
+}
+
+/* ----------------------------------------------------------------------
+   At the start of a run, desph_before is what the step before has added to the energy that its forces have seen;
+   later it is the rate by which the energy has gone half a step beyond the middle of the step.
+------------------------------------------------------------------------- */
+
+void TemperatureStage::run(int prescribed_in)
+{
+  const double begin = platform::walltime();
+  prescribed = prescribed_in;
+  find_unknowns();
+  gather();
+  const Unknowns first = guess;
+  solve_step();
+
+  double *const desph_before = Fields::of(atom)->desph_before;
+  const double rate = update->setupflag ? -1.0 : (update->dt > 0.0) ? 2.0 / update->dt : 0.0;
+  for (std::size_t k = 0; k < unknown.size(); k++) {
+    const int i = unknown[k];
+    guess[k] = first[k] + x[k];
+    const double change = mass[k] * (guess[k] - temperature[i]);
+    atom->esph[i] += change;
+    desph_before[i] += rate * change;
+  }
+  set_temperatures();
+  statistics[SECONDS] = platform::walltime() - begin;
+}
+
+/* ----------------------------------------------------------------------
+   The temperature belongs to an energy and to the density of this moment: what the pressure does to the elastic energy
+   is no source of heat, and what it has done since the middle of the step comes back.  The scheme
+   euler takes the temperature of the end of the interval, but the pressure needs that of its middle: so the work of the
+   thermal pressure counts half, which keeps sound undamped.
+------------------------------------------------------------------------- */
+
+void TemperatureStage::find_unknowns()
+{
+  const Conductor *const conductor = engine.conductor.data();
+  const int nlocal = atom->nlocal;
+  temperature.resize(nlocal);
+  unknown.clear();
+  for (int i = 0; i < nlocal; i++) {
+    temperature[i] = conductor[i].temperature;
+    if (is_unknown(i) && conductor[i].conductivity > 0.0) unknown.push_back(i);
+  }
+
+  resize();
+  const double *const desph_before = Fields::of(atom)->desph_before;
+  const double half = update->setupflag ? 1.0 : -0.5 * update->dt;
+  const double later = update->setupflag ? 0.0 : 0.5 * update->dt;
+  const ParticleRows &rows = engine.rows();
+  for (std::size_t k = 0; k < unknown.size(); k++) {
+    const int i = unknown[k];
+    mass[k] = atom->rmass[i] * engine.parameters().type[atom->type[i]].heat_capacity;
+    inverse_mass[k] = 1.0 / mass[k];
+    const ParticleRows::Work work = rows.work(i);
+    force[k] = -work.elastic - (takes_end() ? 0.5 * work.thermal : 0.0);
+    before[k] = temperature[i] + (half * desph_before[i] + later * work.elastic) * inverse_mass[k];
+    guess[k] = (settings.mode == Viscous::RKL2) ? before[k] : temperature[i];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the heat at the guess, with conduction
+------------------------------------------------------------------------- */
+
+void TemperatureStage::gather()
+{
+  const int n = lmp->force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+  if (settings.mode == Viscous::RKL2) set_temperatures();
+  engine.accumulate_heat(flow);
+  for (int i = 0; i < n; i++) flow[i] += atom->desph[i];
+  exchange.reverse({{flow.data(), 1, 1}});
+
+  double sums[2] = {0.0, 0.0};
+  for (std::size_t k = 0; k < unknown.size(); k++) {
+    const int i = unknown[k];
+    force[k] += flow[i];
+    sums[0] += mass[k] * before[k];
+    sums[1] += mass[k];
+  }
+  if (settings.mode != Viscous::IMPLICIT) return;    // nobody needs the scale
+  sum(sums, 2);
+  mean = (sums[1] > 0.0) ? sums[0] / sums[1] : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void TemperatureStage::set_temperatures()
+{
+  for (int i = 0; i < atom->nlocal; i++) engine.conductor[i].temperature = temperature[i];
+  for (std::size_t k = 0; k < unknown.size(); k++)
+    engine.conductor[unknown[k]].temperature = guess[k];
+  send_temperatures();
+}
+
+void TemperatureStage::send_temperatures()
+{
+  Conductor *const conductor = engine.conductor.data();
+  exchange.forward({field(conductor, &conductor->temperature, 1)});
+}
+
+/* ----------------------------------------------------------------------
+   of increments, which are 0 where the temperature is prescribed
+------------------------------------------------------------------------- */
+
+void TemperatureStage::friction(const Unknowns &in, Unknowns &out)
+{
+  for (int i = 0; i < atom->nlocal; i++) engine.conductor[i].temperature = 0.0;
+  for (std::size_t k = 0; k < unknown.size(); k++) engine.conductor[unknown[k]].temperature = in[k];
+  send_temperatures();
+  engine.accumulate_heat(flow);
+  exchange.reverse({{flow.data(), 1, 1}});
+  for (std::size_t k = 0; k < unknown.size(); k++) out[k] = -flow[unknown[k]];
+}
+
+/* ----------------------------------------------------------------------
+   a residual by which temperatures change less than they are rounded needs no iteration
+------------------------------------------------------------------------- */
+
+double TemperatureStage::scale_sq() const
+{
+  const double rounded = DBL_EPSILON / settings.tolerance;
+  double total = 0.0;
+  for (std::size_t k = 0; k < x.size(); k++) {
+    const double t0 = before[k] - mean, end = guess[k] + x[k], t = end - mean;
+    total += mass[k] * (0.5 * (t0 * t0 + t * t) + rounded * rounded * end * end);
+  }
+  return total;
+}
+
+/* ----------------------------------------------------------------------
+   with the scheme euler, by a step to the middle of the first interval, which has no new extremum either
+------------------------------------------------------------------------- */
+
+void TemperatureStage::start()
+{
+  if (takes_end())
+    implicit_step(0.5 * update->dt);
+  else
+    StiffStage::start();
 }

@@ -71,25 +71,20 @@ namespace SPHDissipation {
   class BoundaryStage;
   class PressureStage;
 
-  // Large viscosities.  In the step from the middle of one to the middle of the next, v- to v+ with the
-  // positions of the time between, the velocities obey M dv/dt = F(v) with F(v) = F(0) - Gamma v.  What
-  // an integrator makes of it is v+ = v- + dt M^-1 F(v_b): this stage finds v_b and sets it as
-  // the velocity that the forces see (vest, omegaest), on owned and ghost atoms.
-  //   rkl2:         v_b = a combination of v- and of the velocities of the stages, see RKL2
-  //   trapezoidal:  v_b = (v- + v+)/2
-  //   euler:        v_b = v+
-  //   sdirk2:       v_b = (1 - gamma) Y1 + gamma Y2 of its two stages
-  // Unknown are the velocities, with spins, of the particles of the fluid that the integrators move.
-  // One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
-  //
-  // F contains the forces of other styles, which come after those of the pair style: as they were in the
-  // step before.  In the first half step of a run they are not known, and v- is the velocity at the
-  // time of the positions: v_b is that velocity to second order in the time step, without the fast motions
-  // that would not be stable, see start().
+  // A step of M dy/dt = F(y), F(y) = F(0) - Gamma y, that is stable for all rates, with the positions of one moment: of
+  // velocities, or of temperatures.  In the step from the middle of one to the middle of the next, y- to y+, what
+  // an integrator makes of it is y+ = y- + dt M^-1 F(y_b).  This finds y_b, which the forces are to see:
+  //   rkl2:         y_b = a combination of y- and of those of the stages, see RKL2
+  //   trapezoidal:  y_b = (y- + y+)/2
+  //   euler:        y_b = y+
+  //   sdirk2:       y_b = (1 - gamma) Y1 + gamma Y2 of its two stages
+  // In the first half step of a run, y- is that of the time of the positions: y_b is the same to second
+  // order in the time step, without the fast motions that would not be stable, see start().
 
-  class ViscousStage : public Stage {
+  class StiffStage : public Stage {
    public:
-    ViscousStage(class LAMMPS *, Engine &, Exchange &, const PressureStage &, BoundaryStage &);
+    // where = for messages, after the number of the step
+    StiffStage(class LAMMPS *, Engine &, Exchange &, const std::string &where);
 
     // of all integrators of the fluid, and bits of their groups; style = of the fluid, for messages
 
@@ -103,14 +98,80 @@ namespace SPHDissipation {
     void forget_rates() { outdated = true; }
     bool has_old_rates() const { return outdated; }
 
+    void begin_run();    // run() calls it if it is there for the first forces
+
+    // set forces, torques and heat of LAMMPS aside, with forces and torques zero afterwards; bring them back
+    void set_aside();
+    void restore();
+
+    // of the last step: iterations, or stages; residual; seconds; and applications of Gamma in this run
+
+    enum { ITERATIONS, RESIDUAL, SECONDS, APPLICATIONS, NSTATISTICS };
+    double statistics[NSTATISTICS];
+
+    double memory_usage() const override;
+
+    // The system of equations, see Krylov
+
+    Unknowns mass, inverse_mass, x, residual;
+    void apply(const Unknowns &in, Unknowns &out);
+    void sum(double *values, int n) const;
+    virtual double scale_sq() const = 0;
+
+   protected:
+    ViscousSettings settings;
+    std::string style;
+    int groups;
+    bool symmetric;              // Gamma is
+    int prescribed;              // bits of the groups of particles that are not unknown
+    int width;                   // unknowns per particle
+    std::vector<int> unknown;    // owned particles
+    Unknowns before;             // y-
+    Unknowns guess, force;       // y_b, F(y_b) of the beginning; the solution is y_b = guess + x
+
+    bool is_unknown(int i) const;
+    void resize();    // of all unknowns
+    void solve_step();
+
+    virtual void friction(const Unknowns &in, Unknowns &out) = 0;    // out = Gamma in
+    virtual void start();
+
+    void implicit_step(double interval);
+    void step(double interval);
+
+   private:
+    const std::string where;
+    double known_rate, rate;    // of the fastest mode: on lattices; of these particles, at least
+    bool outdated;              // are the two
+    bool warned;                // of iterations that were not enough, in this run
+    double h;                   // of M + h Gamma
+    std::vector<double> forces_before, torques_before, heat_before;
+
+    std::string moment() const;
+    void solve();
+    void check_finite(bool finite) const;
+    void sdirk2_step(double interval);
+    void rkl2_step(double interval);
+    double estimated_rate();
+  };
+
+  // Large viscosities.  Unknown are the velocities, with spins, of the particles of the fluid that the integrators
+  // move.  This stage sets v_b as the velocity that the forces see (vest, omegaest), on owned and ghost atoms.
+  // One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
+  //
+  // F contains the forces of other styles, which come after those of the pair style: as they were in the
+  // step before.  In the first half step of a run they are not known.
+
+  class ViscousStage : public StiffStage {
+   public:
+    ViscousStage(class LAMMPS *, Engine &, Exchange &, const PressureStage &, BoundaryStage &);
+
     // From the integrator at the beginning of a step, of a particle that it has moved: vest, or omegaest,
     // travels with it as v + dt/m times the forces of other styles, until begin() makes it the
     // guess again, extrapolated if the particle is still where it was.  keep: 0 if v is added later
 
     void carry_force(int i, double keep);
     void carry_torque(int i, const double *inertia, double **omegaest);
-
-    void begin_run();    // run() calls it if it is there for the first forces
 
     // One step: begin() sets the forces aside; then the passes, with the guess of v_b that vest is; then
     // run(), after which the forces are those of begin() again, and the passes follow with v_b.
@@ -120,53 +181,26 @@ namespace SPHDissipation {
     void begin(int prescribed, double **omegaest, const double *inertia);
     void run(NeighList *, const double *bound, bool symmetric);
 
-    // of the last step: iterations, or stages; residual; seconds; and applications of Gamma in this run
-
-    enum { ITERATIONS, RESIDUAL, SECONDS, APPLICATIONS, NSTATISTICS };
-    double statistics[NSTATISTICS];
-
     double memory_usage() const override;
 
-    // The system of equations, see Krylov.  The scale is the velocity, relative to the mean one, of the
-    // fluid before the step and in the solution.
-
-    Unknowns mass, inverse_mass, x, residual;
-    void apply(const Unknowns &in, Unknowns &out);
-    void sum(double *values, int n) const;
-    double scale_sq() const;
+    // the velocity, relative to the mean one, of the fluid before the step and in the solution
+    double scale_sq() const override;
 
    private:
     const PressureStage &pressure;
     BoundaryStage &boundary;
-    ViscousSettings settings;
-    std::string style;
-    int groups;
-    double known_rate, rate;    // of the fastest mode: on lattices; of these particles, at least
-    bool outdated;              // are the two
-    bool warned;                // of iterations that were not enough, in this run
 
     // of this step
 
     NeighList *list;
     const double *bound;
     double **omegaest;
-    bool symmetric;
-    int prescribed;
-    int width;                   // unknowns per particle: velocity, and spin
-    double h;                    // of M + h Gamma
-    std::vector<int> unknown;    // owned particles
-    Unknowns before;             // v-
-    Unknowns guess, force;       // v_b, F(v_b) of the beginning
-    Unknowns others;             // forces of other styles
-    double mean[3];              // velocity
+    Unknowns others;    // forces of other styles
+    double mean[3];     // velocity
 
     // increments on v-, spin-, of the integrator's guess, by particles as they were then
 
     std::vector<double> ahead, ahead_spin;
-
-    // forces, torques and heat of begin()
-
-    std::vector<double> forces_before, torques_before, heat_before;
 
     // what a boundary particle brings in where the fluid is at rest
 
@@ -176,24 +210,49 @@ namespace SPHDissipation {
     };
     std::vector<Rest> rest;
 
-    bool is_unknown(int i) const;
     void find_unknowns(const double *inertia);
     void set_guess();
     void gather();
-    void restore();
     void set_velocities(const Unknowns &);
     void set_bulk_term();
     void find_rest();
-    void friction(const Unknowns &in, Unknowns &out);
-    void solve();
-    void check_finite(bool finite) const;
-    void implicit_step(double interval);
-    void sdirk2_step(double interval);
-    void rkl2_step(double interval);
-    void step(double interval);
-    void start();
-    double estimated_rate();
+    void friction(const Unknowns &in, Unknowns &out) override;
     void add_velocities(const Unknowns &increment);
+  };
+
+  // The same of heat, C dT/dt = R - Lambda T with the heat capacities C and what HeatChannel has of each pair.
+  // Unknown are the temperatures of the particles that conduct and whose energy the integrators advance.  This stage sets
+  // T_b as the temperature that conduction and the pressure see, by the internal energy of owned atoms as
+  // they are during the forces, and by desph_before, so that the energy at the end of the step is that of the
+  // flows at T_b.  R is the heat of all else: of the last pass 2 that has seen the velocities of the step.
+
+  class TemperatureStage : public StiffStage {
+   public:
+    TemperatureStage(class LAMMPS *, Engine &, Exchange &);
+
+    // after pass 2; prescribed as ViscousStage::begin()
+    void run(int prescribed);
+
+    double memory_usage() const override;
+
+    // temperature, relative to the mean one, before the step and in the solution
+    double scale_sq() const override;
+
+   private:
+    std::vector<double> flow;           // heat per time that owned and ghost atoms get
+    std::vector<double> temperature;    // of owned atoms, of their energies before run()
+    double mean;                        // temperature before the step
+
+    void find_unknowns();
+    void gather();
+    void set_temperatures();     // of owned and ghost atoms, those of the guess
+    void send_temperatures();    // of owned atoms to ghosts
+    void friction(const Unknowns &in, Unknowns &out) override;
+    void start() override;
+    bool takes_end() const
+    {
+      return settings.mode == Viscous::IMPLICIT && settings.scheme == Scheme::EULER;
+    }
   };
 
 }    // namespace SPHDissipation

@@ -166,8 +166,8 @@ def test_relaxing_processes(lammps, style, ranks, options):
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("options", ["eos tait", "eos ideal volume mass"])
-def test_conduction_of_heat(lammps, style, ranks, options):
+@pytest.mark.parametrize("options, viscous", [("eos tait", ""), ("eos ideal volume mass", ""), ("eos tait", " viscous rkl2")])
+def test_conduction_of_heat(lammps, style, ranks, options, viscous):
     """Two types with thermal pressure, temperatures that the fix has set, a conductivity that changes on the way."""
     particles = disordered(2, 14, seed=4, jitter=0.1, ntypes=2, speed=0.3, spread=0.0)
     gruneisen = "" if "ideal" in options else " gruneisen 0.6 2.0"
@@ -175,7 +175,7 @@ def test_conduction_of_heat(lammps, style, ranks, options):
     lines = fluids(style, 2, 2, options=options).splitlines()
     model = "".join(line + words.get(line[:14], "") + "\n" for line in lines)
     extra = (f"variable K equal 0.4+0.02*step\nfix CHANGE all adapt 5 pair {style} conductivity 2 2 v_K\nvariable T atom 2.0+0.1*x\n")
-    text = script(style, particles, model, 50, extra=extra).replace(f"fix FLUID all {style}", f"fix FLUID all {style} temperature v_T")
+    text = script(style, particles, model, 50, extra=extra).replace(f"fix FLUID all {style}", f"fix FLUID all {style} temperature v_T{viscous}")
     assert "temperature v_T" in text
     compare(lammps, style, particles, text, ranks)
 
