@@ -68,6 +68,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void set_boundary(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *,
                     const SPHDissipation::BoundarySum *) override;
   bool gives_heat() const override;
+  void set_heat(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *, bool) override;
 
  protected:
   SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis

@@ -48,6 +48,9 @@ namespace SPHDissipation {
     // the same once more in the step, for other velocities and pressures of the fluid
     void extend();
 
+    // the temperatures alone, or increments of them
+    void extend_temperatures(bool increments);
+
     // With thermal noise, the forces of walls on the fluid have an energy.  After pass 2: add the repulsion of the
     // surfaces to the forces of the engine and of LAMMPS, and take its work and that of the pressure of the
     // walls from the internal energies
@@ -117,6 +120,8 @@ namespace SPHDissipation {
     void find_rows(NeighList *);
     void find_pairs();
     void accumulate();
+    void accumulate_heat();
+    void send_heat();
     void check() const;
   };
 

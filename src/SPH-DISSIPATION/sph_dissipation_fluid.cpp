@@ -63,7 +63,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange)), continued(false), dim(0),
+    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false), dim(0),
     support(0.0), stale(false), set_up(false), announced(false), changed(false), warned_step(0.0),
     noise_step(0.0)
 {

@@ -369,6 +369,20 @@ def test_largest_stable_step(lammps, wall):
     assert np.ptp(T) < 1e-3 and 0.9 < T.mean() < 1.1
 
 
+@pytest.mark.parametrize("mode", ["viscous implicit", "viscous rkl2"])
+def test_stiff_conduction(lammps, mode):
+    """Between a wall with a temperature and one with a flux, with steps far above the explicit limit: energy, and the steady profile."""
+    text = channel(lammps, 20, dim=1, low="heat temp 1.0", high="heat flux 0.5", T="1.0").replace("temperature v_T", f"temperature v_T {mode}")
+    (table,) = lammps(text + "thermo_style custom step c_SUM f_LOW[7] f_LOW[8] f_HIGH[8]\n" + FULL + dump("f.dump", 200, "c_T")
+                      + "timestep 0.02\nthermo 200\nrun 200\n").thermo()
+    gain, given = np.ptp(table["c_SUM"]), table["f_LOW[8]"][-1] + table["f_HIGH[8]"][-1]
+    assert gain == pytest.approx(given, abs=1e-12)
+    assert table["f_LOW[7]"][-1] == pytest.approx(-0.5, rel=2e-3)
+    zeroth, second = lattice_sums(1, 4.0, 1.0)
+    s, T = across(lammps.frame("f.dump"), 1)
+    assert np.abs(T - 1.0 - 0.5 * s * zeroth**2 / second).max() < 5e-3
+
+
 def test_hot_fluid_rises(lammps):
     """A box with a hot left and a cold right wall: density depends on temperature, and gravity drives the circulation."""
     N, layers = 10, 3
