@@ -392,8 +392,17 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
           surface_pressure(surfaces[i], eos.rho0, eos.pb, condition->gravity, acceleration));
     } else
       stage.extend_fluid(i, *condition, surfaces[i], sum, acceleration);
-    if (stage.conducts()) stage.set_heat(i, heat, heat_value(i), surfaces[i]);
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSPHWall::set_heat(BoundaryStage &stage, const Surface *surfaces, bool increments)
+{
+  if (update->whichflag == 2) return;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit)
+      stage.set_heat(i, heat, increments ? 0.0 : heat_value(i), surfaces[i]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -67,7 +67,8 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void move_surface(SPHDissipation::Surface *, bool) override;
   void set_boundary(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *,
                     const SPHDissipation::BoundarySum *) override;
-  bool gives_heat() const;    // not adiabatic
+  bool gives_heat() const override;
+  void set_heat(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *, bool) override;
 
  protected:
   SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis

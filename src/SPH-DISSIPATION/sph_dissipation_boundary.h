@@ -39,6 +39,12 @@ namespace SPHDissipation {
 
     virtual void set_boundary(BoundaryStage &, const Surface *, const BoundarySum *) = 0;
 
+    // what its particles bring into the conduction of heat: BoundaryStage::set_heat(); of increments of the temperatures,
+    // which are zero at the surface; whether heat passes the surface
+
+    virtual bool gives_heat() const { return false; }
+    virtual void set_heat(BoundaryStage &, const Surface *, bool /*increments*/) {}
+
    protected:
     ~Boundary() = default;    // nobody deletes a fix through this
   };

@@ -150,6 +150,8 @@ void BoundaryStage::extend()
   if (with_heat) exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
   check();
   for (auto boundary : boundaries) boundary->set_boundary(*this, surface.surface, sum);
+  if (with_heat)
+    for (auto boundary : boundaries) boundary->set_heat(*this, surface.surface, false);
 
   // ghost atoms of the fluid get what they have already
 
@@ -160,11 +162,36 @@ void BoundaryStage::extend()
     exchange.forward({state, zeta_term, field(engine.spin, engine.spin->w, 3)});
   else
     exchange.forward({state, zeta_term});
+  if (with_heat) send_heat();
+}
+
+void BoundaryStage::send_heat()
+{
   Conductor *const conductor = engine.conductor.data();
-  if (with_heat) exchange.forward({field(conductor, &conductor->vol, 4)});
+  exchange.forward({field(conductor, &conductor->vol, 4)});
 }
 
 /* ---------------------------------------------------------------------- */
+
+void BoundaryStage::extend_temperatures(bool increments)
+{
+  if (heat_sum.empty()) return;
+  accumulate_heat();
+  BoundaryHeatSum *const heat = heat_sum.data();
+  exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
+  for (auto boundary : boundaries) boundary->set_heat(*this, surface.surface, increments);
+  send_heat();
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool BoundaryStage::gives_heat() const
+{
+  return engine.parameters().conducts &&
+      std::any_of(boundaries.begin(), boundaries.end(), [](const Boundary *one) {
+           return one->gives_heat();
+         });
+}
 
 bool BoundaryStage::conducts() const
 {
@@ -365,6 +392,27 @@ void BoundaryStage::accumulate()
                        conductivity(pair.wall), heat_sum[pair.wall]);
       sum[pair.fluid].filled += near[pair.wall].at<decltype(k)>(distance);
       if (repulsive) sum[pair.fluid].occupied += contact[pair.wall].at<ContactKernel>(distance);
+    }
+    return 0;
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::accumulate_heat()
+{
+  heat_sum.assign(atom->nlocal + atom->nghost, BoundaryHeatSum());
+  const Parameters &par = engine.parameters();
+  with_kernel(par.kernel, [&](auto k) {
+    for (const auto &pair : pairs) {
+      const Particle &f = engine.particle[pair.fluid];
+      const Particle &w = engine.particle[pair.wall];
+      double r[3];
+      for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
+      const double q = sqrt(inner_product(r, r)) / par.support;
+      add_fluid_heat(engine.conductor[pair.fluid], f.vol * par.weight_norm * k.shape(q),
+                     par.slope_norm * k.slope(q), height_above(surface.surface[pair.wall], r),
+                     conductivity(pair.wall), heat_sum[pair.wall]);
     }
     return 0;
   });

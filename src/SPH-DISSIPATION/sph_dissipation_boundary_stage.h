@@ -38,6 +38,7 @@ namespace SPHDissipation {
     bool empty() const { return boundaries.empty(); }
     int bits() const { return group_bits; }    // of the groups of all boundaries
     bool conducts() const;                     // they take part in the conduction of heat
+    bool gives_heat() const;                   // any of them, to a fluid that conducts it
 
     // after the densities: see ParticleRows::set_reference_volume()
     void set_reference_volume();
@@ -47,6 +48,9 @@ namespace SPHDissipation {
 
     // the same once more in the step, for other velocities and pressures of the fluid
     void extend();
+
+    // the temperatures alone, or increments of them
+    void extend_temperatures(bool increments);
 
     // With thermal noise, the forces of walls on the fluid have an energy.  After pass 2: add the repulsion of the
     // surfaces to the forces of the engine and of LAMMPS, and take its work and that of the pressure of the
@@ -118,6 +122,8 @@ namespace SPHDissipation {
     void find_rows(NeighList *);
     void find_pairs();
     void accumulate();
+    void accumulate_heat();
+    void send_heat();
     void check() const;
   };
 

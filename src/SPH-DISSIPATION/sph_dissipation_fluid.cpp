@@ -63,7 +63,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange)), continued(false), dim(0),
+    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false), dim(0),
     support(0.0), stale(false), set_up(false), announced(false), changed(false), warned_step(0.0),
     noise_step(0.0)
 {
@@ -399,12 +399,6 @@ void Fluid::find_viscous_velocity()
 
 void Fluid::find_temperature()
 {
-  if (update->setupflag && boundary->gives_heat())
-    error->all(
-        FLERR,
-        "Fix {} viscous rkl2 or implicit cannot be used with heat temp or flux of fix sph/wall, "
-        "which needs viscous explicit",
-        style);
   if (neighbor->ago == 0 || temperature->has_old_rates())
     temperature->set_rate(coeff_table().fastest_heat_rate());
   temperature->run(not_fluid());

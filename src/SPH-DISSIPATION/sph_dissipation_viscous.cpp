@@ -56,8 +56,10 @@ ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
 
 /* ---------------------------------------------------------------------- */
 
-TemperatureStage::TemperatureStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
-    StiffStage(lmp, engine, exchange, " in the conduction of heat"), mean(0.0)
+TemperatureStage::TemperatureStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
+                                   BoundaryStage &boundary) :
+    StiffStage(lmp, engine, exchange, " in the conduction of heat"),
+    boundary(boundary), mean(0.0)
 {
 }
 
@@ -675,6 +677,7 @@ void TemperatureStage::run(int prescribed_in)
 {
   const double begin = platform::walltime();
   prescribed = prescribed_in;
+  symmetric = !boundary.gives_heat();
   find_unknowns();
   gather();
   const Unknowns first = guess;
@@ -736,6 +739,7 @@ void TemperatureStage::gather()
   const int n = lmp->force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
   if (settings.mode == Viscous::RKL2) set_temperatures();
   engine.accumulate_heat(flow);
+  boundary.add_surface_heat(flow);
   for (int i = 0; i < n; i++) flow[i] += atom->desph[i];
   exchange.reverse({{flow.data(), 1, 1}});
 
@@ -759,6 +763,7 @@ void TemperatureStage::set_temperatures()
   for (std::size_t k = 0; k < unknown.size(); k++)
     engine.conductor[unknown[k]].temperature = guess[k];
   send_temperatures();
+  boundary.extend_temperatures(false);
 }
 
 void TemperatureStage::send_temperatures()
@@ -776,6 +781,7 @@ void TemperatureStage::friction(const Unknowns &in, Unknowns &out)
   for (int i = 0; i < atom->nlocal; i++) engine.conductor[i].temperature = 0.0;
   for (std::size_t k = 0; k < unknown.size(); k++) engine.conductor[unknown[k]].temperature = in[k];
   send_temperatures();
+  boundary.extend_temperatures(true);
   engine.accumulate_heat(flow);
   exchange.reverse({{flow.data(), 1, 1}});
   for (std::size_t k = 0; k < unknown.size(); k++) out[k] = -flow[unknown[k]];

@@ -228,7 +228,7 @@ namespace SPHDissipation {
 
   class TemperatureStage : public StiffStage {
    public:
-    TemperatureStage(class LAMMPS *, Engine &, Exchange &);
+    TemperatureStage(class LAMMPS *, Engine &, Exchange &, BoundaryStage &);
 
     // after pass 2; prescribed as ViscousStage::begin()
     void run(int prescribed);
@@ -239,6 +239,7 @@ namespace SPHDissipation {
     double scale_sq() const override;
 
    private:
+    BoundaryStage &boundary;
     std::vector<double> flow;           // heat per time that owned and ghost atoms get
     std::vector<double> temperature;    // of owned atoms, of their energies before run()
     double mean;                        // temperature before the step

@@ -173,6 +173,14 @@ namespace SPHDissipation {
     return {vol * weight_norm * pow(support / radius, dim), 1.0 / radius};
   }
 
+  // distance of the particle f of the fluid from the surface, r = x_w - x_f
+
+  SPH_FUNCTION double height_above(const Surface &s, const double *r)
+  {
+    const double inside = -s.depth - inner_product(s.normal, r);
+    return (inside > CLOSEST * s.spacing) ? inside : CLOSEST * s.spacing;
+  }
+
   // Contribution of the particle f of the fluid to the sums of the boundary particle w, r = x_w - x_f,
   // kernel_weight = W(r), w_f = reference volume of f.  Returns the distance of f from the surface.
 
@@ -182,8 +190,7 @@ namespace SPHDissipation {
                                 BoundarySum &total)
   {
     const double weight = f.vol * kernel_weight;
-    const double inside = -s.depth - inner_product(s.normal, r);
-    const double height = (inside > CLOSEST * s.spacing) ? inside : CLOSEST * s.spacing;
+    const double height = height_above(s, r);
     const double weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
     double turn[3];
     cross_product(s.omega, r, turn);

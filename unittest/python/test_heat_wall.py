@@ -363,10 +363,24 @@ def test_largest_stable_step(lammps, wall):
     text = (header(2) + "read_data box.data\n" + groups(owner) + "pair_style sph/bulk shear none\n"
             "pair_coeff * * 1.0 1.0 0.0 0.0 3.0 cv 1.0 conductivity 5.0\nvariable T atom random(0.5,1.5,91)\nfix FLUID fluid sph/bulk temperature v_T\n"
             f"fix HOLD all setforce 0 0 0\nfix W0 wall0 sph/wall heat {wall}\nfix W1 wall1 sph/wall heat {wall}\n" + TEMPERATURE)
-    limit = float(re.search(r"largest stable time step with viscous explicit ([^, ]+)", lammps(text + "timestep 5.0\nrun 0\n").log)[1])
+    limit = float(re.search(r"exceeds the largest stable time step (\S+)", lammps(text + "timestep 5.0\nrun 0\n").log)[1])
     lammps(text + dump("f.dump", 1000, "c_T") + f"timestep {limit}\nrun 1000\n")
     T = lammps.frame("f.dump")["c_T"][owner < 0]
     assert np.ptp(T) < 1e-3 and 0.9 < T.mean() < 1.1
+
+
+@pytest.mark.parametrize("mode", ["viscous implicit", "viscous rkl2"])
+def test_stiff_conduction(lammps, mode):
+    """Between a wall with a temperature and one with a flux, with steps far above the explicit limit: energy, and the steady profile."""
+    text = channel(lammps, 20, dim=1, low="heat temp 1.0", high="heat flux 0.5", T="1.0").replace("temperature v_T", f"temperature v_T {mode}")
+    (table,) = lammps(text + "thermo_style custom step c_SUM f_LOW[7] f_LOW[8] f_HIGH[8]\n" + FULL + dump("f.dump", 200, "c_T")
+                      + "timestep 0.02\nthermo 200\nrun 200\n").thermo()
+    gain, given = np.ptp(table["c_SUM"]), table["f_LOW[8]"][-1] + table["f_HIGH[8]"][-1]
+    assert gain == pytest.approx(given, abs=1e-12)
+    assert table["f_LOW[7]"][-1] == pytest.approx(-0.5, rel=2e-3)
+    zeroth, second = lattice_sums(1, 4.0, 1.0)
+    s, T = across(lammps.frame("f.dump"), 1)
+    assert np.abs(T - 1.0 - 0.5 * s * zeroth**2 / second).max() < 5e-3
 
 
 def test_hot_fluid_rises(lammps):
@@ -414,13 +428,11 @@ def test_hot_fluid_rises(lammps):
     ("heat temp v_A", "cv 1.0 conductivity 1.0", r"Fix sph/wall heat temp must be >= 0, not -\S+ for particle \d+"),
     ("heat temp 1.0", "cv 1.0", "Fix sph/wall heat: the fluid at the wall conducts no heat"),
     ("heat flux 1.0", "", "Fix sph/wall heat: the fluid at the wall conducts no heat"),
-    ("heat temp 1.0 viscous", "cv 1.0 conductivity 1.0", "viscous rkl2 or implicit cannot be used with heat temp or flux of fix sph/wall"),
 ])
 def test_refused(lammps, heat, keywords, words):
-    heat, stiff, _ = heat.partition(" viscous")
     lattice(2, 12).write(lammps.path("box.data"))
     text = (header(2) + "read_data box.data\nregion WALL block INF INF 0 4 INF INF\ngroup wall region WALL\ngroup fluid subtract all wall\n"
             "variable S string word\nvariable N equal -1.0\nvariable A atom 5.0-x\n"
-            f"pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0 {keywords}\nfix FLUID fluid sph/bulk{stiff and stiff + ' implicit'}\nfix W wall sph/wall {heat}\nrun 1\n")
+            f"pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0 {keywords}\nfix FLUID fluid sph/bulk\nfix W wall sph/wall {heat}\nrun 1\n")
     result = lammps(text, ranks=2, check=False)
     assert result.code and re.search(words.replace("sph/wall", r"sph/wall\S*"), result.error, re.DOTALL), result.output[-600:]
