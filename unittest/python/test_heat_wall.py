@@ -363,7 +363,7 @@ def test_largest_stable_step(lammps, wall):
     text = (header(2) + "read_data box.data\n" + groups(owner) + "pair_style sph/bulk shear none\n"
             "pair_coeff * * 1.0 1.0 0.0 0.0 3.0 cv 1.0 conductivity 5.0\nvariable T atom random(0.5,1.5,91)\nfix FLUID fluid sph/bulk temperature v_T\n"
             f"fix HOLD all setforce 0 0 0\nfix W0 wall0 sph/wall heat {wall}\nfix W1 wall1 sph/wall heat {wall}\n" + TEMPERATURE)
-    limit = float(re.search(r"largest stable time step (\S+)", lammps(text + "timestep 5.0\nrun 0\n").log)[1])
+    limit = float(re.search(r"exceeds the largest stable time step (\S+)", lammps(text + "timestep 5.0\nrun 0\n").log)[1])
     lammps(text + dump("f.dump", 1000, "c_T") + f"timestep {limit}\nrun 1000\n")
     T = lammps.frame("f.dump")["c_T"][owner < 0]
     assert np.ptp(T) < 1e-3 and 0.9 < T.mean() < 1.1
