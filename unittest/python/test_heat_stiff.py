@@ -229,6 +229,40 @@ def test_steady_heat_of_a_shear_flow(lammps):
         assert error < 2e-5, name
 
 
+def between_walls(lammps, keywords, timestep, end, wall="heat temp 2.0", other="heat temp 1.0", ranks=1, start="1.0+0.5*sin(y)"):
+    """Temperatures of a fluid at rest between walls at y = 3 and 17."""
+    particles = lattice(2, (6, 20))
+    random = np.random.default_rng(5)
+    particles.x[:, :2] += random.uniform(-0.1, 0.1, (len(particles), 2))
+    particles.write(lammps.path("box.data"))
+    steps = round(end / timestep)
+    lammps(header(2, boundary="p f p") + "read_data box.data\nregion FLUID block INF INF 3 17 INF INF units box\ngroup fluid region FLUID\n"
+           "region LOW block INF INF INF 3 INF INF units box\ngroup low region LOW\ngroup high subtract all fluid low\n"
+           + fluid(2, mu=0.0, kappa=0.0, keywords="cv 1.0 conductivity 20.0") + f"variable T atom {start}\n"
+           f"fix FLUID fluid sph/bulk temperature v_T {keywords}\nfix L low sph/wall {wall}\nfix H high sph/wall {other}\n"
+           f"fix HOLD all setforce 0 0 0\ntimestep {timestep}\n" + TEMPERATURE + f"run {steps}\n" + dump("T.dump", extra="c_T") + "run 0\n", ranks=ranks)
+    frame = lammps.frame("T.dump")
+    return frame["c_T"][(frame["y"] > 3.0) & (frame["y"] < 17.0)]
+
+
+@pytest.mark.parametrize("wall, other", [("heat temp 2.0", "heat temp 1.0"), ("heat flux 3.0", "heat temp 1.0")])
+def test_heat_at_walls(lammps, wall, other):
+    """In time with the order of the scheme, and in the steady state; on two ranks."""
+    settings = {"wall": wall, "other": other}
+    fine, finer = (between_walls(lammps, "", step, 1.0, **settings) for step in (0.002, 0.001))
+    exact = finer + (finer - fine) / 3
+    limit = steps_of(lammps.results[-1].log)["heat"]
+    steady = between_walls(lammps, "", 0.8 * limit, 80.0, **settings)
+    for name in SCHEMES:
+        errors = [relative(between_walls(lammps, tight(name), step, 1.0, **settings) - exact, np.ptp(exact)) for step in (0.1, 0.05)]
+        ranks = relative(between_walls(lammps, tight(name), 0.1, 1.0, ranks=2, **settings) - between_walls(lammps, tight(name), 0.1, 1.0, **settings), exact)
+        last = relative(between_walls(lammps, tight(name), 0.2, 80.0, **settings) - steady, steady)
+        print(name, errors, ranks, last)
+        assert 0.1 > 8.0 * limit and ranks < 1e-12 and last < 1e-8
+        assert errors[0] < (0.01 if name in SECOND_ORDER else 0.03)
+        assert errors[0] > (1.9 if name == "euler" else 2.8) * errors[1]
+
+
 # ---- time step, messages -----------------------------------------------------------------------------------------
 
 
