@@ -156,9 +156,10 @@ TEST(Eos, density_at_a_pressure)
 
               // dq = Gamma q/rho drho
               const double step = 1e-5;
-              EXPECT_NEAR((heat_at(par, 2.3, from, to + step) - heat_at(par, 2.3, from, to - step)) /
-                              (2 * step),
-                          par.gruneisen * q / to, 1e-8 * q);
+              EXPECT_NEAR(
+                  (heat_at(par, 2.3, from, to + step) - heat_at(par, 2.3, from, to - step)) /
+                      (2 * step),
+                  par.gruneisen * q / to, 1e-8 * q);
             }
         }
     }
