@@ -37,7 +37,7 @@ def test_page(tmp_path):
     steps = list(found)
     assert steps == [0, 100, 200, 300, 400, 500]
     last = found[500]
-    assert abs(last["density"] - 1).max() < 0.02 and abs(last["omegaz"]).max() > 0.1
+    assert abs(last["density"] - 1).max() < 0.05 and abs(last["omegaz"]).max() > 0.1
     np.testing.assert_allclose(last["pressure"], 100 * (last["density"] - 1), atol=1e-3)
     np.testing.assert_allclose(last["radius"], 0.5 * np.sqrt(last["volume"]), rtol=1e-4)
     assert last["temperature"].max() > 1.001      # of the heat of friction
