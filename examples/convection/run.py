@@ -31,7 +31,7 @@ BALANCE = 1e-3                              # of heat in and heat out
 CRITICAL = 1707.76                          # plates with given temperatures
 LENGTH = 2.0                                # of a roll pair over the distance of the plates; the critical one is 2 pi/3.117
 ONSET = (1500, 1900)
-ROWS = {"N": 64, "support": 6, "end": 0.16}     # variables of in.convection_onset
+ROWS = {"N": 64, "support": 6, "end": 0.12}     # variables of in.convection_onset
 
 
 def published():
@@ -55,7 +55,8 @@ class Cavity:
     def __init__(self, out, name, Ra, N):
         self.N, scale = N, np.sqrt(PRANDTL * float(Ra))
         cells = np.loadtxt(out / f"{name}.cells.txt", skiprows=4)
-        count, *fields = (cells[:, column].reshape(N, N) for column in (3, 4, 5, 6))
+        bins = round(len(cells)**0.5)       # N, or one more, empty, where N times 1/N is rounded to less than 1
+        count, *fields = (cells[:, column].reshape(bins, bins)[:N, :N] for column in (3, 4, 5, 6))
         assert (count > 0).all()
         self.s = (np.arange(N) + 0.5) / N
         self.vx, self.vy, self.T = fields
