@@ -110,7 +110,7 @@ class Roll:
 
 def plot_cavities(path, runs, table):
     plt = pyplot()
-    figure, axes = plt.subplots(2, 3, figsize=(11.5, 7.4), layout="constrained")
+    figure, axes = plt.subplots(2, 3, figsize=(11.5, 7.4))
     for axis in axes[0, len(runs):]:
         axis.set_axis_off()
     for axis, (Ra, run) in zip(axes[0], reversed(runs.items())):
@@ -131,12 +131,12 @@ def plot_cavities(path, runs, table):
     axes[1, 0].set(xlabel="$x/L$", ylabel="$v L/\\alpha$", title="upwards, at half height; +: published maximum")
     axes[1, 1].set(xlabel="$y/L$", ylabel="$u L/\\alpha$", title="to the right, at half width")
     axes[1, 2].set(xlabel="$t$ in $L/\\sqrt{g\\beta\\Delta T L}$", ylabel="Nu", ylim=(0, 7), title="heat in (solid) and out (dotted); dashed: published")
-    return save(figure, path, dpi=80, framed=axes[1])
+    return save(figure, path, legends=axes[1])
 
 
 def plot_onset(path, rolls, k, critical):
     plt = pyplot()
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.4), layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.4))
     for color, (Ra, roll) in zip(("C0", "C3"), rolls.items()):
         axes[0].semilogy(roll.time, roll.kinetic, color=color, label=f"Ra = {Ra}")
         exact = growth(Ra, 1.0, k)
@@ -151,7 +151,7 @@ def plot_onset(path, rolls, k, critical):
     axes[1].plot(list(rolls), [roll.rate for roll in rolls.values()], "-", color="0.5", lw=0.8, label=f"particles: 0 at {critical:.0f}")
     axes[1].axhline(0, color="0.7", lw=0.6)
     axes[1].set(xlabel="Ra", ylabel="growth rate in $\\alpha/H^2$")
-    return save(figure, path, dpi=100, framed=axes)
+    return save(figure, path, legends=axes)
 
 
 def main():

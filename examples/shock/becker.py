@@ -78,7 +78,7 @@ class Run:
 
 def plot(path, runs):
     plt = pyplot()
-    figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8), layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8))
     x = np.linspace(-REACH, REACH, 1000)
     for color, mach in zip(("C0", "C1"), MACHS):
         exact = Becker(mach)
@@ -94,7 +94,6 @@ def plot(path, runs):
     for axis, label in zip(axes, ("density", "temperature")):
         axis.set_xlabel("distance from the shock / thickness")
         axis.set_ylabel(f"{label} / that before the shock")
-        axis.grid(alpha=0.3)
     axes[0].legend()
     return save(figure, path)
 

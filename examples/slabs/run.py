@@ -57,7 +57,7 @@ class Run:
 
 def plot(path, runs):
     plt = pyplot()
-    figure, axes = plt.subplots(1, len(CASES), figsize=(10.5, 3.6), layout="constrained")
+    figure, axes = plt.subplots(1, len(CASES), figsize=(10.5, 3.6))
     for axis, title in zip(axes, CASES):
         for mark, color, style in zip("ox", ("C0", "C1"), INPUTS):
             (run,) = (run for run in runs if (run.style, run.title) == (style, title))
@@ -70,7 +70,6 @@ def plot(path, runs):
         axis.set_title(title, fontsize=9)
         axis.set_xlabel("distance from the contact (lj units)")
         axis.set_ylim(0.3, 2.45)
-        axis.grid(alpha=0.3)
     axes[0].set_ylabel("temperature (lj units)")
     axes[0].legend(loc="lower right")
     return save(figure, path)

@@ -97,7 +97,7 @@ class Run:
 
 def plot(path, runs):
     plt = pyplot()
-    figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8), layout="constrained", gridspec_kw={"width_ratios": (3, 2)})
+    figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8), gridspec_kw={"width_ratios": (3, 2)})
     space = [run for run in runs if run.dim == 3]
     for color, mark, run in zip(("C0", "C1", "C2", "k"), "osD^", (run for run in space if run.gas.name == "N2")):
         period = run.gas.wavelength / run.gas.c
@@ -125,8 +125,6 @@ def plot(path, runs):
     axes[1].set_xticks(range(len(names)), [TITLES[name] for name in names])
     axes[1].set_ylabel("$\\alpha/f^2$ ($10^{-11}$ s$^2$/m)")
     axes[1].set_title("bars: Stokes and Kirchhoff")
-    for axis in axes:
-        axis.grid(alpha=0.3)
     axes[0].legend()
     axes[1].legend(loc="upper right", ncols=2)
     axes[1].set_ylim(0, 2.5)
