@@ -210,7 +210,7 @@ template <class DeviceType> bool FluidKokkos<DeviceType>::has_own_forces() const
 }
 
 /* ----------------------------------------------------------------------
-   with a full list, no heat is left with ghost atoms
+   with a full list, no heat is left with ghost atoms; that of relaxing processes is of the energies now
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::heating(double *heat, double *power) const
@@ -218,12 +218,16 @@ template <class DeviceType> void FluidKokkos<DeviceType>::heating(double *heat, 
   if (!on_device) return Fluid::heating(heat, power);
   std::fill(power, power + NCHANNEL, 0.0);
   if (heat) std::fill(heat, heat + atom->nlocal + atom->nghost, 0.0);
+  const bool relaxes = engine->parameters().nprocess;
+  if (relaxes) atomKK->sync(Host, HEAT);
+  const StrainRows strains = engine->strains();
   for (int k = 0; k < NCHANNEL; k++) {
     const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
     for (int i = 0; i < atom->nlocal; i++) {
       if (atom->mask[i] & not_fluid()) continue;
-      power[k] += from(i);
-      if (heat) heat[i] += from(i);
+      const double one = (relaxes && k == RELAXATION) ? strains.heat(i) : from(i);
+      power[k] += one;
+      if (heat) heat[i] += one;
     }
   }
 }

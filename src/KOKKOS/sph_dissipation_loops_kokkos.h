@@ -179,8 +179,6 @@ namespace SPHDissipation {
         data.heat[c](i) = heat[c];
         data.desph[i] += heat[c];
       }
-      if (data.par.nprocess && !(data.mask[i] & data.not_fluid))
-        data.heat[RELAXATION](i) = data.strains.heat(i);    // which the internal energy has already
     }
   };
 
