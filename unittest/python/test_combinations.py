@@ -136,12 +136,12 @@ FEATURES = {
                           fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3*c_state[1]*(c_state[2]-0.2)",
                                  "variable dragy atom -0.3*c_state[1]*(c_state[3]+0.1)", "compute drag fluid reduce sum v_dragx v_dragy"))),
     "relax": Feature(Lines(room="relax 2", state="-0.99 0", keywords=("relax 4.0 0.02 3.0 0.5",))),
-    "heat": Feature(Lines(keywords=("cv 1.0 conductivity 0.3 gruneisen 0.5 1.0",), energy=2.5),
-                    refused={"rerun": "conductivity", "noise": "conductivity", "warm": "conductivity", "gas": "gruneisen"}),
+    "heat": Feature(Lines(keywords=("cv 100.0 conductivity 30.0 gruneisen 0.5 0.01",), energy=2.5),
+                    refused={"rerun": "conductivity", "noise": "conductivity", "gas": "gruneisen"}),
     "idle_room": Feature(Lines(room="relax 1", state="0"), Lines(), effect=False),
     "gas": Feature(Lines(pair=("eos ideal",), energy=2.5), refused={"noise": "ideal"}),
     "warm": Feature(Lines(pair=("temp energy 100 4711",), energy=2.5),
-                    refused={"walls": "wall", "open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag", "gas": "ideal"}),
+                    refused={"walls": "wall", "open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag"}),
     "idle_spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
 }
 NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room")}  # two values of the same
