@@ -18,7 +18,7 @@ from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 PRANDTL = 0.71
 CAVITY = {                                  # Rayleigh number: particles per side, duration, averages over the last part
-    "1e5": (80, 40, 10),
+    "1e5": (80, 64, 12),
     "1e4": (64, 36, 9),
     "1e3": (48, 18, 6),
 }
@@ -157,15 +157,13 @@ def plot_onset(path, rolls, k, critical):
 def main():
     example = Example(HERE, "Convection: a square cavity heated from the side, and the onset between two plates.")
     example.parser.add_argument("--cases", nargs="+", choices=[*CAVITY, "onset"], help="some of the cases only")
-    example.parser.add_argument("--no-run", action="store_true", help="evaluate what an earlier run has left in --out")
     args = example.arguments()
     cases = QUICK if args.quick else CAVITY
     cases = {Ra: case for Ra, case in cases.items() if Ra in (args.cases or CAVITY)}
     onset = ONSET if not args.cases or "onset" in args.cases else ()
     jobs = {f"cavity.{Ra}": {"Ra": Ra, "Pr": PRANDTL, "N": N, "end": end, "mean": mean} for Ra, (N, end, mean) in cases.items()}
     jobs |= {f"onset.{Ra}": {"Ra": Ra, **({} if args.quick else ROWS)} for Ra in onset}
-    if not args.no_run:
-        example.run(jobs, {name: HERE / "in.convection_onset" for name in jobs if name.startswith("onset")})
+    example.run(jobs, {name: HERE / "in.convection_onset" for name in jobs if name.startswith("onset")})
 
     table, pictures = published(), []
     if cases:
