@@ -18,7 +18,7 @@ from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 PRANDTL = 0.71
 CAVITY = {                                  # Rayleigh number: particles per side, duration, averages over the last part
-    "1e5": (80, 64, 12),
+    "1e5": (80, 60, 12),
     "1e4": (64, 36, 9),
     "1e3": (48, 18, 6),
 }

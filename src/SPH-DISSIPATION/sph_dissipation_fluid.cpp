@@ -257,7 +257,7 @@ bigint Fluid::sum_before_forces()
   const bigint nbeyond = set_pressure();
   if (!open->empty()) open->run();
   if (walls) set_boundary();
-  if (model->choice.thermal) noise->run(bound(), boundary->bits());
+  if (model->choice.thermal) noise->run(bound(), boundary->bits(), continued);
   return nbeyond;
 }
 
@@ -374,7 +374,8 @@ void Fluid::sum_heat()
 
 double Fluid::received_heat(int groupbit) const
 {
-  return model->parameters().conducts ? conduction->received(groupbit) : 0.0;
+  const bool conducts = model->parameters().conducts && pair->compute_flag;
+  return conducts ? conduction->received(groupbit) : 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -588,7 +589,8 @@ void Fluid::announce_noise(double rate)
                    "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
                    "step {:.3g}\n",
                    style, temperature, model->choice.seed, rate * update->dt);
-  if (rate == 0.0 && !model->parameters().nprocess &&
+  const bool other = model->parameters().nprocess || model->parameters().conducts;
+  if (rate == 0.0 && !other &&
       (model->choice.own_temperatures || model->choice.temperature > 0.0) && comm->me == 0)
     error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", style);
   if (rate * update->dt > ACCURATE_NOISE && !viscous->active() && comm->me == 0)

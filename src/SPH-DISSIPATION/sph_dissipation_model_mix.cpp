@@ -179,7 +179,7 @@ void FluidModel::check_heat(int i) const
        {std::make_pair("conductivity", CONDUCTIVITY), std::make_pair("gruneisen", GRUNEISEN),
         std::make_pair("vibration", VIBRATION)}) {
     if (!(a[keyword.second] > 0.0)) continue;
-    if (choice.thermal && !choice.own_temperatures)
+    if (choice.thermal && (!choice.own_temperatures || keyword.second == VIBRATION))
       error->all(FLERR, Error::NOLASTLINE,
                  "Pair style {} temp cannot be used with {} of pair_coeff, which type {} has",
                  style, keyword.first, i);

@@ -40,7 +40,7 @@ NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClo
 
 /* ---------------------------------------------------------------------- */
 
-void NoiseStage::run(const double *bound, int not_fluid)
+void NoiseStage::run(const double *bound, int not_fluid, bool continued)
 {
   if (neighbor->ago == 0) check_box();
   const bool energy = engine.parameters().own_temperatures;
@@ -64,8 +64,8 @@ void NoiseStage::run(const double *bound, int not_fluid)
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
 
   set_tags();
-  if (energy && neighbor->ago == 0) find_masses();
-  if (energy) set_temperatures();
+  if (energy && (neighbor->ago == 0 || update->setupflag)) find_masses();
+  if (energy) set_temperatures(continued);
   data.heat = 2.0 * force->boltz / update->dt;
   add_pressure(factor, not_fluid);
   if (engine.parameters().drag) add_drag(factor, not_fluid);
@@ -124,7 +124,7 @@ void NoiseStage::set_tags()
    A particle without heat has temperature 0: it gets no noise, and friction warms it.
 ------------------------------------------------------------------------- */
 
-void NoiseStage::set_temperatures()
+void NoiseStage::set_temperatures(bool continued)
 {
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
@@ -154,7 +154,7 @@ void NoiseStage::set_temperatures()
   else
     exchange.forward({temperatures});
 
-  if (!update->setupflag) return;
+  if (!update->setupflag || continued) return;
   MPI_Allreduce(&without, &without_all, 1, MPI_INT, MPI_SUM, world);
   if (without_all)
     error->all(FLERR, Error::NOLASTLINE,

@@ -44,9 +44,9 @@ namespace SPHDissipation {
 
     // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and has it add the rest.
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure
-    // of their own
+    // of their own; continued = the first forces of a run are to be the last ones of the run before
 
-    void run(const double *bound, int not_fluid);
+    void run(const double *bound, int not_fluid, bool continued);
 
     // After pass 2, with the forces on owned particles complete, in a fluid of different masses whose particles have
     // temperatures: adds to the heating what each pair has of the work of the pressures at the mean velocities of the
@@ -81,7 +81,7 @@ namespace SPHDissipation {
     void set_tags();
     void count_step();
     void find_masses();
-    void set_temperatures();
+    void set_temperatures(bool continued);
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);

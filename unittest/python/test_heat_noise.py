@@ -141,3 +141,27 @@ def test_unequal_masses_have_one_temperature(lammps):
     assert abs(warm_light[0] / warm_heavy[0] - 1.0) < 0.003 + 4.0 * np.hypot(warm_light[1], warm_heavy[1])
     for one in (light, heavy):
         assert abs(one[0] / warm_heavy[0] - 1.0) < 0.003 + 4.0 * one[1]
+
+
+def test_particles_without_heat_in_a_continued_run(lammps):
+    """At the start they are an error; in a run that goes on, of whatever length, they are warmed."""
+    particles = disordered(2, 12, speed=1.0)
+    particles.esph[:] = 0.6
+    model = fluid(2, "temp energy 0.5 77 eos ideal", keywords="gamma 1.1 conductivity 2.0")
+    box = start(lammps, particles, model, timestep=0.002) + dump("a.dump", 100)
+    frames = []
+    for runs in ("run 100\n", "run 100 every 10 NULL\n", "run 40\nrun 60\n"):
+        lammps(box + runs)
+        frames.append(lammps.frames("a.dump")[-1])
+    assert (frames[0]["esph"] < 0.0).any()
+    for frame in frames[1:]:
+        assert relative(frame["v"] - frames[0]["v"], frame["v"]) < 1e-9
+    particles.esph[0] = -1.0
+    result = lammps(start(lammps, particles, model, timestep=0.002) + "run 1\n", check=False)
+    assert result.code and "1 particles have no heat" in result.error
+
+
+def test_vibrations_have_no_noise(lammps):
+    particles = disordered(2, 12)
+    result = lammps(start(lammps, particles, fluid(2, "temp energy 10.0 77 eos ideal", keywords="vibration 1.0 0.1")) + "run 1\n", check=False)
+    assert result.code and "temp cannot be used with vibration of pair_coeff" in result.error

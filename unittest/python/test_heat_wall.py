@@ -436,3 +436,11 @@ def test_refused(lammps, heat, keywords, words):
             f"pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0 {keywords}\nfix FLUID fluid sph/bulk\nfix W wall sph/wall {heat}\nrun 1\n")
     result = lammps(text, ranks=2, check=False)
     assert result.code and re.search(words.replace("sph/wall", r"sph/wall\S*"), result.error, re.DOTALL), result.output[-600:]
+
+
+def test_without_forces(lammps):
+    """pair_modify compute no: nothing conducts, and the wall gives no heat."""
+    text = channel(lammps, 6, low="heat flux 2.0", high="heat flux 2.0") + "thermo_style custom step f_LOW[7]\nrun 2\n"
+    rates = [table["f_LOW[7]"][-1] for table in lammps(text + "pair_modify compute no\nrun 5\n").thermo()]
+    assert rates[0] > 0.0 and rates[1] == 0.0
+    lammps(text.replace("run 2", "pair_modify compute no\nrun 2"))
