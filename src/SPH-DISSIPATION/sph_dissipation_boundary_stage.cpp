@@ -133,6 +133,7 @@ void BoundaryStage::run(NeighList *list)
   surface_step = update->ntimestep;
   for (auto boundary : boundaries) boundary->move_surface(surface.surface, before);
   extend();
+  extend_temperatures(false);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -145,13 +146,8 @@ void BoundaryStage::extend()
     exchange.reverse({sums, field(sum, sum->wd3, 6)});
   else
     exchange.reverse({sums});
-  BoundaryHeatSum *const heat = heat_sum.data();
-  const bool with_heat = !heat_sum.empty();
-  if (with_heat) exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
   check();
   for (auto boundary : boundaries) boundary->set_boundary(*this, surface.surface, sum);
-  if (with_heat)
-    for (auto boundary : boundaries) boundary->set_heat(*this, surface.surface, false);
 
   // ghost atoms of the fluid get what they have already
 
@@ -162,25 +158,20 @@ void BoundaryStage::extend()
     exchange.forward({state, zeta_term, field(engine.spin, engine.spin->w, 3)});
   else
     exchange.forward({state, zeta_term});
-  if (with_heat) send_heat();
-}
-
-void BoundaryStage::send_heat()
-{
-  Conductor *const conductor = engine.conductor.data();
-  exchange.forward({field(conductor, &conductor->vol, 4)});
 }
 
 /* ---------------------------------------------------------------------- */
 
 void BoundaryStage::extend_temperatures(bool increments)
 {
-  if (heat_sum.empty()) return;
+  heat_sum.clear();
+  if (!conducts()) return;
   accumulate_heat();
   BoundaryHeatSum *const heat = heat_sum.data();
   exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
   for (auto boundary : boundaries) boundary->set_heat(*this, surface.surface, increments);
-  send_heat();
+  Conductor *const conductor = engine.conductor.data();
+  exchange.forward({field(conductor, &conductor->vol, 4)});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -368,8 +359,7 @@ void BoundaryStage::accumulate()
   const double *const rho = atom->rho;
   const bool has_spin = engine.has_spin();
   const Parameters &par = engine.parameters();
-  const bool repulsive = has_energy(), with_heat = conducts();
-  heat_sum.assign(with_heat ? atom->nlocal + atom->nghost : 0, BoundaryHeatSum());
+  const bool repulsive = has_energy();
 
   with_kernel(engine.parameters().kernel, [&](auto k) {
     for (const auto &pair : pairs) {
@@ -386,10 +376,6 @@ void BoundaryStage::accumulate()
                     engine.zeta_term[pair.fluid], total);
       if (has_spin)
         add_fluid_spin(engine.spin[pair.fluid].w, f.vol * kernel_weight, height, s, total);
-      if (with_heat)
-        add_fluid_heat(engine.conductor[pair.fluid], f.vol * kernel_weight,
-                       par.slope_norm * k.slope(distance / par.support), height,
-                       conductivity(pair.wall), heat_sum[pair.wall]);
       sum[pair.fluid].filled += near[pair.wall].at<decltype(k)>(distance);
       if (repulsive) sum[pair.fluid].occupied += contact[pair.wall].at<ContactKernel>(distance);
     }

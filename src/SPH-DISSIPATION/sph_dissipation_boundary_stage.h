@@ -123,7 +123,6 @@ namespace SPHDissipation {
     void find_pairs();
     void accumulate();
     void accumulate_heat();
-    void send_heat();
     void check() const;
   };
 
