@@ -64,17 +64,19 @@ def test_three_particles_share_their_heat(lammps, capacity, masses):
 
 def gas_of_two(capacity, gamma, total, spring, alike=False, support=3.0):
     """Means of distance, energy of motion, and heat of two particles of an ideal gas, mass 1, that springs hold at the ends of
-    a line of length 1: density exp(S/k) dS_1 dS_2 at constant energy, S_i = C (ln Q_i - Gamma ln rho_i); alike: at S_1 = S_2,
-    as by the friction of the pair alone, which gives both the same heat."""
+    a line of length 1: density exp(S/k) dS_1 dS_2 at constant energy, S_i = C (ln Q_i - Gamma ln rho_i).  alike: the friction
+    of the pair alone keeps Q_1 = Q_2; given the energy, its noise and friction balance at the density Q^(2C-2) dQ, and the work
+    leaves a density that is a function of the entropy, so that it is Q^(2C-2) rho^(-Gamma(2C-1)) dQ."""
     r, dr = np.linspace(0.02, support - 0.02, 1500, retstep=True)
     v = np.linspace(0.0, np.sqrt(4.0 * total), 1201)  # relative velocity, kinetic energy v^2/4
     q = r / support
     kernel = lambda q: np.where(q < 1.0, (1.0 - q)**4 * (1.0 + 4.0 * q), 0.0)  # Wendland C2 but for its norm
     rho = kernel(0.0) + kernel(q)
     motion = 0.25 * v[None, :]**2
+    shares = 2.0 * capacity - (1.0 if alike else 0.0)
     heat = total - motion - 0.25 * spring * (r[:, None] - 1.0)**2
-    weight = np.where(heat > 0.0, np.maximum(heat, 1e-300)**(2.0 * capacity - (2.0 if alike else 1.0)), 0.0)
-    weight *= rho[:, None]**(-2.0 * (gamma - 1.0) * capacity)
+    weight = np.where(heat > 0.0, np.maximum(heat, 1e-300)**(shares - 1.0), 0.0)
+    weight *= rho[:, None]**(-(gamma - 1.0) * shares)
     mean = lambda field: (weight * field).sum() / weight.sum()
     return mean(r[:, None]), mean(motion), mean(heat)
 
