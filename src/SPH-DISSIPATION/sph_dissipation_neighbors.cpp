@@ -83,7 +83,9 @@ bool NeighborSearch::update(NeighList *list)
 void NeighborSearch::build(NeighList *list)
 {
   halved = force->newton_pair && !domain->triclinic;
+  list->inum = list->gnum = 0;
   find_members(list);
+  if (members.empty()) return;
   choose_cells();
   find_rows();
   sort();
@@ -135,7 +137,6 @@ void NeighborSearch::build(NeighList *list)
       }
 
   list->inum = inum;
-  list->gnum = 0;
   for (int ii = 0; ii < inum; ii++)
     list->firstneigh[list->ilist[ii]] = neighbors.data() + offset[ii];
 }

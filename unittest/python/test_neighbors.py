@@ -71,10 +71,10 @@ def test_pairs(lammps, name):
     """As many pairs, and the same sums over them."""
     found, here, log = forces(lammps, "bin", *CASES[name])
     known, there, other = forces(lammps, "nsq", *CASES[name])
-    assert "occasional" in log.log and "occasional" not in other.log
-    assert found == known > 0
+    assert "sph/bulk, occasional" in log.log and "sph/bulk, perpetual" in other.log
+    assert found == known and (found > 0 or "hybrid" in name)    # LAMMPS does not count those of hybrid
     for field in ("numden", "dnumden", "f", "desph", "x"):
-        assert relative(here[field] - there[field], there[field]) < 1e-11, field
+        assert np.abs(here[field] - there[field]).max() < 1e-11 * (1.0 + np.abs(there[field]).max()), field
 
 
 @pytest.mark.parametrize("simd", ["none", "avx2", "avx512"])
@@ -88,11 +88,11 @@ def test_vectors(lammps, particles, simd):
         pytest.skip(f"no {simd} here")
     found, here, _ = forces(lammps, "bin", particles, simd=f"simd {simd}")
     assert found == known
-    assert relative(here["f"] - there["f"], there["f"]) < 1e-11
+    assert np.abs(here["f"] - there["f"]).max() < 1e-11 * (1.0 + np.abs(there["f"]).max())
 
 
 @pytest.mark.parametrize("setting, reason", [("neighbor 0.3 nsq", "neighbor style nsq"), ("neighbor 0.3 multi", "neighbor style multi"),
-                                             ("neigh_modify include all", ""),
+                                             ("neigh_modify every 2", ""),
                                              ("group A type 1\natom_modify first A\nneigh_modify include A", "neigh_modify include")])
 def test_what_lammps_builds(lammps, setting, reason):
     """What the package does not cover LAMMPS's own list covers, and the log says why."""
@@ -108,8 +108,7 @@ def test_lists_of_others(lammps):
     for style in ("bin", "nsq"):
         log = lammps(header(2) + f"read_data box.data\nneighbor 0.3 {style}\n" + fluid(2) + INTEGRATE
                      + "compute N all coord/atom cutoff 2.0\ncompute S all reduce sum c_N\n"
-                     "compute P all pair/local dist\ncompute M all reduce min c_P\n"
-                     "thermo_style custom step c_S press\nthermo 5\nrun 20\nrun 0\n" .replace("compute P all pair/local dist\ncompute M all reduce min c_P\n", ""))
+                     "thermo_style custom step c_S press\nthermo 5\nrun 20\nrun 0\n")
         values.append([run["c_S"] for run in log.thermo()])
     for here, there in zip(*values):
         np.testing.assert_array_equal(here, there)
