@@ -15,7 +15,6 @@
 
 #include "atom.h"
 #include "domain.h"
-#include "error.h"
 #include "force.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -154,7 +153,8 @@ void NeighborSearch::find_members(const NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   as class NBinStandard of LAMMPS: the cells fill the box, and what is outside of it is in none of those inside
+   as class NBinStandard of LAMMPS: the cells fill the box, and what is outside of it is in none of those inside.  That class
+   has looked at all positions: they are numbers
 ------------------------------------------------------------------------- */
 
 int NeighborSearch::cell_of(double x, int d) const
@@ -189,9 +189,6 @@ void NeighborSearch::choose_cells()
   double **const x = atom->x;
   for (const int i : members)
     for (int d = 0; d < 3; d++) {
-      if (!std::isfinite(x[i][d]))
-        error->one(FLERR, Error::NOLASTLINE,
-                   "Non-numeric positions - simulation unstable" + utils::errorurl(6));
       least[d] = std::min(least[d], x[i][d]);
       most[d] = std::max(most[d], x[i][d]);
     }
