@@ -72,6 +72,11 @@ template <class DeviceType> void FluidKokkos<DeviceType>::choose(bool device)
 
 /* ---------------------------------------------------------------------- */
 
+template <class DeviceType> void FluidKokkos<DeviceType>::request_list()
+{
+  neighbor->add_request(pair);
+}
+
 template <class DeviceType> void FluidKokkos<DeviceType>::init_list(NeighList *list)
 {
   kokkos_list = list;

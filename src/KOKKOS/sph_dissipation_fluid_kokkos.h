@@ -51,6 +51,7 @@ namespace SPHDissipation {
     // from the pair style: where forces are computed in this run; the neighbor list of LAMMPS
 
     void choose(bool device);
+    void request_list() override;
     void init_list(NeighList *);
     bool computes_on_device() const { return on_device; }
     ColumnsKokkos sent;    // to ghosts, by the pair style's packing on the device

@@ -18,7 +18,6 @@
 #include "force.h"
 #include "lammps.h"
 #include "memory.h"
-#include "neighbor.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fluid.h"
@@ -160,7 +159,7 @@ void PairSPHBulk::init_style()
   no_virial_fdotr_compute = 0;
   fluid->init();
   sum_virial_by_pairs();
-  neighbor->add_request(this);
+  fluid->request_list();
 }
 
 /* ----------------------------------------------------------------------

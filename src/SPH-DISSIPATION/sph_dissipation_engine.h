@@ -92,6 +92,20 @@ namespace SPHDissipation {
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
   typedef void (*HeatLoop)(const LoopData &, const Conductor *, const NoiseData *, double *flow);
 
+  // Positions and indices of particles, sorted into cells; candidates for neighbors, relative to the corner of a cell.
+  // Both have room for a vector of 16 numbers behind the last entry
+
+  struct PlaceColumns {
+    const double *x[3];
+    const int *index;
+  };
+
+  struct CandidateColumns {
+    float *x[3];
+    int *index;
+    int n;
+  };
+
   // the loops compiled for one instruction set
 
   struct LoopSet {
@@ -104,6 +118,12 @@ namespace SPHDissipation {
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
     HeatLoop (*heat)(bool alike,
                      bool noise);    // alike: the same conductivity of all particles that conduct
+    void (*take_candidates)(const PlaceColumns &, int from, int to, const double *corner,
+                            CandidateColumns &);
+    // write the indices of candidates nearer to a place than the root of bound, return how many; doubt: one is not
+    // nearer than the root of safe
+    int (*near)(const CandidateColumns &, const float *place, float bound, float safe, int *found,
+                bool &doubt);
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;

@@ -29,11 +29,13 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_kernel.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_neighbors.h"
 #include "sph_dissipation_noise.h"
 #include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_state.h"
 #include "sph_dissipation_viscous.h"
+#include "timer.h"
 #include "update.h"
 
 #include <algorithm>
@@ -52,7 +54,8 @@ static constexpr double ACCURATE_NOISE = 0.1;
 Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     Pointers(lmp), pair(pair), spins(spins), style(spins ? "sph/micropolar" : "sph/bulk"),
     model(new FluidModel(lmp, style, spins)), engine(new Engine(lmp)),
-    exchange(new Exchange(lmp, pair)), density(new DensityStage(lmp, *engine, *exchange)),
+    exchange(new Exchange(lmp, pair)), search(new NeighborSearch(lmp)),
+    density(new DensityStage(lmp, *engine, *exchange)),
     limit(new LimitStage(lmp, *engine, *exchange)),
     pressure(new PressureStage(lmp, *engine, *exchange)),
     forces(new ForceStage(lmp, *engine, *exchange)),
@@ -64,8 +67,8 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
     temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false), dim(0),
-    support(0.0), stale(false), set_up(false), announced(false), changed(false), warned_step(0.0),
-    noise_step(0.0)
+    support(0.0), stale(false), own_list(false), set_up(false), announced(false), changed(false),
+    warned_step(0.0), noise_step(0.0)
 {
 }
 
@@ -111,6 +114,31 @@ void Fluid::init()
   check_setup();
   derive_coeffs();
   set_up = true;
+}
+
+/* ----------------------------------------------------------------------
+   an occasional list, which LAMMPS keeps but does not build with the others
+------------------------------------------------------------------------- */
+
+void Fluid::request_list()
+{
+  const std::string reason = search->left_to_lammps();
+  own_list = reason.empty();
+  if (!own_list) {
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Pair style {}: LAMMPS builds the neighbor list because of {}\n", style,
+                     reason);
+    neighbor->add_request(pair);
+    return;
+  }
+  search->init(&engine->loop_set(), support);
+  neighbor->add_request(pair, NeighConst::REQ_OCCASIONAL);
+}
+
+NeighList *Fluid::neighbors()
+{
+  if (own_list) search->update(pair->list);
+  return pair->list;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -212,6 +240,7 @@ void Fluid::adopt()
 bigint Fluid::compute(PairTally *tally)
 {
   if (neighbor->ago == 0) check_masses(lmp, style, *model);
+  if (own_list && search->update(pair->list)) timer->stamp(Timer::NEIGH);
 
   const Parameters &par = model->parameters();
   const bool known = continued && !changed && update->setupflag;
@@ -233,7 +262,7 @@ bigint Fluid::compute(PairTally *tally)
   sum_forces(tally);
   if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
   if (par.conducts) sum_heat();
-  if (!open->empty()) open->sum_impacts(pair->list);
+  if (!open->empty()) open->sum_impacts(neighbors());
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
   if (model->choice.own_temperatures) noise->share_work();
   changed = false;
@@ -268,7 +297,7 @@ bigint Fluid::sum_before_forces()
 void Fluid::sum_density()
 {
   const bool minimize = (update->whichflag == 2);
-  density->run(pair->list, minimize ? nullptr : atom->vest,
+  density->run(neighbors(), minimize ? nullptr : atom->vest,
                minimize ? nullptr : extrapolated_spin(), at_rest(), missing_time(), not_fluid());
 }
 
@@ -347,7 +376,7 @@ bigint Fluid::set_pressure()
 
 void Fluid::set_boundary()
 {
-  boundary->run(pair->list);
+  boundary->run(neighbors());
 }
 
 void Fluid::sum_gradient()
@@ -360,7 +389,7 @@ void Fluid::sum_gradient()
 void Fluid::sum_forces(PairTally *tally)
 {
   engine->set_not_fluid(not_fluid());
-  forces->run(pair->list, tally);
+  forces->run(neighbors(), tally);
   if (!boundary->empty()) boundary->repel(tally);
 }
 
@@ -391,7 +420,7 @@ void Fluid::find_viscous_velocity()
   sum_forces(nullptr);
   const bool symmetric =
       (boundary->empty() || model->choice.thermal) && model->choice.bulk != Bulk::VOLUME;
-  viscous->run(pair->list, bound(), symmetric);
+  viscous->run(neighbors(), bound(), symmetric);
 }
 
 /* ----------------------------------------------------------------------
@@ -453,7 +482,7 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
 {
   double *const desph_before = Fields::of(atom)->desph_before;
   on_host([&]() {
-    density->run(pair->list, nullptr, nullptr);
+    density->run(neighbors(), nullptr, nullptr);
     const StrainRows strains = engine->strains();
     const int zone_bits = open->bits_of(groupbit);
     for (int i = 0; i < atom->nlocal; i++) {
@@ -516,7 +545,7 @@ const double *Fluid::own_torque(int i) const
 void Fluid::find_volumes()
 {
   on_host([this]() {
-    density->run(pair->list, nullptr, nullptr);
+    density->run(neighbors(), nullptr, nullptr);
   });
 }
 
@@ -534,7 +563,7 @@ void Fluid::set_mean_density(int groupbit)
     FluidState state(lmp, *engine, *exchange, *model);
     std::vector<double> factor(atom->ntypes + 1, 1.0);
     for (int k = 0; k < MOST; k++) {
-      density->run(pair->list, nullptr, nullptr);
+      density->run(neighbors(), nullptr, nullptr);
       state.run(groupbit, not_fluid());
       if (state.scale_masses(factor, open->bits()) < CLOSE) break;
     }

@@ -23,6 +23,7 @@
 #include <vector>
 
 namespace LAMMPS_NS {
+class NeighList;
 class Pair;
 
 namespace SPHDissipation {
@@ -36,6 +37,7 @@ namespace SPHDissipation {
   class ForceStage;
   class HeatStage;
   class LimitStage;
+  class NeighborSearch;
   class NoiseStage;
   class OpenStage;
   class PairTally;
@@ -64,6 +66,7 @@ namespace SPHDissipation {
    protected:
     const std::unique_ptr<Engine> engine;
     const std::unique_ptr<Exchange> exchange;
+    const std::unique_ptr<NeighborSearch> search;
     const std::unique_ptr<DensityStage> density;
     const std::unique_ptr<LimitStage> limit;
     const std::unique_ptr<PressureStage> pressure;
@@ -88,6 +91,7 @@ namespace SPHDissipation {
     void settings(int narg, char **arg);
     void coeff(int narg, char **arg);
     void init();
+    virtual void request_list();    // after init()
     void derive_anew() { stale = true; }
     virtual void adopt();                               // before each compute()
     Exchange &messages() const { return *exchange; }    // whose packing the pair style hands on
@@ -177,6 +181,8 @@ namespace SPHDissipation {
 
     virtual void on_host(const std::function<void()> &task) { task(); }
 
+    NeighList *neighbors();    // half, of the particles as they are now
+
     // what compute() consists of, on the host; another one may do each of them elsewhere.  set_pressure()
     // returns the number of owned particles that are beyond the bound of the limit
 
@@ -199,6 +205,7 @@ namespace SPHDissipation {
     double **extrapolated_spin() const;    // nullptr without spins
 
    private:
+    bool own_list;         // the neighbor list is not built by LAMMPS, but when it is needed
     bool set_up;           // since pair_style and pair_coeff
     bool announced;        // the table of coefficients is up to date
     bool changed;          // other coefficients, or motions of walls, than those of the last forces

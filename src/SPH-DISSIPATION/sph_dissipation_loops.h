@@ -432,6 +432,8 @@ namespace SPHDissipation {
       return (volume == Volume::MASS) ? rate_loop<true> : rate_loop<false>;
     }
 
+#include "sph_dissipation_neighbor_loops.h"
+
     // The loops of the bulk form volume and of the noise have weights, which are 1 with volume number
 
     inline Loop choose_force_loop(Shear shear, Bulk bulk, Volume volume)
@@ -486,7 +488,9 @@ namespace SPHDissipation {
                              LOOPS::choose_noisy_force_loop,
                              LOOPS::choose_eta_loop,
                              LOOPS::particle_numbers,
-                             LOOPS::choose_heat_loop};
+                             LOOPS::choose_heat_loop,
+                             LOOPS::take_candidates,
+                             LOOPS::near};
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

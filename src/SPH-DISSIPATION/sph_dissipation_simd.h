@@ -28,12 +28,16 @@
 //                       last block by fill, fill + 1, ...
 //   gather(from, i)     from[i[0]] to from[i[LANES-1]]
 //   sum(a)              of all lanes
+//   store_floats(to, a) in single precision
 //   prefetch(p)         the cache line of p will be read soon
 //
 // Rows are structures of N doubles, one per particle; columns are the same numbers, each member in one
 // Vec.  load_4_columns<N>(row, i, column) reads the first four members of the rows i[0] to i[LANES-1], load_2_columns<N>() two,
 // add_4_columns<N>(), add_2_columns<N>() and add_column<N>() add to the first members of the rows,
 // one row after another: an index may occur twice.
+
+// Floats holds FLOATS numbers of single precision, for distances: all_floats(), load_floats(), bits_below(), and
+// pack_indices(), which writes the indices whose bits are set one after another, as pack() does.
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -131,6 +135,32 @@ namespace SPHDissipation {
     {
       _mm_prefetch(static_cast<const char *>(p), _MM_HINT_T0);
     }
+
+    constexpr int FLOATS = 16;
+    typedef __m512 Floats;
+
+    SPH_INLINE Floats all_floats(float a)
+    {
+      return _mm512_set1_ps(a);
+    }
+    SPH_INLINE Floats load_floats(const float *from)
+    {
+      return _mm512_loadu_ps(from);
+    }
+    SPH_INLINE void store_floats(float *to, Vec a)
+    {
+      _mm256_storeu_ps(to, _mm512_cvtpd_ps(a));
+    }
+    SPH_INLINE int bits_below(Floats a, Floats bound)
+    {
+      return _mm512_cmp_ps_mask(a, bound, _CMP_LT_OQ);
+    }
+    SPH_INLINE void pack_indices(int *to, const int *from, int bits)
+    {
+      _mm512_storeu_si512(
+          to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_loadu_si512(from)));
+    }
+
     SPH_INLINE Vec load_halves(const double *lower, const double *upper)
     {
       return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(lower)),
@@ -307,6 +337,56 @@ namespace SPHDissipation {
       _mm_prefetch(static_cast<const char *>(p), _MM_HINT_T0);
     }
 
+    constexpr int FLOATS = 8;
+    typedef __m256 Floats;
+
+    SPH_INLINE Floats all_floats(float a)
+    {
+      return _mm256_set1_ps(a);
+    }
+    SPH_INLINE Floats load_floats(const float *from)
+    {
+      return _mm256_loadu_ps(from);
+    }
+    SPH_INLINE void store_floats(float *to, Vec a)
+    {
+      _mm_storeu_ps(to, _mm256_cvtpd_ps(a));
+    }
+    SPH_INLINE int bits_below(Floats a, Floats bound)
+    {
+      return _mm256_movemask_ps(_mm256_cmp_ps(a, bound, _CMP_LT_OQ));
+    }
+
+    // PACK_BYTES[bits]: the 32-bit lanes whose bits are set first, byte by byte; of half a vector
+
+    struct PackBytes {
+      alignas(16) unsigned char order[16][16];
+      constexpr PackBytes() : order()
+      {
+        for (int bits = 0; bits < 16; bits++)
+          for (int lane = 0, n = 0; lane < 4; lane++) {
+            if (!((bits >> lane) & 1)) continue;
+            for (int byte = 0; byte < 4; byte++)
+              order[bits][4 * n + byte] = static_cast<unsigned char>(4 * lane + byte);
+            n++;
+          }
+      }
+    };
+    constexpr PackBytes PACK_BYTES;
+
+    SPH_INLINE void pack_half(int *to, const int *from, int bits)
+    {
+      const __m128i order =
+          _mm_load_si128(reinterpret_cast<const __m128i *>(PACK_BYTES.order[bits]));
+      const __m128i a = _mm_loadu_si128(reinterpret_cast<const __m128i *>(from));
+      _mm_storeu_si128(reinterpret_cast<__m128i *>(to), _mm_shuffle_epi8(a, order));
+    }
+    SPH_INLINE void pack_indices(int *to, const int *from, int bits)
+    {
+      pack_half(to, from, bits & 15);
+      pack_half(to + __builtin_popcount(bits & 15), from + 4, bits >> 4);
+    }
+
     SPH_INLINE void transpose(Vec &a, Vec &b, Vec &c, Vec &d)
     {
       const Vec ab_even = _mm256_unpacklo_pd(a, b), cd_even = _mm256_unpacklo_pd(c, d);
@@ -425,6 +505,31 @@ namespace SPHDissipation {
       return a;
     }
     SPH_INLINE void prefetch(const void *) {}
+
+    constexpr int FLOATS = 1;
+    typedef float Floats;
+
+    SPH_INLINE Floats all_floats(float a)
+    {
+      return a;
+    }
+    SPH_INLINE Floats load_floats(const float *from)
+    {
+      return *from;
+    }
+    SPH_INLINE void store_floats(float *to, Vec a)
+    {
+      *to = static_cast<float>(a);
+    }
+    SPH_INLINE int bits_below(Floats a, Floats bound)
+    {
+      return (a < bound) ? 1 : 0;
+    }
+    SPH_INLINE void pack_indices(int *to, const int *from, int)
+    {
+      *to = *from;
+    }
+
     template <int N> SPH_INLINE void load_4_columns(const double *row, const int *i, Vec *column)
     {
       for (int c = 0; c < 4; c++) column[c] = at<N>(row, *i)[c];

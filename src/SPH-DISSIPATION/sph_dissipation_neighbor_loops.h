@@ -1,0 +1,48 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// The loops of the neighbor search; compiled as sph_dissipation_loops.h, which includes this file inside its namespace.
+
+SPH_INLINE void take_candidates(const PlaceColumns &from, int begin, int end, const double *corner,
+                                CandidateColumns &to)
+{
+  for (int d = 0; d < 3; d++) {
+    const double *const x = from.x[d] + begin;
+    float *const out = to.x[d] + to.n;
+    for (int k = 0; k < end - begin; k += LANES)
+      store_floats(out + k, load(x + k) - all(corner[d]));
+  }
+  for (int k = 0; k < end - begin; k++) to.index[to.n + k] = from.index[begin + k];
+  to.n += end - begin;
+}
+
+SPH_INLINE int near(const CandidateColumns &from, const float *place, float bound, float safe,
+                    int *found, bool &doubt)
+{
+  const Floats x = all_floats(place[0]), y = all_floats(place[1]), z = all_floats(place[2]);
+  const Floats farthest = all_floats(bound), surely = all_floats(safe);
+  int n = 0, doubtful = 0;
+  for (int k = 0; k < from.n; k += FLOATS) {
+    const Floats dx = x - load_floats(from.x[0] + k);
+    const Floats dy = y - load_floats(from.x[1] + k);
+    const Floats dz = z - load_floats(from.x[2] + k);
+    const Floats rsq = dx * dx + dy * dy + dz * dz;
+    int inside = bits_below(rsq, farthest);
+    if (from.n - k < FLOATS) inside &= (1 << (from.n - k)) - 1;
+    doubtful |= inside & ~bits_below(rsq, surely);
+    pack_indices(found + n, from.index + k, inside);
+    n += count_bits(inside);
+  }
+  doubt = doubtful;
+  return n;
+}
