@@ -64,11 +64,12 @@ RENAMED = {
     "design_sph_dissipation": "Developer_sph_dissipation",
     "index": None,
     "Build_SPH_DISSIPATION": None,
+    "Howto_sph_citing": None,
     "Howto_sph_clusters": None,
     "Howto_sph_gallery": None,
 }
-LINKS = {"index": "Howto_sph_overview", "Build_SPH_DISSIPATION": "Build_package", "Howto_sph_clusters": "Build_package",
-         "Howto_sph_gallery": "Howto_sph_overview"}
+LINKS = {"index": "Howto_sph_overview", "Build_SPH_DISSIPATION": "Build_package", "Howto_sph_citing": "Errors_bugs",
+         "Howto_sph_clusters": "Build_package", "Howto_sph_gallery": "Howto_sph_overview"}
 
 # files of an example that belong there: inputs, logs, what makes initial states
 

@@ -11,10 +11,14 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "_ex
 
 project = "SPH-DISSIPATION"
 author = "the SPH-DISSIPATION authors"
+with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "VERSION"), encoding="utf-8") as file:
+    version = release = file.read().strip()
 copyright = "the SPH-DISSIPATION authors; GNU General Public License, version 2"
 
 needs_sphinx = "5.3"
 extensions = ["sphinx.ext.mathjax", "lammps_pages", "local_mathjax"]
+# lines of formulas that are wider than the page are broken
+mathjax2_config = {"SVG": {"linebreaks": {"automatic": True}}}
 master_doc = "index"
 exclude_patterns = ["Howto_sph_overview.rst"]    # a part of the start page
 language = "en"
@@ -31,5 +35,6 @@ else:
     html_theme_options = {"page_width": "1250px", "body_max_width": "none", "sidebar_width": "250px"}
 html_static_path = ["_static"]
 html_css_files = ["pages.css"]
-html_title = "SPH-DISSIPATION"
+html_js_files = ["copy.js"]
+html_title = f"SPH-DISSIPATION {release}"
 html_show_sourcelink = False

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
 """Runs the inputs of the page "A first flow, step by step" and draws its figures."""
-import re
 import sys
 from pathlib import Path
 
@@ -10,15 +9,6 @@ FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent))
 
 from run_lammps import Example, pyplot, save, thermo      # noqa: E402
-
-PAGE = FOLDER.parents[1] / "doc" / "src" / "Howto_sph_tutorial.rst"
-
-
-def inputs():
-    """{step: text} of the code blocks of the page"""
-    text = PAGE.read_text()
-    found = re.findall(r"\.\. code-block:: LAMMPS\n\n((?:   .*\n|\n)+)", text)
-    return {number: re.sub(r"^   ", "", block, flags=re.MULTILINE) for number, block in enumerate(found, 1)}
 
 
 def chunks(path):
@@ -58,8 +48,6 @@ def main():
     example = Example(FOLDER, __doc__)
     args = example.arguments()
     out = example.out
-    for step, text in inputs().items():
-        (out / f"in.{step}").write_text(text)
 
     kappas = ("0.2",) if args.quick else ("2.0", "0.2", "0.02")
     sizes = (8, 16) if args.quick else (8, 16, 32)
@@ -68,7 +56,7 @@ def main():
     jobs.update({"7": {}, "6": {}, "4": {}})
     jobs.update({f"3-{kappa}": {"kappa": kappa} for kappa in kappas})
     jobs.update({"2": {}, "1": {}})
-    example.run(jobs, {name: out / f"in.{name[0]}" for name in jobs})
+    example.run(jobs, {name: FOLDER / f"in.{name[0]}" for name in jobs})
     log = lambda name: thermo((out / f"{name}.log").read_text())[-1]
 
     rest = log("1")

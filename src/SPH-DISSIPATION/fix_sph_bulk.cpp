@@ -14,6 +14,7 @@
 #include "fix_sph_bulk.h"
 
 #include "atom.h"
+#include "citeme.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -43,6 +44,32 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
+
+static const char cite_shift[] =
+    "fix sph/bulk command, keyword shift: https://doi.org/10.1016/j.cma.2016.10.028\n\n"
+    "@Article{Sun2017,\n"
+    " author =  {P. N. Sun and A. Colagrossi and S. Marrone and A. M. Zhang},\n"
+    " title =   {The {$\\delta$}plus-{SPH} model: Simple procedures for a further improvement of "
+    "the {SPH} scheme},\n"
+    " journal = {Computer Methods in Applied Mechanics and Engineering},\n"
+    " year =    2017,\n"
+    " volume =  315,\n"
+    " pages =   {25--49},\n"
+    " doi =     {10.1016/j.cma.2016.10.028},\n"
+    "}\n\n";
+
+static const char cite_rkl2[] =
+    "fix sph/bulk command, keyword viscous rkl2: https://doi.org/10.1016/j.jcp.2013.08.021\n\n"
+    "@Article{Meyer2014,\n"
+    " author =  {C. D. Meyer and D. S. Balsara and T. D. Aslam},\n"
+    " title =   {A stabilized {Runge-Kutta-Legendre} method for explicit super-time-stepping of "
+    "parabolic and mixed equations},\n"
+    " journal = {Journal of Computational Physics},\n"
+    " year =    2014,\n"
+    " volume =  257,\n"
+    " pages =   {594--626},\n"
+    " doi =     {10.1016/j.jcp.2013.08.021},\n"
+    "}\n\n";
 
 // the style of which another one, with the suffix of an accelerator package of LAMMPS, is a variant
 
@@ -94,6 +121,8 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
+  if (lmp->citeme && shift_speed > 0.0) lmp->citeme->add(cite_shift);
+  if (lmp->citeme && viscous->settings().mode == Viscous::RKL2) lmp->citeme->add(cite_rkl2);
 
   time_integrate = 1;
   create_attribute = 1;

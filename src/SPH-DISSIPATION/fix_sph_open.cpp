@@ -14,6 +14,7 @@
 #include "fix_sph_open.h"
 
 #include "atom.h"
+#include "citeme.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
@@ -63,6 +64,18 @@ enum {
 
 enum { COUNT = OpenBalance::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
+static const char cite_open[] =
+    "fix sph/open command: https://doi.org/10.1002/fld.1971\n\n"
+    "@Article{Lastiwka2009,\n"
+    " author =  {M. Lastiwka and M. Basa and N. J. Quinlan},\n"
+    " title =   {Permeable and non-reflecting boundary conditions in {SPH}},\n"
+    " journal = {International Journal for Numerical Methods in Fluids},\n"
+    " year =    2009,\n"
+    " volume =  61,\n"
+    " pages =   {709--724},\n"
+    " doi =     {10.1002/fld.1971},\n"
+    "}\n\n";
+
 /* ---------------------------------------------------------------------- */
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
@@ -105,6 +118,8 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   size_vector = NVECTOR;
   global_freq = 1;
   extvector = 0;    // sums are not to be scaled by the number of atoms
+
+  if (lmp->citeme) lmp->citeme->add(cite_open);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -14,6 +14,7 @@
 #include "fix_sph_wall.h"
 
 #include "atom.h"
+#include "citeme.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -42,6 +43,18 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
+
+static const char cite_wall[] =
+    "fix sph/wall command: https://doi.org/10.1016/j.jcp.2012.05.005\n\n"
+    "@Article{Adami2012,\n"
+    " author =  {S. Adami and X. Y. Hu and N. A. Adams},\n"
+    " title =   {A generalized wall boundary condition for smoothed particle hydrodynamics},\n"
+    " journal = {Journal of Computational Physics},\n"
+    " year =    2012,\n"
+    " volume =  231,\n"
+    " pages =   {7057--7075},\n"
+    " doi =     {10.1016/j.jcp.2012.05.005},\n"
+    "}\n\n";
 
 /* ---------------------------------------------------------------------- */
 
@@ -138,6 +151,8 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
   global_freq = peratom_freq = 1;
   extvector = 1;
   maxexchange = 6;
+
+  if (lmp->citeme) lmp->citeme->add(cite_wall);
 
   FixSPHWall::grow_arrays(atom->nmax);
   for (int i = 0; i < atom->nlocal; i++) FixSPHWall::set_arrays(i);

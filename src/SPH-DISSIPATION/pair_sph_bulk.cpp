@@ -14,6 +14,7 @@
 #include "pair_sph_bulk.h"
 
 #include "atom.h"
+#include "citeme.h"
 #include "error.h"
 #include "force.h"
 #include "lammps.h"
@@ -28,6 +29,43 @@
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+static const char cite_bulk[] =
+    "pair sph/bulk command, bulk viscosity: https://doi.org/10.1103/PhysRevE.101.013302\n\n"
+    "@Article{BonetAvalos2020,\n"
+    " author =  {J. {Bonet Avalos} and M. Antuono and A. Colagrossi and A. Souto-Iglesias},\n"
+    " title =   {Shear-viscosity-independent bulk-viscosity term in smoothed particle "
+    "hydrodynamics},\n"
+    " journal = {Physical Review E},\n"
+    " year =    2020,\n"
+    " volume =  101,\n"
+    " pages =   {013302},\n"
+    " doi =     {10.1103/PhysRevE.101.013302},\n"
+    "}\n\n";
+
+static const char cite_spin[] =
+    "pair sph/micropolar command: https://doi.org/10.1103/PhysRevE.104.015315\n\n"
+    "@Article{SoutoIglesias2021,\n"
+    " author =  {A. Souto-Iglesias and J. {Bonet Avalos} and M. Antuono and A. Colagrossi},\n"
+    " title =   {General isotropic micropolar fluid model in smoothed particle hydrodynamics},\n"
+    " journal = {Physical Review E},\n"
+    " year =    2021,\n"
+    " volume =  104,\n"
+    " pages =   {015315},\n"
+    " doi =     {10.1103/PhysRevE.104.015315},\n"
+    "}\n\n";
+
+static const char cite_sdpd[] =
+    "pair sph/bulk command, temp or shear espanol: https://doi.org/10.1103/PhysRevE.67.026705\n\n"
+    "@Article{Espanol2003,\n"
+    " author =  {P. Espa{\\~n}ol and M. Revenga},\n"
+    " title =   {Smoothed dissipative particle dynamics},\n"
+    " journal = {Physical Review E},\n"
+    " year =    2003,\n"
+    " volume =  67,\n"
+    " pages =   {026705},\n"
+    " doi =     {10.1103/PhysRevE.67.026705},\n"
+    "}\n\n";
 
 // adds the virial of each pair to the accumulators of the pair style
 
@@ -142,6 +180,20 @@ void PairSPHBulk::allocate()
 void PairSPHBulk::settings(int narg, char **arg)
 {
   fluid->settings(narg, arg);
+  cite();
+}
+
+/* ----------------------------------------------------------------------
+   papers of what is in use; LAMMPS prints each one once
+------------------------------------------------------------------------- */
+
+void PairSPHBulk::cite()
+{
+  if (!lmp->citeme) return;
+  const auto &choice = fluid->model->choice;
+  if (choice.bulk != Bulk::NONE) lmp->citeme->add(cite_bulk);
+  if (fluid->spins) lmp->citeme->add(cite_spin);
+  if (choice.thermal || choice.shear == Shear::ESPANOL) lmp->citeme->add(cite_sdpd);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -206,6 +258,7 @@ void PairSPHBulk::write_restart_settings(FILE *fp)
 void PairSPHBulk::read_restart_settings(FILE *fp)
 {
   fluid->model->read_settings(fp);
+  cite();
 }
 
 void PairSPHBulk::write_data(FILE *fp)

@@ -70,6 +70,7 @@ class PairSPHBulk : public Pair {
   class StressTally;
 
   void allocate();
+  void cite();
   void sum_virial_by_pairs();
 };
 

@@ -2,8 +2,10 @@
 and CMake are stand-ins here."""
 
 import os
+import re
 import shutil
 import subprocess
+import tarfile
 from pathlib import Path
 
 import pytest
@@ -12,8 +14,8 @@ ROOT = Path(__file__).resolve().parents[2]
 BUILD = {"g++", "make", "cmake", "ninja-build", "ccache", "ca-certificates", "openmpi-bin", "libopenmpi-dev",
          "libfftw3-dev", "libpng-dev"}
 TESTS = {"libeigen3-dev", "libgtest-dev", "libgmock-dev", "libyaml-dev", "valgrind", "git", "hunspell-en-us"}
-SYSTEM = ["awk", "bash", "cat", "cp", "cut", "date", "df", "dirname", "env", "flock", "grep", "head", "id", "ls", "mkdir", "nproc",
-          "python3", "realpath", "rm", "sed", "sh", "sha256sum", "sort", "tail", "tee", "tput"]
+SYSTEM = ["awk", "bash", "cat", "cp", "cut", "date", "df", "dirname", "env", "flock", "grep", "gzip", "head", "id", "ls", "mkdir",
+          "nproc", "python3", "realpath", "rm", "sed", "sh", "sha256sum", "sort", "tail", "tar", "tee", "tput", "uname", "wc"]
 STAND_INS = {
     "dpkg-query": "exit 1",  # none of the packages is there
     "sudo": '[ "$1" != -n ] || shift\nexec "$@"',
@@ -44,7 +46,8 @@ def machine(tmp_path):
         (tmp_path / "bin" / name).symlink_to(shutil.which(name))
     clone = tmp_path / "a clone"
     clone.mkdir()
-    shutil.copy(ROOT / "sphd", clone)
+    for name in ("sphd", "VERSION"):
+        shutil.copy(ROOT / name, clone)
     (clone / "examples").symlink_to(ROOT / "examples")
 
     def sphd(*args, **variables):
@@ -86,6 +89,8 @@ def test_only_the_tests_install_what_only_tests_need(machine, args, tests):
     (["test", "--sanitize", "--valgrind"], {}, "leave one of them out"),
     (["test", "--all", "-R", "wall"], {}, "--all runs every test"),
     (["test", "--all", "--sanitize"], {}, "--all runs every test"),
+    (["--version", "2"], {}, "--version takes no arguments"),
+    (["report", "in.nowhere"], {}, 'report: no file "in.nowhere"'),
     (["build"], {"LAMMPS_SOURCE_DIR": "/tmp", "SPHD_LAMMPS": "25"}, "both set"),
     (["run", "sound_pulse"], {"SPHD_PYTHON": "/bin/false"}, "SPHD_PYTHON=/bin/false does not run or lacks one of"),
 ])
@@ -240,3 +245,29 @@ def test_precision_of_kokkos(tmp_path, precision, there):
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)    # there is nothing to build
     assert f"styles of {ROOT}/src/SPH-DISSIPATION" in done.stdout, done.stdout
     assert (f"styles of {ROOT}/src/KOKKOS" in done.stdout) == there and ("KOKKOS_PREC=double" in done.stdout) != there, done.stdout
+
+
+def test_report(machine, tmp_path, monkeypatch):
+    """Versions, the logs of ./sphd and of LAMMPS, and the files named, two of one name included; what is large stays out."""
+    (tmp_path / "a").mkdir()
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "log.lammps").write_text("Loop time\n")
+    (tmp_path / "in.flow").write_text("units lj\n")
+    (tmp_path / "a" / "in.flow").write_text("units si\n")
+    (tmp_path / "large.data").write_bytes(bytes(10_000_001))
+    machine("build")    # leaves build/sphd.log
+    build = tmp_path / "a clone" / "build"
+    write(build, {"lmp": "echo 'Large-scale Simulator - 4 Jul 2026'; echo 'Usage example'; echo 'OS: Linux'; echo 'List of individual style'"})
+    status, output, _, _ = machine("report", "in.flow", "a/in.flow", "large.data", OMP_NUM_THREADS="3")
+    assert status == 0, output
+    with tarfile.open(build / "report.tar.gz") as archive:
+        files = {Path(name).name: archive.extractfile(name).read().decode() for name in archive.getnames() if name != "report"}
+    assert sorted(files) == ["2.in.flow", "in.flow", "log.lammps", "sphd.log", "versions.txt"]
+    assert files["in.flow"] == "units lj\n" and files["2.in.flow"] == "units si\n"
+    assert "SPH-DISSIPATION " + (ROOT / "VERSION").read_text() in files["versions.txt"].replace(", commit unknown", "")
+    for line in ("OMP_NUM_THREADS=3", "Large-scale Simulator - 4 Jul 2026", "OS: Linux"):
+        assert f"{line}\n" in files["versions.txt"]
+    assert "Usage" not in files["versions.txt"] and "List" not in files["versions.txt"]
+    assert "large.data has more than 10 MB" in output
+    for name in files:
+        assert re.search(rf"^ *\d+ {re.escape(name)}$", output, re.MULTILINE), output

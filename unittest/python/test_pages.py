@@ -116,3 +116,10 @@ def test_inputs_run(lammps, text, finds):
 def test_fragments_are_taken(lammps, text):
     commands = "\n".join(line for line in text.splitlines() if line.strip())
     lammps(fluid_for(commands) + commands + "\n")
+
+
+def test_inputs_of_the_tutorial_are_files():
+    texts = [text for _, _, text, _ in blocks(ROOT / "doc" / "src" / "Howto_sph_tutorial.rst")]
+    assert len(texts) == len(list((ROOT / "examples" / "tutorial").glob("in.*")))
+    for number, text in enumerate(texts, 1):
+        assert (ROOT / "examples" / "tutorial" / f"in.{number}").read_text() == text, number

@@ -1,12 +1,14 @@
 """Let pages written for the LAMMPS manual build on their own.
 
 * the code-block language ``LAMMPS`` gets a small lexer,
-* ``:doc:`` links to pages of the LAMMPS manual become links to its public web site.
+* ``:doc:`` links to pages of the LAMMPS manual become links to its public web site,
+* ``versionadded:: TBD``, which LAMMPS's maintainers replace by a release, is left out.
 """
 
 from docutils import nodes
 from pygments.lexer import RegexLexer, bygroups
 from pygments.token import Comment, Keyword, Name, Number, String, Text
+from sphinx import addnodes
 
 MANUAL = "https://docs.lammps.org/"
 
@@ -53,7 +55,14 @@ def link_to_manual(app, env, node, contnode):
                            reftitle="LAMMPS manual")
 
 
+def remove_versions(app, doctree):
+    for node in list(doctree.findall(addnodes.versionmodified)):
+        if node["version"] == "TBD":
+            node.parent.remove(node)
+
+
 def setup(app):
     app.add_lexer("LAMMPS", LAMMPSLexer)
     app.connect("missing-reference", link_to_manual)
+    app.connect("doctree-read", remove_versions)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
