@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "examples"))
-from run_lammps import frames      # noqa: E402
+from sph_dissipation import frames
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "doc" / "src" / "Howto_sph_looking.rst").read_text()

@@ -2,19 +2,16 @@
 
 import re
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from helpers import LMP
+from sph_dissipation import fluids
+from sph_dissipation import plan as planner
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-import fluids  # noqa: E402
-import plan as planner  # noqa: E402
-
 BOX = "--length 2 --velocity 0.7 --particles 12"
 WATER = "--fluid water --length 1e-6 --velocity 100 --particles 14"
 CASES = [f"--rho 1.2 --mu {mu} --kappa {kappa} {BOX} --kernel {kernel} --support 3.5"

@@ -22,9 +22,9 @@ import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import fluids
+from . import fluids
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 
 # square of the stability length over that of rc, in 2 and 3 dimensions: eq. "hstab" of the theory page
 STABILITY = {
@@ -237,7 +237,7 @@ class Plan:
         more = wave.wave_number(s.imag / (2 * math.pi), wave.conduction).imag / k.imag - 1 if k.imag else 0.0
         lines.append(f"sound               frequency {s.imag / (2 * math.pi):.4g}, speed {s.imag / k.real:.5g}, absorption of a driven wave "
                      f"{2 * math.pi * k.imag / k.real:.4g} per wavelength, {20 / math.log(10) * k.imag:.4g} dB per unit of length"
-                     + (f"; heat conduction, which the particles have not, adds {100 * more:.2g} %" if more else ""))
+                     + (f"; heat conduction, which this input leaves out, adds {100 * more:.2g} %" if more else ""))
         decay = f", decay of its amplitude {-1 / s.real:.4g}" if s.real else ""
         return lines + [f"times               period of the wave {2 * math.pi / s.imag:.4g}{decay}"]
 
