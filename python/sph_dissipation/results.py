@@ -57,7 +57,8 @@ def read_array(path):
 
 
 def read_grid(path):
-    """Frames of a dump of style grid whose first columns are ix iy iz: [(box lengths, array[ix, iy, iz, column])]."""
+    """Frames of a dump of style grid whose first columns are ix iy iz: [(box lengths, array[ix, iy, iz, column])].
+    In two dimensions the third column may have any number."""
     import numpy as np
 
     found = []
@@ -69,7 +70,7 @@ def read_grid(path):
                 count = tuple(map(int, next(file).split()))
             elif line.startswith("ITEM: GRID CELLS"):
                 rows = np.array([next(file).split() for _ in range(np.prod(count))], dtype=float)
-                place = rows[:, :3].astype(int) - 1
+                place = (rows[:, :3].astype(int) - 1) % count
                 field = np.full((*count, rows.shape[1] - 3), np.nan)
                 field[tuple(place.T)] = rows[:, 3:]
                 assert not np.isnan(field).any()
