@@ -50,7 +50,7 @@ def test_page(tmp_path):
     white = (colors > 250).all(axis=1)
     assert 0.05 < 1 - white.mean() < 0.99 and len(np.unique(colors[~white], axis=0)) > 100
 
-    gif, log, module = blocks("python")
+    gif, log, module, package = blocks("python")
     run(sys.executable, "-c", gif)
     with Image.open(tmp_path / "flow.gif") as movie:
         assert movie.n_frames == len(steps)
@@ -59,6 +59,11 @@ def test_page(tmp_path):
     if "UBSAN_OPTIONS" not in os.environ:      # Python is not built with the sanitizers
         density, temperature = map(float, run(sys.executable, "-c", module).split()[-2:])
         assert abs(density - last["density"].mean()) < 1e-5 and abs(temperature - last["temperature"].max()) < 1e-4
+
+    environment["PYTHONPATH"] = str(ROOT / "python")
+    numbers = list(map(float, run(sys.executable, "-c", package).split()))
+    assert numbers[:2] == [time, kinetic] and numbers[2] == last["density"].max()
+    assert numbers[3] == 1496.7 and numbers[4] == pytest.approx(0.0211, rel=0.02)
 
     # VTK: each column is there as a whole, in the order of the dump
     run(sys.executable, str(ROOT / "tools" / "dump_to_vtk.py"), "flow.dump")
