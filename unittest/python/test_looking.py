@@ -63,7 +63,7 @@ def test_page(tmp_path):
     environment["PYTHONPATH"] = str(ROOT / "python")
     numbers = list(map(float, run(sys.executable, "-c", package).split()))
     assert numbers[:2] == [time, kinetic] and numbers[2] == last["density"].max()
-    assert numbers[3] == 1496.7 and numbers[4] == pytest.approx(0.0211, rel=0.02)
+    assert numbers[3] == 1496.7 and abs(numbers[4] / 0.021179 - 1) < 1e-3     # Stokes
 
     # VTK: each column is there as a whole, in the order of the dump
     run(sys.executable, str(ROOT / "tools" / "dump_to_vtk.py"), "flow.dump")
