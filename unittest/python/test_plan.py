@@ -96,6 +96,14 @@ def test_sound(lammps, wave):
     assert np.abs(table["c_amplitude"] / 0.01 - exact).max() < 0.025
 
 
+def test_wave_lasts(lammps):
+    """With all defaults the wave decays as it is printed, to the end: the lattice under the background pressure holds."""
+    plan = planner.Plan(planner.arguments("--fluid CO2 --frequency 30e3".split()))
+    (table,) = lammps(plan.input()).thermo()
+    decay = np.exp(plan.fluid.standing_wave(plan.args.length).real * table["Time"])
+    assert table["Time"][-1] * 30e3 > 10 and np.abs(table["c_amplitude"] / plan.args.velocity / decay).max() < 1.1
+
+
 def test_wave_that_dies_at_once():
     for case, dies in [("--fluid water --wavelength 1e-10", True), ("--fluid water --wavelength 1e-8", False),
                        ("--rho 1 --mu 0 --kappa 0 --c 10 --frequency 2", False)]:
