@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-only
 """Prints a complete LAMMPS input for a fluid, a length, and a velocity, with the numbers that follow from them.
 
