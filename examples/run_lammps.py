@@ -5,15 +5,17 @@ results.txt; a copy beside the README is what the numbers of the README are comp
 import argparse
 import csv
 import os
-import re
 import shlex
 import shutil
 import subprocess
 import sys
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from contextlib import contextmanager
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+from sph_dissipation import averages, exponents, fluids, frames, progress, pyplot, read_array, read_grid, save, thermo      # noqa: E402, F401
 
 TABLE = Path(__file__).with_name("examples.csv")    # what each example shows, takes, and has for a picture
 PATIENCE = 30      # seconds without a word, at most
@@ -23,6 +25,15 @@ def table():
     """Rows of the table of all examples: {name: {column: text}}."""
     with open(TABLE, newline="", encoding="utf-8") as file:
         return {row["example"]: row for row in csv.DictReader(file)}
+
+
+@contextmanager
+def csv_rows(path, header):
+    """Writes a table; gives the function that takes each row."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        write = csv.writer(file, lineterminator="\n").writerow
+        write(header)
+        yield write
 
 
 class Kept:
@@ -190,120 +201,3 @@ def environment(ranks, cores):
         # a rank that waits without yielding keeps the rank it waits for from running
         env.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
     return env
-
-
-# ---------------------------------------------------------------------------------------------
-# readers of what LAMMPS writes
-
-
-def each_frame(path):
-    """Step and {column: values} of each frame of a text dump, in their order."""
-    import numpy as np
-
-    with open(path) as file:
-        for line in file:
-            if line.startswith("ITEM: TIMESTEP"):
-                step = int(next(file))
-            elif line.startswith("ITEM: NUMBER OF"):
-                count = int(next(file))
-            elif line.startswith(("ITEM: ATOMS", "ITEM: ENTRIES")):
-                names = line.split()[2:]
-                rows = np.array([next(file).split() for _ in range(count)], dtype=float).reshape(count, len(names))
-                yield step, dict(zip(names, rows.T))
-
-
-def frames(path):
-    """The frames of a text dump: {step: {column: values}}."""
-    return dict(each_frame(path))
-
-
-def read_grid(path):
-    """Frames of a dump of style grid whose first columns are ix iy iz: [(box lengths, array[ix, iy, iz, column])]."""
-    import numpy as np
-
-    found = []
-    with open(path) as file:
-        for line in file:
-            if line.startswith("ITEM: BOX"):
-                length = np.array([np.diff(list(map(float, next(file).split())))[0] for _ in range(3)])
-            elif line.startswith("ITEM: GRID SIZE"):
-                count = tuple(map(int, next(file).split()))
-            elif line.startswith("ITEM: GRID CELLS"):
-                rows = np.array([next(file).split() for _ in range(np.prod(count))], dtype=float)
-                place = rows[:, :3].astype(int) - 1
-                field = np.full((*count, rows.shape[1] - 3), np.nan)
-                field[tuple(place.T)] = rows[:, 3:]
-                assert not np.isnan(field).any()
-                found.append((length, field))
-    return found
-
-
-def read_array(path):
-    """Frames of a file of fix ave/time mode vector: [array[row, column]]."""
-    import numpy as np
-
-    found, rows = [], 0
-    with open(path) as file:
-        for line in file:
-            if line.startswith("#"):
-                continue
-            if rows == 0:
-                rows, frame = int(line.split()[1]), []
-                continue
-            frame.append(line.split()[1:])
-            rows -= 1
-            if rows == 0:
-                found.append(np.array(frame, dtype=float))
-    return found
-
-
-def progress(log):
-    """Last step in the text of a log file, and step at which this run ends; (None, None) before the first output."""
-    start = re.split(r"^run\s+(\d+)(.*)$", log, flags=re.MULTILINE)[-3:]
-    rows = re.findall(r"^ *(\d+) +[-\d.]\S*.*$", start[-1].partition("Step")[2], re.MULTILINE) if len(start) == 3 else []
-    if not rows:
-        return None, None
-    return int(rows[-1]), int(start[0]) + (0 if "upto" in start[1] else int(rows[0]))
-
-
-def thermo(log):
-    """Thermodynamic output of every run in the text of a log file: [{column: values}]."""
-    import numpy as np
-
-    found = []
-    for head, body in re.findall(r"^ *(Step .*?)\n(.*?)^Loop time", log, re.MULTILINE | re.DOTALL):
-        rows = [line.split() for line in body.splitlines() if re.match(r"^\s*\d+(\s+[-+.\deEnaif]+)*\s*$", line)]
-        found.append(dict(zip(head.split(), np.array(rows, dtype=float).T)))
-    return found
-
-
-def exponents(interval, values, count):
-    """s of the modes exp(s t) of a series without noise, by linear prediction: each value from as many before as there are modes."""
-    import numpy as np
-
-    rows = np.lib.stride_tricks.sliding_window_view(values, count + 1)
-    factors = np.linalg.lstsq(rows[:, :count], rows[:, count], rcond=1e-10)[0]
-    return np.log(np.roots([1, *-factors[::-1]]).astype(complex)) / interval
-
-
-# ---------------------------------------------------------------------------------------------
-# figures
-
-
-def pyplot():
-    """matplotlib.pyplot for files, with the style of all figures: sph.mplstyle."""
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    plt.style.use(Path(__file__).with_name("sph.mplstyle"))
-    return plt
-
-
-def save(figure, path, legends=()):
-    """Write a figure and forget it; legends: axes that get one. Returns the path."""
-    for axes in legends:
-        axes.legend()
-    figure.savefig(path)
-    pyplot().close(figure)
-    return path

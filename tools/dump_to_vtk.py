@@ -9,23 +9,14 @@ Columns x y z are the places (z = 0 if it is not there), three columns that end 
 import sys
 from pathlib import Path
 
-
-def frames(path):
-    """{column: words} of each frame"""
-    with open(path) as file:
-        for line in file:
-            if line.startswith("ITEM: NUMBER OF"):
-                count = int(next(file))
-            elif line.startswith("ITEM: ATOMS"):
-                names = line.split()[2:]
-                rows = [next(file).split() for _ in range(count)]
-                yield dict(zip(names, zip(*rows))) if rows else {name: () for name in names}
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+from sph_dissipation.results import each_table      # noqa: E402
 
 
-def vtk(columns):
+def vtk(names, rows):
     """Text of a file: legacy format, polygonal data of vertices."""
-    columns = dict(columns)
-    count = len(columns["x"])
+    columns = {name: [row[place] for row in rows] for place, name in enumerate(names)}
+    count = len(rows)
     zero = ("0",) * count
     vectors = {"x": [columns.pop("x"), columns.pop("y"), columns.pop("z", zero)]}
     for name in list(columns):
@@ -49,8 +40,8 @@ def main():
     if len(sys.argv) < 2:
         raise SystemExit(__doc__)
     for path in map(Path, sys.argv[1:]):
-        for number, columns in enumerate(frames(path)):
-            path.with_suffix(f".{number:04d}.vtk").write_text(vtk(columns))
+        for number, (_, names, rows) in enumerate(each_table(path)):
+            path.with_suffix(f".{number:04d}.vtk").write_text(vtk(names, rows))
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 import reference                    # noqa: E402
 
 # name: label, case of reference.csv, variables of the input; the longest first.  Where viscosity is large, so is the pressure
@@ -132,7 +132,7 @@ class Run:
         for p, wall, fluid in ((px, wx, fx), (py, wy, fy)):
             worst = max(worst, np.abs(wall + fluid).max(), np.abs(np.diff(p) / dt + 0.5 * (wall[1:] + wall[:-1])).max())
         self.balance = worst / self.lid_all
-        self.particles = np.loadtxt(out / f"{name}.particles.txt", skiprows=9)
+        (self.particles,) = frames(out / f"{name}.particles.txt").values()
 
 
 COLORS = {"re100": "C0", "re400": "C2", "re1000": "C3", "k3": "C1", "k3b": "C4"}
@@ -209,10 +209,10 @@ def plot_particles(path, runs, disorder):
     plt = pyplot()
     panels = [(runs[base].label, runs[base].particles) for base in sorted(runs, key=["re1000", "k3", "re400", "re100", "k3b"].index)][:2]
     if disorder:
-        panels.append(("Re = 1000, $N = 50$, without shifting", np.loadtxt(disorder, skiprows=9)))
+        panels.append(("Re = 1000, $N = 50$, without shifting", *frames(disorder).values()))
     figure, axes = plt.subplots(1, len(panels), figsize=(4.3 * len(panels), 4.1), squeeze=False)
     for axis, (label, particles) in zip(axes[0], panels):
-        _, x, y, vx, vy, _ = particles.T
+        x, y, vx, vy = (particles[column] for column in ("x", "y", "vx", "vy"))
         shown = axis.scatter(x, y, c=np.hypot(vx, vy), s=2 * 100**2 / len(x), vmin=0, vmax=0.8, cmap="viridis", lw=0)
         axis.set(xlim=(0, 1), ylim=(0, 1), aspect="equal", xlabel="place $x/L$", title=label)
     axes[0, 0].set_ylabel("height $y/L$")
@@ -246,10 +246,8 @@ def main():
     runs = {key: Run(example.out, *key, variables[key], references) for key in keys}
 
     table = example.out / "cavity.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["case", "N", "rms_to_ghia", "rms_to_finite_differences", "kinetic_energy", "spread", "same_times", "steady",
-                         "lid_0.1_0.9", "reference_lid", "pressure_part", "whole_lid", "psi", "reference_psi", "balance"])
+    with csv_rows(table, ["case", "N", "rms_to_ghia", "rms_to_finite_differences", "kinetic_energy", "spread", "same_times", "steady",
+                          "lid_0.1_0.9", "reference_lid", "pressure_part", "whole_lid", "psi", "reference_psi", "balance"]) as writerow:
         for (base, size), run in runs.items():
             numbers = references.numbers[run.case]
             print(f"\n{base}, N = {size}: kinetic energy {run.kinetic:.5f} +- {run.spread:.5f}, finite differences {run.expected:.5f} "
@@ -270,9 +268,9 @@ def main():
             if run.spin_error is not None:
                 example.merit("spin along x = L/2 at t = 10, relative L2 error", run.spin_error, 0, 0.05)
             example.merit("momentum balance over the force on the lid", run.balance, 0, 1e-9)
-            writer.writerow([base, size, "" if run.to_ghia is None else f"{run.to_ghia:.5f}", f"{run.to_reference:.5f}", f"{run.kinetic:.6f}",
-                             f"{run.spread:.6f}", f"{run.expected:.6f}", f"{run.steady:.6f}", f"{run.lid:.6f}", f"{numbers['lid_0.1_0.9']:.6f}",
-                             f"{run.pull:.6f}", f"{run.lid_all:.6f}", f"{run.vortex[0]:.5f}", f"{numbers['psi']:.5f}", f"{run.balance:.1e}"])
+            writerow([base, size, "" if run.to_ghia is None else f"{run.to_ghia:.5f}", f"{run.to_reference:.5f}", f"{run.kinetic:.6f}",
+                      f"{run.spread:.6f}", f"{run.expected:.6f}", f"{run.steady:.6f}", f"{run.lid:.6f}", f"{numbers['lid_0.1_0.9']:.6f}",
+                      f"{run.pull:.6f}", f"{run.lid_all:.6f}", f"{run.vortex[0]:.5f}", f"{numbers['psi']:.5f}", f"{run.balance:.1e}"])
     print()
     shown = {base: runs[base, sizes[0]] for base in reversed(cases)}
     pictures = [example.out / f"{name}.png" for name in ("kinetic_energy", "profiles", "streamlines", "particles")]

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--n 64] [--tend T] [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -16,7 +15,7 @@ import field
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, pyplot, read_array, save      # noqa: E402
+from run_lammps import Example, csv_rows, pyplot, read_array, save      # noqa: E402
 
 KAPPAS, QUICK_KAPPAS = (0, 1, 10, 100), (0, 10, 100)
 SOLENOIDAL = 0.03           # energy with bulk viscosity over that without
@@ -75,16 +74,14 @@ def main():
 
     print("\nkappa/mu   E_s      E_d      rms div u   power: mu<omega^2>   (lambda+2mu)<div^2>   of the particles   account")
     table = example.out / "turbulence.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["kappa_over_mu", *COLUMNS])
+    with csv_rows(table, ["kappa_over_mu", *COLUMNS]) as writerow:
         for run in runs:
             run.measure(example.out)
             print(f"{run.kappa:8g}   {run.solenoidal[-1]:.5f}  {run.dilatational[-1]:.5f}  {run.div2[-1]**0.5:.5f}     "
                   f"{run.power_omega[-1]:.5f}              {run.power_div[-1]:.5f}               "
                   f"{run.heat_shear[-1] + run.heat_bulk[-1]:.5f}            {run.account():.1e}")
             for row in zip(*(getattr(run, name) for name in COLUMNS)):
-                writer.writerow([run.kappa, *(f"{value:.7g}" for value in row)])
+                writerow([run.kappa, *(f"{value:.7g}" for value in row)])
     for one, next_one in zip(runs, runs[1:]):
         what = f"kappa/mu = {next_one.kappa:g} over {one.kappa:g}"
         example.merit(f"dilatational energy, mean over the run, {what}", next_one.dilatational.mean() / one.dilatational.mean(),

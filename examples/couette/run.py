@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -15,7 +14,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from exact import Circular, Plane           # noqa: E402
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 PLANE = (12, 24, 48)        # rows between the plates
 CIRCULAR = (10, 20, 40)     # rings between the cylinders
@@ -136,13 +135,11 @@ def main():
     runs |= {("circular", n): Run(example.out, f"circular.n{n}", n, "circular") for n in circular}
     runs |= {(name, middle): Run(example.out, f"{name}.n{middle}", middle, "circular") for name in ("circular_move_no", "circular_hex")}
     table = example.out / "errors.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["flow", "n", *(f"error t={t}" for t in PLANE_TIMES[:-1]), "error steady", "first wall", "second wall", "sum"])
+    with csv_rows(table, ["flow", "n", *(f"error t={t}" for t in PLANE_TIMES[:-1]), "error steady", "first wall", "second wall", "sum"]) as writerow:
         print()
         for (kind, n), run in runs.items():
-            writer.writerow([kind, n, *(f"{e:.5f}" for e in run.errors.values()), f"{run.ratio_first:.5f}", f"{run.ratio_second:.5f}",
-                             f"{run.balance:.1e}"])
+            writerow([kind, n, *(f"{e:.5f}" for e in run.errors.values()), f"{run.ratio_first:.5f}", f"{run.ratio_second:.5f}",
+                      f"{run.balance:.1e}"])
             print(f"{kind}, n = {n}: errors", ", ".join(f"{e:.5f} (t = {t})" for t, e in run.errors.items()) + "; steady",
                   f"{'stress' if kind == 'plane' else 'torque'} over the exact one {run.ratio_first:.5f}, {run.ratio_second:.5f},",
                   f"sum {run.balance:.1e}")

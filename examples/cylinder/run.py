@@ -15,7 +15,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from reference import shedding              # noqa: E402
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 CASES = {                                   # Re: variables of the input, in which n is the number of particles per diameter
     20: {"n": 12, "support": 4, "end": 24.0, "mean": 8.0, "kick": 0.0},
@@ -128,9 +128,7 @@ def main():
     published = table(HERE / "published.csv")
     runs = {Re: Run(example.out, names[Re], Re, case["mean"]) for Re, case in CASES.items()}
     results = example.out / "cylinder.csv"
-    with open(results, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["Re", "quantity", "particles", "finite elements", "finite elements, wide", "without blockage", "published from", "to"])
+    with csv_rows(results, ["Re", "quantity", "particles", "finite elements", "finite elements, wide", "without blockage", "published from", "to"]) as writerow:
         for Re, run in runs.items():
             print()
             for what in ("drag", "wake", "lift", "strouhal"):
@@ -140,7 +138,7 @@ def main():
                 same, wide = (reference[domain, Re][what] for domain in ("particles", "wide"))
                 spread = [row[what] for row in published if row["Re"] == Re and row[what] is not None]
                 free = value * wide / same
-                writer.writerow([Re, what, *(f"{x:.4f}" for x in (value, same, wide, free, min(spread), max(spread)))])
+                writerow([Re, what, *(f"{x:.4f}" for x in (value, same, wide, free, min(spread), max(spread)))])
                 print(f"Re = {Re}, {TITLE[what]}: {value:.4f}, finite elements {same:.4f} ({100 * (value / same - 1):+.1f} %);"
                       f" without blockage {free:.4f}, finite elements {wide:.4f}, published {min(spread):.4g} to {max(spread):.4g}")
                 if what in BARS:

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -15,7 +14,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE.parent / "poiseuille")]
 from exact import Channel                   # noqa: E402
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 MU, LENGTH = 0.1, 4.0
 FLUIDS = {"newtonian": (0.0, 0.05), "micropolar": (0.1, 0.05)}     # mu_r, gamma1; K H = 2
@@ -98,15 +97,13 @@ def main():
     runs = {(fluid, n): Run(example.out, f"{fluid}.n{n}", n, fluid) for fluid, n in keys}
 
     table = example.out / "errors.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["fluid", "n", "support", "u_error", "u_error_each", "spin_error", "spin_error_each", "gradient",
-                         "across", "out_over_in", "lost"])
+    with csv_rows(table, ["fluid", "n", "support", "u_error", "u_error_each", "spin_error", "spin_error_each", "gradient",
+                          "across", "out_over_in", "lost"]) as writerow:
         for (fluid, n), run in runs.items():
             spin = run.spin_error or ("", "")
-            writer.writerow([fluid, n, SUPPORT[n], *(value if value == "" else f"{value:.5f}" for value in
-                                                    (*run.error, *spin, run.gradient, run.across, run.flux)),
-                             f"{np.abs(run.lost).max():g}"])
+            writerow([fluid, n, SUPPORT[n], *(value if value == "" else f"{value:.5f}" for value in
+                                             (*run.error, *spin, run.gradient, run.across, run.flux)),
+                      f"{np.abs(run.lost).max():g}"])
             print(f"{fluid}, n = {n}: error of u {run.error[0]:.4f} (every particle {run.error[1]:.4f})"
                   + (f", of the spin {spin[0]:.4f} ({spin[1]:.4f})" if run.spin_error else "")
                   + f"; pressure gradient over the exact one - 1: {run.gradient:.4f}; v/u {run.across:.4f};"

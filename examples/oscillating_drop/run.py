@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -16,7 +15,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 sys.path.insert(0, str(HERE.parent))
 from exact import Drop, invariants, period      # noqa: E402
-from run_lammps import Example, frames, pyplot, save          # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save          # noqa: E402
 
 KAPPA = 0.1             # of the runs without shear viscosity
 MU = KAPPA / 3          # and of those without bulk term: kappa = 2 mu then, and sound is damped by kappa + mu
@@ -205,10 +204,8 @@ def main():
           f"{'run':13s}   n  t/T  shape     area      energy    sum       v error  noise    surface/dx    pressure  L drift  P drift")
     table = example.out / "oscillating_drop.csv"
     measured = {}
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["run", "n", "periods", "shape_error", "area_change", "energy_lost", "total_energy_change", "velocity_error",
-                         "velocity_noise", "surface_rms_dx", "surface_max_dx", "pressure_error", "L_change", "P_change"])
+    with csv_rows(table, ["run", "n", "periods", "shape_error", "area_change", "energy_lost", "total_energy_change", "velocity_error",
+                          "velocity_noise", "surface_rms_dx", "surface_max_dx", "pressure_error", "L_change", "P_change"]) as writerow:
         for name, run in runs.items():
             for periods in (1, 2, 5):
                 if run.t[-1] < T * (periods - 1e-6):
@@ -219,7 +216,7 @@ def main():
                           *run.velocity(periods, T), *run.surface_error(periods, T), error, run.J[u].max(), run.P[u].max()]
                 measured[name, periods] = dict(zip(("shape", "area", "lost", "total", "velocity", "noise", "surface", "farthest",
                                                     "pressure", "L", "P"), values))
-                writer.writerow([name, run.n, periods, *(f"{value:.4e}" for value in values)])
+                writerow([name, run.n, periods, *(f"{value:.4e}" for value in values)])
                 print("{:13s} {:3d} {:4d}  {:.2e}  {:.2e}  {:8.5f}  {:.1e}   {:.4f}   {:.4f}   {:5.2f} {:6.2f}  {:.4f}    {:.0e}    {:.0e}".format(
                     name, run.n, periods, *values))
 

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import re
 import sys
 from pathlib import Path
@@ -16,7 +15,7 @@ from scipy.optimize import curve_fit
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, pyplot, save      # noqa: E402
 
 RATIOS, QUICK_RATIOS = (1, 3, 10, 30, 60, 150, 300, 1000), (3, 30, 300, 1000)
 MODES = {"rkl2": "viscous rkl2", "trapezoidal": "viscous implicit"}
@@ -131,16 +130,14 @@ def main():
     for mode, variables in costs.items():
         example.run({f"cost.{mode}": {"ratio": 1000, "n": N, **variables}})
     table = example.out / "overdamped_sound.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["kappa_over_mu", "mode", "Gamma_k_over_c", "rate_times_dt", "rate_over_ck", "over_continuum", "over_lattice",
-                         "force_computations_per_step"])
+    with csv_rows(table, ["kappa_over_mu", "mode", "Gamma_k_over_c", "rate_times_dt", "rate_over_ck", "over_continuum", "over_lattice",
+                          "force_computations_per_step"]) as writerow:
         print("\nkappa/mu  mode          Gamma k/c  g dt    rate/(c k)  over continuum  over lattice sums  force computations/step")
         for run in runs:
             run.measure(example.out)
             row = [run.ratio, run.mode, f"{run.continuum.number:.4f}", f"{run.stiffness:.3g}", f"{run.rate / K:.6f}",
                    f"{run.rate / run.continuum.rate():.5f}", f"{run.rate / run.lattice.rate():.5f}", f"{run.work:.2f}"]
-            writer.writerow(row)
+            writerow(row)
             print(f"{row[0]:<9} {row[1]:<13} {row[2]:<10} {row[3]:<7} {row[4]:<11} {row[5]:<15} {row[6]:<18} {row[7]}")
     time = {mode: seconds((example.out / f"cost.{mode}.log").read_text()) for mode in costs}
     print("\nseconds per unit of time, kappa/mu = 1000: " + ", ".join(f"{mode} {s:.3g}" for mode, s in time.items()) + "\n")

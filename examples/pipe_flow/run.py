@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -15,7 +14,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from exact import Pipe                      # noqa: E402
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 # sigma: rows across the pipe, distance of the particles of a row at x = 0 over that of the rows, support over that
 SIZES = {-1: (38, 0.2, 6.0), 0: (30, 0.5, 6.0), 1: (26, 0.7, 6.0), 10: (34, 1.0, 6.0)}
@@ -184,10 +183,8 @@ def main():
     constant, changing = (Run(example.out, name, refined["sigma"]) for name in ("constant", "refined"))
 
     table = example.out / "errors.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["run", "sigma", "rows", "aspect", "support", "center", "kinetic", "mass", "lost", "u", "v", "in", "out",
-                         "particle-steps"])
+    with csv_rows(table, ["run", "sigma", "rows", "aspect", "support", "center", "kinetic", "mass", "lost", "u", "v", "in", "out",
+                          "particle-steps"]) as writerow:
         listed = {**{f"sigma {sigma}": (run, sizes[sigma]) for sigma, run in runs.items()},
                   **{what: (run, sizes[run.sigma]) for what, run in wrong.items()}}
         for what, run in (("constant particles", constant), ("splitting and merging", changing)):
@@ -195,8 +192,8 @@ def main():
         for what, (run, size) in listed.items():
             center, kinetic, mass, lost = run.errors()
             fields, passed = run.field(), run.passed()
-            writer.writerow([what, run.sigma, *size, f"{center:.5f}", f"{kinetic:.5f}", f"{mass:.6f}", f"{lost:g}",
-                             *(f"{value:.5f}" for value in (*fields, *passed)), f"{run.particle_steps():.3g}"])
+            writerow([what, run.sigma, *size, f"{center:.5f}", f"{kinetic:.5f}", f"{mass:.6f}", f"{lost:g}",
+                      *(f"{value:.5f}" for value in (*fields, *passed)), f"{run.particle_steps():.3g}"])
             print(f"{what}: errors of u at the centre {center:.4f}, kinetic energy {kinetic:.4f}, mass {mass:.1e},"
                   f" field of u {fields[0]:.4f}, v/u {fields[1]:.4f}; particles lost {lost:g},"
                   f" mass in and out over the exact one {passed[0]:.4f}, {passed[1]:.4f}")

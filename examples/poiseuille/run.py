@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -15,7 +14,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from exact import Channel                   # noqa: E402
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 FLUIDS = {                                  # mu_r, gamma1, alpha; mu = H = 1, f = 2
     "newtonian": (0.0, 0.3, 0.0),
@@ -134,17 +133,15 @@ def main():
     runs = {(fluid, n): Run(example.out, names[fluid, n], n, fluid) for fluid, n in keys}
 
     table = example.out / "errors.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["fluid", "mu_r", "gamma1", "alpha", "n", "support", "u_error", "spin_error", "u_error_each", "spin_error_each",
-                         "force", "drift", "wander"])
+    with csv_rows(table, ["fluid", "mu_r", "gamma1", "alpha", "n", "support", "u_error", "spin_error", "u_error_each", "spin_error_each",
+                          "force", "drift", "wander"]) as writerow:
         for fluid in FLUIDS:
             print()
             for n in (n for n in sizes if (fluid, n) in runs):
                 run = runs[fluid, n]
                 spin = ["", ""] if run.spin_error is None else [f"{run.spin_error:.5f}", f"{run.spin_each:.5f}"]
-                writer.writerow([fluid, *FLUIDS[fluid], n, support(fluid, n), f"{run.error:.5f}", spin[0], f"{run.each:.5f}", spin[1],
-                                 f"{run.balance + 1:.6f}", f"{run.drift:.1e}", f"{run.wander:.3f}"])
+                writerow([fluid, *FLUIDS[fluid], n, support(fluid, n), f"{run.error:.5f}", spin[0], f"{run.each:.5f}", spin[1],
+                          f"{run.balance + 1:.6f}", f"{run.drift:.1e}", f"{run.wander:.3f}"])
                 print(f"{fluid}, n = {n}: error of u {run.error:.5f} (every particle {run.each:.5f})"
                       + (f", of the spin {run.spin_error:.5f} ({run.spin_each:.5f})" if run.spin_error is not None else "")
                       + f"; force on the walls over body force - 1: {run.balance:.1e}; upper minus lower {run.side:.0e};"

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -14,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 # kinds of outlets: name, color, condition and what is given, in which {u} and {p} stand for the stream and its pressure
 OUTLETS = {
@@ -140,11 +139,9 @@ def main():
 
     table = example.out / "reflections.csv"
     results = {key: Pulse(example.out, names[key], job) for key, job in jobs.items()}
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["outlet", "stream", "angle", "wavelength", "width", "reflection"])
+    with csv_rows(table, ["outlet", "stream", "angle", "wavelength", "width", "reflection"]) as writerow:
         for key, job in jobs.items():
-            writer.writerow([key[0], job["stream"], job["angle"], job["wavelength"], job["width"], f"{results[key].reflection:.4f}"])
+            writerow([key[0], job["stream"], job["angle"], job["wavelength"], job["width"], f"{results[key].reflection:.4f}"])
             print(f"{key[0]}, stream {job['stream']}, angle {job['angle']}, wavelength {job['wavelength']}, width {job['width']}:"
                   f" {results[key].reflection:.4f}")
     vortices = {}

@@ -13,9 +13,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent), str(HERE.parents[1] / "tools")]
-import fluids      # noqa: E402
-from run_lammps import Example, exponents, frames, pyplot, save      # noqa: E402
+sys.path.insert(0, str(HERE.parent))
+from run_lammps import Example, exponents, fluids, frames, pyplot, save      # noqa: E402
 
 CO2, CO2_PER_DECADE = (1e3, 1e6), (10, 4)         # [Hz]; waves in a factor of ten: all, quick
 CONSTANT, CONSTANT_PER_DECADE = (1e3, 1e5), (4, 2)    # with all of kappa at once
@@ -43,8 +42,8 @@ def iso_9613(frequency, humidity):
 
 
 def coefficients(gas, line=True):
-    """Variables of the input. On a line the bulk term has the shear viscosity, too; conduction of heat, which the particles
-    do not have, comes as the longitudinal viscosity that damps sound as much."""
+    """Variables of the input. On a line the bulk term has the shear viscosity, too; conduction of heat, which this
+    input leaves out, comes as the longitudinal viscosity that damps sound as much."""
     kappa = gas.kappa + gas.conduction + (4 / 3 * gas.mu if line else 0.0)
     processes = " ".join(["relax", *(f"{number:.6g}" for process in gas.relax for number in process)])
     return {"rho": f"{gas.rho:.8g}", "c": f"{gas.c:.8g}", "mu": 0 if line else gas.mu, "kappa": f"{kappa:.6g}",

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--dim 3] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -14,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 from swirl import Swirl                     # noqa: E402
 
 CASES = {        # variables of the input, legend, color
@@ -172,12 +171,10 @@ def main():
 
     suffix = "" if args.dim == 2 else "_3d"
     table, picture = example.out / f"angular_momentum{suffix}.csv", example.out / f"angular_momentum{suffix}.png"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["time", *(f"{what}_{name}" for name in CASES for what in ("change_of_L", "kinetic"))])
+    with csv_rows(table, ["time", *(f"{what}_{name}" for name in CASES for what in ("change_of_L", "kinetic"))]) as writerow:
         for i in range(0, len(morris.t), 10):
-            writer.writerow([f"{morris.t[i]:.6g}", *(f"{value:.6e}" for name in CASES for value in
-                                                     (runs[name].change[i], runs[name].kinetic[i] / runs[name].kinetic[0]))])
+            writerow([f"{morris.t[i]:.6g}", *(f"{value:.6e}" for name in CASES for value in
+                                              (runs[name].change[i], runs[name].kinetic[i] / runs[name].kinetic[0]))])
     plot(picture, runs, theory, args.dim)
     return example.finish(picture, table)
 

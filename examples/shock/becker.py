@@ -5,7 +5,6 @@
     SPHD_LMP=path/to/lmp python3 becker.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from fractions import Fraction
 from pathlib import Path
@@ -14,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 GAMMA = 1.4                                  # as in the input
 MACHS = (1.5, 2.0)
@@ -107,14 +106,12 @@ def main():
     table = example.out / "becker.csv"
     print(f"\n{n} particle distances in a thickness before the shock\n"
           "\nMach   lambda + 2 mu of    steps   thickness   velocity, rms   temperature, rms   place of the shock")
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["mach", "mu_over_lambda_plus_2mu", "spacings", "steps", "thickness_over_exact", "rms_velocity", "rms_temperature",
-                         "place_less_exact"])
+    with csv_rows(table, ["mach", "mu_over_lambda_plus_2mu", "spacings", "steps", "thickness_over_exact", "rms_velocity", "rms_temperature",
+                          "place_less_exact"]) as writerow:
         for run in runs:
             run.measure(example.out)
             row = [f"{run.thickness:.4f}", f"{run.rms_u:.5f}", f"{run.rms_T:.5f}", f"{run.place:.5f}"]
-            writer.writerow([run.mach, run.share, run.n, run.steps, *row])
+            writerow([run.mach, run.share, run.n, run.steps, *row])
             print(f"{run.mach:<6} {SHARES[run.share]:<19} {run.steps:<7} {row[0]:<11} {row[1]:<15} {row[2]:<18} {row[3]}")
     print()
     profile, place = np.multiply(2 if args.quick else 1, (PROFILE, PLACE))

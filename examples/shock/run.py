@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -15,7 +14,7 @@ from scipy.optimize import brentq
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 GAMMA, MACH = 1.4, 2.0                       # as in the input
 U1 = MACH
@@ -117,13 +116,11 @@ def main():
     example.run({run.name: run.variables for run in runs})
     table = example.out / "shock.csv"
     print("\nviscosity  of what                 steps  thickness  density behind  velocity, rms  energy, largest")
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["viscosity", "case", "steps", "thickness_over_exact", "density_over_exact", "rms_velocity", "largest_energy"])
+    with csv_rows(table, ["viscosity", "case", "steps", "thickness_over_exact", "density_over_exact", "rms_velocity", "largest_energy"]) as writerow:
         for run in runs:
             run.measure(example.out)
             row = [run.viscosity, run.title, run.steps, f"{run.thickness:.5f}", f"{run.density:.5f}", f"{run.profile:.5f}", f"{run.heat:.5f}"]
-            writer.writerow(row)
+            writerow(row)
             print(f"{row[0]:<10} {row[1]:<23} {row[2]:<6} {row[3]:<10} {row[4]:<15} {row[5]:<14} {row[6]}")
     print()
     for run in runs:

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -15,7 +14,7 @@ from scipy.special import erf
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 CASES = {      # title: density, heat capacity per mass, conductivity, temperature at the start, of both slabs
     "two conductivities": ((1, 1), (1, 1), (1, 0.1), (1, 2)),
@@ -84,13 +83,11 @@ def main():
     table = example.out / "slabs.csv"
     print(f"\n{n} particles per unit length\n\n"
           "conduction by       slabs                                  contact, exact   measured   profile, rms   largest error")
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["style", "slabs", "contact_exact", "contact", "rms", "largest"])
+    with csv_rows(table, ["style", "slabs", "contact_exact", "contact", "rms", "largest"]) as writerow:
         for run in runs:
             run.measure(example.out)
             row = [f"{run.exact:.5f}", f"{run.contact:.5f}", f"{run.rms:.5f}", f"{run.largest:.5f}"]
-            writer.writerow([run.style, run.title, *row])
+            writerow([run.style, run.title, *row])
             print(f"{run.style:<19} {run.title:<38} {row[0]:<16} {row[1]:<10} {row[2]:<14} {row[3]}")
     print()
     for run in runs:

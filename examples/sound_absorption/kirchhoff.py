@@ -5,18 +5,15 @@
     SPHD_LMP=path/to/lmp python3 kirchhoff.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
 import numpy as np
 
 import run as absorption
-from run_lammps import Example, exponents, pyplot, save
+from run_lammps import Example, csv_rows, exponents, fluids, pyplot, save
 
 HERE = Path(__file__).resolve().parent
-GASES = HERE.parent.parent / "potentials" / "gases.sph"
-GAS_CONSTANT = 8.31446261815324
 WAVELENGTH = 1e-5           # [m]
 TITLES = {"Ar": "argon", "N2": "nitrogen", "CO2": "CO$_2$,\nfrozen vibration"}
 PARTS = {"shear": (1, 0, 0), "bulk": (0, 1, 0), "conduction": (0, 0, 1), "all": (1, 1, 1)}    # of mu, kappa, k
@@ -30,15 +27,13 @@ class Gas:
     """An ideal gas of the file, with the heat capacity that follows a wave of this length: of CO2 the vibrations do not."""
 
     def __init__(self, name):
-        rows = [line.split("#")[0].split() for line in GASES.read_text().splitlines()]
-        names = next(row for row in rows if row and row[0] == "columns")[1:]
-        column = dict(zip(names, next(row for row in rows if row and row[0] == name)))
+        column, _ = fluids.rows(fluids.POTENTIALS / "gases.sph")[name]
         self.name, self.wavelength = name, WAVELENGTH
         self.T, self.p, mass, self.mu, self.k, self.gamma, self.kappa = (
-            float(column[key]) for key in ("temperature", "pressure", "M", "mu", "k", "gamma", "kappa"))
+            column[key] for key in ("temperature", "pressure", "M", "mu", "k", "gamma", "kappa"))
         if name == "CO2":
             self.gamma = 1.4
-        self.R = GAS_CONSTANT / mass
+        self.R = fluids.GAS_CONSTANT / mass
         self.rho, self.cv = self.p / (self.R * self.T), self.R / (self.gamma - 1)
         self.c = np.sqrt(self.gamma * self.R * self.T)
         self.pb = self.rho * self.c**2 - self.p        # as in the input
@@ -141,17 +136,15 @@ def main():
     table = example.out / "kirchhoff.csv"
     print("\ngas       particles    what        damping    alpha/f^2      damping over                           speed over")
     print("                                   [1/s]      [1e-13 s2/cm]  lattice   Kirchhoff  Stokes-Kirchhoff  Kirchhoff")
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["gas", "particles", "cells", "what", "damping_per_s", "alpha_over_f2_s2_per_m", "over_lattice", "over_kirchhoff",
-                         "over_stokes_kirchhoff", "speed_over_kirchhoff"])
+    with csv_rows(table, ["gas", "particles", "cells", "what", "damping_per_s", "alpha_over_f2_s2_per_m", "over_lattice", "over_kirchhoff",
+                          "over_stokes_kirchhoff", "speed_over_kirchhoff"]) as writerow:
         for run in runs:
             run.measure(example.out)
             gas, (lattice, _) = run.gas, LATTICES[run.dim]
             absorbed = run.damping * gas.wavelength**2 / gas.c**3
             ratio = run.damping / gas.stokes_kirchhoff(run.part)
-            writer.writerow([gas.name, lattice, run.n, run.part, f"{run.damping:.6e}", f"{absorbed:.5e}", f"{run.discrete:.6f}",
-                             f"{run.kirchhoff:.5f}", f"{ratio:.5f}", f"{run.speed:.6f}"])
+            writerow([gas.name, lattice, run.n, run.part, f"{run.damping:.6e}", f"{absorbed:.5e}", f"{run.discrete:.6f}",
+                      f"{run.kirchhoff:.5f}", f"{ratio:.5f}", f"{run.speed:.6f}"])
             print(f"{gas.name:9s} {lattice:12s} {run.part:11s} {run.damping:.4e} {absorbed * 1e11:.4f}         {run.discrete:.5f}   "
                   f"{run.kirchhoff:.4f}     {ratio:.4f}            {run.speed:.5f}")
     print()

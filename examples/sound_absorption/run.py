@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -15,9 +14,9 @@ from scipy.optimize import curve_fit
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, fluids, pyplot, save      # noqa: E402
 
-FLUIDS = HERE.parent.parent / "potentials" / "fluids.sph"
+FLUIDS = fluids.POTENTIALS / "fluids.sph"
 CASES = {      # fluid: wavelength [m], title
     "water": (0.4e-6, "water, 0.4 µm"),
     "toluene": (1e-6, "toluene, 1 µm"),
@@ -35,10 +34,8 @@ class Fluid:
     """A line of the file of fluids, and the damping of a wave in it."""
 
     def __init__(self, name):
-        rows = (line.split("#")[0].split() for line in FLUIDS.read_text().splitlines())
-        self.text = next(row for row in rows if row and row[0] == name)
-        self.name = name
-        self.rho, self.c, self.mu, self.kappa = map(float, self.text[2:6])
+        known = fluids.read(FLUIDS)[name]
+        self.name, self.rho, self.c, self.mu, self.kappa = name, known.rho, known.c, known.mu, known.kappa
         self.wavelength, self.title = CASES[name]
         self.k = 2 * np.pi / self.wavelength
         self.period = self.wavelength / self.c
@@ -99,9 +96,8 @@ class Run:
     def __init__(self, fluid, model, n):
         self.fluid, self.model, self.n = fluid, model, n
         self.name = f"{fluid.name.replace('/', '_')}.{model}.n{n}"
-        _, _, rho, c, mu, _ = fluid.text
         self.variables = {"fluid": fluid.name, "file": FLUIDS, "kappa": model, "wavelength": fluid.wavelength,
-                          "rho": rho, "c": c, "mu": mu, "n": n}
+                          "rho": fluid.rho, "c": fluid.c, "mu": fluid.mu, "n": n}
 
     def measure(self, out):
         """Damping and frequency from a fit to the whole time series."""
@@ -183,9 +179,9 @@ def main():
     example = Example(HERE, "Sound absorbed by real fluids: LAMMPS against Stokes.")
     args = example.arguments()
     cells = QUICK_CELLS if args.quick else CELLS
-    fluids = {name: Fluid(name) for name in CASES}
-    measured = {name: [Run(fluid, "file", n) for n in cells] for name, fluid in fluids.items()}
-    alone = {name: Run(fluid, "intrinsic", cells[-1]) for name, fluid in fluids.items()}
+    cases = {name: Fluid(name) for name in CASES}
+    measured = {name: [Run(fluid, "file", n) for n in cells] for name, fluid in cases.items()}
+    alone = {name: Run(fluid, "intrinsic", cells[-1]) for name, fluid in cases.items()}
     runs = [run for group in measured.values() for run in group] + list(alone.values())
     example.run({run.name: run.variables for run in sorted(runs, key=lambda run: -run.n)})
     for run in runs:
@@ -193,7 +189,7 @@ def main():
 
     print("\nfluid      kappa from     n    kh     damping    loss per   damping over          speed/c   shear term alone")
     print("                                      [1/s]      period     Stokes     lattice              would give")
-    for name, fluid in fluids.items():
+    for name, fluid in cases.items():
         for run in [*measured[name], alone[name]]:
             loss = 1 - np.exp(-run.damping * fluid.period)
             print(f"{name:10s} {run.model:10s} {run.n:4d}  {kh(run.n):.3f}  {run.damping:.4e}  {100 * loss:5.2f} %   "
@@ -206,22 +202,20 @@ def main():
         example.merit(f"{name}: damping/Stokes for kh -> 0 (+- {spread:.4f})", value, 1 - STOKES, 1 + STOKES)
     for name, group in measured.items():
         for what, values in (("damping/lattice sum", [run.lattice for run in [*group, alone[name]]]),
-                             ("speed of sound/c", [run.speed / fluids[name].c for run in [*group, alone[name]]])):
+                             ("speed of sound/c", [run.speed / cases[name].c for run in [*group, alone[name]]])):
             worst = max(values, key=lambda v: abs(v - 1))
             within = LATTICE if "damping" in what else SPEED
             example.merit(f"{name}: {what}, farthest from 1", worst, 1 - within, 1 + within)
 
     table = example.out / "absorption.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["fluid", "wavelength_m", "frequency_Hz", "kappa_Pa_s", "mu_Pa_s", "cells", "kh", "damping_per_s",
-                         "fit_error", "damping_over_stokes", "damping_over_lattice", "speed_over_c"])
+    with csv_rows(table, ["fluid", "wavelength_m", "frequency_Hz", "kappa_Pa_s", "mu_Pa_s", "cells", "kh", "damping_per_s",
+                          "fit_error", "damping_over_stokes", "damping_over_lattice", "speed_over_c"]) as writerow:
         for run in runs:
             fluid = run.fluid
-            writer.writerow([fluid.name, fluid.wavelength, f"{1 / fluid.period:.6g}",
-                             f"{fluid.bulk_viscosity(run.model):.6g}", fluid.mu, run.n, f"{kh(run.n):.5f}",
-                             f"{run.damping:.6e}", f"{run.error:.1e}", f"{run.stokes:.6f}", f"{run.lattice:.6f}",
-                             f"{run.speed / fluid.c:.6f}"])
+            writerow([fluid.name, fluid.wavelength, f"{1 / fluid.period:.6g}",
+                      f"{fluid.bulk_viscosity(run.model):.6g}", fluid.mu, run.n, f"{kh(run.n):.5f}",
+                      f"{run.damping:.6e}", f"{run.error:.1e}", f"{run.stokes:.6f}", f"{run.lattice:.6f}",
+                      f"{run.speed / fluid.c:.6f}"])
     return example.finish(*plot(example.out, measured, alone), table)
 
 

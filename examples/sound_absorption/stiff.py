@@ -5,7 +5,6 @@
     SPHD_LMP=path/to/lmp python3 stiff.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import re
 import sys
 from pathlib import Path
@@ -14,7 +13,7 @@ import numpy as np
 from scipy.optimize import curve_fit
 
 import run as absorption
-from run_lammps import Example, pyplot, save
+from run_lammps import Example, csv_rows, pyplot, save
 
 HERE = Path(__file__).resolve().parent
 absorption.SUPPORT = 3
@@ -94,14 +93,12 @@ def main():
     example.run({run.name: run.variables for run in sorted(runs, key=lambda run: -run.n)})
     table = example.out / "stiff.csv"
     print("\ngas  n    rate*dt  step              steps   force computations  seconds  damping/lattice sums")
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["gas", "wavelength_m", "cells", "rate_times_dt", "step", "steps", "force_computations", "seconds",
-                         "damping_per_s", "damping_over_lattice"])
+    with csv_rows(table, ["gas", "wavelength_m", "cells", "rate_times_dt", "step", "steps", "force_computations", "seconds",
+                          "damping_per_s", "damping_over_lattice"]) as writerow:
         for run in runs:
             run.measure(example.out)
-            writer.writerow([run.fluid.name, f"{run.fluid.wavelength:.4e}", run.n, f"{run.stiffness:.3g}", run.mode, run.steps,
-                             f"{run.work:.0f}", f"{run.seconds:.3g}", f"{run.damping:.6e}", f"{run.lattice:.5f}"])
+            writerow([run.fluid.name, f"{run.fluid.wavelength:.4e}", run.n, f"{run.stiffness:.3g}", run.mode, run.steps,
+                      f"{run.work:.0f}", f"{run.seconds:.3g}", f"{run.damping:.6e}", f"{run.lattice:.5f}"])
             print(f"{run.fluid.name:4s} {run.n:<4d} {run.stiffness:<8.3g} {run.mode:<17s} {run.steps:<7d} {run.work:<19.0f} "
                   f"{run.seconds:<8.3g} {run.lattice:.5f}")
     print()

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -17,7 +16,7 @@ import reference
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 # Errors of an independent implementation of the method (numpy, no neighbor lists) with this
 # kernel, support and time integration.  Reached means: not more than 10 % above.
@@ -50,10 +49,10 @@ class Run:
         self.variables = {"n": n, "kappa": self.kappa, "kernel": self.kernel, "support": self.support}
 
     def compare(self, solution):
-        data = np.loadtxt(f"{self.prefix}.particles.txt", skiprows=9)
-        if len(data) != self.n:
-            raise SystemExit(f"sound_pulse: {self.prefix}.particles.txt has {len(data)} particles, not {self.n}")
-        x, self.v = data[:, 1], data[:, 2]
+        (frame,) = frames(f"{self.prefix}.particles.txt").values()
+        x, self.v = frame["x"], frame["vx"]
+        if len(x) != self.n:
+            raise SystemExit(f"sound_pulse: {self.prefix}.particles.txt has {len(x)} particles, not {self.n}")
         self.x = reference.XLO + np.mod(x - reference.XLO, reference.LENGTH)
         exact = solution.velocity(self.x)
         self.dv = self.v - exact
@@ -114,13 +113,11 @@ def table(cases):
 
 
 def write_csv(path, cases):
-    with open(path, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["kernel", "kappa", "support_over_dx", "n", "steps", "error_v", "target_v",
-                         "error_ke", "target_ke", "error_ke_all_times", "energy_drift"])
+    with csv_rows(path, ["kernel", "kappa", "support_over_dx", "n", "steps", "error_v", "target_v",
+                         "error_ke", "target_ke", "error_ke_all_times", "energy_drift"]) as writerow:
         for run in (run for runs in cases.values() for run in runs):
-            writer.writerow([run.kernel, run.kappa, run.support, run.n, run.steps, f"{run.error_v:.6e}", run.target_v,
-                             f"{run.error_e:.6e}", run.target_e, f"{run.error_e_all:.6e}", f"{run.drift:.3e}"])
+            writerow([run.kernel, run.kappa, run.support, run.n, run.steps, f"{run.error_v:.6e}", run.target_v,
+                      f"{run.error_e:.6e}", run.target_e, f"{run.error_e_all:.6e}", f"{run.drift:.3e}"])
 
 
 MARKS = {64: ("o", "C0"), 128: ("s", "C1"), 256: ("^", "C2"), 512: ("v", "C3")}

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -15,7 +14,7 @@ from scipy.optimize import curve_fit
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, pyplot, save      # noqa: E402
 
 LENGTHS = (12, 16, 20, 28)              # wavelengths over h
 QUICK = (16, 20, 28)
@@ -106,15 +105,13 @@ def main():
               for dim in (3, 2) for mu_r in MU_R[dim] for wave in WAVES}
     example.run({w.name: w.variables for group in groups.values() for w in reversed(group)})
     table = example.out / "spin_viscosities.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["dim", "mu_r", "wave", "asked", "kh", "ratio"])
+    with csv_rows(table, ["dim", "mu_r", "wave", "asked", "kh", "ratio"]) as writerow:
         for (dim, mu_r, wave), group in groups.items():
             for w in group:
                 w.measure(example.out)
-                writer.writerow([dim, f"{mu_r:.4f}", wave, f"{w.asked:.4f}", f"{w.q ** 0.5:.4f}", f"{w.ratio:.6f}"])
+                writerow([dim, f"{mu_r:.4f}", wave, f"{w.asked:.4f}", f"{w.q ** 0.5:.4f}", f"{w.ratio:.6f}"])
             fit, error = extrapolate(group)
-            writer.writerow([dim, f"{mu_r:.4f}", wave, f"{group[0].asked:.4f}", 0, f"{fit[-1]:.6f}"])
+            writerow([dim, f"{mu_r:.4f}", wave, f"{group[0].asked:.4f}", 0, f"{fit[-1]:.6f}"])
             name = {"held": "mu + mu_r", "free": "mu", "sound": "lambda + 2 mu"}[wave]
             print(f"{dim}d, mu_r = {mu_r:.3g}: {name} over {group[0].asked:.4g} is {fit[-1]:.5f} +- {error:.5f}")
             example.merit(f"{dim}d, mu_r = {mu_r:.3g}: {name} over what was asked for, minus 1", abs(fit[-1] - 1), 0, MERIT)

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--n 64] [--re 100 200] [--kappa 0 1 10] [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -16,7 +15,7 @@ import reference
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, pyplot, read_array, read_grid, save      # noqa: E402
+from run_lammps import Example, csv_rows, pyplot, read_array, read_grid, save      # noqa: E402
 
 ENERGY = 0.02               # energy over that of the spectral solution, n = 64, Re = 100
 PEAK, PEAK_TIME = 0.05, 0.2     # of the rate of loss of energy
@@ -153,19 +152,15 @@ def main():
     for run in runs:
         run.measure(example.out)
     table, power = example.out / "taylor_green.csv", example.out / "power.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["re", "kappa_over_mu", "n", "t", "energy", "energy_over_spectral", "heat_shear", "heat_bulk"])
+    with csv_rows(table, ["re", "kappa_over_mu", "n", "t", "energy", "energy_over_spectral", "heat_shear", "heat_bulk"]) as writerow:
         for run in runs:
             for row in zip(run.t, run.kinetic, run.error + 1, run.shear, run.bulk):
-                writer.writerow([f"{run.re:g}", f"{run.kappa:g}", run.n, *(f"{value:.6g}" for value in row)])
+                writerow([f"{run.re:g}", f"{run.kappa:g}", run.n, *(f"{value:.6g}" for value in row)])
     columns = ("grid_vortical", "vortical", "grid_dilatational", "dilatational", "heat")
-    with open(power, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["re", "kappa_over_mu", "n", "t", *columns])
+    with csv_rows(power, ["re", "kappa_over_mu", "n", "t", *columns]) as writerow:
         for run in runs:
             for row in zip(run.spectra_t, *(getattr(run, name) for name in columns)):
-                writer.writerow([f"{run.re:g}", f"{run.kappa:g}", run.n, *(f"{value:.6g}" for value in row)])
+                writerow([f"{run.re:g}", f"{run.kappa:g}", run.n, *(f"{value:.6g}" for value in row)])
     for run in runs:
         worst = abs(run.error).max()
         print(f"Re = {run.re:g}, kappa/mu = {run.kappa:g}: energy within {100 * worst:.2f} %, largest loss {run.peak[0]:.5f} at "

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -14,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, pyplot, save      # noqa: E402
 
 DECAY = 0.02                # decay rate over the exact one, with shifting; Re = 1000 with n = 100
 SPEEDS = {"1.0": "shifting", "0.0": "no shifting"}
@@ -70,11 +69,9 @@ def main():
         if float(run.shift) and (run.re == 100 or run.n == 100):
             example.merit(f"Re = {run.re}, n = {run.n}, shifting: decay rate/exact", run.decay, 1 - DECAY, 1 + DECAY)
     table = example.out / "decay.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["re", "shift", "n", "decay_over_exact", "final_energy_over_exact", "spectral_over_particle_power"])
+    with csv_rows(table, ["re", "shift", "n", "decay_over_exact", "final_energy_over_exact", "spectral_over_particle_power"]) as writerow:
         for run in runs:
-            writer.writerow([run.re, run.shift, run.n, f"{run.decay:.5f}", f"{run.final:.5f}", f"{run.resolved:.5f}"])
+            writerow([run.re, run.shift, run.n, f"{run.decay:.5f}", f"{run.final:.5f}", f"{run.resolved:.5f}"])
     return example.finish(table, *([] if args.quick else [plot(example.out, runs)]))
 
 

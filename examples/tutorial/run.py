@@ -8,21 +8,13 @@ import numpy as np
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent))
 
-from run_lammps import Example, pyplot, save, thermo      # noqa: E402
+from run_lammps import Example, averages, pyplot, save, thermo      # noqa: E402
 
 
 def chunks(path):
-    """[(coordinate, values)] of the last output of fix ave/chunk, one per output, bins with particles alone"""
-    frames, rows = [], []
-    for line in path.read_text().splitlines():
-        if line.startswith("#"):
-            continue
-        if not line.startswith("  "):
-            rows = []
-            frames.append((int(line.split()[0]), rows))
-        else:
-            rows.append([float(word) for word in line.split()])
-    return [(step, np.array([row for row in rows if row[2] > 0])) for step, rows in frames]
+    """[(step, rows)] of the outputs of fix ave/chunk: chunk, coordinate, count and values, of bins with particles alone"""
+    outputs = [(step, np.column_stack([*found.values()])) for step, found in averages(path).items()]
+    return [(step, rows[rows[:, 2] > 0]) for step, rows in outputs]
 
 
 def figure(name, draw, out):

@@ -6,7 +6,6 @@
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
 """
 
-import csv
 import sys
 from pathlib import Path
 
@@ -14,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from run_lammps import Example, frames, pyplot, save      # noqa: E402
+from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 from swirl import Swirl                     # noqa: E402
 
 R1, SUPPORT = 0.5, 4                            # as in the input; R2 = 1, Omega0 = 1
@@ -122,9 +121,7 @@ def main():
     runs = {key: Run(example.out, name) for key, name in names.items()}
 
     table = example.out / "omega.csv"
-    with open(table, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["eta2/eta1", "shear", "n", "omega_in", "spread", "continuum", "lattice", "spin"])
+    with csv_rows(table, ["eta2/eta1", "shear", "n", "omega_in", "spread", "continuum", "lattice", "spin"]) as writerow:
         for ratio, etas in RATIOS.items():
             for n in reversed(sizes):
                 print()
@@ -138,9 +135,9 @@ def main():
                 example.merit("micropolar: mean spin over Omega0, minus 1", abs(spinning.spin - 1), 0.0, CONSERVING)
                 example.merit("morris: Omega_in over the formula, minus 1", abs(run.omega / formula - 1), 0.0, FORMULA)
                 example.merit("morris: Omega_in over that of a still lattice, minus 1", abs(run.omega / lattice - 1), 0.0, LATTICE)
-                writer.writerow([ratio, "mg", n, f"{conserving.omega:.6f}", f"{conserving.spread:.1e}", 1.0, 1.0, ""])
-                writer.writerow([ratio, "morris", n, f"{run.omega:.6f}", f"{run.spread:.1e}", f"{formula:.6f}", f"{lattice:.6f}", ""])
-                writer.writerow([ratio, "micropolar", n, f"{spinning.omega:.6f}", f"{spinning.spread:.1e}", 1.0, 1.0, f"{spinning.spin:.6f}"])
+                writerow([ratio, "mg", n, f"{conserving.omega:.6f}", f"{conserving.spread:.1e}", 1.0, 1.0, ""])
+                writerow([ratio, "morris", n, f"{run.omega:.6f}", f"{run.spread:.1e}", f"{formula:.6f}", f"{lattice:.6f}", ""])
+                writerow([ratio, "micropolar", n, f"{spinning.omega:.6f}", f"{spinning.spread:.1e}", 1.0, 1.0, f"{spinning.spin:.6f}"])
             if len(sizes) > 1:
                 coarse, fine = (abs(runs["morris", ratio, n].omega / formula - 1) for n in sorted(sizes))
                 example.merit("morris: error at n = 32 over that at n = 16", fine / coarse, 0.0, 1.0)

@@ -1,10 +1,13 @@
 """Fixtures shared by the behaviour tests; the tools they hand out are in helpers.py."""
 
 import os
+import sys
+from pathlib import Path
 
 import pytest
 
-from helpers import Lammps
+sys.path[:0] = [str(Path(__file__).resolve().parents[2] / folder) for folder in ("python", "examples", "tools")]
+from helpers import Lammps      # noqa: E402
 
 
 def pytest_configure(config):

@@ -9,14 +9,11 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "examples"))
-from run_lammps import each_frame, read_array, read_grid, thermo     # noqa: E402, F401
+from sph_dissipation import each_frame, thermo
 
 LMP = os.environ.get("SPHD_LMP") or shutil.which("lmp") or "lmp"
 MPIEXEC = os.environ.get("SPHD_MPIEXEC") or shutil.which("mpiexec") or "mpiexec"

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from helpers import read_array, read_grid     # noqa: F401, for the tests
+from sph_dissipation import read_array, read_grid     # noqa: F401, for the tests
 
 COLUMNS = ("wave", "modes", "solenoidal", "dilatational", "enstrophy", "density", "kinetic", "spin")
 TOTALS = ("solenoidal", "dilatational", "curl2", "div2", "power_curl", "power_div", "density2", "kinetic", "spin")

@@ -96,8 +96,7 @@ def friction_matrix(lammps, particles, model):
         text += (f"variable one atom id=={particle + 1}\nvelocity all set {' '.join(velocity)}\nrun 0 post no\n"
                  f"write_dump all custom force.{column} id fx fy fz modify sort id format float %.17g\n")
     result = lammps(text)
-    forces = [np.loadtxt(lammps.path(f"force.{column}"), skiprows=9)[:, 1:1 + dim].ravel()
-              for column in range(len(moves))]
+    forces = [lammps.frame(f"force.{column}")["f"][:, :dim].ravel() for column in range(len(moves))]
     return np.array([forces[0] - force for force in forces[1:]]).T, result
 
 

@@ -7,17 +7,15 @@ the tables of its README are compared with those.
 """
 
 import re
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-import gallery  # noqa: E402
+import gallery
 
+ROOT = Path(__file__).resolve().parents[2]
 NUMBER = r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 TABLE = re.compile(r"^\.\. numbers of (\S+)\n\n((?:(?: .*)?\n|\.\. list-table.*\n)+)", re.MULTILINE)
 
@@ -178,7 +176,7 @@ def test_animations():
 
 
 def test_figures_have_one_style():
-    """that of examples/sph.mplstyle: its resolution, sizes, and colors"""
+    """that of sph.mplstyle: its resolution, sizes, and colors"""
     for script in (ROOT / "examples").glob("*/*.py"):
         found = re.findall(r"\bdpi=|rcParams|matplotlib\.use|savefig|\bturbo\b|\bjet\b|tight_layout|pyplot\([^)]", script.read_text(encoding="utf-8"))
         assert not found, (script, found)
@@ -215,7 +213,7 @@ def test_logs_of_examples():
 @pytest.mark.parametrize("document", ["README.md", "CONTRIBUTING.md"])
 def test_files_named_are_there(document):
     text = (ROOT / document).read_text()
-    named = set(re.findall(r"\]\((?!http)([^)#]+)\)", text)) | set(re.findall(r"`((?:src|doc|unittest|tools|examples)/[\w./-]+)`", text))
+    named = set(re.findall(r"\]\((?!http)([^)#]+)\)", text)) | set(re.findall(r"`((?:src|doc|unittest|tools|examples|python)/[\w./-]+)`", text))
     assert len(named) > 10
     for name in sorted(named):
         assert (ROOT / name).exists() or "NAME" in name, name    # NAME: for the reader to choose

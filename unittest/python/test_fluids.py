@@ -2,17 +2,14 @@
 
 import math
 import re
-import sys
 from pathlib import Path
 
 import pytest
 
 from helpers import lattice
+from sph_dissipation import fluids as tool
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-import fluids as tool  # noqa: E402
-
 FLUIDS = ROOT / "potentials" / "fluids.sph"
 GASES = ROOT / "potentials" / "gases.sph"
 R = 8.31446261815324
@@ -33,15 +30,7 @@ def lines_of(path):
 SHIPPED = lines_of(FLUIDS)
 
 
-def gases_of(path):
-    """{name: {column: number, or None for -}} of a file that names its columns, read without LAMMPS."""
-    lines = [line.split("#")[0].split() for line in path.read_text().splitlines()]
-    (columns,) = [words[2:] for words in lines if words[:1] == ["columns"]]
-    return {words[0]: {column: None if word == "-" else float(word) for column, word in zip(columns, words[1:], strict=True)}
-            for words in lines if words and words[0] != "columns"}
-
-
-SHIPPED_GASES = gases_of(GASES)
+SHIPPED_GASES = {name: columns for name, (columns, _) in tool.rows(GASES).items()}
 
 
 def processes(gas):
@@ -282,7 +271,7 @@ def decibels(fluid, frequency):
 
 
 def test_humid_air():
-    """The lines of the file are those of tools/fluids.py, and the absorption that follows from them, with heat conduction, is
+    """The lines of the file are those of sph_dissipation.fluids, and the absorption that follows from them, with heat conduction, is
     that of the standard: 4.665 dB/km at 1 kHz, 20 C, 50 %."""
     for humidity in (0, 10, 50):
         assert SHIPPED_GASES[f"air/{humidity}"] == pytest.approx(tool.humid_air(humidity), rel=5e-6)

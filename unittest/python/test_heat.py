@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from helpers import INTEGRATE, SUPPORT, disordered, dump, fluid, header, lattice, relative, undump
+from sph_dissipation import exponents
 
 TEMPERATURE = "compute T all property/atom tsph\n"
 FULL = "thermo_modify norm no format float %.17g\n"
@@ -306,13 +307,6 @@ def test_slabs_of_two_materials(lammps, swap):
 # sound
 
 
-def rates_of(signal, interval, count):
-    """Exponents of a sum of so many exponentials, by the recursion that its samples obey (Prony)."""
-    rows = np.array([signal[k:k + count] for k in range(len(signal) - count)])
-    recursion = np.linalg.lstsq(rows, signal[count:], rcond=None)[0]
-    return np.log(np.roots(np.r_[1.0, -recursion[::-1]]).astype(complex)) / interval
-
-
 def standing_wave(lammps, N, R, pair, coefficients, T, dt=0.002, every=20, run=1200, amplitude=1e-5):
     line(N).write(lammps.path("box.data"))
     log = lammps(header(1) + "read_data box.data\n" + f"pair_style sph/bulk dim 1 shear none bulk density {pair}\n"
@@ -330,7 +324,7 @@ def test_sound_of_an_ideal_gas(lammps, N, kappa, k, gamma, pb):
     within 3 %.  The background pressure is elastic: it changes no speed of sound."""
     R, cv = 5.0, 1 / (gamma - 1)
     signal, interval = standing_wave(lammps, N, R, "eos ideal", f"1.0 1.0 0.0 {kappa} {{R}} gamma {gamma} pb {pb} cv {cv} conductivity {k}", 1.0)
-    measured = max(rates_of(signal, interval, 3 if k else 2), key=lambda s: s.imag)
+    measured = max(exponents(interval, signal, 3 if k else 2), key=lambda s: s.imag)
     sums = Line(N, R)
     rho = sums.c / N
     heat = (gamma - 1) * cv
@@ -351,7 +345,7 @@ def test_sound_of_a_liquid(lammps, eos, gruneisen, T):
     """c0 is the adiabatic speed of sound at rho0 and T0 = 3, c^2 = c0^2 + Gamma (Gamma + 1) cv (T - T0) at others."""
     N, R, cv, c0, T0 = 64, 5.0, 0.2, 1.3, 3.0
     signal, interval = standing_wave(lammps, N, R, f"eos {eos}", f"1.0 {c0} 0.0 0.0 {{R}} cv {cv} gruneisen {gruneisen} {T0}", T)
-    measured = max(rates_of(signal, interval, 2), key=lambda s: s.imag)
+    measured = max(exponents(interval, signal, 2), key=lambda s: s.imag)
     sums = Line(N, R)
     x = sums.c / N
     pc = c0**2 - gruneisen * (gruneisen + 1) * cv * T0

@@ -8,6 +8,7 @@ import pytest
 import test_heat as heat
 import test_viscous as viscous
 from helpers import disordered, dump, fluid, header, lattice, relative
+from sph_dissipation import exponents
 
 SCHEMES, SECOND_ORDER = viscous.SCHEMES, viscous.SECOND_ORDER
 TEMPERATURE, FULL = heat.TEMPERATURE, heat.FULL
@@ -154,7 +155,7 @@ def test_sound_of_a_gas(lammps, name, k):
                  "variable u0 atom 1e-5*sin(2*PI*x)\nvelocity all set v_u0 0 0\nvariable u atom vx*sin(2*PI*x)\n"
                  f"compute U all reduce sum v_u\nthermo_style custom step c_U f_FLUID[5]\nthermo {every}\n{FULL}run 1200\n")
     table = log.thermo()[-1]
-    measured = max(heat.rates_of(table["c_U"], every * dt, 3), key=lambda s: s.imag)
+    measured = max(exponents(every * dt, table["c_U"], 3), key=lambda s: s.imag)
     sums = heat.Line(N, R)
     rho = sums.c / N
     exact = max(sums.sound(1.0, rho, 0.4, 1.0, rho + 0.4, 0.0, k, cv, rho), key=lambda s: s.imag)

@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "examples"))
-from run_lammps import frames      # noqa: E402
+from sph_dissipation import frames
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "doc" / "src" / "Howto_sph_looking.rst").read_text()
@@ -51,7 +50,7 @@ def test_page(tmp_path):
     white = (colors > 250).all(axis=1)
     assert 0.05 < 1 - white.mean() < 0.99 and len(np.unique(colors[~white], axis=0)) > 100
 
-    gif, log, module = blocks("python")
+    gif, log, module, package = blocks("python")
     run(sys.executable, "-c", gif)
     with Image.open(tmp_path / "flow.gif") as movie:
         assert movie.n_frames == len(steps)
@@ -60,6 +59,11 @@ def test_page(tmp_path):
     if "UBSAN_OPTIONS" not in os.environ:      # Python is not built with the sanitizers
         density, temperature = map(float, run(sys.executable, "-c", module).split()[-2:])
         assert abs(density - last["density"].mean()) < 1e-5 and abs(temperature - last["temperature"].max()) < 1e-4
+
+    environment["PYTHONPATH"] = str(ROOT / "python")
+    numbers = list(map(float, run(sys.executable, "-c", package).split()))
+    assert numbers[:2] == [time, kinetic] and numbers[2] == last["density"].max()
+    assert numbers[3] == 1496.7 and abs(numbers[4] / 0.021179 - 1) < 1e-3     # Stokes
 
     # VTK: each column is there as a whole, in the order of the dump
     run(sys.executable, str(ROOT / "tools" / "dump_to_vtk.py"), "flow.dump")

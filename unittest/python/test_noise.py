@@ -537,8 +537,7 @@ def test_heat_of_each_mass_without_shear_viscosity(lammps):
         text = heated(mass=4.0).replace(" 6.0 0.3 ", f" 6.0 {mu} ")
         lammps(text + "compute e all property/atom esph\ndump E all custom 50 e.dump id c_e\n"
                "dump_modify E sort id format float %.17g\nrun 50\n")
-        rows = lammps.path("e.dump").read_text().split("ITEM: ATOMS")[-1].splitlines()[1:]
-        heats.append(np.array([float(row.split()[1]) for row in rows]))
+        heats.append(lammps.frame("e.dump")["c_e"])
     assert relative(heats[1] - heats[0], heats[0]) < 1e-12
 
 

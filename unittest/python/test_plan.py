@@ -2,19 +2,16 @@
 
 import re
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from helpers import LMP
+from sph_dissipation import fluids
+from sph_dissipation import plan as planner
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
-import fluids  # noqa: E402
-import plan as planner  # noqa: E402
-
 BOX = "--length 2 --velocity 0.7 --particles 12"
 WATER = "--fluid water --length 1e-6 --velocity 100 --particles 14"
 CASES = [f"--rho 1.2 --mu {mu} --kappa {kappa} {BOX} --kernel {kernel} --support 3.5"
@@ -97,6 +94,14 @@ def test_sound(lammps, wave):
     parts = np.linalg.solve(modes, np.eye(size)[0].astype(complex))
     exact = (modes[0] * parts @ np.exp(np.outer(rates, table["Time"]))).real
     assert np.abs(table["c_amplitude"] / 0.01 - exact).max() < 0.025
+
+
+def test_wave_lasts(lammps):
+    """With all defaults the wave decays as it is printed, to the end: the lattice under the background pressure holds."""
+    plan = planner.Plan(planner.arguments("--fluid CO2 --frequency 30e3".split()))
+    (table,) = lammps(plan.input()).thermo()
+    decay = np.exp(plan.fluid.standing_wave(plan.args.length).real * table["Time"])
+    assert table["Time"][-1] * 30e3 > 10 and np.abs(table["c_amplitude"] / plan.args.velocity / decay).max() < 1.1
 
 
 def test_wave_that_dies_at_once():

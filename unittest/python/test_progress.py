@@ -2,10 +2,8 @@
 
 import re
 import sys
-from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "examples"))
-import run_lammps      # noqa: E402
+import run_lammps
 
 LOG = """variable steps index 300
 run 0

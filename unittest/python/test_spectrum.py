@@ -28,19 +28,6 @@ def measure(count, keywords="", values="vx vy vz rho", order="", name="out"):
             "thermo_style custom step c_S[*]\n" + FULL)
 
 
-def field_of(path, dim):
-    """The last frame; in 2d the third column stands for iz and is not one."""
-    text = open(path).read()
-    if dim == 3:
-        return read_grid(path)[-1]
-    head, _, body = text.rpartition("ITEM: GRID CELLS")
-    first, *rows = body.splitlines()
-    rows = [" ".join([*row.split()[:2], "1", *row.split()[3:]]) for row in rows]
-    with open(f"{path}.2d", "w") as file:
-        file.write("\n".join([head + "ITEM: GRID CELLS" + first, *rows]) + "\n")
-    return read_grid(f"{path}.2d")[-1]
-
-
 def totals_of(result):
     table = result.thermo()[-1]
     return {name: table[f"c_S[{k}]"][-1] for k, name in enumerate(TOTALS, 1)}
@@ -103,7 +90,7 @@ def test_uniform_and_linear_fields(lammps, dim, order):
         particles.write(lammps.path("box.data"))
         lammps(header(dim) + "read_data box.data\n" + fluid(dim) + INTEGRATE
                + measure(box(dim, [10, 11, 9]), order=f"order {order}") + "run 0\n")
-        length, field = field_of(lammps.path("out.grid"), dim)
+        length, field = read_grid(lammps.path("out.grid"))[-1]
         points = np.stack(np.meshgrid(*[(np.arange(n) + 0.5) / n * ell + lo for n, ell, lo
                                         in zip(field.shape, length, particles.lo)], indexing="ij"), axis=-1)
         expected = uniform + linear * (points - centre) @ gradient.T
@@ -134,7 +121,7 @@ def test_equal_to_numpy(lammps, dim, cells, count, deconvolve):
     support = {2: 3.0, 3: 2.5}[dim]
     result = lammps(header(dim) + "read_data box.data\n" + fluid(dim, mu=0.7, kappa=3.0) + INTEGRATE
                     + measure(count, f"deconvolve {deconvolve}") + "run 0\n")
-    length, field = field_of(lammps.path("out.grid"), dim)
+    length, field = read_grid(lammps.path("out.grid"))[-1]
     raised = None
     if deconvolve == "yes":
         def raised(k):
@@ -178,7 +165,7 @@ def test_order_0_and_shells(lammps):
     text = header(3) + "read_data box.data\n" + fluid(3) + INTEGRATE
     full = lammps(text + measure((8, 8, 8), "order 0", name="full").replace("vx vy vz rho", "vx vy vz rho order 0")
                   + "run 0\n")
-    array, totals = spectra(*field_of(lammps.path("full.grid"), 3), 3)
+    array, totals = spectra(*read_grid(lammps.path("full.grid"))[-1], 3)
     (found,) = read_array(lammps.path("full.spectrum"))
     assert relative(found[:, 2:] - array[:, 2:], array[:, 2:]) < EXACT
     some = lammps(text + measure((8, 8, 8), "order 0 shells 4", name="some") + "run 0\n")
@@ -198,7 +185,7 @@ def test_spin(lammps):
             "fix FLUID all sph/micropolar inertia 0.154 0.0\ntimestep 0.005\n")
     values = "vx vy vz rho omegax omegay omegaz"
     result = lammps(text + measure((7, 7, 7), values=values) + "run 0\n")
-    array, totals = spectra(*field_of(lammps.path("out.grid"), 3), 3)
+    array, totals = spectra(*read_grid(lammps.path("out.grid"))[-1], 3)
     (found,) = read_array(lammps.path("out.spectrum"))
     assert relative(found[:, 2:] - array[:, 2:], array[:, 2:]) < EXACT
     assert totals_of(result)["spin"] == pytest.approx(totals["spin"], rel=EXACT) and totals["spin"] > 0.1
@@ -235,7 +222,7 @@ def one_rank(shared_lammps):
         random_box(dim, (12, 10, 9)[:dim]).write(shared_lammps.path(f"{name}.data"))
         totals = totals_of(shared_lammps(rank_input(name, dim, count)))
         result[name] = (dim, count, totals, read_array(shared_lammps.path(f"{name}.spectrum")),
-                        field_of(shared_lammps.path(f"{name}.grid"), dim)[1])
+                        read_grid(shared_lammps.path(f"{name}.grid"))[-1][1])
     return result
 
 
@@ -257,7 +244,7 @@ def test_the_same_on_any_ranks(lammps, one_rank, name, ranks, before, after):
         assert found[key] == pytest.approx(value, rel=EXACT, abs=1e-300), key
     for mine, expected in zip(read_array(lammps.path(f"{name}.spectrum")), arrays):
         assert (abs(mine - expected) <= EXACT * abs(expected).max(axis=0)).all()
-    assert relative(field_of(lammps.path(f"{name}.grid"), dim)[1] - field, field) < EXACT
+    assert relative(read_grid(lammps.path(f"{name}.grid"))[-1][1] - field, field) < EXACT
 
 
 def test_rebalancing_in_a_run(lammps):
@@ -449,13 +436,9 @@ def test_modes_decay(lammps, part):
     lammps(header(2) + "read_data box.data\n" + fluid(2, mu=mu, kappa=kappa, c0=c0, support=support)
            + "fix FLUID all sph/bulk\n" + f"timestep {dt}\n" + measure((cells, cells, 1)).replace("grid 1 ", f"grid {steps // 10} ", 1)
            .replace("ave/time 1 1 1", f"ave/time {steps} 1 {steps}") + f"thermo {steps}\nrun {steps}\n")
-    text = lammps.path("out.grid").read_text().split("ITEM: TIMESTEP")[1:]
     amplitude = {mode: [] for mode in modes}
-    for frame in text:
-        rows = np.array([row.split() for row in frame.partition("GRID CELLS")[2].splitlines()[1:]], dtype=float)
-        field = np.zeros((cells, cells, 3))
-        field[rows[:, 0].astype(int) - 1, rows[:, 1].astype(int) - 1] = rows[:, [3, 4, 6]]
-        hat = np.fft.fft2(field, axes=(0, 1)) / cells**2
+    for _, field in read_grid(lammps.path("out.grid")):
+        hat = np.fft.fft2(field[:, :, 0, [0, 1, 3]], axes=(0, 1)) / cells**2
         for mode in modes:
             u, v, rho = hat[mode]
             k = np.array(mode) / np.linalg.norm(mode)

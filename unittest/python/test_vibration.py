@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from helpers import SUPPORT, disordered, dump, header, lattice, relative, undump
+from sph_dissipation import exponents
 import test_heat as heat
-from test_heat import FULL, Line, rates_of
+from test_heat import FULL, Line
 import test_relax as relax
 
 CV, CVIB, GAMMA = 2.5, 0.976, 1.4    # about carbon dioxide, in units of the gas constant R = (gamma - 1) cv
@@ -154,7 +155,7 @@ def test_sound(lammps, k_tau):
     continuum = sound(np.roots([1, relaxation, fast * (2 * np.pi) ** 2, slow * (2 * np.pi) ** 2 * relaxation]))
     assert abs(exact - continuum) < 0.005 * abs(continuum) and exact.real == pytest.approx(continuum.real, rel=0.03)
     signal, interval = standing_wave(lammps, 64, 5.0, tau, 0.001, 40, 2400)
-    measured = sound(rates_of(signal, interval, 3))
+    measured = sound(exponents(interval, signal, 3))
     print(f"measured {measured:.5f}, discrete {exact:.5f}")
     assert abs(measured - exact) < 2e-5 * abs(exact)
     assert measured.real == pytest.approx(exact.real, rel=2e-4)
@@ -176,7 +177,7 @@ def test_same_sound_as_a_relaxing_strain(lammps):
     model = (f"pair_style sph/bulk dim 1 eos ideal shear none\npair_coeff * * 1.0 1.0 0.0 0.0 {5 / 64} gamma {gamma0!r} cv {total} "
              f"relax {kappa!r} {tau!r}\n")
     signal, interval = standing_wave(lammps, 64, 5.0, 0.0, 0.001, 40, 2400, style=model)
-    strain = sound(rates_of(signal, interval, 3))
+    strain = sound(exponents(interval, signal, 3))
     assert abs(strain - exact) < 1e-3 * abs(exact) and strain.real == pytest.approx(exact.real, rel=0.01)
 
 
@@ -187,7 +188,7 @@ def test_short_times(lammps, a):
     tau = dt / a * (CV + CVIB) / CV
     exact = sound(Gas(64, 5.0).rates(tau, kappa=0.02))
     signal, interval = standing_wave(lammps, 64, 5.0, tau, dt, 10, 1500, kappa=0.02)
-    measured = sound(rates_of(signal, interval, 2))
+    measured = sound(exponents(interval, signal, 2))
     print(f"measured {measured:.5f}, discrete {exact:.5f}")
     assert abs(measured - exact) < 3e-4 * abs(exact) and measured.real == pytest.approx(exact.real, rel=2e-3)
 
@@ -218,7 +219,7 @@ def test_carbon_dioxide(lammps):
                  f"fix FLUID all sph/bulk temperature {T}\ntimestep {dt}\nvariable s atom sin(2*PI*x/{length})\nvariable u0 atom 0.01*v_s\n"
                  "velocity all set v_u0 0 0\nvariable u atom vx*v_s\ncompute U all reduce sum v_u\nthermo_style custom step c_U\n"
                  f"thermo {every}\n" + FULL + "run 2000\n")
-    measured = sound(rates_of(log.thermo()[-1]["c_U"], every * dt, 3))
+    measured = sound(exponents(every * dt, log.thermo()[-1]["c_U"], 3))
     print(f"measured {measured:.1f}, continuum {theory:.1f}")
     assert measured.real == pytest.approx(theory.real, rel=0.02) and measured.imag == pytest.approx(theory.imag, rel=0.003)
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-only
 """Prints a complete LAMMPS input for a fluid, a length, and a velocity, with the numbers that follow from them.
 
@@ -22,9 +21,9 @@ import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import fluids
+from . import fluids
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 
 # square of the stability length over that of rc, in 2 and 3 dimensions: eq. "hstab" of the theory page
 STABILITY = {
@@ -72,6 +71,8 @@ class Plan:
         args = self.args
         self.dim, self.units = args.dim, "si" if args.fluid else args.units or "lj"
         self.wave = args.c == "real" or bool(args.wavelength or args.frequency)
+        # under the pressure pb, the lattice of a wave falls apart after less than ten periods with 4
+        args.support = args.support or (6.0 if self.wave else 4.0)
         self.set_fluid()
         self.set_length()
         self.set_relaxation()
@@ -237,7 +238,7 @@ class Plan:
         more = wave.wave_number(s.imag / (2 * math.pi), wave.conduction).imag / k.imag - 1 if k.imag else 0.0
         lines.append(f"sound               frequency {s.imag / (2 * math.pi):.4g}, speed {s.imag / k.real:.5g}, absorption of a driven wave "
                      f"{2 * math.pi * k.imag / k.real:.4g} per wavelength, {20 / math.log(10) * k.imag:.4g} dB per unit of length"
-                     + (f"; heat conduction, which the particles have not, adds {100 * more:.2g} %" if more else ""))
+                     + (f"; heat conduction, which this input leaves out, adds {100 * more:.2g} %" if more else ""))
         decay = f", decay of its amplitude {-1 / s.real:.4g}" if s.real else ""
         return lines + [f"times               period of the wave {2 * math.pi / s.imag:.4g}{decay}"]
 
@@ -346,7 +347,7 @@ def arguments(argv):
     parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real: a wave of sound (default: ten times the velocity)")
     parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
     parser.add_argument("--particles", type=int, default=50, metavar="N", help="across the length (default: %(default)s)")
-    parser.add_argument("--support", type=positive, default=4.0, help="support radius over particle distance (default: %(default)s)")
+    parser.add_argument("--support", type=positive, help="support radius over particle distance (default: 4, for sound 6)")
     parser.add_argument("--kernel", choices=STABILITY, default="wendland/c2", metavar="NAME", help="(default: %(default)s)")
     parser.add_argument("--shear", choices=SHEAR, default="mg", metavar="FORM", help="form of the shear term (default: %(default)s)")
     parser.add_argument("--temperature", type=not_negative, metavar="T", help="of thermal noise")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-only
 """Fluids of potentials/*.sph, air of any humidity, and small sound in them, in SI units.
 
-    python3 tools/fluids.py air/50 air/30/283.15/90e3       # lines of gases.sph: humidity in percent, temperature, pressure
+    python3 python/sph_dissipation/fluids.py air/50 air/30/283.15/90e3    # lines of gases.sph: humidity in percent, K, Pa
 """
 import cmath
 import math
@@ -10,7 +10,7 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
-POTENTIALS = Path(__file__).resolve().parents[1] / "potentials"
+POTENTIALS = Path(__file__).with_name("potentials")
 GAS_CONSTANT = 8.31446261815324
 COLUMNS = ["name", "temperature", "rho", "c", "mu", "kappa"]    # of a file that does not name them
 STEADY = 0.1    # omega tau up to which the kappa of a process, kappa_r/(1 + (omega tau)^2), is constant within one percent
@@ -104,25 +104,29 @@ def humid_air(humidity, temperature=293.15, pressure=101325.0):
     return columns
 
 
-def read(path):
-    """{name: Fluid} of a file of fluids"""
-    fluids, columns = {}, COLUMNS
+def rows(path):
+    """{name: ({column: number, or None for -}, comment)} of a file of fluids"""
+    found, columns = {}, COLUMNS
     for line in path.read_text(encoding="utf-8").splitlines():
         words, _, comment = line.partition("#")
         words = words.split()
         if words[:1] == ["columns"]:
             columns = words[1:]
         elif words:
-            value = {column: None if word == "-" else float(word) for column, word in zip(columns[1:], words[1:], strict=True)}
-            if "rho" in value:
-                one = Fluid(*(value[column] for column in COLUMNS[2:]))
-                valid = re.match(r" kappa (measured )?(above|below) (\S+)$", comment)
-                if valid:
-                    limit = float(valid[3])
-                    one.valid, one.measured = ((0.0, limit) if valid[2] == "below" else (limit, math.inf)), bool(valid[1])
-                fluids[words[0]] = one
-            else:
-                fluids[words[0]] = gas(value)
+            found[words[0]] = ({column: None if word == "-" else float(word) for column, word in zip(columns[1:], words[1:], strict=True)},
+                               comment)
+    return found
+
+
+def read(path):
+    """{name: Fluid} of a file of fluids"""
+    fluids = {}
+    for name, (value, comment) in rows(path).items():
+        fluids[name] = one = Fluid(*(value[column] for column in COLUMNS[2:])) if "rho" in value else gas(value)
+        valid = re.match(r" kappa (measured )?(above|below) (\S+)$", comment)
+        if valid:
+            limit = float(valid[3])
+            one.valid, one.measured = ((0.0, limit) if valid[2] == "below" else (limit, math.inf)), bool(valid[1])
     return fluids
 
 

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""Figures with the style of the examples and of the manual."""
+from pathlib import Path
+
+STYLE = Path(__file__).with_name("sph.mplstyle")    # for matplotlib.pyplot.style.use
+
+
+def pyplot():
+    """matplotlib.pyplot for files, with the style of all figures: sph.mplstyle."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    plt.style.use(STYLE)
+    return plt
+
+
+def save(figure, path, legends=()):
+    """Write a figure and forget it; legends: axes that get one. Returns the path."""
+    for axes in legends:
+        axes.legend()
+    figure.savefig(path)
+    pyplot().close(figure)
+    return path

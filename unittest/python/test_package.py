@@ -1,0 +1,116 @@
+"""The Python package in python/: installed, without numpy, its readers against those of LAMMPS, and its notebook."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from importlib.metadata import distributions
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import sph_dissipation as sph
+from helpers import INTEGRATE, disordered, fluid, header
+from sph_dissipation import plan
+
+ROOT = Path(__file__).resolve().parents[2]
+CASE = "--fluid CO2 --frequency 30e3 --particles 20"
+
+
+def printed(*command, **environment):
+    done = subprocess.run([sys.executable, *command], cwd=environment.pop("cwd", None), env={**os.environ, **environment}, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_install(tmp_path):
+    """pip builds it from the tree, with the files that it reads, and with the version number of the package."""
+    if not (find_spec("pip") and find_spec("setuptools") and find_spec("wheel")):
+        pytest.skip("no pip, setuptools, and wheel")
+    for name in ("python", "potentials"):
+        shutil.copytree(ROOT / name, tmp_path / name, symlinks=True)
+    shutil.copy(ROOT / "VERSION", tmp_path)
+    target = tmp_path / "target"
+    printed("-m", "pip", "install", "--no-deps", "--no-index", "--no-build-isolation", "--target", str(target), str(tmp_path / "python"))
+    shutil.rmtree(tmp_path / "potentials")
+    text = printed("-m", "sph_dissipation.plan", *CASE.split(), "--lmp", "none", cwd=tmp_path, PYTHONPATH=str(target))
+    assert plan.Plan(plan.arguments(CASE.split())).input().partition("\n\n")[2] in text
+    printed("-c", "import sph_dissipation as sph; sph.fluids.find('water'); sph.pyplot()", cwd=tmp_path, PYTHONPATH=str(target))
+    (found,) = distributions(path=[str(target)])
+    assert found.version.startswith((ROOT / "VERSION").read_text().strip().partition("-")[0])
+
+
+def test_without_numpy():
+    """./sphd plan works with a Python that has nothing else."""
+    text = printed("-S", "-c", "import sys; from sph_dissipation import plan; plan.main(); assert 'numpy' not in sys.modules", *CASE.split(), "--lmp",
+                   "none", PYTHONPATH=str(ROOT / "python"))
+    assert plan.Plan(plan.arguments(CASE.split())).input().partition("\n\n")[2] in text
+
+
+@pytest.fixture
+def formats(monkeypatch):
+    """lammps.formats, of the tree of LAMMPS from which the executable is built"""
+    monkeypatch.syspath_prepend(Path(os.environ["SPHD_LMP"]).resolve().parent / "lammps-source" / "python")
+    return pytest.importorskip("lammps.formats")
+
+
+@pytest.mark.parametrize("example", ["brownian", "cavity", "couette", "taylor_green", "two_fluid_cup"])
+def test_thermo(formats, example):
+    path = ROOT / "examples" / example / f"log.4Jul26.{example}.g++.1"
+    expected, found = formats.LogFile(str(path)).runs, sph.thermo(path.read_text())
+    assert len(expected) == len(found) > 0
+    for wanted, columns in zip(expected, found):
+        assert list(wanted) == list(columns)
+        for name in wanted:
+            np.testing.assert_array_equal(wanted[name], columns[name])
+
+
+def test_averages(formats, lammps):
+    """of chunks and of vectors, of as many outputs as there are"""
+    disordered(2, 8).write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\n" + fluid(2) + INTEGRATE + "compute C all chunk/atom bin/1d x lower 2.0\n"
+           "fix C all ave/chunk 1 2 4 C vx density/mass file chunks.txt\ncompute V all pressure NULL virial\n"
+           "fix V all ave/time 1 2 4 c_V c_V mode vector file vectors.txt\nrun 12\n")
+    expected, found = formats.AvgChunkFile(str(lammps.path("chunks.txt"))), sph.averages(lammps.path("chunks.txt"))
+    assert list(found) == list(expected.timesteps) == [4, 8, 12]
+    for number, columns in enumerate(found.values()):
+        assert list(columns) == ["Chunk", "Coord1", "Ncount", "vx", "density/mass"]
+        for name in ("vx", "density/mass"):
+            np.testing.assert_array_equal(columns[name], [chunk[name][number] for chunk in expected.chunks])
+    vectors = sph.averages(lammps.path("vectors.txt"))
+    assert list(vectors) == [4, 8, 12] and all(len(columns["Row"]) == 6 for columns in vectors.values())
+    last = lammps.path("vectors.txt").read_text().split()[-1]
+    assert vectors[12]["c_V"][-1] == float(last) == sph.read_array(lammps.path("vectors.txt"))[-1][-1, -1]
+
+
+def test_notebook(capsys, monkeypatch):
+    """Its cells run in their order, here with fewer particles; what is stored is what they leave, and it is no larger than 300 kB."""
+    path = ROOT / "python" / "sound.ipynb"
+    notebook = json.loads(path.read_text(encoding="utf-8"))
+    assert notebook["nbformat"] == 4 and path.stat().st_size < 300_000
+    code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    assert [cell["execution_count"] for cell in code] == list(range(1, len(code) + 1))
+    stored = "".join("".join(output.get("text", [])) for cell in code for output in cell["outputs"])
+    assert sum("image/png" in output.get("data", {}) for cell in code for output in cell["outputs"]) == 2
+    monkeypatch.chdir(path.parent)
+    plt, space = sph.pyplot(), {}
+    for number, cell in enumerate(code, 1):
+        source = "".join(cell["source"])
+        quick = source.replace("--particles 64", "--particles 32")
+        assert (quick != source) == ("plan.arguments" in source)
+        exec(compile(quick, f"cell {number} of {path.name}", "exec"), space)
+    plt.close("all")
+    text = capsys.readouterr().out
+    names = r"^(frequency|damping) +(\d+) \S+ +theory (\d+) "
+    results = [{name: (float(found), float(theory)) for name, found, theory in re.findall(names, one, re.MULTILINE)} for one in (stored, text)]
+    for name, (found, theory) in results[0].items():
+        assert found == pytest.approx(theory, rel=0.02)
+        assert results[1][name][1] == theory and results[1][name][0] == pytest.approx(theory, rel=0.08)
+    assert list(results[0]) == list(results[1]) == ["frequency", "damping"]
+    first = text.partition("\n# ")[0]      # the fluid, and the first line of the input
+    assert stored.startswith(first)
