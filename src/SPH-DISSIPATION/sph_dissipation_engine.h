@@ -168,6 +168,7 @@ namespace SPHDissipation {
     bool choose_loops(const std::string &simd);
 
     void set_threads(Threads *team) { threads = team; }    // which the caller keeps
+    Threads &team() const { return *threads; }
     template <class Task> void for_each(int n, const Task &task) { threads->for_each(n, task); }
 
     // choose the loops; the parameters are read until the next call

@@ -131,7 +131,7 @@ void Fluid::request_list()
     neighbor->add_request(pair);
     return;
   }
-  search->init(&engine->loop_set(), support);
+  search->init(&engine->loop_set(), &engine->team(), support);
   neighbor->add_request(pair, NeighConst::REQ_OCCASIONAL);
 }
 

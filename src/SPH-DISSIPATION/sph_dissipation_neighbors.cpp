@@ -34,8 +34,8 @@ static constexpr double FLOAT_ROUND_OFF =
 /* ---------------------------------------------------------------------- */
 
 NeighborSearch::NeighborSearch(LAMMPS *lmp) :
-    NPair(lmp), loops(nullptr), cutoff(0.0), ncalls(-1), lastcall(-1), halved(true), lo(), hi(),
-    size(), nbox(), first(), ncell(), sorted(), candidates()
+    NPair(lmp), loops(nullptr), threads(nullptr), cutoff(0.0), ncalls(-1), lastcall(-1),
+    halved(true), skips(false), lo(), hi(), size(), nbox(), first(), ncell(), sorted()
 {
 }
 
@@ -52,9 +52,10 @@ std::string NeighborSearch::left_to_lammps() const
 
 /* ---------------------------------------------------------------------- */
 
-void NeighborSearch::init(const LoopSet *loops_in, double support)
+void NeighborSearch::init(const LoopSet *loops_in, Threads *threads_in, double support)
 {
   loops = loops_in;
+  threads = threads_in;
   cutoff = support + neighbor->skin;
   ncalls = lastcall = -1;
 }
@@ -89,55 +90,71 @@ void NeighborSearch::build(NeighList *list)
   find_rows();
   sort();
 
-  bool skips = false;    // pairs of types of the fluid that pair_style hybrid gives to others
+  skips = false;
   if (list->ijskip)
     for (int i = 1; i <= atom->ntypes; i++)
       for (int j = 1; j <= atom->ntypes; j++)
         if (!list->iskip[i] && !list->iskip[j] && list->ijskip[i][j]) skips = true;
-  const bool filtered = skips || !halved;
 
+  const int total = ncell[0] * ncell[1] * ncell[2];
+  const int nthread = threads->size();
+  parts.resize(nthread);
+  threads->run([&](int k) {
+    auto first_cell = [&](int thread) {    // about as many particles for each
+      const auto entry = static_cast<int>(static_cast<bigint>(start[total]) * thread / nthread);
+      return static_cast<int>(std::lower_bound(start.begin(), start.end(), entry) - start.begin());
+    };
+    search(first_cell(k), (k + 1 < nthread) ? first_cell(k + 1) : total, list, parts[k]);
+  });
+  for (const auto &part : parts) {
+    std::copy(part.rows.begin(), part.rows.end(), list->ilist + list->inum);
+    list->inum += static_cast<int>(part.rows.size());
+  }
+}
+
+/* ----------------------------------------------------------------------
+   neighbors of the owned particles in some of the cells
+------------------------------------------------------------------------- */
+
+void NeighborSearch::search(int from, int to, NeighList *list, Part &part) const
+{
   const double longest = *std::max_element(size, size + 3);
   const double error = FLOAT_ROUND_OFF * cutoff * (2.0 * cutoff + 2.0 * longest);
   const auto bound = static_cast<float>(cutoff * cutoff + error);
   const auto safe = static_cast<float>(cutoff * cutoff - error);
   const int nlocal = atom->nlocal;
-  offset.clear();
+  part.rows.clear();
+  part.offset.clear();
   bigint end = 0;
-  int inum = 0;
 
-  for (int z = 0, c = 0; z < ncell[2]; z++)
-    for (int y = 0; y < ncell[1]; y++)
-      for (int x = 0; x < ncell[0]; x++, c++) {
-        if (start[c] == start[c + 1] || sorted.index[start[c]] >= nlocal)
-          continue;    // ghosts at most
-        const double corner[3] = {lo[0] + (first[0] + x) * size[0],
-                                  lo[1] + (first[1] + y) * size[1],
-                                  lo[2] + (first[2] + z) * size[2]};
-        find_candidates(x, y, z, corner);
+  for (int c = from; c < to; c++) {
+    if (start[c] == start[c + 1] || sorted.index[start[c]] >= nlocal) continue;    // ghosts at most
+    const int place[3] = {c % ncell[0], c / ncell[0] % ncell[1], c / ncell[0] / ncell[1]};
+    double corner[3];
+    for (int d = 0; d < 3; d++) corner[d] = lo[d] + (first[d] + place[d]) * size[d];
+    find_candidates(place, corner, part);
 
-        const int most = candidates.n + start[c + 1] - start[c] + ROOM;
-        for (int p = start[c]; p < start[c + 1] && sorted.index[p] < nlocal; p++) {
-          const int i = sorted.index[p];
-          if (static_cast<bigint>(neighbors.size()) < end + most)
-            neighbors.resize(end + end / 8 + std::max(most, 1024));
-          int *const found = neighbors.data() + end;
-          int n = halved ? add_own_cell(p, start[c + 1], found) : 0;
-          float at[3];
-          for (int d = 0; d < 3; d++) at[d] = static_cast<float>(sorted.x[d][p] - corner[d]);
-          bool doubt = false;
-          const int nnear = loops->near(candidates, at, bound, safe, found + n, doubt);
-          n += doubt ? check(i, found + n, nnear) : nnear;
-          if (filtered || has_exclusions(i)) n = filter(list, skips, i, found, n);
-          list->ilist[inum++] = i;
-          list->numneigh[i] = n;
-          offset.push_back(end);
-          end += n;
-        }
-      }
-
-  list->inum = inum;
-  for (int ii = 0; ii < inum; ii++)
-    list->firstneigh[list->ilist[ii]] = neighbors.data() + offset[ii];
+    const int most = part.candidates.n + start[c + 1] - start[c] + ROOM;
+    for (int p = start[c]; p < start[c + 1] && sorted.index[p] < nlocal; p++) {
+      const int i = sorted.index[p];
+      if (static_cast<bigint>(part.neighbors.size()) < end + most)
+        part.neighbors.resize(end + end / 8 + std::max(most, 1024));
+      int *const found = part.neighbors.data() + end;
+      int n = halved ? add_own_cell(p, start[c + 1], found) : 0;
+      float at[3];
+      for (int d = 0; d < 3; d++) at[d] = static_cast<float>(sorted.x[d][p] - corner[d]);
+      bool doubt = false;
+      const int nnear = loops->near(part.candidates, at, bound, safe, found + n, doubt);
+      n += doubt ? check(i, found + n, nnear) : nnear;
+      if (skips || !halved || has_exclusions(i)) n = filter(list, i, found, n);
+      list->numneigh[i] = n;
+      part.rows.push_back(i);
+      part.offset.push_back(end);
+      end += n;
+    }
+  }
+  for (std::size_t k = 0; k < part.rows.size(); k++)
+    list->firstneigh[part.rows[k]] = part.neighbors.data() + part.offset[k];
 }
 
 /* ----------------------------------------------------------------------
@@ -230,13 +247,12 @@ void NeighborSearch::sort()
   const std::size_t n = members.size();
   start.assign(ncell[0] * ncell[1] * ncell[2] + 1, 0);
   cell.resize(n);
-  for (std::size_t m = 0; m < n; m++) {
-    const double *const at = x[members[m]];
+  threads->for_each(static_cast<int>(n), [&](int m) {
     int place[3];
-    for (int d = 0; d < 3; d++) place[d] = cell_of(at[d], d) - first[d];
+    for (int d = 0; d < 3; d++) place[d] = cell_of(x[members[m]][d], d) - first[d];
     cell[m] = (place[2] * ncell[1] + place[1]) * ncell[0] + place[0];
-    start[cell[m]]++;
-  }
+  });
+  for (const int c : cell) start[c]++;
   int sum = 0;
   for (int &entry : start) {
     sum += entry;
@@ -258,25 +274,27 @@ void NeighborSearch::sort()
    of one cell: the particles of the rows of cells around it, relative to its corner
 ------------------------------------------------------------------------- */
 
-void NeighborSearch::find_candidates(int x, int y, int z, const double *corner)
+void NeighborSearch::find_candidates(const int *place, const double *corner, Part &part) const
 {
+  CandidateColumns &candidates = part.candidates;
   candidates.n = 0;
+  const int x = place[0];
   for (const auto &row : rows) {
-    const int yy = y + row.y, zz = z + row.z;
-    if (yy < 0 || yy >= ncell[1] || zz < 0 || zz >= ncell[2]) continue;
+    const int y = place[1] + row.y, z = place[2] + row.z;
+    if (y < 0 || y >= ncell[1] || z < 0 || z >= ncell[2]) continue;
     const bool own = halved && row.y == 0 && row.z == 0;
-    const int base = (zz * ncell[1] + yy) * ncell[0];
+    const int base = (z * ncell[1] + y) * ncell[0];
     const int from = start[base + (own ? x + 1 : std::max(x - row.reach, 0))];
     const int to = start[base + std::min(x + row.reach, ncell[0] - 1) + 1];
     if (from >= to) continue;
     const std::size_t room = candidates.n + to - from + 2 * ROOM;
-    if (candidate_index.size() < room) {
+    if (part.index.size() < room) {
       for (int d = 0; d < 3; d++) {
-        candidate_x[d].resize(2 * room);
-        candidates.x[d] = candidate_x[d].data();
+        part.x[d].resize(2 * room);
+        candidates.x[d] = part.x[d].data();
       }
-      candidate_index.resize(2 * room);
-      candidates.index = candidate_index.data();
+      part.index.resize(2 * room);
+      candidates.index = part.index.data();
     }
     loops->take_candidates(sorted, from, to, corner, candidates);
   }
@@ -326,7 +344,7 @@ int NeighborSearch::check(int i, int *found, int n) const
    keeps the pairs that this list is to have; returns how many
 ------------------------------------------------------------------------- */
 
-int NeighborSearch::filter(const NeighList *list, bool skips, int i, int *found, int n) const
+int NeighborSearch::filter(const NeighList *list, int i, int *found, int n) const
 {
   const int *const type = atom->type;
   int kept = 0;
@@ -378,10 +396,11 @@ bool NeighborSearch::has_pair(int i, int j) const
 
 double NeighborSearch::memory_usage() const
 {
-  return static_cast<double>(
-      (start.capacity() + cell.capacity() + members.capacity() + neighbors.capacity()) *
-          sizeof(int) +
-      offset.capacity() * sizeof(bigint) +
-      sorted_index.capacity() * (3 * sizeof(double) + sizeof(int)) +
-      candidate_index.capacity() * (3 * sizeof(float) + sizeof(int)));
+  std::size_t bytes = (start.capacity() + cell.capacity() + members.capacity()) * sizeof(int) +
+      sorted_index.capacity() * (3 * sizeof(double) + sizeof(int));
+  for (const auto &part : parts)
+    bytes += (part.neighbors.capacity() + part.rows.capacity()) * sizeof(int) +
+        part.offset.capacity() * sizeof(bigint) +
+        part.index.capacity() * (3 * sizeof(float) + sizeof(int));
+  return static_cast<double>(bytes);
 }

@@ -39,7 +39,7 @@ namespace SPHDissipation {
     std::string left_to_lammps() const;
 
     // start of a run: lists are to be built, for particles up to the distance support plus the skin
-    void init(const LoopSet *, double support);
+    void init(const LoopSet *, Threads *, double support);
 
     // the list of the pair style, requested as an occasional one, for the particles where they were when LAMMPS built its
     // perpetual lists; returns whether it was built now
@@ -54,10 +54,23 @@ namespace SPHDissipation {
       int y, z, reach;
     };
 
+    // what one thread finds
+
+    struct Part {
+      CandidateColumns candidates;    // of x, index
+      std::vector<float> x[3];
+      std::vector<int> index;
+      std::vector<int> neighbors;    // of all of its rows of the list
+      std::vector<int> rows;         // their particles
+      std::vector<bigint> offset;    // of their neighbors
+    };
+
     const LoopSet *loops;
+    Threads *threads;
     double cutoff;
     bigint ncalls, lastcall;    // of class Neighbor, when the list was built
     bool halved;                // the order of the cells tells which list has a pair
+    bool skips;                 // pair_style hybrid gives pairs of types of the fluid to others
     double lo[3], hi[3], size[3];
     int nbox[3];     // cells in the box
     int first[3];    // lowest cell of this processor
@@ -68,22 +81,19 @@ namespace SPHDissipation {
     std::vector<int> members;    // particles of the fluid
     std::vector<double> sorted_x[3];
     std::vector<int> sorted_index;
-    std::vector<float> candidate_x[3];
-    std::vector<int> candidate_index;
-    PlaceColumns sorted;            // of sorted_x, sorted_index
-    CandidateColumns candidates;    // of candidate_x, candidate_index
-    std::vector<int> neighbors;     // of all particles
-    std::vector<bigint> offset;     // of those of each row of the list in neighbors
+    PlaceColumns sorted;    // of sorted_x, sorted_index
+    std::vector<Part> parts;
 
     int cell_of(double x, int d) const;
     void find_members(const NeighList *);
     void choose_cells();
     void find_rows();
     void sort();
-    void find_candidates(int x, int y, int z, const double *corner);
+    void search(int from, int to, NeighList *, Part &) const;
+    void find_candidates(const int *place, const double *corner, Part &) const;
     int add_own_cell(int p, int end, int *found) const;
     int check(int i, int *found, int n) const;
-    int filter(const NeighList *, bool skips, int i, int *found, int n) const;
+    int filter(const NeighList *, int i, int *found, int n) const;
     bool has_exclusions(int i) const;
     bool has_pair(int i, int j) const;
   };
