@@ -73,7 +73,10 @@ namespace SPHDissipation {
     double *spin(int i);
 
     // function(i) for each i < n, shared among the threads
-    template <class Function> void for_each(int n, const Function &function);
+    template <class Function> void for_each(int n, const Function &function)
+    {
+      engine.for_each(n, function);
+    }
 
     // the same if the fluid conducts heat: temperature at the surface, or heat per area and time
 
@@ -130,11 +133,6 @@ namespace SPHDissipation {
     void accumulate_heat();
     void check() const;
   };
-
-  template <class Function> void BoundaryStage::for_each(int n, const Function &function)
-  {
-    engine.for_each(n, function);
-  }
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

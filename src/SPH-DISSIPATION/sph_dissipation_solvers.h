@@ -21,11 +21,10 @@
 #ifndef LMP_SPH_DISSIPATION_SOLVERS_H
 #define LMP_SPH_DISSIPATION_SOLVERS_H
 
-#include "sph_dissipation_threads.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -48,7 +47,7 @@ namespace SPHDissipation {
   //   void sum(values, n)       over all processors, in place
   //   double scale_sq()         part of this processor of the square, in the norm of M, that tolerance
   //                             times is the largest residual; may depend on x
-  //   Threads &team()           that share the work
+  //   Threads &team()           which share the work
 
   template <class System> class Krylov {
    public:
@@ -69,7 +68,7 @@ namespace SPHDissipation {
           p[k] = system.inverse_mass[k] * r[k] + beta * p[k];
         });
         apply(p, ap);
-        double curvature = threads.sum<double>(n, [&](int k, double &total) {
+        double curvature = threads.template sum<double>(n, [&](int k, double &total) {
           total += p[k] * ap[k];
         });
         system.sum(&curvature, 1);
@@ -134,7 +133,7 @@ namespace SPHDissipation {
 
    private:
     System &system;
-    Threads &threads;
+    decltype(std::declval<System &>().team()) threads;
     const double tolerance;
     const int most;
     Solution result = {0, 0.0, false, false, true};
@@ -142,7 +141,7 @@ namespace SPHDissipation {
 
     double product(const Unknowns &a, const Unknowns &b)
     {
-      return threads.sum<double>(static_cast<int>(a.size()), [&](int k, double &total) {
+      return threads.template sum<double>(static_cast<int>(a.size()), [&](int k, double &total) {
         total += a[k] * system.inverse_mass[k] * b[k];
       });
     }

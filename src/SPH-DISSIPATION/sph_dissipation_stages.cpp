@@ -331,11 +331,15 @@ void ForceStage::run(NeighList *list, PairTally *tally)
 
   double **f = atom->f;
   double *const desph = atom->desph;
-  const int n = nforce();
-  engine.for_each(n, [&](int i) {
+  const int n = nforce(), nlocal = atom->nlocal;
+  auto add = [&](int i) {
     const ForceSum &total = engine.force[i];
     for (int d = 0; d < 3; d++) f[i][d] += total.f[d];
     desph[i] += total.heat + bulk_heat(i);
+  };
+  engine.for_each(nlocal, add);    // more work for each of them than for a ghost
+  engine.for_each(n - nlocal, [&](int k) {
+    add(nlocal + k);
   });
   if (engine.parameters().drag)
     engine.for_each(atom->nlocal, [&](int i) {

@@ -9,6 +9,7 @@
 // Solvers of (M + h Gamma) x = b against Eigen, and the stages of RKL2 against the exponential
 
 #include "sph_dissipation_solvers.h"
+#include "sph_dissipation_threads.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
