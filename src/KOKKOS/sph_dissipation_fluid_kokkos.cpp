@@ -52,6 +52,7 @@ FluidKokkos<DeviceType>::FluidKokkos(LAMMPS *lmp, Pair *pair, bool spins) :
 {
   atomKK = (AtomKokkos *) atom;
   engine->set_threads(threads.get());
+  exchange->set_threads(threads.get());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -115,7 +116,9 @@ template <class DeviceType> void FluidKokkos<DeviceType>::refer_to_list()
   if constexpr (HOST_ONLY) {
     auto *k_list = static_cast<NeighListKokkos<DeviceType> *>(kokkos_list);
     host_firstneigh.resize(atom->nlocal);
-    for (int i = 0; i < atom->nlocal; i++) host_firstneigh[i] = &k_list->d_neighbors(i, 0);
+    threads->for_each(atom->nlocal, [&](int i) {
+      host_firstneigh[i] = &k_list->d_neighbors(i, 0);
+    });
     host_list->inum = k_list->inum;
     host_list->ilist = k_list->d_ilist.data();
     host_list->numneigh = k_list->d_numneigh.data();
@@ -305,7 +308,9 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
 {
   if (!on_device) {
     refer_to_list();
-    std::fill_n(atom->desph, atom->nlocal + atom->nghost, 0.0);
+    threads->for_each(atom->nlocal + atom->nghost, [&](int i) {
+      atom->desph[i] = 0.0;
+    });
     const bigint nbeyond = Fluid::compute(tally);
     exchange->reverse({{atom->desph, 1, 1}});    // the atom style does not
     if (spins) exchange->reverse({{atom->torque[0], 3, 3}});

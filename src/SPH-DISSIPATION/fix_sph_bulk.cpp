@@ -30,6 +30,7 @@
 #include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_shift_terms.h"
 #include "sph_dissipation_stages.h"
+#include "sph_dissipation_threads.h"
 #include "sph_dissipation_value.h"
 #include "sph_dissipation_viscous.h"
 #include "sph_dissipation_viscous_keywords.h"
@@ -695,9 +696,11 @@ void FixSPHBulk::integrate(Half half)
   const int nlocal = nlocal_group();
   const TimeStep step = time_step();
   const bool carries = half == BEGIN && has_viscous_stage();
+  if (carries) fluid->viscous->begin_carrying();
 
-  for (int i = 0; i < nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+  Threads one_thread;
+  (fluid ? fluid->team() : one_thread).for_each(nlocal, [&](int i) {
+    if (!(atom->mask[i] & groupbit)) return;
     double rest[2] = {0.0, 0.0};
     if (exact) {
       const double mass = atom->rmass[i];
@@ -717,10 +720,10 @@ void FixSPHBulk::integrate(Half half)
         atom->esph[i] += heat;
         if (half == END) kept.desph_before[i] += heat;
       }
-    if (!carries) continue;
+    if (!carries) return;
     fluid->viscous->carry_force(i, step.keep);
-    if (spins) fluid->viscous->carry_torque(i, fields().inertia, fields().omegaest);
-  }
+    if (spins) fluid->viscous->carry_torque(i, kept.inertia, kept.omegaest);
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -760,10 +763,10 @@ void FixSPHBulk::warn_of_jump() const
 void FixSPHBulk::shift_particles()
 {
   const double support = fluid->support_radius();
-  const int nlocal = nlocal_group();
-  for (int i = 0; i < nlocal; i++)
+  fluid->team().for_each(nlocal_group(), [&](int i) {
     if (atom->mask[i] & groupbit)
       shift_particle(shift_speed, support, dtv, fluid->shift->gradient[i], atom->x[i]);
+  });
 }
 
 /* ----------------------------------------------------------------------

@@ -359,19 +359,19 @@ bool FixSPHWall::turns_surface(bool before) const
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHWall::move_surface(Surface *surface, bool before)
+void FixSPHWall::move_surface(BoundaryStage &stage, Surface *surface, bool before)
 {
   const WallVelocity now = motion->velocity();
   const bool turns = turns_surface(before);
   const WallStep step = motion->last_step();
-  double turned[3];
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+  stage.for_each(atom->nlocal + atom->nghost, [&](int i) {
+    if (!(atom->mask[i] & groupbit)) return;
     now.angular(surface[i].omega);
-    if (!turns) continue;
+    if (!turns) return;
+    double turned[3];
     step.turn(surface[i].normal, turned);
     std::copy_n(turned, 3, surface[i].normal);
-  }
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -386,12 +386,12 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
 
   const FluidModel &model = *find_fluid(force)->model;
   const WallVelocity now = motion->velocity();
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+  stage.for_each(atom->nlocal, [&](int i) {
+    if (!(atom->mask[i] & groupbit)) return;
     const BoundarySum &sum = sums[i];
     double *const spin = stage.spin(i);
     if (spin) now.angular(spin);
-    if (!(sum.weight > 0.0)) continue;
+    if (!(sum.weight > 0.0)) return;
 
     double r[3], acceleration[3];
     from_point(i, now, r);
@@ -407,7 +407,7 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
           surface_pressure(surfaces[i], eos.rho0, eos.pb, condition->gravity, acceleration));
     } else
       stage.extend_fluid(i, *condition, surfaces[i], sum, acceleration);
-  }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -415,9 +415,10 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
 void FixSPHWall::set_heat(BoundaryStage &stage, const Surface *surfaces, bool increments)
 {
   if (update->whichflag == 2) return;
-  for (int i = 0; i < atom->nlocal; i++)
+  stage.for_each(atom->nlocal, [&](int i) {
     if (atom->mask[i] & groupbit)
       stage.set_heat(i, heat, increments ? 0.0 : heat_value(i), surfaces[i]);
+  });
 }
 
 /* ---------------------------------------------------------------------- */

@@ -64,7 +64,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   double memory_usage() override;
 
   int boundary_bit() const override { return groupbit; }
-  void move_surface(SPHDissipation::Surface *, bool) override;
+  void move_surface(SPHDissipation::BoundaryStage &, SPHDissipation::Surface *, bool) override;
   void set_boundary(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *,
                     const SPHDissipation::BoundarySum *) override;
   bool gives_heat() const override;

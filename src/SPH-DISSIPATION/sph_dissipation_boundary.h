@@ -32,7 +32,7 @@ namespace SPHDissipation {
     // set Surface::omega of its owned and ghost particles; turn their normals by the motion of the
     // last step if they date from before it
 
-    virtual void move_surface(Surface *, bool before) = 0;
+    virtual void move_surface(BoundaryStage &, Surface *, bool before) = 0;
 
     // set what its owned particles bring into the pair forces, from the sums over the fluid around
     // them: BoundaryStage::set_state() or extend_fluid() and, if there are spins, spin()

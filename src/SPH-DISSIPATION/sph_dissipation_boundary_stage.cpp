@@ -19,7 +19,6 @@
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
-#include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_particle_terms.h"
 #include "update.h"
@@ -28,6 +27,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -80,7 +80,9 @@ void BoundaryStage::remove(Boundary *boundary)
 void BoundaryStage::set_reference_volume()
 {
   const ParticleRows &rows = engine.rows();
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++) rows.set_reference_volume(i, group_bits);
+  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
+    rows.set_reference_volume(i, group_bits);
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -131,7 +133,7 @@ void BoundaryStage::run(NeighList *list)
   if (found) surface.run(group_bits, pairs);
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
-  for (auto boundary : boundaries) boundary->move_surface(surface.surface, before);
+  for (auto boundary : boundaries) boundary->move_surface(*this, surface.surface, before);
   extend();
   extend_temperatures(false);
 }
@@ -164,8 +166,7 @@ void BoundaryStage::extend()
 
 void BoundaryStage::extend_temperatures(bool increments)
 {
-  heat_sum.clear();
-  if (!conducts()) return;
+  if (!conducts()) return heat_sum.clear();
   accumulate_heat();
   BoundaryHeatSum *const heat = heat_sum.data();
   exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
@@ -191,20 +192,22 @@ bool BoundaryStage::conducts() const
 
 /* ---------------------------------------------------------------------- */
 
-void BoundaryStage::add_surface_heat(std::vector<double> &flow) const
+void BoundaryStage::add_surface_heat(std::vector<double> &flow)
 {
   if (heat_sum.empty()) return;
-  for (const auto &pair : pairs) {
-    const double flux = engine.conductor[pair.wall].flux;
-    if (flux == 0.0 || !(engine.conductor[pair.fluid].conductivity > 0.0)) continue;
-    const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
-    double r[3];
-    for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-    const double heat =
-        surface_heat(flux, f.vol, r, engine.pairs().slope[pair.entry], surface.surface[pair.wall]);
-    flow[pair.fluid] += heat;
-    flow[pair.wall] -= heat;
-  }
+  flow_sums.run(engine.team(), flow.data(), flow.size(), pairs.touched, [&](int k, double *sum) {
+    for (const auto &pair : pairs.of_thread[k]) {
+      const double flux = engine.conductor[pair.wall].flux;
+      if (flux == 0.0 || !(engine.conductor[pair.fluid].conductivity > 0.0)) continue;
+      const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
+      double r[3];
+      for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
+      const double heat = surface_heat(flux, f.vol, r, engine.pairs().slope[pair.entry],
+                                       surface.surface[pair.wall]);
+      sum[pair.fluid] += heat;
+      sum[pair.wall] -= heat;
+    }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -238,35 +241,71 @@ void BoundaryStage::repel(PairTally *tally)
   if (!has_energy()) return;
   exchange.forward({field(sum, &sum->occupied, 1)});
   const double *const slope = engine.pairs().slope;
-  const int n = nforce();
-  for (const auto &pair : pairs) {
-    const Particle &f = engine.particle[pair.fluid];
-    const Particle &w = engine.particle[pair.wall];
-    double r[3], approach = 0.0;
-    for (int d = 0; d < 3; d++) {
-      r[d] = f.x[d] - w.x[d];
-      approach -= r[d] * (f.u[d] - w.u[d]);
-    }
-    const double pressing =
-        engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * slope[pair.entry];
-    if (pair.fluid < n) atom->desph[pair.fluid] += pressing * approach;
+  const int nall = atom->nlocal + atom->nghost, n = nforce();
 
-    const NearKernel &wall = contact[pair.wall];
-    const double s = over(pair.fluid), q = sqrt(inner_product(r, r)) * wall.scale;
-    if (!(s > 0.0 && q < 1.0)) continue;
-    const double repulsion =
-        stiffness() * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
-    if (pair.fluid < n) atom->desph[pair.fluid] += repulsion * approach;
-    double push[3];
+  auto add_force = [&](int i, const double *f) {
     for (int d = 0; d < 3; d++) {
-      push[d] = repulsion * r[d];
-      engine.force[pair.fluid].f[d] += push[d];
-      engine.force[pair.wall].f[d] -= push[d];
-      if (pair.fluid < n) atom->f[pair.fluid][d] += push[d];
-      if (pair.wall < n) atom->f[pair.wall][d] -= push[d];
+      engine.force[i].f[d] += f[d];
+      if (i < n) atom->f[i][d] += f[d];
     }
-    if (tally) tally->tally(pair.fluid, pair.wall, push, r);
+  };
+  auto add_heat = [&](int i, double heat) {
+    if (i < n) atom->desph[i] += heat;
+  };
+  auto visit = [&](const std::vector<BoundaryPair> &some, const auto &force_on,
+                   const auto &heat_of) {
+    for (const auto &pair : some) {
+      const Particle &f = engine.particle[pair.fluid];
+      const Particle &w = engine.particle[pair.wall];
+      double r[3], approach = 0.0;
+      for (int d = 0; d < 3; d++) {
+        r[d] = f.x[d] - w.x[d];
+        approach -= r[d] * (f.u[d] - w.u[d]);
+      }
+      const double pressing =
+          engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * slope[pair.entry];
+      heat_of(pair.fluid, pressing * approach);
+
+      const NearKernel &wall = contact[pair.wall];
+      const double s = over(pair.fluid), q = sqrt(inner_product(r, r)) * wall.scale;
+      if (!(s > 0.0 && q < 1.0)) continue;
+      const double repulsion =
+          stiffness() * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
+      heat_of(pair.fluid, repulsion * approach);
+      double push[3], minus[3];
+      for (int d = 0; d < 3; d++) {
+        push[d] = repulsion * r[d];
+        minus[d] = -push[d];
+      }
+      force_on(pair.fluid, push);
+      force_on(pair.wall, minus);
+      if (tally) tally->tally(pair.fluid, pair.wall, push, r);
+    }
+  };
+
+  if (tally || engine.team().size() == 1) {
+    for (const auto &some : pairs.of_thread) visit(some, add_force, add_heat);
+    return;
   }
+  repulsion.resize(nall);
+  engine.for_each(nall, [&](int i) {
+    repulsion[i] = ForceSum();
+  });
+  repulsion_sums.run(engine.team(), repulsion.data(), nall, pairs.touched,
+                     [&](int k, ForceSum *own) {
+                       visit(
+                           pairs.of_thread[k],
+                           [=](int i, const double *f) {
+                             for (int d = 0; d < 3; d++) own[i].f[d] += f[d];
+                           },
+                           [=](int i, double heat) {
+                             own[i].heat += heat;
+                           });
+                     });
+  engine.for_each(nall, [&](int i) {
+    add_force(i, repulsion[i].f);
+    add_heat(i, repulsion[i].heat);
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -281,15 +320,15 @@ double BoundaryStage::energy(double *each_atom) const
     if (each_atom) each_atom[i] += energy;
   };
   with_kernel(engine.parameters().kernel, [&](auto k) {
-    for (const auto &pair : pairs) {
-      if (pair.fluid >= nforce()) continue;
+    pairs.visit([&](const BoundaryPair &pair) {
+      if (pair.fluid >= nforce()) return;
       const Particle &w = engine.particle[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = engine.particle[pair.fluid].x[d] - w.x[d];
       const double kernel_weight =
           par.weight_norm * k.shape(sqrt(inner_product(r, r)) / par.support);
       add(pair.fluid, engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * kernel_weight);
-    }
+    });
     return 0;
   });
   for (int i = 0; i < atom->nlocal; i++)
@@ -301,19 +340,61 @@ double BoundaryStage::energy(double *each_atom) const
 
 void BoundaryStage::find_rows(NeighList *list)
 {
+  Threads &threads = engine.team();
+  const int parts = threads.size();
   const int *const mask = atom->mask;
   rows_bits = group_bits;
   set_near();
-  rows.clear();
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    const bool wall = mask[i] & group_bits;
-    for (int jj = 0; jj < list->numneigh[i]; jj++)
-      if (static_cast<bool>(mask[list->firstneigh[i][jj] & NEIGHMASK] & group_bits) != wall) {
-        rows.push_back(ii);
-        break;
-      }
-  }
+  auto is_pair = [&](int i, int j) {
+    return static_cast<bool>(mask[j & NEIGHMASK] & group_bits) !=
+        static_cast<bool>(mask[i] & group_bits);
+  };
+
+  // by thread: rows, and how many such pairs each has, for several threads to share
+
+  std::vector<std::vector<int>> found(parts), count(parts);
+  threads.in_parts(list->inum, [&](int k, int from, int to) {
+    for (int ii = from; ii < to; ii++) {
+      const int i = list->ilist[ii];
+      int n = 0;
+      for (int jj = 0; jj < list->numneigh[i]; jj++)
+        if (is_pair(i, list->firstneigh[i][jj])) {
+          n++;
+          if (parts == 1) break;
+        }
+      if (n == 0) continue;
+      found[k].push_back(ii);
+      count[k].push_back(n);
+    }
+  });
+
+  pairs.rows.assign(parts, {});
+  pairs.touched.resize(parts);
+  pairs.of_thread.resize(parts);
+  bigint total = 0, before = 0;
+  for (const auto &part : count) total = std::accumulate(part.begin(), part.end(), total);
+  for (int k = 0; k < parts; k++)
+    for (std::size_t m = 0; m < found[k].size(); m++) {
+      pairs.rows[before * parts / total].push_back(found[k][m]);
+      before += count[k][m];
+    }
+
+  threads.run([&](int k) {
+    if (k == 0) return;
+    std::vector<bool> known(atom->nlocal + atom->nghost);
+    auto &touched = pairs.touched[k];
+    touched.clear();
+    auto touch = [&](int i) {
+      if (!known[i]) touched.push_back(i);
+      known[i] = true;
+    };
+    for (const int ii : pairs.rows[k]) {
+      const int i = list->ilist[ii];
+      touch(i);
+      for (int jj = 0; jj < list->numneigh[i]; jj++)
+        if (is_pair(i, list->firstneigh[i][jj])) touch(list->firstneigh[i][jj] & NEIGHMASK);
+    }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -325,14 +406,14 @@ void BoundaryStage::set_near()
   const int dim = engine.parameters().dim;
   near.resize(nall);
   contact.resize(has_energy() ? nall : 0);
-  for (int i = 0; i < nall; i++) {
-    if (!(atom->mask[i] & group_bits)) continue;
+  engine.for_each(nall, [&](int i) {
+    if (!(atom->mask[i] & group_bits)) return;
     const double volume = atom->vfrac[i];
     near[i] = near_kernel(dim, par.support, par.weight_norm, volume);
-    if (!has_energy()) continue;
+    if (!has_energy()) return;
     const double radius = std::min(par.support, CONTACT * pow(volume, 1.0 / dim));
     contact[i] = {volume * ContactKernel::norm(dim) / pow(radius, dim), 1.0 / radius};
-  }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -340,13 +421,16 @@ void BoundaryStage::set_near()
 void BoundaryStage::find_pairs()
 {
   const int *const mask = atom->mask;
-  pairs.clear();
-  for (const int ii : rows)
-    engine.visit_pairs(ii, [&](int i, int j, bigint entry) {
-      const bool wall = mask[i] & group_bits;
-      if (static_cast<bool>(mask[j] & group_bits) == wall) return;
-      pairs.push_back({wall ? j : i, wall ? i : j, entry});
-    });
+  engine.team().run([&](int k) {
+    auto &own = pairs.of_thread[k];
+    own.clear();
+    for (const int ii : pairs.rows[k])
+      engine.visit_pairs(ii, [&](int i, int j, bigint entry) {
+        const bool wall = mask[i] & group_bits;
+        if (static_cast<bool>(mask[j] & group_bits) == wall) return;
+        own.push_back({wall ? j : i, wall ? i : j, entry});
+      });
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -355,30 +439,36 @@ void BoundaryStage::find_pairs()
 
 void BoundaryStage::accumulate()
 {
-  memset(sum, 0, (atom->nlocal + atom->nghost) * sizeof(BoundarySum));
+  const int nall = atom->nlocal + atom->nghost;
+  engine.team().in_parts(nall, [&](int, int from, int to) {
+    memset(sum + from, 0, (to - from) * sizeof(BoundarySum));
+  });
   const double *const rho = atom->rho;
   const bool has_spin = engine.has_spin();
   const Parameters &par = engine.parameters();
   const bool repulsive = has_energy();
 
-  with_kernel(engine.parameters().kernel, [&](auto k) {
-    for (const auto &pair : pairs) {
-      const Particle &f = engine.particle[pair.fluid];
-      const Particle &w = engine.particle[pair.wall];
-      const Surface &s = surface.surface[pair.wall];
-      double r[3];
-      for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-      const double distance = sqrt(inner_product(r, r));
-      const double kernel_weight = par.weight_norm * k.shape(distance / par.support);
-      BoundarySum &total = sum[pair.wall];
-      const double height =
-          add_fluid(f, w, r, kernel_weight, s, rho[pair.fluid], engine.weight(pair.fluid),
-                    engine.zeta_term[pair.fluid], total);
-      if (has_spin)
-        add_fluid_spin(engine.spin[pair.fluid].w, f.vol * kernel_weight, height, s, total);
-      sum[pair.fluid].filled += near[pair.wall].at<decltype(k)>(distance);
-      if (repulsive) sum[pair.fluid].occupied += contact[pair.wall].at<ContactKernel>(distance);
-    }
+  with_kernel(engine.parameters().kernel, [&](auto kernel) {
+    using Kernel = decltype(kernel);
+    sums.run(engine.team(), sum, nall, pairs.touched, [&](int k, BoundarySum *own) {
+      for (const auto &pair : pairs.of_thread[k]) {
+        const Particle &f = engine.particle[pair.fluid];
+        const Particle &w = engine.particle[pair.wall];
+        const Surface &s = surface.surface[pair.wall];
+        double r[3];
+        for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
+        const double distance = sqrt(inner_product(r, r));
+        const double kernel_weight = par.weight_norm * Kernel::shape(distance / par.support);
+        BoundarySum &total = own[pair.wall];
+        const double height =
+            add_fluid(f, w, r, kernel_weight, s, rho[pair.fluid], engine.weight(pair.fluid),
+                      engine.zeta_term[pair.fluid], total);
+        if (has_spin)
+          add_fluid_spin(engine.spin[pair.fluid].w, f.vol * kernel_weight, height, s, total);
+        own[pair.fluid].filled += near[pair.wall].at<Kernel>(distance);
+        if (repulsive) own[pair.fluid].occupied += contact[pair.wall].at<ContactKernel>(distance);
+      }
+    });
     return 0;
   });
 }
@@ -387,19 +477,28 @@ void BoundaryStage::accumulate()
 
 void BoundaryStage::accumulate_heat()
 {
-  heat_sum.assign(atom->nlocal + atom->nghost, BoundaryHeatSum());
+  const int nall = atom->nlocal + atom->nghost;
+  heat_sum.resize(nall);
+  engine.for_each(nall, [&](int i) {
+    heat_sum[i] = BoundaryHeatSum();
+  });
   const Parameters &par = engine.parameters();
-  with_kernel(par.kernel, [&](auto k) {
-    for (const auto &pair : pairs) {
-      const Particle &f = engine.particle[pair.fluid];
-      const Particle &w = engine.particle[pair.wall];
-      double r[3];
-      for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-      const double q = sqrt(inner_product(r, r)) / par.support;
-      add_fluid_heat(engine.conductor[pair.fluid], f.vol * par.weight_norm * k.shape(q),
-                     par.slope_norm * k.slope(q), height_above(surface.surface[pair.wall], r),
-                     conductivity(pair.wall), heat_sum[pair.wall]);
-    }
+  with_kernel(par.kernel, [&](auto kernel) {
+    using Kernel = decltype(kernel);
+    heat_sums.run(
+        engine.team(), heat_sum.data(), nall, pairs.touched, [&](int k, BoundaryHeatSum *own) {
+          for (const auto &pair : pairs.of_thread[k]) {
+            const Particle &f = engine.particle[pair.fluid];
+            const Particle &w = engine.particle[pair.wall];
+            double r[3];
+            for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
+            const double q = sqrt(inner_product(r, r)) / par.support;
+            add_fluid_heat(engine.conductor[pair.fluid], f.vol * par.weight_norm * Kernel::shape(q),
+                           par.slope_norm * Kernel::slope(q),
+                           height_above(surface.surface[pair.wall], r), conductivity(pair.wall),
+                           own[pair.wall]);
+          }
+        });
     return 0;
   });
 }
@@ -408,8 +507,14 @@ void BoundaryStage::accumulate_heat()
 
 void BoundaryStage::check() const
 {
-  for (int i = 0; i < atom->nlocal; i++)
-    if (sum[i].filled > INSIDE_WALL && !(atom->mask[i] & group_bits)) stop_for(i);
+  auto is_inside = [&](int i) {
+    return sum[i].filled > INSIDE_WALL && !(atom->mask[i] & group_bits);
+  };
+  const int inside = engine.team().sum<int>(atom->nlocal, [&](int i, int &count) {
+    if (is_inside(i)) count++;
+  });
+  for (int i = 0; i < atom->nlocal && inside; i++)
+    if (is_inside(i)) stop_for(i);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -434,7 +539,8 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 double BoundaryStage::memory_usage() const
 {
   return (double) nmax * sizeof(BoundarySum) +
-      (double) heat_sum.capacity() * sizeof(BoundaryHeatSum) +
-      (double) pairs.capacity() * sizeof(BoundaryPair) + (double) rows.capacity() * sizeof(int) +
+      (double) heat_sum.capacity() * sizeof(BoundaryHeatSum) + pairs.memory_usage() +
+      sums.memory_usage() + heat_sums.memory_usage() + flow_sums.memory_usage() +
+      repulsion_sums.memory_usage() + (double) repulsion.capacity() * sizeof(ForceSum) +
       (double) (near.capacity() + contact.capacity()) * sizeof(NearKernel) + surface.memory_usage();
 }

@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_BOUNDARY_STAGE_H
 
 #include "sph_dissipation_boundary.h"
+#include "sph_dissipation_engine.h"
 #include "sph_dissipation_surface.h"
 #include "sph_dissipation_wall_terms.h"
 
@@ -71,6 +72,12 @@ namespace SPHDissipation {
                       const double *acceleration);
     double *spin(int i);
 
+    // function(i) for each i < n, shared among the threads
+    template <class Function> void for_each(int n, const Function &function)
+    {
+      engine.for_each(n, function);
+    }
+
     // the same if the fluid conducts heat: temperature at the surface, or heat per area and time
 
     void set_heat(int i, WallHeat, double value, const Surface &);
@@ -78,7 +85,7 @@ namespace SPHDissipation {
     // after the conduction: heat per time of owned and ghost atoms by the surfaces that give one, added to the fluid and
     // taken from the boundary particles
 
-    void add_surface_heat(std::vector<double> &flow) const;
+    void add_surface_heat(std::vector<double> &flow);
 
     // what run() consists of, for another one that does the sums elsewhere: the surfaces of the
     // owned and ghost atoms, when the neighbor list is new, from the vectors toward the fluid of the
@@ -93,16 +100,12 @@ namespace SPHDissipation {
    private:
     BoundarySum *sum;                         // of owned and ghost atoms
     std::vector<BoundaryHeatSum> heat_sum;    // the same; empty if nothing conducts
-    std::vector<BoundaryPair> pairs;          // of this step
+    BoundaryPairs pairs;                      // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
     int group_bits;
 
-    // rows of the neighbor list that may hold pairs of a fluid and a boundary particle until the list
-    // is built anew, and the bits they were found for
-
-    std::vector<int> rows;
-    int rows_bits;
+    int rows_bits;    // that the rows of the pairs were found for
 
     // for BoundarySum::filled, of boundary atoms until the list is built anew
 
@@ -110,6 +113,11 @@ namespace SPHDissipation {
     std::vector<NearKernel> contact;    // for BoundarySum::occupied
 
     int nmax;
+    ThreadSums<BoundarySum> sums;
+    ThreadSums<BoundaryHeatSum> heat_sums;
+    ThreadSums<double> flow_sums;
+    std::vector<ForceSum> repulsion;    // of several threads
+    ThreadSums<ForceSum> repulsion_sums;
     SurfaceStage surface;
     bigint surface_step;    // that the normals of the surface are for
 

@@ -19,24 +19,17 @@
 #include "memory.h"
 #include "neigh_list.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_noise_data.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-// rows of numbers
-
-template <class Row> static void add_row(Row &to, const Row &from)
-{
-  auto *const sum = reinterpret_cast<double *>(&to);
-  const auto *const term = reinterpret_cast<const double *>(&from);
-  for (std::size_t k = 0; k < sizeof(Row) / sizeof(double); k++) sum[k] += term[k];
-}
 
 /* ---------------------------------------------------------------------- */
 
@@ -152,6 +145,7 @@ void Engine::grow_atoms()
 
 void Engine::grow_pairs(NeighList *list)
 {
+  constexpr int PARTS = 256;    // of the rows of a thread: it gets whole ones
   if (list->inum > imax) {
     imax = list->inum;
     memory->sfree(data.first);
@@ -163,17 +157,24 @@ void Engine::grow_pairs(NeighList *list)
   auto room = [=](int ii) {
     return (list->numneigh[list->ilist[ii]] + BLOCK - 1) / BLOCK * BLOCK;
   };
-  bigint npair = 0;
-  for (int ii = 0; ii < list->inum; ii++) npair += room(ii);
-
   const int nthread = threads->size();
+  const int npart = (nthread == 1) ? 1 : PARTS * nthread;
+  std::vector<int> begin(npart + 1);
+  std::vector<bigint> pairs_of(npart, 0);
+  for (int p = 0; p <= npart; p++)
+    begin[p] = static_cast<int>(static_cast<bigint>(list->inum) * p / npart);
+  threads->for_each(npart, [&](int p) {
+    for (int ii = begin[p]; ii < begin[p + 1]; ii++) pairs_of[p] += room(ii);
+  });
+  bigint npair = std::accumulate(pairs_of.begin(), pairs_of.end(), bigint(0));
+
   first_row.assign(nthread + 1, list->inum);
   first_pair.assign(nthread, 0);
   first_row[0] = 0;
   bigint end = 0;
-  for (int k = 1, ii = 0; k < nthread; k++) {
-    for (; ii < list->inum && end < npair * k / nthread; ii++) end += room(ii);
-    first_row[k] = ii;
+  for (int k = 1, p = 0; k < nthread; k++) {
+    for (; p < npart && end < npair * k / nthread; p++) end += pairs_of[p];
+    first_row[k] = begin[p];
     first_pair[k] = end + k * 3 * BLOCK;
   }
 
@@ -328,7 +329,9 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
 void Engine::accumulate_rates()
 {
   const int nrow = atom->nlocal + atom->nghost + BLOCK;
-  for (int i = 0; i < nrow; i++) density[i].cdot = 0.0;
+  for_each(nrow, [&](int i) {
+    density[i].cdot = 0.0;
+  });
   run_density(rate_loop);
 }
 
@@ -339,20 +342,13 @@ void Engine::accumulate_rates()
 void Engine::run_density(Loop loop)
 {
   const int nall = atom->nlocal + atom->nghost;
-  sums.resize(threads->size() - 1);
+  density_sums.begin(*threads);
   threads->run([&](int k) {
     LoopData own = part(k);
-    if (k > 0) {
-      sums[k - 1].density.assign(nall + BLOCK, DensitySum());
-      own.density = sums[k - 1].density.data();
-    }
+    if (k > 0) own.density = density_sums.zeroed(k, nullptr, nall + BLOCK);
     loop(own);
   });
-
-  if (sums.empty()) return;
-  for_each(nall, [&](int i) {
-    for (const auto &other : sums) add_row(density[i], other.density[i]);
-  });
+  density_sums.add_up(*threads, density, nall);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -362,14 +358,47 @@ void Engine::accumulate_heat(std::vector<double> &flow, const NoiseData *noise)
   const int nall = atom->nlocal + atom->nghost;
   const HeatLoop loop = loops->heat(par->conducts_alike, noise);
   flow.assign(nall + BLOCK, 0.0);
-  threads->run([&](int k) {
-    if (k > 0) sums[k - 1].flow.assign(nall + BLOCK, 0.0);
-    loop(part(k), conductor.data(), noise, (k > 0 ? sums[k - 1].flow : flow).data());
+  scalar_sums.run(*threads, flow.data(), flow.size(), [&](int k, double *sum) {
+    loop(part(k), conductor.data(), noise, sum);
   });
-  if (sums.empty()) return;
-  for_each(nall, [&](int i) {
-    for (const auto &other : sums) flow[i] += other.flow[i];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_numbers(const NoiseForm &form, const NoiseData &noise)
+{
+  const NoiseLoop loop = loops->noise_sums(form);
+  const std::size_t nrow = atom->nlocal + atom->nghost + BLOCK;
+  scalar_sums.run(*threads, noise.eta, nrow, [&](int k, double *sum) {
+    NoiseData own = noise;
+    own.eta = sum;
+    loop(part(k), own);
   });
+}
+
+/* ----------------------------------------------------------------------
+   in whole blocks, each of one thread
+------------------------------------------------------------------------- */
+
+void Engine::draw_numbers(const NoiseData &noise, NoiseChannel channel, int n, int count,
+                          double *numbers)
+{
+  threads->in_parts((n + BLOCK - 1) / BLOCK, [&](int, int from, int to) {
+    loops->particle_numbers(noise, channel, from * BLOCK, std::min(to * BLOCK, n), n, count,
+                            numbers);
+  });
+}
+
+/* ----------------------------------------------------------------------
+   of the rows of a thread
+------------------------------------------------------------------------- */
+
+double *Engine::room_for_numbers(int thread, const LoopData &rows)
+{
+  const int most = rows.inum ? *std::max_element(rows.count, rows.count + rows.inum) : 0;
+  const std::size_t room = static_cast<std::size_t>(MOST_NUMBERS) * (most + BLOCK);
+  if (random[thread].size() < room) random[thread].resize(room);
+  return random[thread].data();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -377,7 +406,7 @@ void Engine::accumulate_heat(std::vector<double> &flow, const NoiseData *noise)
 void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 {
   data.tally = tally;
-  run_forces(list, noisy_loop ? noisy_loop : force_loop, !tally && !noisy_loop, false);
+  run_forces(list, noisy_loop ? noisy_loop : force_loop, false);
   nlocal_forces = atom->nlocal;
   nghost_forces = atom->nghost;
 }
@@ -387,55 +416,41 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally)
 void Engine::accumulate_friction(NeighList *list)
 {
   data.tally = nullptr;
-  run_forces(list, force_loop, true, true);
+  run_forces(list, force_loop, true);
 }
 
-/* ----------------------------------------------------------------------
-   shared: among the threads
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void Engine::run_forces(NeighList *list, Loop loop, bool shared, bool linear)
+void Engine::run_forces(NeighList *list, Loop loop, bool linear)
 {
-  const bool by_volume = (par->bulk == Bulk::VOLUME);
+  const bool by_volume = (par->bulk == Bulk::VOLUME), noisy = (loop == noisy_loop);
   const int nall = atom->nlocal + atom->nghost;
-  const bigint nrow = (bigint) nall + BLOCK;
+  const std::size_t nrow = (std::size_t) nall + BLOCK;
   data.inum = list->inum;
   data.zeta_term = zeta_term;
-  data.divergence = divergence;
-  data.force = force;
   data.spin = spin;
-  data.torque = torque;
+  data.random = nullptr;
+  force_sums.begin(*threads);
+  scalar_sums.begin(*threads);
+  torque_sums.begin(*threads);
+  random.resize(threads->size());
 
-  auto work = [&](LoopData &own) {
-    memset(static_cast<void *>(own.force), 0, nrow * sizeof(ForceSum));
-    if (by_volume) memset(own.divergence, 0, nrow * sizeof(double));
-    if (has_spin()) memset(static_cast<void *>(own.torque), 0, nrow * sizeof(TorqueSum));
+  auto work = [&](int k, LoopData own) {
+    own.force = force_sums.zeroed(k, force, nrow);
+    if (by_volume) own.divergence = scalar_sums.zeroed(k, divergence, nrow);
+    if (has_spin()) own.torque = torque_sums.zeroed(k, torque, nrow);
+    if (noisy) own.random = room_for_numbers(k, own);
     loop(own);
   };
-  if (!shared || sums.empty())
-    work(data);
+  if (data.tally)
+    work(0, data);
   else {
     threads->run([&](int k) {
-      LoopData own = part(k);
-      if (k > 0) {
-        Sums &mine = sums[k - 1];
-        mine.force.resize(nrow);
-        if (by_volume) mine.divergence.resize(nrow);
-        if (has_spin()) mine.torque.resize(nrow);
-        own.force = mine.force.data();
-        own.divergence = mine.divergence.data();
-        own.torque = mine.torque.data();
-      }
-      work(own);
+      work(k, part(k));
     });
-
-    for_each(nall, [&](int i) {
-      for (const auto &other : sums) {
-        add_row(force[i], other.force[i]);
-        if (by_volume) divergence[i] += other.divergence[i];
-        if (has_spin()) add_row(torque[i], other.torque[i]);
-      }
-    });
+    force_sums.add_up(*threads, force, nall);
+    if (by_volume) scalar_sums.add_up(*threads, divergence, nall);
+    if (has_spin()) torque_sums.add_up(*threads, torque, nall);
   }
   if (!par->drag) return;
   for_each(atom->nlocal, [&](int i) {
@@ -485,6 +500,7 @@ void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum 
   part.force = force_out;
   part.torque = torque_out;
   part.divergence = divergence_out;
+  if (noisy_loop) part.random = room_for_numbers(0, part);
   (noisy_loop ? noisy_loop : force_loop)(part);
 }
 
@@ -548,10 +564,8 @@ double Engine::memory_usage() const
       (double) pair_max * (sizeof(int) + sizeof(double)) +
       (double) conductor.capacity() * sizeof(Conductor) +
       (double) energy.capacity() * sizeof(double);
-  for (const auto &own : sums)
-    bytes += (double) (own.density.capacity() * sizeof(DensitySum) +
-                       own.force.capacity() * sizeof(ForceSum) +
-                       own.torque.capacity() * sizeof(TorqueSum) +
-                       (own.divergence.capacity() + own.flow.capacity()) * sizeof(double));
-  return bytes;
+  for (const auto &numbers : random)
+    bytes += static_cast<double>(numbers.capacity() * sizeof(double));
+  return bytes + density_sums.memory_usage() + force_sums.memory_usage() +
+      torque_sums.memory_usage() + scalar_sums.memory_usage();
 }

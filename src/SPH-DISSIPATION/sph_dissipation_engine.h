@@ -85,6 +85,7 @@ namespace SPHDissipation {
     double *slope;    // F
 
     const NoiseData *noise;    // of pass 2 with noise
+    double *random;            // the same, for the numbers of the pairs of one particle
     PairTally *tally;          // nullptr if nobody asks
   };
 
@@ -115,7 +116,8 @@ namespace SPHDissipation {
     Loop (*forces)(Shear, Bulk, Volume);
     Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
-    void (*particle_numbers)(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
+    void (*particle_numbers)(const NoiseData &, NoiseChannel, int from, int to, int n, int count,
+                             double *numbers);
     HeatLoop (*heat)(bool alike,
                      bool noise);    // alike: the same conductivity of all particles that conduct
     void (*take_candidates)(const PlaceColumns &, int from, int to, const double *corner,
@@ -156,7 +158,7 @@ namespace SPHDissipation {
   // Pair engine of the particle fluid styles: number density and its rate in one loop over the
   // neighbor list, forces and heating in a second one.  Between them the stages of the pair style set
   // what pass 2 reads.  With threads each of them has rows of the neighbor list and sums of its own,
-  // which are added up then; the loops of the noise, and those with a tally of each pair, run on one.
+  // which are added up then; loops with a tally of each pair run on one.
 
   class Engine : protected Pointers {
    public:
@@ -190,7 +192,13 @@ namespace SPHDissipation {
     // on owned and ghost atoms, and the drag of single particles
     void accumulate_forces(NeighList *, PairTally *);
 
-    // the same without noise, linear in the velocities: without the streams of the drag
+    // what the noise needs before: adds to noise.eta of owned and ghost atoms, with room for the spare ones
+    void accumulate_numbers(const NoiseForm &, const NoiseData &noise);
+
+    // count random numbers of each owned particle and the next ones, n in all, the next number after n + BLOCK of them
+    void draw_numbers(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
+
+    // the same as accumulate_forces() without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *);
 
     // heat per time that owned and ghost atoms get by conduction, of conductor[], with noise unless it is nullptr; room
@@ -224,7 +232,19 @@ namespace SPHDissipation {
       for (bigint entry = data.first[ii]; entry < end; entry++)
         function(i, data.neighbor[entry], entry);
     }
-    const LoopSet &loop_set() const { return *loops; }
+
+    // the same on all threads, each with its rows of the neighbor list: function(i, j, entry, sum) adds to sum[0] ...
+    // sum[n - 1], which are total or will be added to it
+    template <class Row, class Function>
+    void sum_pairs(ThreadSums<Row> &row_sums, Row *total, std::size_t n, Function &&function) const
+    {
+      row_sums.run(*threads, total, n, [&](int k, Row *sum) {
+        for (int ii = first_row[k]; ii < first_row[k + 1]; ii++)
+          visit_pairs(ii, [&](int i, int j, bigint entry) {
+            function(i, j, entry, sum);
+          });
+      });
+    }
 
     const Parameters &parameters() const { return *par; }
     // what is between the passes, of owned and ghost atoms; from pass 1 until atoms move to other processors
@@ -260,17 +280,16 @@ namespace SPHDissipation {
     double *weights;    // reference volumes of atoms
 
     // rows first_row[k] ... first_row[k+1] - 1 of the neighbor list are those of thread k, whose pairs
-    // begin with entry first_pair[k]; sums of the threads but the first one
+    // begin with entry first_pair[k]
 
-    struct Sums {
-      std::vector<DensitySum> density;
-      std::vector<ForceSum> force;
-      std::vector<TorqueSum> torque;
-      std::vector<double> divergence, flow;
-    };
     std::vector<int> first_row;
     std::vector<bigint> first_pair;
-    std::vector<Sums> sums;
+    std::vector<std::vector<double>>
+        random;    // numbers of the pairs of one particle, of each thread
+    ThreadSums<DensitySum> density_sums;
+    ThreadSums<ForceSum> force_sums;
+    ThreadSums<TorqueSum> torque_sums;
+    ThreadSums<double> scalar_sums;    // of all that is one number
 
     int not_fluid;
     int nlocal_forces, nghost_forces;    // # of atoms that force[] is of
@@ -283,8 +302,9 @@ namespace SPHDissipation {
     void grow_pairs(NeighList *);
     LoopData part(int thread) const;
     LoopData part(PairSubset &) const;
+    double *room_for_numbers(int thread, const LoopData &);
     void run_density(Loop);
-    void run_forces(NeighList *, Loop, bool shared, bool linear);
+    void run_forces(NeighList *, Loop, bool linear);
   };
 
 }    // namespace SPHDissipation

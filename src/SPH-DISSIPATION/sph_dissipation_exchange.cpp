@@ -24,7 +24,7 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-Exchange::Exchange(LAMMPS *lmp, Pair *pair) : Pointers(lmp), pair(pair) {}
+Exchange::Exchange(LAMMPS *lmp, Pair *pair) : Pointers(lmp), pair(pair), threads(&one_thread) {}
 
 /* ----------------------------------------------------------------------
    call send(# of values per atom) for each message, with the fields that are in it
@@ -68,50 +68,60 @@ void Exchange::reverse(std::initializer_list<Field> next)
   });
 }
 
+/* ----------------------------------------------------------------------
+   copy(field, k, its values in the message) for each field and k < n; returns the length of the message
+------------------------------------------------------------------------- */
+
+template <class Copy> int Exchange::for_each(int n, const Copy &copy) const
+{
+  int begin = 0;
+  for (const auto &one : fields) {
+    threads->for_each(n, [&](int k) {
+      copy(one, k, begin + k * one.width);
+    });
+    begin += n * one.width;
+  }
+  return begin;
+}
+
 /* ---------------------------------------------------------------------- */
 
 int Exchange::pack_forward(int n, const int *list, double *buf) const
 {
-  double *out = buf;
-  for (const auto &one : fields)
-    for (int k = 0; k < n; k++) {
-      const double *const value = one.first + list[k] * one.stride;
-      for (int d = 0; d < one.width; d++) *out++ = value[d];
-    }
-  return static_cast<int>(out - buf);
+  return for_each(n, [=](const Field &one, int k, int at) {
+    const double *const value = one.first + list[k] * one.stride;
+    for (int d = 0; d < one.width; d++) buf[at + d] = value[d];
+  });
 }
 
 /* ---------------------------------------------------------------------- */
 
 void Exchange::unpack_forward(int n, int nfirst, const double *buf) const
 {
-  for (const auto &one : fields)
-    for (int i = nfirst; i < nfirst + n; i++) {
-      double *const value = one.first + i * one.stride;
-      for (int d = 0; d < one.width; d++) value[d] = *buf++;
-    }
+  for_each(n, [=](const Field &one, int k, int at) {
+    double *const value = one.first + (nfirst + k) * one.stride;
+    for (int d = 0; d < one.width; d++) value[d] = buf[at + d];
+  });
 }
 
 /* ---------------------------------------------------------------------- */
 
 int Exchange::pack_reverse(int n, int nfirst, double *buf) const
 {
-  double *out = buf;
-  for (const auto &one : fields)
-    for (int i = nfirst; i < nfirst + n; i++) {
-      const double *const value = one.first + i * one.stride;
-      for (int d = 0; d < one.width; d++) *out++ = value[d];
-    }
-  return static_cast<int>(out - buf);
+  return for_each(n, [=](const Field &one, int k, int at) {
+    const double *const value = one.first + (nfirst + k) * one.stride;
+    for (int d = 0; d < one.width; d++) buf[at + d] = value[d];
+  });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   a particle stands in list once
+------------------------------------------------------------------------- */
 
 void Exchange::unpack_reverse(int n, const int *list, const double *buf) const
 {
-  for (const auto &one : fields)
-    for (int k = 0; k < n; k++) {
-      double *const value = one.first + list[k] * one.stride;
-      for (int d = 0; d < one.width; d++) value[d] += *buf++;
-    }
+  for_each(n, [=](const Field &one, int k, int at) {
+    double *const value = one.first + list[k] * one.stride;
+    for (int d = 0; d < one.width; d++) value[d] += buf[at + d];
+  });
 }

@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_EXCHANGE_H
 
 #include "pointers.h"
+#include "sph_dissipation_threads.h"
 
 #include <cstddef>
 #include <initializer_list>
@@ -48,6 +49,7 @@ namespace SPHDissipation {
   class Exchange : protected Pointers {
    public:
     Exchange(class LAMMPS *, Pair *);
+    void set_threads(Threads *team) { threads = team; }    // which the caller keeps
     static constexpr int ROOM =
         24;    // values per atom of a message, for which the pair style asks LAMMPS
 
@@ -62,6 +64,10 @@ namespace SPHDissipation {
    private:
     Pair *pair;
     std::vector<Field> fields;
+    mutable Threads one_thread;
+    Threads *threads;
+
+    template <class Copy> int for_each(int n, const Copy &copy) const;
 
     template <class Send> void in_parts(std::initializer_list<Field>, const Send &);
   };

@@ -754,6 +754,13 @@ int Fluid::not_fluid() const
 
 /* ---------------------------------------------------------------------- */
 
+Threads &Fluid::team() const
+{
+  return engine->team();
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool Fluid::is_boundary(int i) const
 {
   return atom->mask[i] & boundary->bits();

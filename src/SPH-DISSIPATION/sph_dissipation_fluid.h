@@ -44,6 +44,7 @@ namespace SPHDissipation {
   class PressureStage;
   class RelaxStage;
   class TemperatureStage;
+  class Threads;
   class ViscousStage;
 
   // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -164,6 +165,7 @@ namespace SPHDissipation {
     bool is_boundary(int i) const;           // owned or ghost particle
     bool has_type(int type) const;           // its particles are of this fluid
     int dimension() const { return dim; }    // of the kernel
+    Threads &team() const;                   // that share its work
     double support_radius() const { return support; }
 
     // of the fluid as it is now: largest stable time steps; time in which a particle falls by the length

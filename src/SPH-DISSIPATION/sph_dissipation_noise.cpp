@@ -71,10 +71,6 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   if (engine.parameters().drag) add_drag(factor, not_fluid);
   if (!set_coeffs(factor) && !energy) return;    // who pays for a random pressure is known by pairs
   if (form.kind == NoiseKind::DIRECTED) set_shares(bound, not_fluid);
-  const LoopData &pairs = engine.pairs();
-  const int most = pairs.inum ? *std::max_element(pairs.count, pairs.count + pairs.inum) : 0;
-  random.resize(MOST_NUMBERS * (most + BLOCK));
-  data.random = random.data();
   engine.add_noise(form, &data);
 }
 
@@ -115,7 +111,9 @@ void NoiseStage::set_tags()
   const int nall = atom->nlocal + atom->nghost;
   tag.resize(nall + BLOCK);
   pressure.resize(nall + BLOCK);
-  std::copy_n(atom->tag, nall, tag.begin());
+  engine.for_each(nall, [&](int i) {
+    tag[i] = atom->tag[i];
+  });
   std::fill_n(tag.begin() + nall, BLOCK, 0.0);
   data.tag = tag.data();
 }
@@ -131,21 +129,22 @@ void NoiseStage::set_temperatures(bool continued)
   const bool spins = engine.has_spin();
   const StrainRows &strains = engine.rows().strains;
   const double *const inertia = Fields::of(atom)->inertia;
-  row.assign(nall + BLOCK, NoiseRow());
+  row.resize(nall + BLOCK);
   if (spins) spin_mobility.assign(nall + BLOCK, 0.0);
-  int without = 0, without_all;
-  for (int i = 0; i < nall; i++) {
+  std::fill_n(row.begin() + nall, BLOCK, NoiseRow());
+  const int without = engine.team().sum<int>(nall, [&](int i, int &count) {
     const int type = atom->type[i];
-    if (engine.parameters().type[type].other) continue;
+    row[i] = NoiseRow();
+    if (engine.parameters().type[type].other) return;
     const double capacity = atom->rmass[i] * engine.parameters().type[type].heat_capacity;
     row[i].softness = force->boltz / capacity;
     row[i].mobility = update->dt * force->ftm2v / atom->rmass[i];
-    if (i >= nlocal) continue;
+    if (i >= nlocal) return;
     if (spins && inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / inertia[i];
     const double heat = strains.thermal_energy(i);
-    if (!(heat > 0.0)) without++;
+    if (!(heat > 0.0)) count++;
     row[i].temperature = std::max(heat, 0.0) / capacity;
-  }
+  });
   data.row = row.data();
   data.spin_mobility = spin_mobility.data();
   const Field temperatures = field(row.data(), &row.data()->temperature, 1);
@@ -155,6 +154,7 @@ void NoiseStage::set_temperatures(bool continued)
     exchange.forward({temperatures});
 
   if (!update->setupflag || continued) return;
+  int without_all;
   MPI_Allreduce(&without, &without_all, 1, MPI_INT, MPI_SUM, world);
   if (without_all)
     error->all(FLERR, Error::NOLASTLINE,
@@ -204,14 +204,14 @@ bool NoiseStage::is_negative(int i) const
 void NoiseStage::add_pressure(double factor, int not_fluid)
 {
   const int nall = atom->nlocal + atom->nghost;
-  engine.loop_set().particle_numbers(data, NoiseChannel::PRESSURE, nall, 1, pressure.data());
+  engine.draw_numbers(data, NoiseChannel::PRESSURE, nall, 1, pressure.data());
   std::vector<double> amplitude(atom->ntypes + 1, 0.0);
   for (int type = 1; type <= atom->ntypes; type++)
     if (!engine.parameters().type[type].other)
       amplitude[type] = sqrt(factor * std::max(engine.parameters().type[type].zeta, 0.0));
-  for (int i = 0; i < nall; i++) {
+  engine.for_each(nall, [&](int i) {
     const double strength = amplitude[atom->type[i]];
-    if (!(strength > 0.0) || (atom->mask[i] & not_fluid)) continue;
+    if (!(strength > 0.0) || (atom->mask[i] & not_fluid)) return;
     Particle &particle = engine.particle[i];
     const double c_inv = particle.vol / engine.weight(i);
     const double random = strength * pressure[i] / sqrt(particle.vol);
@@ -222,7 +222,7 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
       particle.g += row[i].pressure;
     } else
       particle.g += random * c_inv * c_inv;
-  }
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -235,13 +235,13 @@ void NoiseStage::add_drag(double factor, int not_fluid)
   const int nlocal = atom->nlocal, n = nlocal + BLOCK;
   drag.resize(3 * n);
   drag_force.assign(3 * nlocal, 0.0);
-  engine.loop_set().particle_numbers(data, NoiseChannel::DRAG, nlocal, 3, drag.data());
-  for (int i = 0; i < nlocal; i++) {
+  engine.draw_numbers(data, NoiseChannel::DRAG, nlocal, 3, drag.data());
+  engine.for_each(nlocal, [&](int i) {
     const TypeParameters &type = par.type[atom->type[i]];
-    if (type.other || (atom->mask[i] & not_fluid)) continue;
+    if (type.other || (atom->mask[i] & not_fluid)) return;
     const double strength = sqrt(factor * Channels::drag(type.keywords) * engine.particle[i].vol);
     for (int d = 0; d < par.dim; d++) drag_force[3 * i + d] = strength * drag[d * n + i];
-  }
+  });
   engine.add_drag_noise(drag_force.data());
 }
 
@@ -259,18 +259,17 @@ void NoiseStage::draw_for_strain()
   for (int first = 0; first < par.nprocess; first += AT_ONCE) {
     const int count = std::min(par.nprocess - first, AT_ONCE);
     const int channel = static_cast<int>(NoiseChannel::STRAIN) + first / AT_ONCE;
-    engine.loop_set().particle_numbers(data, static_cast<NoiseChannel>(channel), nlocal, count,
-                                       numbers.data());
-    for (int i = 0; i < nlocal; i++) {
+    engine.draw_numbers(data, static_cast<NoiseChannel>(channel), nlocal, count, numbers.data());
+    engine.for_each(nlocal, [&](int i) {
       const TypeParameters &type = par.type[atom->type[i]];
-      if (type.nprocess <= first) continue;
+      if (type.nprocess <= first) return;
       double temperature = par.temperature;
       if (par.own_temperatures) temperature = std::max(strains.temperature(i), 0.0);
       const double strength = sqrt(force->boltz * temperature / atom->rmass[i]);
       for (int k = first; k < std::min(type.nprocess, first + count); k++)
         change[k * static_cast<std::size_t>(nlocal) + i] =
             -strength * type.process[k].noise * numbers[(k - first) * static_cast<bigint>(n) + i];
-    }
+    });
   }
 }
 
@@ -299,14 +298,15 @@ void NoiseStage::share_work()
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   acceleration.assign(3 * static_cast<std::size_t>(nall + BLOCK), 0.0);
   flow.assign(nall, 0.0);
-  for (int i = 0; i < nlocal; i++)
+  engine.for_each(nlocal, [&](int i) {
     for (int d = 0; d < 3; d++)
       acceleration[3 * i + d] = force->ftm2v * engine.force[i].f[d] / atom->rmass[i];
+  });
   exchange.forward({{acceleration.data(), 3, 3}});
 
   const LoopData &pairs = engine.pairs();
   const double half = 0.5 * update->dt;
-  engine.visit_pairs([&](int i, int j, bigint entry) {
+  engine.sum_pairs(flow_sums, flow.data(), nall, [&](int i, int j, bigint entry, double *sum) {
     const Particle &a = engine.particle[i], &b = engine.particle[j];
     double by_i = 0.0, by_j = 0.0;
     for (int d = 0; d < 3; d++) {
@@ -316,11 +316,13 @@ void NoiseStage::share_work()
     }
     const double heat = half * pairs.slope[entry] * engine.weight(i) * engine.weight(j) *
         ((a.g - row[i].pressure) * by_j + (b.g - row[j].pressure) * by_i);
-    flow[i] += heat;
-    flow[j] -= heat;
+    sum[i] += heat;
+    sum[j] -= heat;
   });
   const int n = force->newton_pair ? nall : nlocal;
-  for (int i = 0; i < n; i++) atom->desph[i] += flow[i];
+  engine.for_each(n, [&](int i) {
+    atom->desph[i] += flow[i];
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -333,23 +335,25 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
   eta.assign(nall + BLOCK, 0.0);
   reach.assign(nall + BLOCK, 0.0);
   share.assign(nall + BLOCK, 0.0);
-  for (int i = 0; i < nall; i++) reach[i] = engine.weight(i) / sqrt(engine.particle[i].vol);
+  engine.for_each(nall, [&](int i) {
+    reach[i] = engine.weight(i) / sqrt(engine.particle[i].vol);
+  });
   data.eta = eta.data();
   data.reach = reach.data();
   data.share = share.data();
-  engine.loop_set().noise_sums(form)(engine.pairs(), data);
+  engine.accumulate_numbers(form, data);
   exchange.reverse({{eta.data(), 1, 1}});
 
-  for (int i = 0; i < nlocal; i++) {
+  engine.for_each(nlocal, [&](int i) {
     const TypeParameters &type = engine.parameters().type[atom->type[i]];
-    if (type.other || (atom->mask[i] & not_fluid) || !is_negative(i)) continue;
+    if (type.other || (atom->mask[i] & not_fluid) || !is_negative(i)) return;
     const double zeta = beyond_bound(type.zeta, bound[i]) ? zeta_at_bound(bound[i]) : type.zeta;
-    if (!(zeta < 0.0)) continue;    // no bound: a pair without friction
+    if (!(zeta < 0.0)) return;    // no bound: a pair without friction
     const double rest = 1.0 + 2.0 * zeta * bound[i];
     const double s = 1.0 - ((rest > ROUNDOFF) ? sqrt(rest) : 0.0);
     const double c_inv = engine.particle[i].vol / engine.weight(i);
     share[i] = (bound[i] > 0.0) ? s * eta[i] * c_inv * c_inv / bound[i] : 0.0;
-  }
+  });
   exchange.forward({{share.data(), 1, 1}});
 }
 
@@ -361,7 +365,7 @@ double NoiseStage::memory_usage() const
       static_cast<double>((spin_mobility.capacity() + tag.capacity() + reach.capacity() +
                            share.capacity() + eta.capacity() + drag.capacity() +
                            numbers.capacity() + change.capacity() + acceleration.capacity() +
-                           flow.capacity() + drag_force.capacity() + pressure.capacity() +
-                           random.capacity()) *
-                          sizeof(double));
+                           flow.capacity() + drag_force.capacity() + pressure.capacity()) *
+                          sizeof(double)) +
+      flow_sums.memory_usage();
 }

@@ -73,8 +73,9 @@ namespace SPHDissipation {
     std::vector<NoiseCoeff> coeff;
     std::vector<NoiseRow> row;
     std::vector<double> spin_mobility;
-    std::vector<double> tag, reach, share, eta, pressure, random, drag, drag_force;
+    std::vector<double> tag, reach, share, eta, pressure, drag, drag_force;
     std::vector<double> numbers, change, acceleration, flow;
+    ThreadSums<double> flow_sums;
     bool equal_masses;
 
     void check_box() const;

@@ -71,7 +71,6 @@ namespace SPHDissipation {
     double heat;                // 2 k/dt, of the random flow of heat
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
     double *eta;                // sums of the numbers of a particle, accumulated
-    double *random;             // for the numbers of the pairs of one particle
   };
 
   constexpr int MOST_NUMBERS = 8;    // of a pair

@@ -176,7 +176,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
     i = pairs.ilist[ii];
     const int n = pairs.count[ii];
     const int *const neighbor = pairs.neighbor + pairs.first[ii];
-    next = data.random;
+    next = pairs.random;
     for (int k = 0; k < n; k += LANES) {
       const PairCounter counter(step, data.tag[i], gather(data.tag, neighbor + k));
       const Numbers random(counter.word, step.pair);
@@ -186,7 +186,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
         next += LANES;
       }
     }
-    next = data.random;
+    next = pairs.random;
   }
 
   // d = r_ij, by_metric = vv/metric, inverse = 1/r^2 if VECTOR
@@ -331,15 +331,15 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   Vec other[NROW], other_spin_mobility;    // of j
 };
 
-// count random numbers of each of n particles, and of some behind them, the next number after the ones of all particles
-// and BLOCK more
+// count random numbers of each of the particles from ... to - 1 of n, and of some behind them, the next number after the
+// ones of all particles and BLOCK more
 
-inline void particle_numbers(const NoiseData &data, NoiseChannel channel, int n, int count,
-                             double *numbers)
+inline void particle_numbers(const NoiseData &data, NoiseChannel channel, int from, int to, int n,
+                             int count, double *numbers)
 {
   const NoiseStep step(data);
   const PhiloxKeys keys = NoiseStep::keys_of(data, channel);
-  for (int k = 0; k < n; k += LANES) {
+  for (int k = from; k < to; k += LANES) {
     const Words tag = words(load(data.tag + k));
     const Words counter[4] = {tag, shifted<32>(tag), all_words(step.low), all_words(step.high)};
     Words random[4];

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -46,26 +47,30 @@ namespace SPHDissipation {
   //   void sum(values, n)       over all processors, in place
   //   double scale_sq()         part of this processor of the square, in the norm of M, that tolerance
   //                             times is the largest residual; may depend on x
+  //   Threads &team()           which share the work
 
   template <class System> class Krylov {
    public:
     Krylov(System &system, double tolerance, int most) :
-        system(system), tolerance(tolerance), most(most)
+        system(system), threads(system.team()), tolerance(tolerance), most(most)
     {
     }
 
     Solution conjugate_gradients()
     {
-      const std::size_t n = system.x.size();
+      const auto n = static_cast<int>(system.x.size());
       Unknowns &r = system.residual;
       Unknowns p(n), ap(n);
       double before = 1.0;
       while (!finished()) {
         const double beta = (result.applications == 0) ? 0.0 : rr / before;
-        for (std::size_t k = 0; k < n; k++) p[k] = system.inverse_mass[k] * r[k] + beta * p[k];
+        threads.for_each(n, [&](int k) {
+          p[k] = system.inverse_mass[k] * r[k] + beta * p[k];
+        });
         apply(p, ap);
-        double curvature = 0.0;
-        for (std::size_t k = 0; k < n; k++) curvature += p[k] * ap[k];
+        double curvature = threads.template sum<double>(n, [&](int k, double &total) {
+          total += p[k] * ap[k];
+        });
         system.sum(&curvature, 1);
         result.finite = std::isfinite(curvature);
         if (!(curvature > 0.0)) {
@@ -73,10 +78,10 @@ namespace SPHDissipation {
           break;
         }
         const double alpha = rr / curvature;
-        for (std::size_t k = 0; k < n; k++) {
+        threads.for_each(n, [&](int k) {
           system.x[k] += alpha * p[k];
           r[k] -= alpha * ap[k];
-        }
+        });
         before = rr;
       }
       return result;
@@ -84,7 +89,7 @@ namespace SPHDissipation {
 
     Solution bi_conjugate_gradients()
     {
-      const std::size_t n = system.x.size();
+      const auto n = static_cast<int>(system.x.size());
       Unknowns &r = system.residual;
       Unknowns p(n), ap(n), q(n), aq(n), z(n);
       Unknowns shadow = r;
@@ -95,47 +100,50 @@ namespace SPHDissipation {
         if (next == 0.0) break;
         const double beta = (result.applications == 0) ? 0.0 : next / rho * alpha / omega;
         rho = next;
-        for (std::size_t k = 0; k < n; k++) {
+        threads.for_each(n, [&](int k) {
           p[k] = r[k] + beta * (p[k] - omega * ap[k]);
           z[k] = system.inverse_mass[k] * p[k];
-        }
+        });
         apply(z, ap);
         double along = product(shadow, ap);
         system.sum(&along, 1);
         if (along == 0.0) break;
         alpha = rho / along;
-        for (std::size_t k = 0; k < n; k++) {
+        threads.for_each(n, [&](int k) {
           system.x[k] += alpha * z[k];
           r[k] -= alpha * ap[k];
-        }
+        });
         if (finished()) break;
-        for (std::size_t k = 0; k < n; k++) q[k] = system.inverse_mass[k] * r[k];
+        threads.for_each(n, [&](int k) {
+          q[k] = system.inverse_mass[k] * r[k];
+        });
         apply(q, aq);
         double sums[2] = {product(aq, r), product(aq, aq)};
         system.sum(sums, 2);
         result.finite = std::isfinite(sums[0]) && std::isfinite(sums[1]);
         if (!(sums[1] > 0.0) || sums[0] == 0.0) break;
         omega = sums[0] / sums[1];
-        for (std::size_t k = 0; k < n; k++) {
+        threads.for_each(n, [&](int k) {
           system.x[k] += omega * q[k];
           r[k] -= omega * aq[k];
-        }
+        });
       }
       return result;
     }
 
    private:
     System &system;
+    decltype(std::declval<System &>().team()) threads;
     const double tolerance;
     const int most;
     Solution result = {0, 0.0, false, false, true};
     double rr = 0.0;    // square of the residual
 
-    double product(const Unknowns &a, const Unknowns &b) const
+    double product(const Unknowns &a, const Unknowns &b)
     {
-      double total = 0.0;
-      for (std::size_t k = 0; k < a.size(); k++) total += a[k] * system.inverse_mass[k] * b[k];
-      return total;
+      return threads.template sum<double>(static_cast<int>(a.size()), [&](int k, double &total) {
+        total += a[k] * system.inverse_mass[k] * b[k];
+      });
     }
 
     void apply(const Unknowns &in, Unknowns &out)

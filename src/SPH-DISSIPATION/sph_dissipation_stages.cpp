@@ -103,14 +103,15 @@ void LimitStage::run()
     memory->destroy(bound);
     memory->create(bound, nmax, "sph:bound");
   }
-  std::fill_n(bound, atom->nlocal + atom->nghost, 0.0);
+  const int nall = atom->nlocal + atom->nghost;
+  std::fill_n(bound, nall, 0.0);
 
   const LoopData &pairs = engine.pairs();
   const Particle *const particle = engine.particle;
   const int *const type = atom->type;
   const Parameters &par = engine.parameters();
 
-  engine.visit_pairs([&](int i, int j, bigint entry) {
+  engine.sum_pairs(sums, bound, nall, [&](int i, int j, bigint entry, double *sum) {
     double rsq = 0.0;
     for (int d = 0; d < 3; d++) {
       const double del = particle[i].x[d] - particle[j].x[d];
@@ -119,8 +120,8 @@ void LimitStage::run()
     const PairBound pair =
         bound_of_pair(par.shear, par.pair[type[i] * par.ntypes_1 + type[j]], pairs.slope[entry],
                       rsq, particle[i].vol, engine.weight(i), particle[j].vol, engine.weight(j));
-    bound[i] += pair.i;
-    bound[j] += pair.j;
+    sum[i] += pair.i;
+    sum[j] += pair.j;
   });
 
   exchange.reverse({{bound, 1, 1}});
@@ -131,7 +132,7 @@ void LimitStage::run()
 
 double LimitStage::memory_usage() const
 {
-  return (double) nmax * sizeof(double);
+  return (double) nmax * sizeof(double) + sums.memory_usage();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -143,11 +144,10 @@ bigint PressureStage::run(const double *bound, int not_fluid)
     rows.set_pressure(i, bound, not_fluid);
   });
 
-  bigint nbeyond = 0;
-  if (bound)
-    for (int i = 0; i < atom->nlocal; i++)
-      if (rows.is_fluid(i, not_fluid) && rows.is_beyond(i, bound)) nbeyond++;
-  return nbeyond;
+  if (!bound) return 0;
+  return engine.team().sum<bigint>(atom->nlocal, [&](int i, bigint &nbeyond) {
+    if (rows.is_fluid(i, not_fluid) && rows.is_beyond(i, bound)) nbeyond++;
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -158,13 +158,13 @@ void PressureStage::set_bulk_term(const double *bound, int not_fluid) const
 {
   const ParticleRows &rows = engine.rows();
   const bool by_density = (rows.par.bulk == Bulk::DENSITY);
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
     Particle &particle = engine.particle[i];
     engine.zeta_term[i] = particle.g = 0.0;
-    if (!rows.is_fluid(i, not_fluid)) continue;
+    if (!rows.is_fluid(i, not_fluid)) return;
     engine.zeta_term[i] = rows.zeta(i, bound) * engine.density[i].cdot / engine.density[i].c;
     if (by_density) particle.g = pressure_term(engine.zeta_term[i], particle.vol, engine.weight(i));
-  }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -241,11 +241,9 @@ int HeatStage::nheat() const
 
 double HeatStage::received(int groupbit) const
 {
-  double total = 0.0;
-  const int n = nheat();
-  for (int i = 0; i < n; i++)
+  return engine.team().sum<double>(nheat(), [&](int i, double &total) {
     if (atom->mask[i] & groupbit) total += flow[i];
-  return total;
+  });
 }
 
 double HeatStage::memory_usage() const
@@ -277,17 +275,19 @@ void ShiftStage::run()
     memory->destroy(gradient);
     memory->create(gradient, nmax, 3, "sph:gradient");
   }
-  std::fill_n(&gradient[0][0], 3 * (std::size_t) nall, 0.0);
+  const std::size_t n = 3 * (std::size_t) nall;
+  std::fill_n(&gradient[0][0], n, 0.0);
   contact.resize(nall);
 
   const LoopData &pairs = engine.pairs();
   const int dim = engine.parameters().dim;
   with_kernel(engine.parameters().kernel, [&](auto k) {
-    for (int i = 0; i < nall; i++)
+    engine.for_each(nall, [&](int i) {
       contact[i] =
           contact_inverse<decltype(k)>(dim, engine.parameters().support, engine.particle[i].vol);
+    });
 
-    engine.visit_pairs([&](int i, int j, bigint entry) {
+    engine.sum_pairs(sums, &gradient[0][0], n, [&](int i, int j, bigint entry, double *sum) {
       const Particle &a = engine.particle[i], &b = engine.particle[j];
       double r[3], rsq = 0.0;
       for (int d = 0; d < 3; d++) {
@@ -298,8 +298,8 @@ void ShiftStage::run()
       const double push_i = concentration_push(b.vol, pairs.slope[entry], shape, contact[i]);
       const double push_j = concentration_push(a.vol, pairs.slope[entry], shape, contact[j]);
       for (int d = 0; d < 3; d++) {
-        gradient[i][d] += push_i * r[d];
-        gradient[j][d] -= push_j * r[d];
+        sum[3 * i + d] += push_i * r[d];
+        sum[3 * j + d] -= push_j * r[d];
       }
     });
     return 0;
@@ -312,7 +312,8 @@ void ShiftStage::run()
 
 double ShiftStage::memory_usage() const
 {
-  return (double) nmax * 3 * sizeof(double) + (double) contact.capacity() * sizeof(double);
+  return (double) nmax * 3 * sizeof(double) + (double) contact.capacity() * sizeof(double) +
+      sums.memory_usage();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -330,11 +331,15 @@ void ForceStage::run(NeighList *list, PairTally *tally)
 
   double **f = atom->f;
   double *const desph = atom->desph;
-  const int n = nforce();
-  engine.for_each(n, [&](int i) {
+  const int n = nforce(), nlocal = atom->nlocal;
+  auto add = [&](int i) {
     const ForceSum &total = engine.force[i];
     for (int d = 0; d < 3; d++) f[i][d] += total.f[d];
     desph[i] += total.heat + bulk_heat(i);
+  };
+  engine.for_each(nlocal, add);    // more work for each of them than for a ghost
+  engine.for_each(n - nlocal, [&](int k) {
+    add(nlocal + k);
   });
   if (engine.parameters().drag)
     engine.for_each(atom->nlocal, [&](int i) {

@@ -16,6 +16,7 @@
 
 #include "pointers.h"
 #include "sph_dissipation_rows.h"
+#include "sph_dissipation_threads.h"
 
 #include <functional>
 #include <vector>
@@ -89,6 +90,7 @@ namespace SPHDissipation {
 
    private:
     int nmax;
+    ThreadSums<double> sums;
   };
 
   // Pressure and bulk term of all particles of the fluid, of volume and density as pass 1 left them, see
@@ -172,6 +174,7 @@ namespace SPHDissipation {
    private:
     int nmax;
     std::vector<double> contact;    // 1/W(V^(1/n)) of atoms, in units of the norm of the kernel
+    ThreadSums<double> sums;
   };
 
   // Pass 2: forces, torques and heating of owned atoms and the contributions to ghost atoms, onto

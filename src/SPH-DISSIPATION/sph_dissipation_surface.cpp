@@ -21,7 +21,6 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_extension.h"
-#include "sph_dissipation_wall_terms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +70,7 @@ SurfaceStage::~SurfaceStage()
 
 /* ---------------------------------------------------------------------- */
 
-void SurfaceStage::run(int bits, const std::vector<BoundaryPair> &pairs)
+void SurfaceStage::run(int bits, const BoundaryPairs &pairs)
 {
   begin();
   find_sides(pairs);
@@ -101,7 +100,9 @@ void SurfaceStage::begin()
     memory->sfree(surface);
     surface = (Surface *) memory->smalloc(nmax * sizeof(Surface), "sph:surface");
   }
-  memset(surface, 0, (atom->nlocal + atom->nghost) * sizeof(Surface));
+  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
+    surface[i] = Surface();
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -144,14 +145,27 @@ void SurfaceStage::find(int bits)
    a vector toward the fluid, as the normal of a boundary particle; zero out of its reach
 ------------------------------------------------------------------------- */
 
-void SurfaceStage::find_sides(const std::vector<BoundaryPair> &pairs)
+void SurfaceStage::find_sides(const BoundaryPairs &pairs)
 {
-  for (const auto &pair : pairs) {
-    const double *const f = engine.particle[pair.fluid].x, *const w = engine.particle[pair.wall].x;
-    const double slope = engine.pairs().slope[pair.entry];
-    for (int d = 0; d < 3; d++) surface[pair.wall].normal[d] += slope * (f[d] - w[d]);
-  }
+  sums.run(engine.team(), surface, atom->nlocal + atom->nghost, pairs.touched,
+           [&](int k, Surface *sum) {
+             for (const auto &pair : pairs.of_thread[k]) {
+               const double *const f = engine.particle[pair.fluid].x;
+               const double *const w = engine.particle[pair.wall].x;
+               const double slope = engine.pairs().slope[pair.entry];
+               for (int d = 0; d < 3; d++) sum[pair.wall].normal[d] += slope * (f[d] - w[d]);
+             }
+           });
   exchange.reverse({field(surface, surface->normal, 3)});
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class Task> void SurfaceStage::for_each(const std::vector<int> &owned, const Task &task)
+{
+  engine.for_each(static_cast<int>(owned.size()), [&](int k) {
+    task(owned[k]);
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -165,7 +179,7 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
 {
   const double support = engine.parameters().support;
   const int dim = engine.parameters().dim;
-  for (const int i : owned) {
+  for_each(owned, [&](int i) {
     Surface &s = surface[i];
     const double width = WIDTH * s.spacing;
     const double norm = pow(width * sqrt(MathConst::MY_2PI), -dim);
@@ -183,7 +197,7 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
             -RESIDUAL * RESIDUAL * length * MathExtra::len3(s.normal);
     for (int d = 0; d < 3; d++) s.normal[d] = outer ? -inward[d] / length : 0.0;
     s.depth = (filled - 0.5) * width * sqrt(MathConst::MY_2PI);
-  }
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -196,9 +210,10 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
 void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
 {
   const double support = engine.parameters().support;
-  std::vector<Surface> found;
-  found.reserve(owned.size());
-  for (const int i : owned) {
+  std::vector<Surface> found(owned.size());
+  const auto nowned = static_cast<int>(owned.size());
+  engine.for_each(nowned, [&](int k) {
+    const int i = owned[k];
     Surface s = surface[i];
     const double soft = CLOSEST * s.spacing;
     double weights = 0.0, depth = 0.0, normal[3] = {0.0, 0.0, 0.0};
@@ -218,9 +233,9 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
       s.depth = CLOSEST_MEAN * s.spacing;
       s.normal[0] = s.normal[1] = s.normal[2] = 0.0;
     }
-    found.push_back(s);
-  }
-  for (std::size_t k = 0; k < owned.size(); k++) surface[owned[k]] = found[k];
+    found[k] = s;
+  });
+  for (int k = 0; k < nowned; k++) surface[owned[k]] = found[k];
 }
 
 /* ----------------------------------------------------------------------
@@ -232,9 +247,9 @@ void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &ow
 {
   constexpr double SMOOTH = 0.25;
   const double support = engine.parameters().support;
-  for (const int i : owned) {
+  for_each(owned, [&](int i) {
     Surface &s = surface[i];
-    if (!(MathExtra::lensq3(s.normal) > 0.0)) continue;
+    if (!(MathExtra::lensq3(s.normal) > 0.0)) return;
     const double radius = std::min(support, CUTOFF * s.spacing);
     double turn = 0.0, norm = 0.0;
     cells.near(atom->x[i], radius, [&](int j, const double *r, double rsq) {
@@ -247,12 +262,21 @@ void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &ow
     });
     const double curvature = turn / norm;
     s.curvature = (std::fabs(curvature) * s.spacing < SMOOTH) ? curvature : 0.0;
-  }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
 
 double SurfaceStage::memory_usage() const
 {
-  return (double) nmax * sizeof(Surface);
+  return (double) nmax * sizeof(Surface) + sums.memory_usage();
+}
+
+double BoundaryPairs::memory_usage() const
+{
+  std::size_t bytes = 0;
+  for (const auto &pairs : of_thread) bytes += pairs.capacity() * sizeof(BoundaryPair);
+  for (const auto &lists : {&rows, &touched})
+    for (const auto &one : *lists) bytes += one.capacity() * sizeof(int);
+  return static_cast<double>(bytes);
 }

@@ -15,13 +15,13 @@
 #define LMP_SPH_DISSIPATION_SURFACE_H
 
 #include "sph_dissipation_stages.h"
+#include "sph_dissipation_wall_terms.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  struct Surface;
   class Cells;
 
   // a pair of a fluid and a boundary particle inside the support
@@ -29,6 +29,21 @@ namespace SPHDissipation {
   struct BoundaryPair {
     int fluid, wall;
     bigint entry;    // of the pairs of the engine
+  };
+
+  // those of each thread; until the neighbor list is built anew, the rows of the list that may hold them, and of the
+  // threads but the first the particles in them, each once
+
+  struct BoundaryPairs {
+    std::vector<std::vector<BoundaryPair>> of_thread;
+    std::vector<std::vector<int>> rows, touched;
+
+    template <class Function> void visit(Function &&function) const
+    {
+      for (const auto &pairs : of_thread)
+        for (const auto &pair : pairs) function(pair);
+    }
+    double memory_usage() const;
   };
 
   // Where the surface of the boundary is, seen from each of its particles: from the arrangement of
@@ -41,7 +56,7 @@ namespace SPHDissipation {
 
     // when the neighbor list is new: normal, depth and spacing of the owned and ghost atoms with one
     // of these bits, from their volumes; omega is for the boundary to set
-    void run(int bits, const std::vector<BoundaryPair> &);
+    void run(int bits, const BoundaryPairs &);
 
     // the same with vectors toward the fluid that are known, of the owned ones in their order
     void run(int bits, const std::vector<double> &sides);
@@ -53,10 +68,12 @@ namespace SPHDissipation {
 
    private:
     int nmax;
+    ThreadSums<Surface> sums;
 
+    template <class Task> void for_each(const std::vector<int> &, const Task &);
     void begin();
     void find(int bits);
-    void find_sides(const std::vector<BoundaryPair> &);
+    void find_sides(const BoundaryPairs &);
     void find_outer_layer(const Cells &, const std::vector<int> &);
     void find_depth(const Cells &, const std::vector<int> &);
     void find_curvature(const Cells &, const std::vector<int> &);

@@ -16,7 +16,11 @@
 
 // Threads of one process that share its work.  No LAMMPS include.
 
+#include <cstddef>
+#include <cstring>
 #include <functional>
+#include <numeric>
+#include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -31,18 +35,112 @@ namespace SPHDissipation {
     // task(k) on each thread k < size()
     virtual void run(const std::function<void(int)> &task) { task(0); }
 
-    // task(i) for each i < n, the same part of them on the same thread
+    // task(k, from, to) on each thread k, with its part of 0 ... n - 1, which always is the same one
+    template <class Task> void in_parts(int n, const Task &task)
+    {
+      const int parts = size();
+      if (parts == 1) return task(0, 0, n);
+      const auto begin = [=](int k) {
+        return static_cast<int>(static_cast<long long>(n) * k / parts);
+      };
+      run([&](int k) {
+        task(k, begin(k), begin(k + 1));
+      });
+    }
+
+    // task(i) for each i < n
     template <class Task> void for_each(int n, const Task &task)
     {
-      const auto part = [&](int k, int parts) {
-        const auto to = static_cast<int>(static_cast<long long>(n) * (k + 1) / parts);
-        for (auto i = static_cast<int>(static_cast<long long>(n) * k / parts); i < to; i++) task(i);
-      };
-      const int parts = size();
-      if (parts == 1) return part(0, 1);
-      run([&](int k) {
-        part(k, parts);
+      in_parts(n, [&](int, int from, int to) {
+        for (int i = from; i < to; i++) task(i);
       });
+    }
+
+    // sum of what add(i, total) adds to total, for each i < n
+    template <class Sum, class Add> Sum sum(int n, const Add &add)
+    {
+      std::vector<Sum> part(size());
+      in_parts(n, [&](int k, int from, int to) {
+        Sum total = 0;
+        for (int i = from; i < to; i++) add(i, total);
+        part[k] = total;
+      });
+      return std::accumulate(part.begin() + 1, part.end(), part[0]);
+    }
+  };
+
+  // Sums of particles to which several threads add: the first one to the wanted ones, each other one to rows of its
+  // own, which are added up then.  Row: double, or a struct of them
+
+  template <class Row> class ThreadSums {
+   public:
+    // task(k, sum) on each thread k adds to rows sum[0] ... sum[n - 1]: all of them end up in total
+    template <class Task> void run(Threads &threads, Row *total, std::size_t n, const Task &task)
+    {
+      begin(threads);
+      threads.run([&](int k) {
+        task(k, (k > 0) ? zeroed(k, nullptr, n) : total);
+      });
+      add_up(threads, total, static_cast<int>(n));
+    }
+
+    // the same if thread k adds to the rows of the particles touched[k] alone, each of which stands there once
+    template <class Task>
+    void run(Threads &threads, Row *total, std::size_t n,
+             const std::vector<std::vector<int>> &touched, const Task &task)
+    {
+      begin(threads);
+      threads.run([&](int k) {
+        if (k == 0) return task(0, total);
+        auto &own = others[k - 1];
+        if (own.size() < n) own.resize(n);
+        for (const int i : touched[k]) own[i] = Row();
+        task(k, own.data());
+      });
+      for (std::size_t k = 1; k <= others.size(); k++)
+        threads.for_each(static_cast<int>(touched[k].size()), [&](int m) {
+          const int i = touched[k][m];
+          add_row(total[i], others[k - 1][i]);
+        });
+    }
+
+    // what run() consists of, for a task with several sums
+
+    void begin(const Threads &threads) { others.resize(threads.size() - 1); }
+
+    // n rows of zeros, of thread k; those of the first one are total
+    Row *zeroed(int k, Row *total, std::size_t n)
+    {
+      if (k > 0) {
+        if (others[k - 1].size() < n) others[k - 1].resize(n);
+        total = others[k - 1].data();
+      }
+      memset(static_cast<void *>(total), 0, n * sizeof(Row));
+      return total;
+    }
+    void add_up(Threads &threads, Row *total, int n) const
+    {
+      if (others.empty()) return;
+      threads.for_each(n, [&](int i) {
+        for (const auto &other : others) add_row(total[i], other[i]);
+      });
+    }
+
+    double memory_usage() const
+    {
+      double rows = 0.0;
+      for (const auto &other : others) rows += static_cast<double>(other.capacity());
+      return rows * sizeof(Row);
+    }
+
+   private:
+    std::vector<std::vector<Row>> others;
+
+    static void add_row(Row &to, const Row &from)
+    {
+      auto *const sum = reinterpret_cast<double *>(&to);
+      const auto *const term = reinterpret_cast<const double *>(&from);
+      for (std::size_t k = 0; k < sizeof(Row) / sizeof(double); k++) sum[k] += term[k];
     }
   };
 

@@ -86,10 +86,18 @@ static void carry(double scale, const double *f, const double *own, const double
 
 /* ---------------------------------------------------------------------- */
 
+void ViscousStage::begin_carrying()
+{
+  const auto needed = 3 * static_cast<std::size_t>(atom->nlocal);
+  if (ahead.size() < needed) ahead.resize(3 * atom->nmax);
+  if (engine.has_spin() && ahead_spin.size() < needed) ahead_spin.resize(3 * atom->nmax);
+}
+
+/* ---------------------------------------------------------------------- */
+
 void ViscousStage::carry_force(int i, double keep)
 {
   if (!is_unknown(i)) return;
-  if (ahead.size() < 3 * static_cast<std::size_t>(atom->nlocal)) ahead.resize(3 * atom->nmax);
   carry(update->dt / atom->rmass[i], atom->f[i], engine.force[i].f, atom->v[i], keep, atom->vest[i],
         &ahead[3 * i]);
 }
@@ -99,8 +107,6 @@ void ViscousStage::carry_force(int i, double keep)
 void ViscousStage::carry_torque(int i, const double *inertia, double **spins)
 {
   if (!is_unknown(i)) return;
-  if (ahead_spin.size() < 3 * static_cast<std::size_t>(atom->nlocal))
-    ahead_spin.resize(3 * atom->nmax);
   carry(update->dt * TimeStep::inverse_inertia(atom->rmass[i], inertia[i]), atom->torque[i],
         engine.torque[i].t, atom->omega[i], 1.0, spins[i], &ahead_spin[3 * i]);
 }
@@ -220,16 +226,15 @@ void ViscousStage::find_unknowns(const double *inertia)
 
   resize();
   others.resize(x.size());
-  for (std::size_t k = 0; k < unknown.size(); k++) {
-    const int i = unknown[k];
+  for_unknown([&](int i, std::size_t first) {
     for (int d = 0; d < width; d++) {
       const bool turns = (d >= 3);
-      const std::size_t row = width * k + d;
+      const std::size_t row = first + d;
       mass[row] = turns ? atom->rmass[i] * inertia[i] : atom->rmass[i];
       inverse_mass[row] = (mass[row] > 0.0) ? 1.0 / mass[row] : 0.0;
       before[row] = turns ? atom->omega[i][d - 3] : atom->v[i][d];
     }
-  }
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -247,27 +252,27 @@ void ViscousStage::set_guess()
       (!omegaest || ahead_spin.size() >= 3 * nlocal);
   std::vector<double> change[2];    // of vest, and omegaest
   for (int s = 0; s < width / 3; s++) change[s].assign(3 * nall, 0.0);
-  for (std::size_t k = 0; k < unknown.size(); k++) {
-    const int i = unknown[k];
+  for_unknown([&](int i, std::size_t first) {
     for (int d = 0; d < width; d++) {
       const int s = d / 3, c = d % 3;
-      const std::size_t row = width * k + d;
+      const std::size_t row = first + d;
       const double carried = (s ? omegaest[i][c] : atom->vest[i][c]) - before[row];
       others[row] = rate * mass[row] * carried;
       change[s][3 * i + c] = (same ? (s ? ahead_spin : ahead)[3 * i + c] : 0.0) - carried;
     }
-  }
+  });
 
   const Field u = {change[0].data(), 3, 3};
   if (omegaest)
     exchange.forward({u, {change[1].data(), 3, 3}});
   else
     exchange.forward({u});
-  for (std::size_t i = 0; i < nall; i++)
+  engine.for_each(static_cast<int>(nall), [&](int i) {
     for (int c = 0; c < 3; c++) {
       atom->vest[i][c] += change[0][3 * i + c];
       if (omegaest) omegaest[i][c] += change[1][3 * i + c];
     }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -298,15 +303,14 @@ void ViscousStage::gather()
 void ViscousStage::set_velocities(const Unknowns &values)
 {
   Particle *const particle = engine.particle;
-  for (int i = 0; i < atom->nlocal; i++) {
+  engine.for_each(atom->nlocal, [&](int i) {
     std::fill_n(particle[i].u, 3, 0.0);
     if (omegaest) std::fill_n(engine.spin[i].w, 3, 0.0);
-  }
-  for (std::size_t k = 0; k < unknown.size(); k++) {
-    const double *const value = &values[width * k];
-    std::copy_n(value, 3, particle[unknown[k]].u);
-    if (omegaest) std::copy_n(value + 3, 3, engine.spin[unknown[k]].w);
-  }
+  });
+  for_unknown([&](int i, std::size_t row) {
+    std::copy_n(&values[row], 3, particle[i].u);
+    if (omegaest) std::copy_n(&values[row + 3], 3, engine.spin[i].w);
+  });
   const Field u = field(particle, particle->u, 3);
   if (omegaest)
     exchange.forward({u, field(engine.spin, engine.spin->w, 3)});
@@ -372,13 +376,12 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
     exchange.reverse({f, field(engine.torque, engine.torque->t, 3)});
   else
     exchange.reverse({f});
-  for (std::size_t k = 0; k < unknown.size(); k++) {
-    const int i = unknown[k];
+  for_unknown([&](int i, std::size_t row) {
     for (int d = 0; d < 3; d++) {
-      out[width * k + d] = -engine.force[i].f[d];
-      if (omegaest) out[width * k + 3 + d] = -engine.torque[i].t[d];
+      out[row + d] = -engine.force[i].f[d];
+      if (omegaest) out[row + 3 + d] = -engine.torque[i].t[d];
     }
-  }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -387,7 +390,14 @@ void StiffStage::apply(const Unknowns &in, Unknowns &out)
 {
   statistics[APPLICATIONS] += 1.0;
   friction(in, out);
-  for (std::size_t k = 0; k < in.size(); k++) out[k] = mass[k] * in[k] + h * out[k];
+  engine.for_each(static_cast<int>(in.size()), [&](int k) {
+    out[k] = mass[k] * in[k] + h * out[k];
+  });
+}
+
+Threads &StiffStage::team() const
+{
+  return engine.team();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -405,15 +415,13 @@ double ViscousStage::scale_sq() const
 {
   const double distance = DBL_EPSILON * engine.parameters().support;
   const double rest = (update->dt > 0.0) ? distance / (update->dt * settings.tolerance) : 0.0;
-  double total = 0.0;
-  for (std::size_t k = 0; k < x.size(); k++) {
-    const std::size_t d = k % width;
+  return team().sum<double>(static_cast<int>(x.size()), [&](int k, double &total) {
+    const int d = k % width;
     const double frame = (d < 3) ? mean[d] : 0.0;
     const double v0 = before[k] - frame, v = guess[k] + x[k] - frame;
     total += 0.5 * mass[k] * (v0 * v0 + v * v);
     if (d == 0) total += mass[k] * rest * rest;
-  }
-  return total;
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -605,28 +613,28 @@ void StiffStage::rkl2_step(double interval)
   statistics[ITERATIONS] = s;
 
   const RKL2 rkl2(s);
-  const std::size_t n = x.size();
+  const auto n = static_cast<int>(x.size());
   Unknowns first(n), y(n), y_old(n, 0.0), z_old(n, 0.0), drag(n);
   Unknowns &z = x;
   std::fill(z.begin(), z.end(), 0.0);
-  for (std::size_t k = 0; k < n; k++) {
+  for (int k = 0; k < n; k++) {
     first[k] = interval * inverse_mass[k] * force[k];
     y[k] = rkl2.first().mu_rate * first[k];
   }
   for (int j = 2; j <= s; j++) {
     const RKL2::Stage stage = rkl2.stage(j);
-    for (std::size_t k = 0; k < n; k++) {
+    engine.for_each(n, [&](int k) {
       z_old[k] = stage.mu * z[k] + stage.nu * z_old[k] + stage.mu_rate * y[k];
       std::swap(z[k], z_old[k]);
-    }
+    });
     if (j == s) break;
     statistics[APPLICATIONS] += 1.0;
     friction(y, drag);
-    for (std::size_t k = 0; k < n; k++) {
+    engine.for_each(n, [&](int k) {
       y_old[k] = stage.mu * y[k] + stage.nu * y_old[k] + stage.gamma_rate * first[k] +
           stage.mu_rate * (first[k] - interval * inverse_mass[k] * drag[k]);
       std::swap(y[k], y_old[k]);
-    }
+    });
   }
 }
 
@@ -637,11 +645,12 @@ void StiffStage::rkl2_step(double interval)
 void ViscousStage::add_velocities(const Unknowns &increment)
 {
   set_velocities(increment);
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
     for (int d = 0; d < 3; d++) {
       atom->vest[i][d] += engine.particle[i].u[d];
       if (omegaest) omegaest[i][d] += engine.spin[i].w[d];
     }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -740,7 +749,9 @@ void TemperatureStage::gather()
   if (settings.mode == Viscous::RKL2) set_temperatures();
   engine.accumulate_heat(flow);
   boundary.add_surface_heat(flow);
-  for (int i = 0; i < n; i++) flow[i] += atom->desph[i];
+  engine.for_each(n, [&](int i) {
+    flow[i] += atom->desph[i];
+  });
   exchange.reverse({{flow.data(), 1, 1}});
 
   double sums[2] = {0.0, 0.0};
@@ -759,9 +770,12 @@ void TemperatureStage::gather()
 
 void TemperatureStage::set_temperatures()
 {
-  for (int i = 0; i < atom->nlocal; i++) engine.conductor[i].temperature = temperature[i];
-  for (std::size_t k = 0; k < unknown.size(); k++)
-    engine.conductor[unknown[k]].temperature = guess[k];
+  engine.for_each(atom->nlocal, [&](int i) {
+    engine.conductor[i].temperature = temperature[i];
+  });
+  for_unknown([&](int i, std::size_t k) {
+    engine.conductor[i].temperature = guess[k];
+  });
   send_temperatures();
   boundary.extend_temperatures(false);
 }
@@ -778,13 +792,19 @@ void TemperatureStage::send_temperatures()
 
 void TemperatureStage::friction(const Unknowns &in, Unknowns &out)
 {
-  for (int i = 0; i < atom->nlocal; i++) engine.conductor[i].temperature = 0.0;
-  for (std::size_t k = 0; k < unknown.size(); k++) engine.conductor[unknown[k]].temperature = in[k];
+  engine.for_each(atom->nlocal, [&](int i) {
+    engine.conductor[i].temperature = 0.0;
+  });
+  for_unknown([&](int i, std::size_t k) {
+    engine.conductor[i].temperature = in[k];
+  });
   send_temperatures();
   boundary.extend_temperatures(true);
   engine.accumulate_heat(flow);
   exchange.reverse({{flow.data(), 1, 1}});
-  for (std::size_t k = 0; k < unknown.size(); k++) out[k] = -flow[unknown[k]];
+  for_unknown([&](int i, std::size_t k) {
+    out[k] = -flow[i];
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -794,12 +814,10 @@ void TemperatureStage::friction(const Unknowns &in, Unknowns &out)
 double TemperatureStage::scale_sq() const
 {
   const double rounded = DBL_EPSILON / settings.tolerance;
-  double total = 0.0;
-  for (std::size_t k = 0; k < x.size(); k++) {
+  return team().sum<double>(static_cast<int>(x.size()), [&](int k, double &total) {
     const double t0 = before[k] - mean, end = guess[k] + x[k], t = end - mean;
     total += mass[k] * (0.5 * (t0 * t0 + t * t) + rounded * rounded * end * end);
-  }
-  return total;
+  });
 }
 
 /* ----------------------------------------------------------------------

@@ -117,6 +117,7 @@ namespace SPHDissipation {
     void apply(const Unknowns &in, Unknowns &out);
     void sum(double *values, int n) const;
     virtual double scale_sq() const = 0;
+    Threads &team() const;
 
    protected:
     ViscousSettings settings;
@@ -130,6 +131,13 @@ namespace SPHDissipation {
     Unknowns guess, force;       // y_b, F(y_b) of the beginning; the solution is y_b = guess + x
 
     bool is_unknown(int i) const;
+    // function(i, row) for each unknown particle i, whose unknowns are row ... row + width - 1; shared among the threads
+    template <class Function> void for_unknown(const Function &function)
+    {
+      team().for_each(static_cast<int>(unknown.size()), [&](int k) {
+        function(unknown[k], width * static_cast<std::size_t>(k));
+      });
+    }
     void resize();    // of all unknowns
     void solve_step();
 
@@ -170,6 +178,7 @@ namespace SPHDissipation {
     // travels with it as v + dt/m times the forces of other styles, until begin() makes it the
     // guess again, extrapolated if the particle is still where it was.  keep: 0 if v is added later
 
+    void begin_carrying();    // before these, which threads may call for different particles
     void carry_force(int i, double keep);
     void carry_torque(int i, const double *inertia, double **omegaest);
 

@@ -9,6 +9,7 @@
 // Solvers of (M + h Gamma) x = b against Eigen, and the stages of RKL2 against the exponential
 
 #include "sph_dissipation_solvers.h"
+#include "sph_dissipation_threads.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -18,12 +19,14 @@
 
 using LAMMPS_NS::SPHDissipation::Krylov;
 using LAMMPS_NS::SPHDissipation::RKL2;
+using LAMMPS_NS::SPHDissipation::Threads;
 using LAMMPS_NS::SPHDissipation::Unknowns;
 
 struct System {
   Eigen::MatrixXd A;
   Unknowns mass, inverse_mass, x, residual;
   double scale = 1.0;
+  Threads one_thread;
 
   System(const Eigen::MatrixXd &gamma, const Eigen::VectorXd &m, const Eigen::VectorXd &b) :
       A(Eigen::MatrixXd(m.asDiagonal()) + gamma), mass(m.data(), m.data() + m.size()), x(m.size()),
@@ -38,6 +41,7 @@ struct System {
   }
   void sum(double *, int) const {}
   double scale_sq() const { return scale * scale; }
+  Threads &team() { return one_thread; }
 };
 
 struct Problem {

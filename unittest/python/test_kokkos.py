@@ -427,6 +427,20 @@ def test_output_of_walls_on_the_way(lammps, style):
     assert_same_totals(thermo, thermo_kokkos, 1e-10)
 
 
+@pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off")])
+def test_heat_of_walls(lammps, style, ranks, newton):
+    """A wall with a temperature, one that gives a flux of heat and moves, one without either."""
+    particles = disordered(2, 20, seed=27, jitter=0.1, ntypes=2, speed=0.2, spread=0.0)
+    words = {"pair_coeff 1 1": " cv 2.0 conductivity 0.7 gruneisen 0.6 2.0", "pair_coeff 2 2": " cv 1.2 conductivity 0.4"}
+    model = "".join(line + words.get(line[:14], "") + "\n" for line in fluids(style, 2, 2).splitlines())
+    text = with_walls(style, particles, "wheel", model, 60, newton)
+    for wall, heat in (("FLOOR", "temp 3.0"), ("LID", "flux 0.4")):
+        text = text.replace(f"fix {wall} {wall} sph/wall", f"fix {wall} {wall} sph/wall heat {heat}")
+    text = text.replace("f_LID[6]", "f_LID[6] f_LID[7] f_LID[8] f_FLOOR[8]")
+    result = compare_walls(lammps, style, particles, text, ranks)
+    assert np.abs(result.thermo()[-1]["f_LID[8]"][-1]) > 0.01
+
+
 @pytest.mark.parametrize("writer", ["cpu", "kk"])
 def test_restart_with_walls(lammps, style, writer):
     """The point that the wheel turns about goes on, whichever family has written the file."""
@@ -473,6 +487,50 @@ def test_on_the_host(lammps, style, newton, reason, options, keywords, extra):
     result = compare(lammps, style, particles, text, ranks=2)
     warned = any("on the host" in line and reason in line for line in result.warnings)
     assert warned == DEVICE_LOOPS, result.warnings
+
+
+@pytest.mark.parametrize("style, dim, options", [
+    ("sph/bulk", 2, "temp 0.01 1234 limit yes"), ("sph/bulk", 3, "temp 0.01 1234 shear espanol volume mass"),
+    ("sph/bulk", 3, "temp 0.01 1234 limit yes shear morris"), ("sph/micropolar", 3, "temp 0.01 1234"),
+    ("sph/bulk", 2, "temp energy 20.0 1234 volume mass"), ("sph/micropolar", 2, "temp energy 20.0 1234")])
+@pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off")])
+def test_noise(lammps, style, dim, options, ranks, newton):
+    """The same numbers, with conduction of heat and different masses; momentum, and energy of motion and heat, to round-off."""
+    own = "energy" in options
+    particles = disordered(dim, {2: 16, 3: 8}[dim], seed=28, jitter=0.1, ntypes=2, speed=0.1, spread=0.3 if own else 0.0)
+    particles.esph[:] = 100.0
+    words = " conductivity 0.7" if own else ""
+    model = "".join(line + words * (line[:14] in ("pair_coeff 1 1", "pair_coeff 2 2")) + "\n"
+                    for line in fluids(style, dim, 2, options).splitlines())
+    if "limit" in options:
+        model = model.replace(" 0.5 2.0 ", " 0.5 0.0 ").replace(" 0.3 1.5 ", " 0.3 0.0 ")
+    text = script(style, particles, model, 20, newton, every=5)
+    (cpu, thermo, _), (kokkos, thermo_kokkos, _) = both(lammps, style, particles, text, ranks)
+    assert_same(style, cpu, kokkos, 1e-9)
+    assert_same_totals(thermo, thermo_kokkos, 1e-9)
+    before = particles.mass @ particles.v
+    assert np.abs(kokkos["mass"] @ kokkos["v"] - before).max() < 1e-14 * len(particles)
+    if own:
+        assert np.ptp(thermo_kokkos["c_E"]) < 1e-13 * thermo_kokkos["c_E"][0]
+
+
+@pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off")])
+def test_noise_at_walls(lammps, style, ranks, newton):
+    """Particles that the walls repel, and the energy of that."""
+    particles = disordered(2, 20, seed=29, jitter=0.45, speed=0.2, spread=0.0)
+    text = with_walls(style, particles, "cavity", fluids(style, 2, options="temp 0.05 1234"), 40, newton, spins=("zero", "zero"))
+    (cpu, thermo, _), (kokkos, thermo_kokkos, _) = both(lammps, style, particles, text, ranks)
+    assert_same(style, cpu, kokkos, 1e-9)
+    assert_same_totals(thermo, thermo_kokkos, 1e-9)
+
+
+def test_noise_of_relaxing_processes_and_drag(lammps, style):
+    particles = disordered(2, 14, seed=30, jitter=0.1, ntypes=2, speed=0.2, spread=0.0)
+    words = {"pair_coeff 1 1": " relax 8.0 0.01 4.0 1.0 drag 0.4 0 0 0", "pair_coeff 2 2": " relax 5.0 0.2"}
+    model = "".join(line + words.get(line[:14], "") + "\n" for line in fluids(style, 2, 2, "temp 0.01 1234").splitlines())
+    relax.write(particles, lammps.path("room.txt"), relax.strained(np.zeros((len(particles), 2))), style)
+    text = script(style, particles, model, 40).replace("data.txt", "room.txt")
+    compare(lammps, style, particles, text.replace(f"atom_style {style}", f"atom_style {style} relax 2"))
 
 
 def test_shift_on_the_host(lammps, style):
