@@ -1,7 +1,7 @@
 """Run LAMMPS on an input text, read what it leaves behind, and make particle sets.
 
 The executables come from the environment: SPHD_LMP (the LAMMPS executable) and SPHD_MPIEXEC
-(the MPI launcher); ctest sets both.
+(the MPI launcher, none: tests on several ranks are skipped); ctest sets both.
 """
 
 import os
@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "examples"))
 from run_lammps import each_frame, read_array, read_grid, thermo     # noqa: E402, F401
@@ -106,6 +107,8 @@ class Lammps:
         self.path(name).write_text(text)
         command = [LMP, "-in", name, "-log", log.name, "-nocite", *switches]
         environment = {**os.environ, **MPI_ENVIRONMENT}
+        if ranks > 1 and MPIEXEC == "none":
+            pytest.skip("no MPI")
         if ranks > 1:
             command = [MPIEXEC, "-n", str(ranks), *command]
         else:
