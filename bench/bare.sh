@@ -24,10 +24,10 @@ die() { printf 'bare.sh: %s\n' "$*" >&2; exit 1; }
 pack() {
   [[ $# -eq 1 ]] || die "name the archive: bare.sh pack FILE.tar.xz"
   local lammps=${LAMMPS_SOURCE_DIR:-${SPHD_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/sph-dissipation}/lammps/4Jul2026}
-  local kokkos=${SPHD_KOKKOS:-$lammps/lib/kokkos} scratch package
+  local kokkos=${SPHD_KOKKOS:-$lammps/lib/kokkos} package
   [[ -e $lammps/src/KOKKOS ]] || die "no LAMMPS with KOKKOS in $lammps: name its source tree by LAMMPS_SOURCE_DIR"
   [[ -e $kokkos ]] || die "no Kokkos in $kokkos: name a source tree or a tarball by SPHD_KOKKOS"
-  scratch=$(mktemp -d)
+  scratch=$(mktemp -d)    # not local: removed at the end
   trap 'rm -rf "$scratch"' EXIT
   mkdir -p "$scratch/lammps/src" "$scratch/lammps/lib" "$scratch/kokkos"
   git -C "$root" archive --prefix=sph-dissipation/ HEAD | tar -C "$scratch" -x --exclude='*.gif' --exclude='*.png' --exclude='log.*'
@@ -99,9 +99,11 @@ tests() {
 }
 
 bench() {
-  local what=--gpu
-  if [[ $backend == serial ]]; then what=--compare; fi
-  python3 "$root/bench/kokkos.py" --lmp "$tree/lmp" --repeat 3 $what
+  if [[ $backend == cuda ]]; then
+    python3 "$root/bench/kokkos.py" --lmp "$tree/lmp" --repeat 3 --gpu
+  else
+    python3 "$root/bench/run.py" --lmp "$tree/lmp" --repeat 3 --ranks 1
+  fi
 }
 
 command=${1:-}
