@@ -37,6 +37,7 @@ pack() {
     if [[ -d $lammps/$package ]]; then mkdir -p "$scratch/lammps/${package%/*}" && cp -r "$lammps/$package" "$scratch/lammps/$package"; fi
   done
   cp "$lammps"/src/*.{cpp,h} "$scratch/lammps/src"
+  cp -r "$lammps"/src/[a-z]*/ "$scratch/lammps/src"    # libraries that LAMMPS contains
   for package in STUBS KOKKOS KSPACE SPH DPD-SMOOTH PLUGIN; do cp -r "$lammps/src/$package" "$scratch/lammps/src"; done
   if [[ -d $kokkos ]]; then
     cp -r "$kokkos"/. "$scratch/kokkos"

@@ -85,10 +85,10 @@ namespace SPHDissipation {
   inline double time_with_skin(double skin, double motion_per_step, double support, int dim)
   {
     const double steps = 0.5 * skin / motion_per_step;
-    return 1.0 + LISTED * dim * skin / support + REBUILD / std::max(steps, 1.0);
+    return 1.0 - LISTED + LISTED * pow(1.0 + skin / support, dim) + REBUILD / std::max(steps, 1.0);
   }
 
-  // the skin for which this is smallest, at most half of the support radius
+  // The skin for which this is smallest, to first order in skin/support, and at most half of the support radius
 
   inline double fastest_skin(double motion_per_step, double support, int dim)
   {

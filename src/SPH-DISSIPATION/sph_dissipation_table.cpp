@@ -63,7 +63,7 @@ std::string CoeffTable::text(double dt) const
 
 std::string CoeffTable::skin_text(double skin, double dt, double support, int dim) const
 {
-  constexpr double GAIN = 0.05;
+  constexpr double GAIN = 0.1;
   const double motion = fastest * fabs(dt);
   if (!(motion > 0.0)) return "";
   const double best = fastest_skin(motion, support, dim);
