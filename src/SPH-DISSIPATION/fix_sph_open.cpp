@@ -490,10 +490,10 @@ void FixSPHOpen::set_impact(const OpenImpact &impact)
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHOpen::set_states(OpenStage &stage)
+void FixSPHOpen::set_states(OpenStage &stage, const double *all)
 {
-  set_times();
-  sample(stage);
+  samples->finish(condition->clock, all + 1);
+  warn(all[0]);
   if (is_new) {
     check_density();
     warn_of_cold_zone(lmp, this, fluid, *condition, members);
@@ -521,12 +521,13 @@ void FixSPHOpen::check_density() const
 }
 
 /* ----------------------------------------------------------------------
-   Measure the fluid near the plane.  It is in the group of the zone while variables are evaluated, which
-   both need.
+   Measure the fluid near the plane, and count its particles that leave faster than sound.  It is in the group of
+   the zone while variables are evaluated, which both need.
 ------------------------------------------------------------------------- */
 
-void FixSPHOpen::sample(const OpenStage &stage)
+void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
 {
+  set_times();
   std::vector<int> near;
   for (const int i : members) {
     if (!(atom->mask[i] & fluidbit)) continue;
@@ -544,15 +545,24 @@ void FixSPHOpen::sample(const OpenStage &stage)
                  condition->sample(i, particle, stage.strain_pressure(i)),
                  fluid->model->choice.kernel, radius);
   }
-  samples->finish(condition->clock);
+  double fast = 0.0;    // of use with new neighbor lists only
+  for (const int i : near)
+    if (neighbor->ago == 0 && condition->is_supersonic(i, stage.particle(i))) fast += 1.0;
+  mine.push_back(fast);
+  samples->append(mine);
+}
 
+/* ----------------------------------------------------------------------
+   with each new neighbor list; nsupersonic = particles of all processors that leave faster than sound
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::warn(double nsupersonic)
+{
   if (neighbor->ago > 0) return;
   if (!gap) gap = warn_of_gap(lmp, this, *plane, fluid, fluidbit, radius, rows->largest_spacing());
   if (supersonic) return;
   if (!condition->given_velocity() && !condition->given_state()) return;
-  supersonic = warn_of_supersonic(lmp, this, std::count_if(near.begin(), near.end(), [&](int i) {
-                                    return condition->is_supersonic(i, stage.particle(i));
-                                  }));
+  supersonic = warn_of_supersonic(lmp, this, static_cast<bigint>(nsupersonic));
 }
 
 /* ----------------------------------------------------------------------

@@ -69,7 +69,8 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   int zone_bit() const override { return groupbit; }
   int fluid_bit() const override { return fluidbit; }
   bool zone_near(const double *, double) const override;
-  void set_states(SPHDissipation::OpenStage &) override;
+  void measure(const SPHDissipation::OpenStage &, std::vector<double> &) override;
+  void set_states(SPHDissipation::OpenStage &, const double *) override;
   void set_impact(const SPHDissipation::OpenImpact &) override;
 
  private:
@@ -111,7 +112,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void set_spin(int i);
   void check_density() const;
   void keep_states();
-  void sample(const SPHDissipation::OpenStage &);
+  void warn(double nsupersonic);
   void set_state(SPHDissipation::OpenStage &, int i);
 };
 

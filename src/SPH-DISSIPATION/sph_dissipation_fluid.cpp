@@ -590,7 +590,8 @@ void Fluid::report()
     state.run(1, not_fluid());
     if (comm->me == 0)
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", style, model->summary(dim, support),
-                     engine->instruction_set(), table.text(update->dt), state.table());
+                     engine->instruction_set(), table.text(update->dt) + skin_text(table),
+                     state.table());
     check_sizes(lmp, style, *model, not_fluid());
     check_relaxation(lmp, style, *model);
     state.warn(style, shift->wanted);
@@ -601,6 +602,16 @@ void Fluid::report()
   check_time_step(table);
   check_energies(lmp, style, *model, engine->strains(), not_fluid());
   check_neighbors(lmp, style, *model, *engine, not_fluid(), dim, support);
+}
+
+/* ----------------------------------------------------------------------
+   not for thermal motion, which goes to and fro, nor for lists that are not built when particles have moved far enough
+------------------------------------------------------------------------- */
+
+std::string Fluid::skin_text(const CoeffTable &table) const
+{
+  if (model->choice.thermal || !neighbor->dist_check) return "";
+  return table.skin_text(neighbor->skin, update->dt, support, dim);
 }
 
 /* ----------------------------------------------------------------------
@@ -660,6 +671,7 @@ CoeffTable Fluid::coeff_table()
   const StrainRows strains = engine->strains();
   std::vector<double> mine(2 * (n + 1), 0.0), all(2 * (n + 1));
   double *const speed = all.data(), *const thinness = speed + n + 1;    // rho0/rho
+  double &fastest = mine[0];                                            // there is no type 0
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
     const TypeCoeff &coeff = model->coeffs[type];
@@ -670,7 +682,9 @@ CoeffTable Fluid::coeff_table()
     const double energy = atom->esph[i] - strains.vibrational_energy(i);     // of fast sound
     const double sound = cold ? coeff.eos.c0
                               : sound_speed(eos, coeff.eos, rho, energy / atom->rmass[i]);
-    mine[type] = std::max(mine[type], sound + MathExtra::len3(atom->v[i]));
+    const double v = MathExtra::len3(atom->v[i]);
+    fastest = std::max(fastest, v);
+    mine[type] = std::max(mine[type], sound + v);
     if (!is_boundary(i)) mine[n + 1 + type] = std::max(mine[n + 1 + type], coeff.eos.rho0 / rho);
   }
   MPI_Allreduce(mine.data(), all.data(), 2 * (n + 1), MPI_DOUBLE, MPI_MAX, world);
@@ -684,7 +698,7 @@ CoeffTable Fluid::coeff_table()
   for (const TypeParameters &type : model->parameters().type)
     for (int k = 0; k < NTYPECOEFF && !type.other; k++)
       largest.a[k] = std::max(largest.a[k], std::fabs(type.keywords.a[k]));
-  CoeffTable table(largest);
+  CoeffTable table(largest, all[0]);
   auto sound_step = [&](int type, double fastest) {
     const TypeCoeff &one = model->coeffs[type];
     return acoustic_step(h, fastest, [&](double dt) {

@@ -224,6 +224,7 @@ namespace SPHDissipation {
     void check_time_step(const CoeffTable &);
     double stability_length() const;
     double smallest_inertia() const;
+    std::string skin_text(const CoeffTable &) const;
     void announce_noise(double rate);
   };
 

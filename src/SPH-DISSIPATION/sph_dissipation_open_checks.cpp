@@ -439,12 +439,10 @@ void SPHDissipation::check_open_length(LAMMPS *lmp, const Fix *fix, const OpenPl
 
 bool SPHDissipation::warn_of_supersonic(LAMMPS *lmp, const Fix *fix, bigint number)
 {
-  bigint all;
-  MPI_Allreduce(&number, &all, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
-  if (all && lmp->comm->me == 0)
+  if (number && lmp->comm->me == 0)
     lmp->error->warning(FLERR,
                         "Fix {} {}: {} particles leave faster than sound at step {}, where only "
                         "condition fixed with velocity, density and pressure from inside is right",
-                        fix->style, fix->id, all, lmp->update->ntimestep);
-  return all > 0;
+                        fix->style, fix->id, number, lmp->update->ntimestep);
+  return number > 0;
 }

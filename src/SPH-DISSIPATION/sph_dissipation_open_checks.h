@@ -90,7 +90,7 @@ namespace SPHDissipation {
   void check_open_length(LAMMPS *, const Fix *, const OpenPlane &, double support, double spacing);
 
   // No sound comes back from where the fluid leaves faster than sound: nothing can be prescribed there.
-  // number = of such particles on this processor; true if there are any, which gives a warning
+  // number = of such particles; true if there are any, which gives a warning
 
   bool warn_of_supersonic(LAMMPS *, const Fix *, bigint number);
 

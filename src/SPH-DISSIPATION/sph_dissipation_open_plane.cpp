@@ -348,11 +348,18 @@ void OpenSamples::add(const double *x, double height, double volume, const OpenS
 
 /* ---------------------------------------------------------------------- */
 
-void OpenSamples::finish(double time)
+void OpenSamples::append(std::vector<double> &mine) const
 {
-  MPI_Allreduce(my_sums.data(), sums.data(),
-                static_cast<int>(sizeof(Sums) / sizeof(double)) * plane.nnodes(), MPI_DOUBLE,
-                MPI_SUM, world);
+  const auto *const first = reinterpret_cast<const double *>(my_sums.data());
+  mine.insert(mine.end(), first, first + my_sums.size() * sizeof(Sums) / sizeof(double));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenSamples::finish(double time, const double *all)
+{
+  std::copy_n(all, sums.size() * sizeof(Sums) / sizeof(double),
+              reinterpret_cast<double *>(sums.data()));
 
   const double part = history.empty() ? 1.0
                                       : 1.0 - exp((history.back().time - time) / averaging_time);

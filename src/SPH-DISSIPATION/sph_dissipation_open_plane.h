@@ -136,12 +136,13 @@ namespace SPHDissipation {
     void init();
     void set_times(double averaging_time, double memory);    // memory: longest lag, time units
 
-    // Measure at this time: begin(); add() each owned particle of the fluid; finish().  Until then, what
-    // is asked for below is of the step before.
+    // Measure at this time: begin(); add() each owned particle of the fluid; finish() with the sums over all
+    // processors of the numbers that append() gives.  Until then, what is asked for below is of the step before.
     void begin(double time);
     void add(const double *x, double height, double volume, const OpenSample &, Kernel,
              double radius);
-    void finish(double time);
+    void append(std::vector<double> &mine) const;
+    void finish(double time, const double *all);
 
     // Interpolate between the nodes; false if there is no fluid.
 

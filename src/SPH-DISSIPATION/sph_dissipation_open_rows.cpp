@@ -240,14 +240,22 @@ void OpenRows::find_rows()
 
 /* ---------------------------------------------------------------------- */
 
-double OpenRows::largest_spacing() const
+double OpenRows::my_largest_spacing() const
 {
   if (!by_distance()) return spacing;
-  double largest = 0.0, all;
+  double largest = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     largest = std::max(largest, step(i));
   }
+  return largest;
+}
+
+double OpenRows::largest_spacing() const
+{
+  if (!by_distance()) return spacing;
+  const double largest = my_largest_spacing();
+  double all;
   MPI_Allreduce(&largest, &all, 1, MPI_DOUBLE, MPI_MAX, world);
   return all;
 }
@@ -263,9 +271,10 @@ void OpenRows::renew(const Refresh &refresh)
 
   // since the last time, no row can have come farther from the end than this
 
-  const double largest = largest_spacing();
-  double moved_all;
-  MPI_Allreduce(&moved, &moved_all, 1, MPI_DOUBLE, MPI_MAX, world);
+  const double mine[2] = {moved, my_largest_spacing()};
+  double all[2];
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  const double moved_all = all[0], largest = all[1];
   moved = 0.0;
   if (!unknown_end && plane.length - moved_all - largest < support)
     error->all(FLERR,

@@ -78,7 +78,7 @@ namespace SPHDissipation {
     void init(double support, int fluid_bit);
     bool are_new() const { return unknown_sides; }
     double width() const { return 2.0 * half_width; }    // of a row
-    double largest_spacing() const;                      // now
+    double largest_spacing() const;                      // now, of all processors
 
     // Note that particles have moved along the normal, by this at most.
     void note_motion(double most) { moved += most; }
@@ -105,7 +105,8 @@ namespace SPHDissipation {
     Distance distance;
 
     double step(int i) const;    // from an owned particle to the next one of its row
-    double end() const;          // height where the zone ends
+    double my_largest_spacing() const;
+    double end() const;    // height where the zone ends
     void interrupt_ids();
     void find_rows();
     void remove_beyond();

@@ -90,7 +90,7 @@ double OpenStage::strain_energy(int i) const
 
 void OpenStage::run()
 {
-  for (auto zone : zones) zone->set_states(*this);
+  set_states();
   set_zones();
   Particle *const particle = engine.particle;
   Conductor *const conductor = engine.conductor.data();
@@ -99,6 +99,23 @@ void OpenStage::run()
                     {zone_of.data(), 1, 1},
                     field(conductor, conducts ? &conductor->vol : nullptr, conducts ? 3 : 0)});
   update_ghosts();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void OpenStage::set_states()
+{
+  std::vector<double> mine;
+  std::vector<std::size_t> first;    // of the numbers of each zone
+  for (auto *zone : zones) {
+    first.push_back(mine.size());
+    zone->measure(*this, mine);
+  }
+  std::vector<double> sums(mine.size());
+  MPI_Allreduce(mine.data(), sums.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
+                world);
+  for (std::size_t k = 0; k < zones.size(); k++)
+    zones[k]->set_states(*this, sums.data() + first[k]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -46,8 +46,12 @@ namespace SPHDissipation {
     // whether a particle at x may have pairs across the border of zone and fluid, of this length
     virtual bool zone_near(const double *x, double reach) const = 0;
 
+    // Append numbers of this processor, as many on each one, whose sums over all processors set_states() gets:
+    // one message is enough for all zones
+    virtual void measure(const OpenStage &, std::vector<double> &mine) = 0;
+
     // set density and pressure of its owned particles by OpenStage::set_state()
-    virtual void set_states(OpenStage &) = 0;
+    virtual void set_states(OpenStage &, const double *sums) = 0;
 
     // sums of this processor, for each force computation
     virtual void set_impact(const OpenImpact &) = 0;
@@ -87,6 +91,8 @@ namespace SPHDissipation {
    private:
     std::vector<OpenZone *> zones;
     int zone_bits = 0;
+
+    void set_states();
 
     // Zone of each owned and ghost particle: 0 fluid, k zone k - 1, -1 neither.  Groups change between two
     // neighbor lists, and with them only the masks of owned particles.

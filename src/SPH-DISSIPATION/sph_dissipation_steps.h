@@ -14,9 +14,10 @@
 #ifndef LMP_SPH_DISSIPATION_STEPS_H
 #define LMP_SPH_DISSIPATION_STEPS_H
 
-// Largest stable time steps, from the rates of the channels.  No LAMMPS include.
+// Largest stable time steps, from the rates of the channels; the skin of the neighbor list.  No LAMMPS include.
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -73,6 +74,26 @@ namespace SPHDissipation {
     for (const double step : viscous)
       if (step < UNLIMITED_STEP) rate += 1.0 / step;
     return (rate > 0.0) ? std::min(acoustic, 1.0 / rate) : acoustic;
+  }
+
+  // Time per step over that with a skin of zero and no rebuilds.  A list lasts until a particle has moved by half of
+  // the skin.  A rebuild takes as long as REBUILD steps; LISTED is the part of a step that goes through the whole
+  // list, whose length is proportional to (support + skin)^dim.  Both are measured: bench/README.md.
+
+  constexpr double REBUILD = 1.0, LISTED = 0.4;
+
+  inline double time_with_skin(double skin, double motion_per_step, double support, int dim)
+  {
+    const double steps = 0.5 * skin / motion_per_step;
+    return 1.0 - LISTED + LISTED * pow(1.0 + skin / support, dim) + REBUILD / std::max(steps, 1.0);
+  }
+
+  // The skin for which this is smallest, to first order in skin/support, and at most half of the support radius
+
+  inline double fastest_skin(double motion_per_step, double support, int dim)
+  {
+    return std::min(0.5 * support,
+                    sqrt(2.0 * REBUILD / (LISTED * dim) * motion_per_step * support));
   }
 
 }    // namespace SPHDissipation

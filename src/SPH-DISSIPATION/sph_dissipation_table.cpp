@@ -17,6 +17,7 @@
 #include "utils.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,24 @@ std::string CoeffTable::text(double dt) const
     result +=
         fmt::format("of the conduction of heat is {:.3g}: rkl2 {}", of_heat, stages_for(of_heat));
   return result + "\n";
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string CoeffTable::skin_text(double skin, double dt, double support, int dim) const
+{
+  constexpr double GAIN = 0.1;
+  const double motion = fastest * fabs(dt);
+  if (!(motion > 0.0)) return "";
+  const double best = fastest_skin(motion, support, dim);
+  const double part =
+      time_with_skin(best, motion, support, dim) / time_with_skin(skin, motion, support, dim);
+  if (!(part < 1.0 - GAIN)) return "";
+  return fmt::format(
+      "  at the largest speed, {:.3g}, a neighbor list with skin {:.3g} lasts {:.0f} "
+      "steps; the fastest skin is {:.2g}, with an estimated {:.0f} % less time per "
+      "step\n",
+      fastest, skin, std::max(1.0, ceil(0.5 * skin / motion)), best, 100.0 * (1.0 - part));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -27,9 +27,9 @@ namespace SPHDissipation {
 
   class CoeffTable {
    public:
-    // largest = coefficients by keyword of any type
-    explicit CoeffTable(const TypeCoeffs &largest) :
-        largest(largest), smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP),
+    // largest = coefficients by keyword of any type, fastest = speed of any particle
+    CoeffTable(const TypeCoeffs &largest, double fastest) :
+        fastest(fastest), largest(largest), smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP),
         viscous(UNLIMITED_STEP), dissipative(UNLIMITED_STEP), heat(UNLIMITED_STEP)
     {
     }
@@ -44,7 +44,12 @@ namespace SPHDissipation {
     double fastest_rate() const { return rate_of(viscous); }      // of the viscous terms
     double fastest_heat_rate() const { return rate_of(heat); }    // of conduction
 
+    // A line with the fastest skin of the neighbor list at these speeds; empty if less than a tenth of the time
+    // per step is gained over the present skin
+    std::string skin_text(double skin, double dt, double support, int dim) const;
+
    private:
+    const double fastest;
     const TypeCoeffs largest;
     std::string lines;
     double smallest, acoustic, viscous, dissipative, heat;

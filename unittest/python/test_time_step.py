@@ -212,3 +212,38 @@ def test_rate_of_the_noise_is_that_of_the_table(lammps):
     rate = 1.0 / table["shear"] + 1.0 / table["bulk"]
     for words in (r"largest viscous rate times time step (\S+)", r"times the largest viscous rate is (\S+):"):
         assert float(re.search(words, log)[1]) == pytest.approx(0.01 * rate, rel=5e-3)
+
+
+# ---------------------------------------------------------------------------------------------
+# the skin of the neighbor list
+
+def stream(skin, speed=1.0, options="", lists="every 1 delay 0 check yes"):
+    """A periodic fluid that is carried along as a whole: its list lasts until it has moved by half of the skin."""
+    return (f"{header(2)}read_data data.txt\npair_style sph/bulk {options}\npair_coeff * * 1.0 10.0 0.5 intrinsic 3.0\n"
+            f"neighbor {skin} bin\nneigh_modify {lists}\nvelocity all set {speed} 0.0 0.0\nfix 1 all sph/bulk\ntimestep 0.02\nrun 100\n")
+
+
+def best_skin(log):
+    """(steps for which a list lasts, recommended skin, percent) of the line below the table, or nothing"""
+    found = re.search(r"a neighbor list with skin \S+ lasts (\d+) steps; the fastest skin is (\S+), with an estimated (\d+) % less time", log)
+    return found and tuple(float(number) for number in found.groups())
+
+
+@pytest.mark.parametrize("skin, steps", [(0.05, 2), (0.09, 3), (8.0, 200)])
+def test_life_of_a_neighbor_list(lammps, skin, steps):
+    """As many rebuilds as the line says, and what it recommends needs no recommendation."""
+    lattice(2, 12).write(lammps.path("data.txt"))
+    log = lammps(stream(skin)).log
+    lasts, best, percent = best_skin(log)
+    assert lasts == steps and percent >= 10
+    assert int(re.findall(r"^Neighbor list builds = (\d+)", log, re.MULTILINE)[-1]) == 100 // steps
+    assert best_skin(lammps(stream(best)).log) is None
+    # the sum of a term proportional to the skin and one inverse to it, 0.8 skin/rc + 2 u dt/skin, has its minimum there
+    assert best == pytest.approx(np.sqrt(2 * 0.02 * 3.0 / 0.8), rel=0.05)
+
+
+@pytest.mark.parametrize("case", [{"speed": 0.0}, {"options": "temp 1e-3 1"}, {"lists": "every 5 delay 0 check no"}])
+def test_no_recommended_skin(lammps, case):
+    """At rest, with thermal motion, and for lists that are built without looking at the particles."""
+    lattice(2, 12).write(lammps.path("data.txt"))
+    assert best_skin(lammps(stream(0.05, **case)).log) is None
