@@ -97,27 +97,6 @@ def fluid_for(text):
     return "\n".join(lines) + "\n"
 
 
-@pytest.fixture(autouse=True)
-def potentials(monkeypatch):
-    monkeypatch.setenv("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
-
-
-@pytest.mark.parametrize("text, finds", INPUTS)
-def test_inputs_run(lammps, text, finds):
-    """finds: the numbers after "The input finds", which are in the last line of output, rounded"""
-    result = lammps(text, timeout=300)
-    assert "Loop time" in result.log
-    for number in finds:
-        last = [abs(float(column[-1])) for column in result.thermo()[-1].values()]
-        assert any(round(value, len(number.partition(".")[2])) == float(number) for value in last), (number, last)
-
-
-@pytest.mark.parametrize("text", FRAGMENTS)
-def test_fragments_are_taken(lammps, text):
-    commands = "\n".join(line for line in text.splitlines() if line.strip())
-    lammps(fluid_for(commands) + commands + "\n")
-
-
 # -- Search --------------------------------------------------------------------------------------------------------
 
 # what readers type, and the page that answers
@@ -126,9 +105,9 @@ ANSWERS = {
     "tensile": "Howto_sph_troubleshooting", "tensile instability": "Howto_sph_troubleshooting", "pairing": "Howto_sph_troubleshooting",
     "CFL": "Howto_sph_numbers", "Courant": "Howto_sph_numbers", "WCSPH": "Howto_sph_numbers", "weakly compressible": "Howto_sph_numbers",
     "acoustics": "Howto_sph_numbers",
-    "cluster": "Howto_sph_clusters", "Slurm": "Howto_sph_clusters", "Spack": "Howto_sph_clusters", "conda": "Howto_sph_clusters",
+    "install": "Build_SPH_DISSIPATION", "cluster": "Howto_sph_clusters", "Slurm": "Howto_sph_clusters", "Spack": "Howto_sph_clusters", "conda": "Howto_sph_clusters",
     "movie": "Howto_sph_looking", "ParaView": "Howto_sph_looking",
-    "convert": "Howto_sph_comparison",
+    "convert": "Howto_sph_comparison", "GPU": "Howto_sph_kokkos",
     "SDPD": "Howto_sph_fluctuations", "fluctuating hydrodynamics": "Howto_sph_fluctuations", "fluctuation-dissipation": "Howto_sph_fluctuations",
     "no-slip": "Howto_sph_walls", "boundary condition": "Howto_sph_walls",
     "non-reflecting": "Howto_sph_open", "buffer zone": "Howto_sph_open",
@@ -148,3 +127,27 @@ def test_search_finds_the_page_that_answers(word, page):
     texts = {path.stem: path.read_text() for path in (ROOT / "doc" / "src").glob("*.rst")}
     assert [name for name, text in texts.items() if word.lower() in found_first(text)] == [page]
     assert re.search(rf"\b{word}", re.sub(r"^\.\. index::.*", "", texts[page], flags=re.MULTILINE), re.IGNORECASE), "the page does not say it"
+
+
+# -- Runs ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(autouse=True)
+def potentials(monkeypatch):
+    monkeypatch.setenv("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
+
+
+@pytest.mark.parametrize("text, finds", INPUTS)
+def test_inputs_run(lammps, text, finds):
+    """finds: the numbers after "The input finds", which are in the last line of output, rounded"""
+    result = lammps(text, timeout=300)
+    assert "Loop time" in result.log
+    for number in finds:
+        last = [abs(float(column[-1])) for column in result.thermo()[-1].values()]
+        assert any(round(value, len(number.partition(".")[2])) == float(number) for value in last), (number, last)
+
+
+@pytest.mark.parametrize("text", FRAGMENTS)
+def test_fragments_are_taken(lammps, text):
+    commands = "\n".join(line for line in text.splitlines() if line.strip())
+    lammps(fluid_for(commands) + commands + "\n")
