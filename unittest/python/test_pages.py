@@ -97,6 +97,41 @@ def fluid_for(text):
     return "\n".join(lines) + "\n"
 
 
+# -- Search --------------------------------------------------------------------------------------------------------
+
+# what readers type, and the page that answers
+
+ANSWERS = {
+    "tensile": "Howto_sph_troubleshooting", "tensile instability": "Howto_sph_troubleshooting", "pairing": "Howto_sph_troubleshooting",
+    "CFL": "Howto_sph_numbers", "Courant": "Howto_sph_numbers", "WCSPH": "Howto_sph_numbers", "weakly compressible": "Howto_sph_numbers",
+    "acoustics": "Howto_sph_numbers",
+    "install": "Build_SPH_DISSIPATION", "cluster": "Howto_sph_clusters", "Slurm": "Howto_sph_clusters", "Spack": "Howto_sph_clusters", "conda": "Howto_sph_clusters",
+    "movie": "Howto_sph_looking", "ParaView": "Howto_sph_looking",
+    "convert": "Howto_sph_comparison", "GPU": "Howto_sph_kokkos",
+    "SDPD": "Howto_sph_fluctuations", "fluctuating hydrodynamics": "Howto_sph_fluctuations", "fluctuation-dissipation": "Howto_sph_fluctuations",
+    "no-slip": "Howto_sph_walls", "boundary condition": "Howto_sph_walls",
+    "non-reflecting": "Howto_sph_open", "buffer zone": "Howto_sph_open",
+    "adaptive particle refinement": "Howto_sph_refine", "variable resolution": "Howto_sph_refine",
+}
+
+
+def found_first(text):
+    """index entries and headings: Sphinx's search ranks a page whose entry or heading is the word itself above all others"""
+    entries = re.findall(r"^\.\. index:: (.*)$", text, re.MULTILINE)
+    headings = re.findall(r"^(.+)\n(?:=+|\"+|-+|\^+)$", text, re.MULTILINE)
+    return {word.strip().lower() for word in headings + re.split("[,;]", ",".join(entries))}
+
+
+@pytest.mark.parametrize("word, page", ANSWERS.items())
+def test_search_finds_the_page_that_answers(word, page):
+    texts = {path.stem: path.read_text() for path in (ROOT / "doc" / "src").glob("*.rst")}
+    assert [name for name, text in texts.items() if word.lower() in found_first(text)] == [page]
+    assert re.search(rf"\b{word}", re.sub(r"^\.\. index::.*", "", texts[page], flags=re.MULTILINE), re.IGNORECASE), "the page does not say it"
+
+
+# -- Runs ----------------------------------------------------------------------------------------------------------
+
+
 @pytest.fixture(autouse=True)
 def potentials(monkeypatch):
     monkeypatch.setenv("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
