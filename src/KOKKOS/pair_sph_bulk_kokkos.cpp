@@ -97,12 +97,10 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
   if (neighbor->includegroup)    // which the neighbor lists of KOKKOS ignore
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {}/kk cannot be used with neigh_modify include", fluid->style);
-  PairSPHBulk::init_style();
-
   const std::string reason = runs_on_device() ? on_host_because() : "";
   const bool on_device = runs_on_device() && reason.empty();
   device->choose(on_device);
-  auto *request = neighbor->find_request(static_cast<Pair *>(this));
+  PairSPHBulk::init_style();
   if (!on_device) {
     if (comm->me == 0 && !reason.empty())
       error->warning(FLERR,
@@ -113,7 +111,6 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
     datamask_read = ALL_MASK;
     datamask_modify = FLUID_MODIFIED | RMASS_MASK;
     no_virial_fdotr_compute = 0;
-    if (HOST_ONLY) request->set_kokkos_device(1);
     return;
   }
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
@@ -121,16 +118,9 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
   datamask_modify = FLUID_MODIFIED;
   no_virial_fdotr_compute = 1;
 
+  auto *request = neighbor->find_request(static_cast<Pair *>(this));
   request->set_kokkos_device(1);
   request->enable_full();
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_list(int id, NeighList *ptr)
-{
-  PairSPHBulk::init_list(id, ptr);
-  device->init_list(ptr);
 }
 
 /* ---------------------------------------------------------------------- */

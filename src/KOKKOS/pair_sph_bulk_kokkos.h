@@ -40,7 +40,6 @@ template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public
   PairSPHBulkKokkos(class LAMMPS *);
 
   void init_style() override;
-  void init_list(int, class NeighList *) override;
   int pack_forward_comm_kokkos(int, DAT::tdual_int_1d, DAT::tdual_double_1d &, int, int *) override;
   void unpack_forward_comm_kokkos(int, int, DAT::tdual_double_1d &) override;
 

@@ -39,14 +39,12 @@ using namespace SPHDissipation;
 
 // the device is the host
 
-static constexpr bool HOST_ONLY = std::is_same_v<LMPHostType, LMPDeviceType>;
-
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
 FluidKokkos<DeviceType>::FluidKokkos(LAMMPS *lmp, Pair *pair, bool spins) :
     Fluid(lmp, pair, spins), on_device(true), copied(false), threads(new ThreadsKokkos),
-    kokkos_list(nullptr), host_list(new NeighList(lmp)), nlocal_device(-1), nghost_device(-1),
+    host_list(new NeighList(lmp)), nlocal_device(-1), nghost_device(-1),
     data(new LoopDataKokkos<DeviceType>()),
     boundary_device(new BoundaryStageKokkos<DeviceType>(lmp, pair, *boundary))
 {
@@ -75,13 +73,9 @@ template <class DeviceType> void FluidKokkos<DeviceType>::choose(bool device)
 
 template <class DeviceType> void FluidKokkos<DeviceType>::request_list()
 {
+  if (!on_device) return Fluid::request_list();
+  own_list = false;
   neighbor->add_request(pair);
-}
-
-template <class DeviceType> void FluidKokkos<DeviceType>::init_list(NeighList *list)
-{
-  kokkos_list = list;
-  if (!on_device && HOST_ONLY) pair->list = host_list.get();
 }
 
 /* ----------------------------------------------------------------------
@@ -93,7 +87,6 @@ template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::fun
 {
   atomKK->sync(Host, ALL_MASK);
   if (!on_device) {
-    refer_to_list();
     task();
     return atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK | RHO_RELAXED_MASK);
   }
@@ -105,25 +98,6 @@ template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::fun
   pair->execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
   pair->list = device_list;
   atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK | RHO_RELAXED_MASK);
-}
-
-/* ----------------------------------------------------------------------
-   the half list of KOKKOS on the host as one of the CPU style
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void FluidKokkos<DeviceType>::refer_to_list()
-{
-  if constexpr (HOST_ONLY) {
-    auto *k_list = static_cast<NeighListKokkos<DeviceType> *>(kokkos_list);
-    host_firstneigh.resize(atom->nlocal);
-    threads->for_each(atom->nlocal, [&](int i) {
-      host_firstneigh[i] = &k_list->d_neighbors(i, 0);
-    });
-    host_list->inum = k_list->inum;
-    host_list->ilist = k_list->d_ilist.data();
-    host_list->numneigh = k_list->d_numneigh.data();
-    host_list->firstneigh = host_firstneigh.data();
-  }
 }
 
 /* ----------------------------------------------------------------------
@@ -307,7 +281,6 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_strains()
 template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *tally)
 {
   if (!on_device) {
-    refer_to_list();
     threads->for_each(atom->nlocal + atom->nghost, [&](int i) {
       atom->desph[i] = 0.0;
     });

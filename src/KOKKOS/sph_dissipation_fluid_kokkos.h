@@ -48,11 +48,10 @@ namespace SPHDissipation {
     FluidKokkos(class LAMMPS *, Pair *, bool spins);
     ~FluidKokkos() override;
 
-    // from the pair style: where forces are computed in this run; the neighbor list of LAMMPS
+    // from the pair style, before init(): where forces are computed in this run
 
     void choose(bool device);
     void request_list() override;
-    void init_list(NeighList *);
     bool computes_on_device() const { return on_device; }
     ColumnsKokkos sent;    // to ghosts, by the pair style's packing on the device
 
@@ -90,7 +89,6 @@ namespace SPHDissipation {
     bool on_device;
     bool copied;    // coefficients on the device are those of the model
     std::unique_ptr<Threads> threads;
-    NeighList *kokkos_list;                  // of LAMMPS
     std::unique_ptr<NeighList> host_list;    // half; for what runs on the host
     std::vector<int> host_ilist, host_numneigh, host_neighbors;
     std::vector<int *> host_firstneigh;
@@ -115,7 +113,6 @@ namespace SPHDissipation {
     bool has_own_forces() const override;
     void on_host(const std::function<void()> &) override;
     void build_host_list();
-    void refer_to_list();
     void grow();
     void set_strains();
     void copy_coeffs();

@@ -178,6 +178,7 @@ namespace SPHDissipation {
     int dim;           // dimension of the kernel
     double support;    // support radius rc
     bool stale;        // what follows from the coefficients is to be derived anew
+    bool own_list;     // the neighbor list is not built by LAMMPS, but when it is needed
 
     // run a task on the particles and the half neighbor list of the host; it may set densities and masses
 
@@ -207,7 +208,6 @@ namespace SPHDissipation {
     double **extrapolated_spin() const;    // nullptr without spins
 
    private:
-    bool own_list;         // the neighbor list is not built by LAMMPS, but when it is needed
     bool set_up;           // since pair_style and pair_coeff
     bool announced;        // the table of coefficients is up to date
     bool changed;          // other coefficients, or motions of walls, than those of the last forces
