@@ -107,8 +107,8 @@ class Example:
             try:
                 while waiting:
                     finished, waiting = wait(waiting, PATIENCE, FIRST_COMPLETED)
-                    for job in finished:
-                        report.done(*job.result())
+                    for name, seconds in sorted((job.result() for job in finished), key=lambda one: list(jobs).index(one[0])):
+                        report.done(name, seconds)
                     if not finished:
                         report.running()
             finally:
