@@ -86,10 +86,15 @@ void SPHDissipation::remove_particle(LAMMPS *lmp, int i)
 
 void SPHDissipation::end_change(LAMMPS *lmp, int nlocal_before)
 {
-  Atom *const atom = lmp->atom;
-  bigint change = atom->nlocal - nlocal_before, all;
+  bigint change = lmp->atom->nlocal - nlocal_before, all;
   MPI_Allreduce(&change, &all, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
-  atom->natoms += all;
+  end_change_by(lmp, all);
+}
+
+void SPHDissipation::end_change_by(LAMMPS *lmp, bigint change)
+{
+  Atom *const atom = lmp->atom;
+  atom->natoms += change;
   if (atom->map_style != Atom::MAP_NONE) {
     atom->map_init();
     atom->map_set();
@@ -101,16 +106,19 @@ void SPHDissipation::end_change(LAMMPS *lmp, int nlocal_before)
 bool SPHDissipation::new_ids(LAMMPS *lmp, const std::vector<NewIDs> &mine, tagint &highest,
                              std::vector<tagint> &first)
 {
-  std::vector<tagint> flat;
+  constexpr tagint HIGHEST = -1;    // in the place of a number: the highest ID of a processor
+  const Atom *const atom = lmp->atom;
+  for (int i = 0; i < atom->nlocal; i++) highest = std::max(highest, atom->tag[i]);
+  std::vector<tagint> flat = {highest, HIGHEST};
   for (const NewIDs &one : mine) flat.insert(flat.end(), {one.first, one.second});
   flat = gather_all(lmp->world, flat, MPI_LMP_TAGINT);
   std::map<tagint, tagint> number, first_of;    // by the IDs of the particles
-  for (std::size_t k = 0; k < flat.size(); k += 2) number[flat[k]] = flat[k + 1];
-
-  const Atom *const atom = lmp->atom;
-  tagint most = highest;
-  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, atom->tag[i]);
-  MPI_Allreduce(&most, &highest, 1, MPI_LMP_TAGINT, MPI_MAX, lmp->world);
+  for (std::size_t k = 0; k < flat.size(); k += 2) {
+    if (flat[k + 1] == HIGHEST)
+      highest = std::max(highest, flat[k]);
+    else
+      number[flat[k]] = flat[k + 1];
+  }
   for (const auto &one : number) {
     if (highest >= MAXTAGINT - one.second) return false;
     first_of[one.first] = highest + 1;

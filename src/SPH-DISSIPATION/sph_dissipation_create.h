@@ -49,10 +49,12 @@ namespace SPHDissipation {
 
   // Create and delete particles, for fixes that do it between two neighbor lists.  All processors call
   // begin_change(), from which on there are no ghosts, create and remove owned particles, and call
-  // end_change() with the number of owned particles that there were.
+  // end_change() with the number of owned particles that there were, or end_change_by() with the particles that all
+  // processors together have more, if they know it.
 
   void begin_change(LAMMPS *);
   void end_change(LAMMPS *, int nlocal_before);
+  void end_change_by(LAMMPS *, bigint change);
 
   // Append a copy of owned particle i with another ID and position; return its index.
   int create_copy(LAMMPS *, int i, tagint id, const double *x);

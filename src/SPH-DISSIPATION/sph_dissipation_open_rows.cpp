@@ -267,6 +267,7 @@ void OpenRows::renew(const Refresh &refresh)
   const int nbefore = atom->nlocal;
   begin_change(lmp);
   remove_beyond();
+  bigint removed = nbefore - atom->nlocal, change = 0;
   if (by_distance()) refresh({});    // particles have changed sides, and places in memory
 
   // since the last time, no row can have come farther from the end than this
@@ -290,8 +291,8 @@ void OpenRows::renew(const Refresh &refresh)
   unknown_end = unknown_sides = false;
 
   std::vector<int> last = last_ones(band);
-  while (fill(last, band, refresh)) {}
-  end_change(lmp, nbefore);
+  while (fill(last, band, refresh, removed, change)) {}
+  end_change_by(lmp, change);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -328,7 +329,8 @@ std::vector<int> OpenRows::last_ones(const OpenBand &band) const
    new particle is as far away as the harmonic mean of the two, to second order.
 ------------------------------------------------------------------------- */
 
-bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh)
+bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh,
+                    bigint &removed, bigint &change)
 {
   constexpr int CORRECTIONS = 3;
   last.erase(std::remove_if(last.begin(), last.end(),
@@ -336,9 +338,13 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
                               return !(plane.height(atom->x[i]) - step(i) >= end());
                             }),
              last.end());
-  int n = static_cast<int>(last.size()), all;
-  MPI_Allreduce(&n, &all, 1, MPI_INT, MPI_SUM, world);
-  if (!all) return false;
+  const int n = static_cast<int>(last.size());
+  const bigint mine[2] = {n, removed};
+  bigint all[2];
+  MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  removed = 0;
+  change += all[0] - all[1];
+  if (!all[0]) return false;
 
   std::vector<NewIDs> one_each;
   for (const int i : last) one_each.emplace_back(atom->tag[i], 1);

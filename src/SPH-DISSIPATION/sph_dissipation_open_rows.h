@@ -111,7 +111,9 @@ namespace SPHDissipation {
     void find_rows();
     void remove_beyond();
     std::vector<int> last_ones(const OpenBand &) const;
-    bool fill(std::vector<int> &last, const OpenBand &, const Refresh &);
+    // removed = particles of this processor that nobody has counted yet, change = of all processors
+    bool fill(std::vector<int> &last, const OpenBand &, const Refresh &, bigint &removed,
+              bigint &change);
     void check_alone(const OpenBand &) const;
     void check_lattice(const OpenBand &, double largest) const;
     void check_seat(const double *x, const OpenBand &) const;
