@@ -65,6 +65,7 @@ void NeighborSearch::init(const LoopSet *loops_in, Threads *threads_in, double s
 bool NeighborSearch::update(NeighList *list)
 {
   if (ncalls == neighbor->ncalls && lastcall == neighbor->lastcall) return false;
+  if (ncalls < 0) copy_neighbor_info();    // as the styles of LAMMPS, once per setup of a run
   ncalls = neighbor->ncalls;
   lastcall = neighbor->lastcall;
   if (list->copy) {    // of one that LAMMPS builds for others
@@ -72,7 +73,6 @@ bool NeighborSearch::update(NeighList *list)
     return true;
   }
   list->grow(atom->nlocal, atom->nlocal + atom->nghost);
-  copy_neighbor_info();
   build(list);
   list->np->last_build = lastcall;    // LAMMPS does not build it for a list that is a copy of it
   return true;
