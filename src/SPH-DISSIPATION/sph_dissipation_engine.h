@@ -171,6 +171,7 @@ namespace SPHDissipation {
 
     void set_threads(Threads *team) { threads = team; }    // which the caller keeps
     Threads &team() const { return *threads; }
+    const LoopSet &loop_set() const { return *loops; }
     template <class Task> void for_each(int n, const Task &task) { threads->for_each(n, task); }
 
     // choose the loops; the parameters are read until the next call
