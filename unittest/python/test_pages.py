@@ -102,6 +102,7 @@ def fluid_for(text):
 # what readers type, and the page that answers
 
 ANSWERS = {
+    "BibTeX": "Howto_sph_citing", "cite": "Howto_sph_citing",
     "tensile": "Howto_sph_troubleshooting", "tensile instability": "Howto_sph_troubleshooting", "pairing": "Howto_sph_troubleshooting",
     "CFL": "Howto_sph_numbers", "Courant": "Howto_sph_numbers", "WCSPH": "Howto_sph_numbers", "weakly compressible": "Howto_sph_numbers",
     "acoustics": "Howto_sph_numbers",
