@@ -7,9 +7,9 @@
     ./sphd bench --flows --messages                   what 1 to 16 ranks send, and up to how many ranks a flow scales
     ./sphd bench --flows --quick                      small flows, one minute
 
-All runs of one turn come after one another, so that a drift of the machine's speed meets all.  Printed: medians of particle-steps per
-second (particles of walls and zones count), the share of LAMMPS's section Neigh, the steps for which a list lasts, and the
-median, smallest and largest ratio of the runs of one turn.
+All runs of one turn come after one another, so that a drift of the machine's speed meets all.  Times are processor times of the
+time loop.  Printed: medians of particle-steps per second (particles of walls and zones count), the share of LAMMPS's section Neigh, the
+steps for which a list lasts, and the median, smallest and largest ratio of the runs of one turn.
 """
 
 import argparse
@@ -63,11 +63,13 @@ def runs(log):
         seconds, steps, atoms = float(seconds), int(steps), int(atoms)
         if not steps:
             continue
+        share = re.search(r"^([\d.]+)% CPU use", part, re.M)
+        processor = seconds * min(float(share[1]) / 100, 1.0) if share else seconds
         neigh = re.search(r"^Neigh +\|[^|]*\| *(\S+)", part, re.M)
         builds = re.search(r"^Neighbor list builds = (\d+)", part, re.M)
         pairs = re.search(r"^Neighs: +(\S+) ave (\S+) max", part, re.M)
         ghosts = re.search(r"^Nghost: +(\S+) ave", part, re.M)
-        yield {"seconds": seconds, "steps": steps, "atoms": atoms, "speed": atoms * steps / seconds,
+        yield {"seconds": processor, "steps": steps, "atoms": atoms, "speed": atoms * steps / processor,
                "neigh": float(neigh[1]) / seconds if neigh else 0.0, "builds": int(builds[1]) if builds else 0,
                "ghosts": float(ghosts[1]) if ghosts else 0.0,
                "imbalance": float(pairs[2]) / float(pairs[1]) if pairs and float(pairs[1]) else 1.0}
