@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Time the styles with the suffix kk, by a LAMMPS with the package KOKKOS, on the particles of bench/run.py.
 
-    ./sphd bench --kokkos                     LAMMPS's own CPU styles, sph/bulk, sph/bulk/kk with one thread and with two
+    ./sphd bench --kokkos                     LAMMPS's own CPU styles, sph/bulk, sph/bulk/kk with one thread and with two,
+                                              the last ones between walls and with thermal noise as well
     ./sphd bench --kokkos --scaling           strong scaling of sph/bulk and sph/micropolar over MPI ranks, and of /kk over threads
     ./sphd bench --kokkos cuda --gpu          atom-steps per second on one GPU, for 0.1, 1, 10 and 30 million particles
 
@@ -18,6 +19,7 @@ import run as bench
 
 FASTER = 1.2  # what --check asks for: /kk on one thread over LAMMPS's own CPU styles
 THREADS = 1.8  # two threads over one
+MORE = {"between walls": {"wall": "slip no"}, "with noise": {"noise": bench.NOISE}}
 SIDES = (46, 100, 215, 311)  # particles per side: 0.1, 1, 10, 30 million
 
 
@@ -26,11 +28,12 @@ def suffix(threads=None, name="kk"):
 
 
 def times(cases, args):
-    """cases: name -> (style, ranks, switches); seconds of each of the runs, in turn, and # of atoms and pairs."""
+    """cases: name -> (style, ranks, switches, more arguments of run()); seconds of each of the runs, in turn, and # of atoms
+    and pairs."""
     seconds = {name: [] for name in cases}
     for _ in range(args.repeat):
-        for name, (style, ranks, switches) in cases.items():
-            elapsed, atoms, _, pairs, _ = bench.run(style, ranks, args, switches=switches)
+        for name, (style, ranks, switches, *more) in cases.items():
+            elapsed, atoms, _, pairs, _ = bench.run(style, ranks, args, switches=switches, **dict(*more))
             seconds[name].append(elapsed)
     return seconds, atoms, pairs
 
@@ -49,8 +52,11 @@ def compare(args):
     bench.ratio(seconds["bulk"], one, "sph/bulk/kk on one thread over sph/bulk")
     bench.ratio(seconds["loops of a GPU, 1 thread"], one, "... over the loops of a GPU on one thread")
     faster = bench.ratio(seconds["lammps"], one, "... over LAMMPS's CPU styles")
-    threads = bench.ratio(one, seconds["kk, 2 threads"], "two threads over one")
-    if args.check and (faster < FASTER or threads < THREADS):
+    threads = [bench.ratio(one, seconds["kk, 2 threads"], "two threads over one")]
+    cases = {f"kk {what}, {n}": ("bulk", 1, suffix(n), more) for what, more in MORE.items() for n in (1, 2)}
+    seconds, _, _ = times(cases, args)
+    threads += [bench.ratio(seconds[f"kk {what}, 1"], seconds[f"kk {what}, 2"], f"... {what}") for what in MORE]
+    if args.check and (faster < FASTER or min(threads) < THREADS):
         sys.exit("slower than it should be")
 
 
@@ -89,7 +95,7 @@ def main():
     what.add_argument("--gpu", action="store_true", help="on one GPU")
     what.add_argument("--check", action="store_true",
                       help=f"fail if sph/bulk/kk on one thread is not {FASTER} times as fast as LAMMPS's CPU styles, or "
-                           f"on two threads not {THREADS} times as fast as on one")
+                           f"on two threads not {THREADS} times as fast as on one, between walls and with noise as well")
     args = parser.parse_args()
     args.simd = "auto"
     (scaling if args.scaling else gpu if args.gpu else compare)(args)

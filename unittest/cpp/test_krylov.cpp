@@ -16,17 +16,30 @@
 
 #include <cmath>
 #include <random>
+#include <thread>
+#include <vector>
 
 using LAMMPS_NS::SPHDissipation::Krylov;
 using LAMMPS_NS::SPHDissipation::RKL2;
 using LAMMPS_NS::SPHDissipation::Threads;
 using LAMMPS_NS::SPHDissipation::Unknowns;
 
+class ThreeThreads : public Threads {
+ public:
+  int size() const override { return 3; }
+  void run(const std::function<void(int)> &task) override
+  {
+    std::vector<std::thread> team;
+    for (int k = 0; k < size(); k++) team.emplace_back(task, k);
+    for (auto &one : team) one.join();
+  }
+};
+
 struct System {
   Eigen::MatrixXd A;
   Unknowns mass, inverse_mass, x, residual;
   double scale = 1.0;
-  Threads one_thread;
+  Threads one_thread, *threads = &one_thread;
 
   System(const Eigen::MatrixXd &gamma, const Eigen::VectorXd &m, const Eigen::VectorXd &b) :
       A(Eigen::MatrixXd(m.asDiagonal()) + gamma), mass(m.data(), m.data() + m.size()), x(m.size()),
@@ -41,7 +54,7 @@ struct System {
   }
   void sum(double *, int) const {}
   double scale_sq() const { return scale * scale; }
-  Threads &team() { return one_thread; }
+  Threads &team() { return *threads; }
 };
 
 struct Problem {
@@ -86,6 +99,21 @@ TEST(Krylov, bi_conjugate_gradients)
     const Problem problem(60, symmetric);
     System system(problem.gamma, problem.mass, problem.b);
     const auto found = Krylov<System>(system, 1.0e-13, 2000).bi_conjugate_gradients();
+    EXPECT_TRUE(found.converged);
+    const Eigen::Map<const Eigen::VectorXd> x(system.x.data(), 60);
+    EXPECT_LT((problem.b - system.A * x).norm(), 1.0e-12);
+  }
+}
+
+TEST(Krylov, several_threads)
+{
+  ThreeThreads threads;
+  for (const bool symmetric : {true, false}) {
+    const Problem problem(60, symmetric);
+    System system(problem.gamma, problem.mass, problem.b);
+    system.threads = &threads;
+    Krylov<System> krylov(system, 1.0e-13, 2000);
+    const auto found = symmetric ? krylov.conjugate_gradients() : krylov.bi_conjugate_gradients();
     EXPECT_TRUE(found.converged);
     const Eigen::Map<const Eigen::VectorXd> x(system.x.data(), 60);
     EXPECT_LT((problem.b - system.A * x).norm(), 1.0e-12);
