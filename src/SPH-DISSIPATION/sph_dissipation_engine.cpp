@@ -357,14 +357,14 @@ void Engine::run_density(Loop loop)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_heat(std::vector<double> &flow, const NoiseData *noise)
+void Engine::accumulate_heat(std::vector<double> &flow)
 {
   const int nall = atom->nlocal + atom->nghost;
-  const HeatLoop loop = loops->heat(par->conducts_alike, noise);
+  const HeatLoop loop = loops->heat(par->conducts_alike);
   flow.assign(nall + BLOCK, 0.0);
   threads->run([&](int k) {
     if (k > 0) sums[k - 1].flow.assign(nall + BLOCK, 0.0);
-    loop(part(k), conductor.data(), noise, (k > 0 ? sums[k - 1].flow : flow).data());
+    loop(part(k), conductor.data(), (k > 0 ? sums[k - 1].flow : flow).data());
   });
   if (sums.empty()) return;
   for_each(nall, [&](int i) {
@@ -475,7 +475,7 @@ LoopData Engine::part(PairSubset &some) const
 
 void Engine::accumulate_heat(PairSubset &some, double *flow) const
 {
-  loops->heat(par->conducts_alike, false)(part(some), conductor.data(), nullptr, flow);
+  loops->heat(par->conducts_alike)(part(some), conductor.data(), flow);
 }
 
 void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum *torque_out,

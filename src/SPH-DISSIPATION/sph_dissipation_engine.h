@@ -90,7 +90,7 @@ namespace SPHDissipation {
 
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
-  typedef void (*HeatLoop)(const LoopData &, const Conductor *, const NoiseData *, double *flow);
+  typedef void (*HeatLoop)(const LoopData &, const Conductor *, double *flow);
 
   // the loops compiled for one instruction set
 
@@ -102,8 +102,7 @@ namespace SPHDissipation {
     Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
-    HeatLoop (*heat)(bool alike,
-                     bool noise);    // alike: the same conductivity of all particles that conduct
+    HeatLoop (*heat)(bool alike);    // the same conductivity of all particles that conduct
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
@@ -172,9 +171,8 @@ namespace SPHDissipation {
     // the same without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *);
 
-    // heat per time that owned and ghost atoms get by conduction, of conductor[], with noise unless it is nullptr; room
-    // for the spare ones
-    void accumulate_heat(std::vector<double> &flow, const NoiseData *noise = nullptr);
+    // heat per time that owned and ghost atoms get by conduction, of conductor[]; room for the spare ones
+    void accumulate_heat(std::vector<double> &flow);
 
     // forces, torques, heat and divergence of those pairs alone, and their conduction, added to arrays with room for the
     // spare particles; after pass 2

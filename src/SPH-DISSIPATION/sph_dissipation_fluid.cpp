@@ -232,7 +232,7 @@ bigint Fluid::compute(PairTally *tally)
   if (shift->wanted) sum_gradient();
   sum_forces(tally);
   if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
-  if (par.conducts) sum_heat();
+  if (par.conducts && !par.own_temperatures) sum_heat();
   if (!open->empty()) open->sum_impacts(pair->list);
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
   if (model->choice.own_temperatures) noise->share_work();
@@ -366,10 +366,9 @@ void Fluid::sum_forces(PairTally *tally)
 
 void Fluid::sum_heat()
 {
-  conduction->run(model->choice.thermal ? &noise->numbers_of_step() : nullptr,
-                  [this](std::vector<double> &flow) {
-                    boundary->add_surface_heat(flow);
-                  });
+  conduction->run([this](std::vector<double> &flow) {
+    boundary->add_surface_heat(flow);
+  });
 }
 
 double Fluid::received_heat(int groupbit) const

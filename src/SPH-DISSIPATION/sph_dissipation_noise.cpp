@@ -45,7 +45,9 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   if (neighbor->ago == 0) check_box();
   const bool energy = engine.parameters().own_temperatures;
   form = {engine.parameters().shear, engine.parameters().dim,
-          energy ? NoiseKind::ENERGY : NoiseKind::PLAIN};
+          !energy                          ? NoiseKind::PLAIN
+              : engine.parameters().conducts ? NoiseKind::CONDUCTION
+                                           : NoiseKind::ENERGY};
   for (int type = 1; type <= atom->ntypes; type++)
     if (!energy && bound && !engine.parameters().type[type].other &&
         engine.parameters().type[type].zeta < 0.0)
@@ -138,7 +140,7 @@ void NoiseStage::set_temperatures(bool continued)
     const int type = atom->type[i];
     if (engine.parameters().type[type].other) continue;
     const double capacity = atom->rmass[i] * engine.parameters().type[type].heat_capacity;
-    row[i].softness = force->boltz / capacity;
+    row[i].tag = tag[i];
     row[i].mobility = update->dt * force->ftm2v / atom->rmass[i];
     if (i >= nlocal) continue;
     if (spins && inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / inertia[i];
@@ -182,6 +184,11 @@ bool NoiseStage::set_coeffs(double factor)
     coeff[k].spin_along = sqrt(factor * friction.spin_along);
     coeff[k].spin_across = sqrt(factor * friction.spin_across);
     coeff[k].inverse_central = (friction.along > 0.0) ? 1.0 / friction.along : 0.0;
+    const TypeParameters &first = par.type[k / par.ntypes_1], &second = par.type[k % par.ntypes_1];
+    coeff[k].conductivity =
+        HeatChannel::mean(first.keywords.a[CONDUCTIVITY], second.keywords.a[CONDUCTIVITY]);
+    if (second.heat_capacity > 0.0)
+      coeff[k].softness = force->boltz / (update->dt * force->ftm2v * second.heat_capacity);
     if (friction.along > 0.0 || friction.across > 0.0 || friction.spin_along > 0.0 ||
         friction.spin_across > 0.0)
       any = true;
@@ -215,7 +222,7 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
     Particle &particle = engine.particle[i];
     const double c_inv = particle.vol / engine.weight(i);
     const double random = strength * pressure[i] / sqrt(particle.vol);
-    if (form.kind == NoiseKind::ENERGY) {
+    if (engine.parameters().own_temperatures) {
       const double own = random * sqrt(row[i].temperature);
       row[i].pressure = own * c_inv * c_inv;
       engine.zeta_term[i] += own;
