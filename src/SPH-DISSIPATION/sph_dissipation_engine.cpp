@@ -241,6 +241,7 @@ StrainRows Engine::strains() const
   StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho, atom->drho,
                      par->eos,         atom->esph, atom->desph, {}};
   if (par->nprocess) std::copy_n(Fields::of(atom)->rho_relaxed, par->nprocess, rows.relaxed);
+  if (static_cast<int>(wall_energy.size()) > atom->nlocal) rows.by_walls = wall_energy.data();
   return rows;
 }
 
@@ -309,6 +310,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     conductor.resize(nmax + BLOCK);
     std::fill_n(conductor.begin() + nall, BLOCK, Conductor());
   }
+  wall_energy.resize((par->own_temperatures && has_walls) ? nmax : 0);
   set_rows();
   set_weights();
 

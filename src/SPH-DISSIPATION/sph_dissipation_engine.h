@@ -222,6 +222,8 @@ namespace SPHDissipation {
     std::vector<Conductor> conductor;    // the same, if any type conducts heat
     std::vector<double>
         energy;    // the same, internal energy, if particles have the noise of their temperatures
+    std::vector<double> wall_energy;    // what walls hold of it, of owned atoms; empty: nothing
+    bool has_walls = false;
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     Spin *spin;            // micropolar only
 

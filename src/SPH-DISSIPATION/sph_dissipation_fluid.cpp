@@ -257,6 +257,7 @@ bigint Fluid::sum_before_forces()
   const bigint nbeyond = set_pressure();
   if (!open->empty()) open->run();
   if (walls) set_boundary();
+  if (walls && model->choice.own_temperatures) boundary->find_energies(missing_time());
   if (model->choice.thermal) noise->run(bound(), boundary->bits(), continued);
   return nbeyond;
 }
@@ -373,8 +374,12 @@ void Fluid::sum_heat()
 
 double Fluid::received_heat(int groupbit) const
 {
-  const bool conducts = model->parameters().conducts && pair->compute_flag;
-  return conducts ? conduction->received(groupbit) : 0.0;
+  if (!model->parameters().conducts || !pair->compute_flag) return 0.0;
+  if (!model->choice.own_temperatures) return conduction->received(groupbit);
+  double total = 0.0;    // pass 2 leaves nothing else with them
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) total += atom->desph[i];
+  return total;
 }
 
 /* ----------------------------------------------------------------------
@@ -453,6 +458,8 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
   double *const desph_before = Fields::of(atom)->desph_before;
   on_host([&]() {
     density->run(pair->list, nullptr, nullptr);
+    if (!boundary->empty() && model->choice.own_temperatures)
+      boundary->find_energies_at_rest(pair->list);
     const StrainRows strains = engine->strains();
     const int zone_bits = open->bits_of(groupbit);
     for (int i = 0; i < atom->nlocal; i++) {

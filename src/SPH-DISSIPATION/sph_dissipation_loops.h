@@ -464,8 +464,9 @@ namespace SPHDissipation {
         using F = decltype(terms);
         loop = (form.kind == NoiseKind::DIRECTED) ? choose_noise<F, NoiseKind::DIRECTED>(form.dim)
             : (form.kind == NoiseKind::ENERGY)    ? choose_noise<F, NoiseKind::ENERGY>(form.dim)
-            : (form.kind == NoiseKind::CONDUCTION) ? choose_noise<F, NoiseKind::CONDUCTION>(form.dim)
-                                                  : choose_noise<F, NoiseKind::PLAIN>(form.dim);
+            : (form.kind == NoiseKind::CONDUCTION)
+            ? choose_noise<F, NoiseKind::CONDUCTION>(form.dim)
+            : choose_noise<F, NoiseKind::PLAIN>(form.dim);
       });
       return loop;
     }

@@ -45,17 +45,13 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   if (neighbor->ago == 0) check_box();
   const bool energy = engine.parameters().own_temperatures;
   form = {engine.parameters().shear, engine.parameters().dim,
-          !energy                          ? NoiseKind::PLAIN
-              : engine.parameters().conducts ? NoiseKind::CONDUCTION
-                                           : NoiseKind::ENERGY};
+          !energy                                         ? NoiseKind::PLAIN
+              : engine.parameters().conducts || not_fluid ? NoiseKind::CONDUCTION
+                                                          : NoiseKind::ENERGY};
   for (int type = 1; type <= atom->ntypes; type++)
     if (!energy && bound && !engine.parameters().type[type].other &&
         engine.parameters().type[type].zeta < 0.0)
       form.kind = NoiseKind::DIRECTED;
-  if (energy && not_fluid)
-    error->all(FLERR, Error::NOLASTLINE,
-               "Pair style with temp energy cannot be used with walls, whose particles have no "
-               "temperature");
 
   // the force of a step is that of an impulse over its time
 
@@ -66,8 +62,8 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
 
   set_tags();
-  if (energy && (neighbor->ago == 0 || update->setupflag)) find_masses();
-  if (energy) set_temperatures(continued);
+  if (energy && (neighbor->ago == 0 || update->setupflag)) find_masses(not_fluid);
+  if (energy) set_temperatures(continued, not_fluid);
   data.heat = 2.0 * force->boltz / update->dt;
   add_pressure(factor, not_fluid);
   if (engine.parameters().drag) add_drag(factor, not_fluid);
@@ -126,21 +122,28 @@ void NoiseStage::set_tags()
    A particle without heat has temperature 0: it gets no noise, and friction warms it.
 ------------------------------------------------------------------------- */
 
-void NoiseStage::set_temperatures(bool continued)
+void NoiseStage::set_temperatures(bool continued, int not_fluid)
 {
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
   const bool spins = engine.has_spin();
   const StrainRows &strains = engine.rows().strains;
   const double *const inertia = Fields::of(atom)->inertia;
+  constexpr double SMALLEST = 1.0e-300;    // not 0, for walls have a negative one
   row.assign(nall + BLOCK, NoiseRow());
   if (spins) spin_mobility.assign(nall + BLOCK, 0.0);
   int without = 0, without_all;
   for (int i = 0; i < nall; i++) {
     const int type = atom->type[i];
     if (engine.parameters().type[type].other) continue;
-    const double capacity = atom->rmass[i] * engine.parameters().type[type].heat_capacity;
     row[i].tag = tag[i];
+    if (atom->mask[i] & not_fluid) {
+      const bool passes = engine.parameters().conducts && engine.conductor[i].conductivity > 0.0;
+      row[i].temperature = -std::max(passes ? engine.conductor[i].temperature : 1.0, SMALLEST);
+      row[i].pressure = passes ? 1.0 : 0.0;
+      continue;
+    }
+    const double capacity = atom->rmass[i] * engine.parameters().type[type].heat_capacity;
     row[i].mobility = update->dt * force->ftm2v / atom->rmass[i];
     if (i >= nlocal) continue;
     if (spins && inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / inertia[i];
@@ -283,11 +286,11 @@ void NoiseStage::draw_for_strain()
 
 /* ---------------------------------------------------------------------- */
 
-void NoiseStage::find_masses()
+void NoiseStage::find_masses(int not_fluid)
 {
   double own[2] = {-1.0e300, -1.0e300}, all[2];    // minus the smallest one, the largest one
   for (int i = 0; i < atom->nlocal; i++) {
-    if (engine.parameters().type[atom->type[i]].other) continue;
+    if (engine.parameters().type[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
     own[0] = std::max(own[0], -atom->rmass[i]);
     own[1] = std::max(own[1], atom->rmass[i]);
   }
@@ -307,13 +310,14 @@ void NoiseStage::share_work()
   acceleration.assign(3 * static_cast<std::size_t>(nall + BLOCK), 0.0);
   flow.assign(nall, 0.0);
   for (int i = 0; i < nlocal; i++)
-    for (int d = 0; d < 3; d++)
+    for (int d = 0; d < 3 && row[i].temperature >= 0.0; d++)
       acceleration[3 * i + d] = force->ftm2v * engine.force[i].f[d] / atom->rmass[i];
   exchange.forward({{acceleration.data(), 3, 3}});
 
   const LoopData &pairs = engine.pairs();
   const double half = 0.5 * update->dt;
   engine.visit_pairs([&](int i, int j, bigint entry) {
+    if (row[i].temperature < 0.0 || row[j].temperature < 0.0) return;
     const Particle &a = engine.particle[i], &b = engine.particle[j];
     double by_i = 0.0, by_j = 0.0;
     for (int d = 0; d < 3; d++) {

@@ -54,7 +54,7 @@ namespace SPHDissipation {
   // and 1 or 0 instead of the pressure: whether heat passes its surface.
 
   struct NoiseRow {
-    double tag;         // ID
+    double tag;    // ID
     double temperature;
     double mobility;    // dt/m
     double pressure;    // random pressure / c^2
@@ -76,7 +76,8 @@ namespace SPHDissipation {
     double *random;             // for the numbers of the pairs of one particle
   };
 
-  constexpr int MOST_NUMBERS = 15;    // that are kept of a pair: 8 random ones, 7 of the temperatures
+  constexpr int MOST_NUMBERS =
+      15;    // that are kept of a pair: 8 random ones, 7 of the temperatures
 
   // DIRECTED: two numbers along e, one of each partner
   // ENERGY: at the temperatures of the particles, with the energy of motion and heat together constant

@@ -100,12 +100,13 @@ struct PairCounter {
 // numbers of NoiseCoeff
 
 enum { CENTRAL, TRANSVERSE, SPIN_ALONG, SPIN_ACROSS, INVERSE_CENTRAL, PAIR_CONDUCTION, SOFTNESS };
-template <int ACROSS, bool SPIN, bool ENERGY = false, bool CONDUCTS = false> struct NoiseUses {
+template <int ACROSS, bool SPIN, NoiseKind KIND> struct NoiseUses {
   static constexpr bool uses(int k)
   {
-    if (k == PAIR_CONDUCTION) return CONDUCTS;
-    if (k == SOFTNESS) return ENERGY;
-    return k == CENTRAL || k == INVERSE_CENTRAL || (k == TRANSVERSE && ACROSS > 0) || SPIN;
+    if (k == INVERSE_CENTRAL) return KIND == NoiseKind::DIRECTED;
+    if (k == PAIR_CONDUCTION) return KIND == NoiseKind::CONDUCTION;
+    if (k == SOFTNESS) return KIND == NoiseKind::ENERGY || KIND == NoiseKind::CONDUCTION;
+    return k == CENTRAL || (k == TRANSVERSE && ACROSS > 0) || SPIN;
   }
 };
 
@@ -120,7 +121,8 @@ SPH_INLINE Vec root_of(Vec slope, Vec metric, Vec inverse_central)
 
 template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseData &data)
 {
-  Coeffs<NoiseCoeff, NoiseUses<0, false>> coeff(data.coeff[pairs.par->ntypes_1 + 1]);
+  Coeffs<NoiseCoeff, NoiseUses<0, false, NoiseKind::DIRECTED>> coeff(
+      data.coeff[pairs.par->ntypes_1 + 1]);
   const NoiseStep step(data);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
@@ -250,8 +252,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
       pressure = kept();
       if constexpr (SPIN) spin_mobility = gather(data.spin_mobility, j);
       if constexpr (CONDUCTS) share *= 1.0 - wall * wall;
-      friction =
-          1.0 - share * (data.row[i].mobility * own_softness + mobility * coeff.a[SOFTNESS]);
+      friction = 1.0 - share * (data.row[i].mobility * own_softness + mobility * coeff.a[SOFTNESS]);
     }
     for (int c = 0; c < Numbers::N; c++)
       if (Numbers::is_used(c)) z[c] = kept();
@@ -377,7 +378,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   const LoopData &pairs;
   const NoiseData &data;
   const NoiseStep step;
-  Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, ENERGY, CONDUCTS>> coeff;
+  Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND>> coeff;
   int i;
   double own_softness;
   double *next;    // of what begin() has found for the pairs of i
