@@ -130,13 +130,14 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
   const StrainRows &strains = engine.rows().strains;
   const double *const inertia = Fields::of(atom)->inertia;
   constexpr double SMALLEST = 1.0e-300;    // not 0, for walls have a negative one
-  row.assign(nall + BLOCK, NoiseRow());
+  row.resize(nall + BLOCK);
+  std::fill_n(row.begin() + nall, BLOCK, NoiseRow());
   if (spins) spin_mobility.assign(nall + BLOCK, 0.0);
   int without = 0, without_all;
   for (int i = 0; i < nall; i++) {
     const int type = atom->type[i];
+    row[i] = {tag[i], 0.0, 0.0, 0.0};
     if (engine.parameters().type[type].other) continue;
-    row[i].tag = tag[i];
     if (atom->mask[i] & not_fluid) {
       const bool passes = engine.parameters().conducts && engine.conductor[i].conductivity > 0.0;
       row[i].temperature = -std::max(passes ? engine.conductor[i].temperature : 1.0, SMALLEST);
@@ -215,23 +216,25 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
 {
   const int nall = atom->nlocal + atom->nghost;
   engine.loop_set().particle_numbers(data, NoiseChannel::PRESSURE, nall, 1, pressure.data());
+  const bool energy = engine.parameters().own_temperatures;
   std::vector<double> amplitude(atom->ntypes + 1, 0.0);
   for (int type = 1; type <= atom->ntypes; type++)
     if (!engine.parameters().type[type].other)
-      amplitude[type] = sqrt(factor * std::max(engine.parameters().type[type].zeta, 0.0));
+      amplitude[type] = factor * std::max(engine.parameters().type[type].zeta, 0.0);
+  for (int type = 1; type <= atom->ntypes && !energy; type++)
+    amplitude[type] = sqrt(amplitude[type]);
   for (int i = 0; i < nall; i++) {
     const double strength = amplitude[atom->type[i]];
     if (!(strength > 0.0) || (atom->mask[i] & not_fluid)) continue;
     Particle &particle = engine.particle[i];
     const double c_inv = particle.vol / engine.weight(i);
-    const double random = strength * pressure[i] / sqrt(particle.vol);
-    if (engine.parameters().own_temperatures) {
-      const double own = random * sqrt(row[i].temperature);
+    if (energy) {
+      const double own = pressure[i] * sqrt(strength * row[i].temperature / particle.vol);
       row[i].pressure = own * c_inv * c_inv;
       engine.zeta_term[i] += own;
       particle.g += row[i].pressure;
     } else
-      particle.g += random * c_inv * c_inv;
+      particle.g += strength * pressure[i] / sqrt(particle.vol) * c_inv * c_inv;
   }
 }
 
