@@ -597,8 +597,10 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_heat()
 
 template <class DeviceType> double FluidKokkos<DeviceType>::received_heat(int groupbit) const
 {
-  if (!on_device || !pair->compute_flag || !boundary->conducts())
+  if (!on_device || !pair->compute_flag || !boundary->conducts()) {
+    if (model->choice.own_temperatures) atomKK->sync(Host, DESPH_MASK | MASK_MASK);
     return Fluid::received_heat(groupbit);
+  }
   auto mask = atomKK->k_mask.template view<DeviceType>();
   auto flow = heat_flow_of;
   double total = 0.0;

@@ -194,6 +194,19 @@ void FixSPHWall::init()
                "other walls do to the fluid is no friction that a noise can be in balance with",
                style);
 
+  if (fluid->model->choice.own_temperatures && heat == WallHeat::FLUX)
+    error->all(
+        FLERR,
+        "Fix {} heat flux cannot be used with temp energy of the pair style: a given flow of "
+        "heat has no equilibrium that a noise can be in balance with",
+        style);
+  if (fluid->model->choice.own_temperatures && fluid->model->parameters().thermal_pressure)
+    error->all(FLERR,
+               "Fix {} cannot be used with temp energy and eos ideal or gruneisen of the pair "
+               "style: the pressure of a wall, whose force must have an energy, does not follow "
+               "the heat of the fluid",
+               style);
+
   motion->init();
   if (!heat_value.init(lmp, fmt::format("fix {} heat", style), true))
     error->all(FLERR, "Variable {} for fix {} heat is neither of equal style nor of atom style",
@@ -219,6 +232,16 @@ void FixSPHWall::init()
     error->all(FLERR,
                "Fix {} heat: the fluid at the wall conducts no heat, keyword conductivity of "
                "pair_coeff",
+               style);
+  if (!gives_heat() || !fluid->model->choice.own_temperatures) return;
+  int cold = 0, any;    // where only the coefficients of pairs of types act
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit) && !conducts(atom->type[i])) cold = 1;
+  MPI_Allreduce(&cold, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any)
+    error->all(FLERR,
+               "Fix {} heat: with temp energy of the pair style, the types of the wall need "
+               "a conductivity as well, keyword conductivity of pair_coeff",
                style);
 }
 

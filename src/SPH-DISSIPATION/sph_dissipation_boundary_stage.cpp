@@ -37,6 +37,7 @@ using namespace SPHDissipation;
 // surface and at least 0.96 full inside of lattices: 32 kT.
 
 static constexpr double HARDNESS = 150.0;
+static constexpr double HARDNESS_OF_SOUND = 0.5;    // where there is no given T: of m c0^2
 static constexpr double CONTACT = 1.7;
 typedef WendlandC2 ContactKernel;
 
@@ -64,6 +65,7 @@ void BoundaryStage::add(Boundary *boundary)
   remove(boundary);
   boundaries.push_back(boundary);
   group_bits |= boundary->boundary_bit();
+  engine.has_walls = true;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -73,6 +75,7 @@ void BoundaryStage::remove(Boundary *boundary)
   boundaries.erase(std::remove(boundaries.begin(), boundaries.end(), boundary), boundaries.end());
   group_bits = 0;
   for (const auto &one : boundaries) group_bits |= one->boundary_bit();
+  engine.has_walls = !boundaries.empty();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -102,7 +105,9 @@ void BoundaryStage::extend_fluid(int i, const WallCondition &condition, const Su
 
 void BoundaryStage::set_heat(int i, WallHeat heat, double value, const Surface &surface_of)
 {
-  if (!heat_sum.empty() && heat_sum[i].weight > 0.0)
+  if (engine.parameters().own_temperatures)
+    engine.conductor[i] = {0.0, value, (heat == WallHeat::TEMPERATURE) ? 1.0 : 0.0, 0.0};
+  else if (!heat_sum.empty() && heat_sum[i].weight > 0.0)
     engine.conductor[i] = wall_conductor(heat, value, engine.particle[i].vol, conductivity(i),
                                          surface_of, heat_sum[i]);
 }
@@ -121,6 +126,15 @@ double *BoundaryStage::spin(int i)
 
 void BoundaryStage::run(NeighList *list)
 {
+  begin(list);
+  extend();
+  extend_temperatures(false);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::begin(NeighList *list)
+{
   if (nmax < atom->nmax) {
     nmax = atom->nmax;
     memory->sfree(sum);
@@ -134,8 +148,6 @@ void BoundaryStage::run(NeighList *list)
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
   for (auto boundary : boundaries) boundary->move_surface(*this, surface.surface, before);
-  extend();
-  extend_temperatures(false);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -167,9 +179,13 @@ void BoundaryStage::extend()
 void BoundaryStage::extend_temperatures(bool increments)
 {
   if (!conducts()) return heat_sum.clear();
-  accumulate_heat();
-  BoundaryHeatSum *const heat = heat_sum.data();
-  exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
+  if (engine.parameters().own_temperatures)
+    heat_sum.clear();
+  else {
+    accumulate_heat();
+    BoundaryHeatSum *const heat = heat_sum.data();
+    exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
+  }
   for (auto boundary : boundaries) boundary->set_heat(*this, surface.surface, increments);
   Conductor *const conductor = engine.conductor.data();
   exchange.forward({field(conductor, &conductor->vol, 4)});
@@ -214,7 +230,7 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow)
 
 bool BoundaryStage::has_energy() const
 {
-  return engine.parameters().thermal && !engine.parameters().own_temperatures;
+  return engine.parameters().thermal;
 }
 
 double BoundaryStage::over(int i) const
@@ -222,14 +238,39 @@ double BoundaryStage::over(int i) const
   return std::max(sum[i].occupied - 0.5, 0.0);
 }
 
-double BoundaryStage::stiffness() const
+double BoundaryStage::stiffness(int i) const
 {
-  return 2.0 * HARDNESS * force->boltz * engine.parameters().temperature;
+  const Parameters &par = engine.parameters();
+  if (!par.own_temperatures) return 2.0 * HARDNESS * force->boltz * par.temperature;
+  const double c0 = par.type[atom->type[i]].eos.c0;
+  return 2.0 * HARDNESS_OF_SOUND * atom->rmass[i] * c0 * c0;
 }
 
 int BoundaryStage::nforce() const
 {
   return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+}
+
+/* ----------------------------------------------------------------------
+   over() of ghosts too
+------------------------------------------------------------------------- */
+
+BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
+{
+  const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
+  WallForce force = {};
+  for (int d = 0; d < 3; d++) {
+    force.r[d] = f.x[d] - w.x[d];
+    force.approach -= force.r[d] * (f.u[d] - w.u[d]);
+  }
+  force.pressing =
+      engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * engine.pairs().slope[pair.entry];
+  const NearKernel &wall = contact[pair.wall];
+  const double s = over(pair.fluid), q = sqrt(inner_product(force.r, force.r)) * wall.scale;
+  if (s > 0.0 && q < 1.0)
+    force.repulsion =
+        stiffness(pair.fluid) * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
+  return force;
 }
 
 /* ----------------------------------------------------------------------
@@ -240,7 +281,6 @@ void BoundaryStage::repel(PairTally *tally)
 {
   if (!has_energy()) return;
   exchange.forward({field(sum, &sum->occupied, 1)});
-  const double *const slope = engine.pairs().slope;
   const int nall = atom->nlocal + atom->nghost, n = nforce();
 
   auto add_force = [&](int i, const double *f) {
@@ -255,31 +295,17 @@ void BoundaryStage::repel(PairTally *tally)
   auto visit = [&](const std::vector<BoundaryPair> &some, const auto &force_on,
                    const auto &heat_of) {
     for (const auto &pair : some) {
-      const Particle &f = engine.particle[pair.fluid];
-      const Particle &w = engine.particle[pair.wall];
-      double r[3], approach = 0.0;
-      for (int d = 0; d < 3; d++) {
-        r[d] = f.x[d] - w.x[d];
-        approach -= r[d] * (f.u[d] - w.u[d]);
-      }
-      const double pressing =
-          engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * slope[pair.entry];
-      heat_of(pair.fluid, pressing * approach);
-
-      const NearKernel &wall = contact[pair.wall];
-      const double s = over(pair.fluid), q = sqrt(inner_product(r, r)) * wall.scale;
-      if (!(s > 0.0 && q < 1.0)) continue;
-      const double repulsion =
-          stiffness() * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
-      heat_of(pair.fluid, repulsion * approach);
+      const WallForce force = force_of(pair);
+      heat_of(pair.fluid, (force.pressing + force.repulsion) * force.approach);
+      if (force.repulsion == 0.0) continue;
       double push[3], minus[3];
       for (int d = 0; d < 3; d++) {
-        push[d] = repulsion * r[d];
+        push[d] = force.repulsion * force.r[d];
         minus[d] = -push[d];
       }
       force_on(pair.fluid, push);
       force_on(pair.wall, minus);
-      if (tally) tally->tally(pair.fluid, pair.wall, push, r);
+      if (tally) tally->tally(pair.fluid, pair.wall, push, force.r);
     }
   };
 
@@ -310,18 +336,54 @@ void BoundaryStage::repel(PairTally *tally)
 
 /* ---------------------------------------------------------------------- */
 
+void BoundaryStage::find_energies(double missing)
+{
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  std::vector<double> each(nall, 0.0), work(nall, 0.0);
+  exchange.forward({field(sum, &sum->occupied, 1)});
+  add_energies(nall, [&](int i, double energy) {
+    each[i] += energy;
+  });
+  pairs.visit([&](const BoundaryPair &pair) {
+    const WallForce force = force_of(pair);
+    work[pair.fluid] += (force.pressing + force.repulsion) * force.approach;
+  });
+  exchange.reverse({{each.data(), 1, 1}, {work.data(), 1, 1}});
+  std::copy_n(each.begin(), nlocal, engine.wall_energy.begin());
+  for (int i = 0; i < nlocal; i++) engine.rows().esph[i] += missing * work[i];
+}
+
+void BoundaryStage::find_energies_at_rest(NeighList *list)
+{
+  set_reference_volume();
+  begin(list);
+  extend();
+  find_energies(0.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
 double BoundaryStage::energy(double *each_atom) const
 {
   if (!has_energy()) return 0.0;
-  const Parameters &par = engine.parameters();
   double total = 0.0;
-  auto add = [&](int i, double energy) {
+  add_energies(nforce(), [&](int i, double energy) {
     total += energy;
     if (each_atom) each_atom[i] += energy;
-  };
+  });
+  return total;
+}
+
+/* ----------------------------------------------------------------------
+   add(i, energy) for pairs of the first n atoms, and for each owned atom
+------------------------------------------------------------------------- */
+
+void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &add) const
+{
+  const Parameters &par = engine.parameters();
   with_kernel(engine.parameters().kernel, [&](auto k) {
     pairs.visit([&](const BoundaryPair &pair) {
-      if (pair.fluid >= nforce()) return;
+      if (pair.fluid >= n) return;
       const Particle &w = engine.particle[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = engine.particle[pair.fluid].x[d] - w.x[d];
@@ -332,8 +394,7 @@ double BoundaryStage::energy(double *each_atom) const
     return 0;
   });
   for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & group_bits)) add(i, 0.5 * stiffness() * over(i) * over(i));
-  return total;
+    if (!(atom->mask[i] & group_bits)) add(i, 0.5 * stiffness(i) * over(i) * over(i));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -19,6 +19,7 @@
 #include "sph_dissipation_surface.h"
 #include "sph_dissipation_wall_terms.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,15 @@ namespace SPHDissipation {
     // walls from the internal energies
 
     void repel(PairTally *);
+
+    // The same energy, of each particle, is no heat: after run(), where particles have temperatures, into the engine,
+    // which has the energies that lack the work over this time.
+
+    void find_energies(double missing);
+
+    // After pass 1: these energies where the particles are, without what it needs the motion for
+
+    void find_energies_at_rest(NeighList *);
 
     // add that energy to those of the particles (nullptr: to none); return its sum on this processor
 
@@ -124,7 +134,17 @@ namespace SPHDissipation {
     bool has_energy() const;    // with thermal noise
     double conductivity(int i) const;
     double over(int i) const;
-    double stiffness() const;
+    double stiffness(int i) const;
+    void begin(NeighList *);
+
+    // what pair of the fluid and a wall does: force on the particle of the fluid along r by the pressure of the wall, times
+    // 1/r, and by the repulsion; minus r.u
+
+    struct WallForce {
+      double r[3], approach, pressing, repulsion;
+    };
+    WallForce force_of(const BoundaryPair &) const;
+    void add_energies(int n, const std::function<void(int, double)> &add) const;
     int nforce() const;    // # of owned and, with newton on, ghost particles
     void set_near();
     void find_rows(NeighList *);

@@ -242,6 +242,7 @@ StrainRows Engine::strains() const
   StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho, atom->drho,
                      par->eos,         atom->esph, atom->desph, {}};
   if (par->nprocess) std::copy_n(Fields::of(atom)->rho_relaxed, par->nprocess, rows.relaxed);
+  if (static_cast<int>(wall_energy.size()) > atom->nlocal) rows.by_walls = wall_energy.data();
   return rows;
 }
 
@@ -310,6 +311,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     conductor.resize(nmax + BLOCK);
     std::fill_n(conductor.begin() + nall, BLOCK, Conductor());
   }
+  wall_energy.resize((par->own_temperatures && has_walls) ? nmax : 0);
   set_rows();
   set_weights();
 
@@ -353,13 +355,13 @@ void Engine::run_density(Loop loop)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_heat(std::vector<double> &flow, const NoiseData *noise)
+void Engine::accumulate_heat(std::vector<double> &flow)
 {
   const int nall = atom->nlocal + atom->nghost;
-  const HeatLoop loop = loops->heat(par->conducts_alike, noise);
+  const HeatLoop loop = loops->heat(par->conducts_alike);
   flow.assign(nall + BLOCK, 0.0);
   scalar_sums.run(*threads, flow.data(), flow.size(), [&](int k, double *sum) {
-    loop(part(k), conductor.data(), noise, sum);
+    loop(part(k), conductor.data(), sum);
   });
 }
 
@@ -490,7 +492,7 @@ LoopData Engine::part(PairSubset &some) const
 
 void Engine::accumulate_heat(PairSubset &some, double *flow) const
 {
-  loops->heat(par->conducts_alike, false)(part(some), conductor.data(), nullptr, flow);
+  loops->heat(par->conducts_alike)(part(some), conductor.data(), flow);
 }
 
 void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum *torque_out,

@@ -91,7 +91,7 @@ namespace SPHDissipation {
 
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
-  typedef void (*HeatLoop)(const LoopData &, const Conductor *, const NoiseData *, double *flow);
+  typedef void (*HeatLoop)(const LoopData &, const Conductor *, double *flow);
 
   // Positions and indices of particles, sorted into cells; candidates for neighbors, relative to the corner of a cell.
   // Both have room for a vector of 16 numbers behind the last entry
@@ -118,8 +118,7 @@ namespace SPHDissipation {
     NoiseLoop (*noise_sums)(const NoiseForm &);
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int from, int to, int n, int count,
                              double *numbers);
-    HeatLoop (*heat)(bool alike,
-                     bool noise);    // alike: the same conductivity of all particles that conduct
+    HeatLoop (*heat)(bool alike);    // the same conductivity of all particles that conduct
     void (*take_candidates)(const PlaceColumns &, int from, int to, const double *corner,
                             CandidateColumns &);
     // write the indices of candidates nearer to a place than the root of bound, return how many; doubt: one is not
@@ -202,9 +201,8 @@ namespace SPHDissipation {
     // the same as accumulate_forces() without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *);
 
-    // heat per time that owned and ghost atoms get by conduction, of conductor[], with noise unless it is nullptr; room
-    // for the spare ones
-    void accumulate_heat(std::vector<double> &flow, const NoiseData *noise = nullptr);
+    // heat per time that owned and ghost atoms get by conduction, of conductor[]; room for the spare ones
+    void accumulate_heat(std::vector<double> &flow);
 
     // forces, torques, heat and divergence of those pairs alone, and their conduction, added to arrays with room for the
     // spare particles; after pass 2
@@ -266,6 +264,8 @@ namespace SPHDissipation {
     std::vector<Conductor> conductor;    // the same, if any type conducts heat
     std::vector<double>
         energy;    // the same, internal energy, if particles have the noise of their temperatures
+    std::vector<double> wall_energy;    // what walls hold of it, of owned atoms; empty: nothing
+    bool has_walls = false;
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     Spin *spin;            // micropolar only
 

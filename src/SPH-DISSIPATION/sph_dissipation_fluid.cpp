@@ -261,7 +261,7 @@ bigint Fluid::compute(PairTally *tally)
   if (shift->wanted) sum_gradient();
   sum_forces(tally);
   if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
-  if (par.conducts) sum_heat();
+  if (par.conducts && !par.own_temperatures) sum_heat();
   if (!open->empty()) open->sum_impacts(neighbors());
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
   if (model->choice.own_temperatures) noise->share_work();
@@ -286,6 +286,7 @@ bigint Fluid::sum_before_forces()
   const bigint nbeyond = set_pressure();
   if (!open->empty()) open->run();
   if (walls) set_boundary();
+  if (walls && model->choice.own_temperatures) boundary->find_energies(missing_time());
   if (model->choice.thermal) noise->run(bound(), boundary->bits(), continued);
   return nbeyond;
 }
@@ -395,16 +396,19 @@ void Fluid::sum_forces(PairTally *tally)
 
 void Fluid::sum_heat()
 {
-  conduction->run(model->choice.thermal ? &noise->numbers_of_step() : nullptr,
-                  [this](std::vector<double> &flow) {
-                    boundary->add_surface_heat(flow);
-                  });
+  conduction->run([this](std::vector<double> &flow) {
+    boundary->add_surface_heat(flow);
+  });
 }
 
 double Fluid::received_heat(int groupbit) const
 {
-  const bool conducts = model->parameters().conducts && pair->compute_flag;
-  return conducts ? conduction->received(groupbit) : 0.0;
+  if (!model->parameters().conducts || !pair->compute_flag) return 0.0;
+  if (!model->choice.own_temperatures) return conduction->received(groupbit);
+  double total = 0.0;    // pass 2 leaves nothing else with them
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) total += atom->desph[i];
+  return total;
 }
 
 /* ----------------------------------------------------------------------
@@ -483,6 +487,8 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
   double *const desph_before = Fields::of(atom)->desph_before;
   on_host([&]() {
     density->run(neighbors(), nullptr, nullptr);
+    if (!boundary->empty() && model->choice.own_temperatures)
+      boundary->find_energies_at_rest(neighbors());
     const StrainRows strains = engine->strains();
     const int zone_bits = open->bits_of(groupbit);
     for (int i = 0; i < atom->nlocal; i++) {

@@ -244,6 +244,7 @@ namespace SPHDissipation {
       const Particle *const particle = data.particle;
       const PairCoeff *const table = data.par->pair.data();
       const bool uniform = data.par->uniform;
+      const double *const weight = (data.par->volume == Volume::MASS) ? data.weight : nullptr;
       Coeffs<PairCoeff, Form> coeffs(table[data.par->ntypes_1 + 1]);
       Noise noise(data);
 
@@ -272,8 +273,8 @@ namespace SPHDissipation {
 
           pair.central = pressing_term(pi.g, g, slope);
           Vec pressing = slope;
-          if constexpr (WEIGHTED) {
-            const Vec weights = data.weight[i] * gather(data.weight, j);
+          if (WEIGHTED && weight) {
+            const Vec weights = weight[i] * gather(weight, j);
             pair.central *= weights;
             pressing *= weights;
           }
@@ -328,10 +329,20 @@ namespace SPHDissipation {
           Vec heat_j = heat;
           if constexpr (Noise::ENERGY) {
             const Vec work = 0.5 * noise.power(pair.approach, pair.u[0], pair.u[1], pair.u[2]);
-            const Vec viscous[3] = {pair.f[0] - by_pressure * pair.r[0],
-                                    pair.f[1] - by_pressure * pair.r[1],
-                                    pair.f[2] - by_pressure * pair.r[2]};
-            given += noise.given(viscous, rsq, pressing);
+            const Vec viscous = pair.central - by_pressure;
+            Vec square = viscous * viscous * rsq;
+            if constexpr (Form::VECTOR || !Noise::CENTRAL_ONLY) {
+              const Vec f[3] = {pair.f[0] - by_pressure * pair.r[0],
+                                pair.f[1] - by_pressure * pair.r[1],
+                                pair.f[2] - by_pressure * pair.r[2]};
+              square = dot(f, f);
+            }
+            given += noise.given(square, rsq, pressing);
+            if constexpr (Noise::CONDUCTS) {
+              Vec half = heat - work;    // a wall gives its one to the fluid
+              if constexpr (Form::SPINS) half += pair.heat[VORTEX] + pair.heat[DIFFUSION];
+              given += noise.flow + noise.wall * (half - noise.wall * given);
+            }
             heat -= work - given;
             heat_j -= work + given;
           }
@@ -354,14 +365,11 @@ namespace SPHDissipation {
       }
     }
 
-    // conduction of heat, after pass 2; ALIKE: particles with a volume have the same conductivity; NOISE: with a random
-    // flow, one number of each pair, of the particle with the lower ID
+    // conduction of heat, after pass 2; ALIKE: particles with a volume have the same conductivity
 
-    template <bool ALIKE, bool NOISE>
-    void heat_loop(const LoopData &data, const Conductor *conductor, const NoiseData *noise,
-                   double *flow)
+    template <bool ALIKE>
+    void heat_loop(const LoopData &data, const Conductor *conductor, double *flow)
     {
-      const NoiseStep step(NOISE ? *noise : NoiseData(), NoiseChannel::HEAT);
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         const Conductor own = conductor[i];
@@ -381,16 +389,8 @@ namespace SPHDissipation {
             load_4_columns<WIDTH<Conductor>>(numbers(conductor), j, other);
             mean = minus * mean_conductivity(own.conductivity, other[2]);
           }
-          const Vec vol = other[0] * load(slope_of + k);
-          Vec given = heat_flow(mean, vol, own.temperature, other[1]);
-          if constexpr (NOISE) {
-            const PairCounter counter(step, noise->tag[i], gather(noise->tag, j));
-            Words random[4];
-            philox(counter.word, step.pair, random);
-            const Vec square = heat_noise(-mean, vol, own.temperature, other[1]);
-            given -= counter.sign * uniform(random[0]) *
-                square_root(noise->heat * if_positive(square, square));
-          }
+          const Vec given =
+              heat_flow(mean, other[0] * load(slope_of + k), own.temperature, other[1]);
           total -= given;
           add_column<1>(flow, j, given);
         }
@@ -398,10 +398,9 @@ namespace SPHDissipation {
       }
     }
 
-    inline HeatLoop choose_heat_loop(bool alike, bool noise)
+    inline HeatLoop choose_heat_loop(bool alike)
     {
-      if (noise) return alike ? heat_loop<true, true> : heat_loop<false, true>;
-      return alike ? heat_loop<true, false> : heat_loop<false, false>;
+      return alike ? heat_loop<true> : heat_loop<false>;
     }
 
     template <bool WEIGHTED> Loop choose_kernel(Kernel kernel)
@@ -467,7 +466,9 @@ namespace SPHDissipation {
         using F = decltype(terms);
         loop = (form.kind == NoiseKind::DIRECTED) ? choose_noise<F, NoiseKind::DIRECTED>(form.dim)
             : (form.kind == NoiseKind::ENERGY)    ? choose_noise<F, NoiseKind::ENERGY>(form.dim)
-                                                  : choose_noise<F, NoiseKind::PLAIN>(form.dim);
+            : (form.kind == NoiseKind::CONDUCTION)
+            ? choose_noise<F, NoiseKind::CONDUCTION>(form.dim)
+            : choose_noise<F, NoiseKind::PLAIN>(form.dim);
       });
       return loop;
     }

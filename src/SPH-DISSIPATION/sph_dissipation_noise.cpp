@@ -45,15 +45,13 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   if (neighbor->ago == 0) check_box();
   const bool energy = engine.parameters().own_temperatures;
   form = {engine.parameters().shear, engine.parameters().dim,
-          energy ? NoiseKind::ENERGY : NoiseKind::PLAIN};
+          !energy                                         ? NoiseKind::PLAIN
+              : engine.parameters().conducts || not_fluid ? NoiseKind::CONDUCTION
+                                                          : NoiseKind::ENERGY};
   for (int type = 1; type <= atom->ntypes; type++)
     if (!energy && bound && !engine.parameters().type[type].other &&
         engine.parameters().type[type].zeta < 0.0)
       form.kind = NoiseKind::DIRECTED;
-  if (energy && not_fluid)
-    error->all(FLERR, Error::NOLASTLINE,
-               "Pair style with temp energy cannot be used with walls, whose particles have no "
-               "temperature");
 
   // the force of a step is that of an impulse over its time
 
@@ -64,8 +62,8 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
 
   set_tags();
-  if (energy && (neighbor->ago == 0 || update->setupflag)) find_masses();
-  if (energy) set_temperatures(continued);
+  if (energy && (neighbor->ago == 0 || update->setupflag)) find_masses(not_fluid);
+  if (energy) set_temperatures(continued, not_fluid);
   data.heat = 2.0 * force->boltz / update->dt;
   add_pressure(factor, not_fluid);
   if (engine.parameters().drag) add_drag(factor, not_fluid);
@@ -122,22 +120,28 @@ void NoiseStage::set_tags()
    A particle without heat has temperature 0: it gets no noise, and friction warms it.
 ------------------------------------------------------------------------- */
 
-void NoiseStage::set_temperatures(bool continued)
+void NoiseStage::set_temperatures(bool continued, int not_fluid)
 {
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
   const bool spins = engine.has_spin();
   const StrainRows &strains = engine.rows().strains;
   const double *const inertia = Fields::of(atom)->inertia;
+  constexpr double SMALLEST = 1.0e-300;    // not 0, for walls have a negative one
   row.resize(nall + BLOCK);
   if (spins) spin_mobility.assign(nall + BLOCK, 0.0);
   std::fill_n(row.begin() + nall, BLOCK, NoiseRow());
   const int without = engine.team().sum<int>(nall, [&](int i, int &count) {
     const int type = atom->type[i];
-    row[i] = NoiseRow();
+    row[i] = {tag[i], 0.0, 0.0, 0.0};
     if (engine.parameters().type[type].other) return;
+    if (atom->mask[i] & not_fluid) {
+      const bool passes = engine.parameters().conducts && engine.conductor[i].conductivity > 0.0;
+      row[i].temperature = -std::max(passes ? engine.conductor[i].temperature : 1.0, SMALLEST);
+      row[i].pressure = passes ? 1.0 : 0.0;
+      return;
+    }
     const double capacity = atom->rmass[i] * engine.parameters().type[type].heat_capacity;
-    row[i].softness = force->boltz / capacity;
     row[i].mobility = update->dt * force->ftm2v / atom->rmass[i];
     if (i >= nlocal) return;
     if (spins && inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / inertia[i];
@@ -182,6 +186,11 @@ bool NoiseStage::set_coeffs(double factor)
     coeff[k].spin_along = sqrt(factor * friction.spin_along);
     coeff[k].spin_across = sqrt(factor * friction.spin_across);
     coeff[k].inverse_central = (friction.along > 0.0) ? 1.0 / friction.along : 0.0;
+    const TypeParameters &first = par.type[k / par.ntypes_1], &second = par.type[k % par.ntypes_1];
+    coeff[k].conductivity =
+        HeatChannel::mean(first.keywords.a[CONDUCTIVITY], second.keywords.a[CONDUCTIVITY]);
+    if (second.heat_capacity > 0.0)
+      coeff[k].softness = force->boltz / (update->dt * force->ftm2v * second.heat_capacity);
     if (friction.along > 0.0 || friction.across > 0.0 || friction.spin_along > 0.0 ||
         friction.spin_across > 0.0)
       any = true;
@@ -205,23 +214,25 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
 {
   const int nall = atom->nlocal + atom->nghost;
   engine.draw_numbers(data, NoiseChannel::PRESSURE, nall, 1, pressure.data());
+  const bool energy = engine.parameters().own_temperatures;
   std::vector<double> amplitude(atom->ntypes + 1, 0.0);
   for (int type = 1; type <= atom->ntypes; type++)
     if (!engine.parameters().type[type].other)
-      amplitude[type] = sqrt(factor * std::max(engine.parameters().type[type].zeta, 0.0));
+      amplitude[type] = factor * std::max(engine.parameters().type[type].zeta, 0.0);
+  for (int type = 1; type <= atom->ntypes && !energy; type++)
+    amplitude[type] = sqrt(amplitude[type]);
   engine.for_each(nall, [&](int i) {
     const double strength = amplitude[atom->type[i]];
     if (!(strength > 0.0) || (atom->mask[i] & not_fluid)) return;
     Particle &particle = engine.particle[i];
     const double c_inv = particle.vol / engine.weight(i);
-    const double random = strength * pressure[i] / sqrt(particle.vol);
-    if (form.kind == NoiseKind::ENERGY) {
-      const double own = random * sqrt(row[i].temperature);
+    if (energy) {
+      const double own = pressure[i] * sqrt(strength * row[i].temperature / particle.vol);
       row[i].pressure = own * c_inv * c_inv;
       engine.zeta_term[i] += own;
       particle.g += row[i].pressure;
     } else
-      particle.g += random * c_inv * c_inv;
+      particle.g += strength * pressure[i] / sqrt(particle.vol) * c_inv * c_inv;
   });
 }
 
@@ -275,11 +286,11 @@ void NoiseStage::draw_for_strain()
 
 /* ---------------------------------------------------------------------- */
 
-void NoiseStage::find_masses()
+void NoiseStage::find_masses(int not_fluid)
 {
   double own[2] = {-1.0e300, -1.0e300}, all[2];    // minus the smallest one, the largest one
   for (int i = 0; i < atom->nlocal; i++) {
-    if (engine.parameters().type[atom->type[i]].other) continue;
+    if (engine.parameters().type[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
     own[0] = std::max(own[0], -atom->rmass[i]);
     own[1] = std::max(own[1], atom->rmass[i]);
   }
@@ -299,7 +310,7 @@ void NoiseStage::share_work()
   acceleration.assign(3 * static_cast<std::size_t>(nall + BLOCK), 0.0);
   flow.assign(nall, 0.0);
   engine.for_each(nlocal, [&](int i) {
-    for (int d = 0; d < 3; d++)
+    for (int d = 0; d < 3 && row[i].temperature >= 0.0; d++)
       acceleration[3 * i + d] = force->ftm2v * engine.force[i].f[d] / atom->rmass[i];
   });
   exchange.forward({{acceleration.data(), 3, 3}});
@@ -307,6 +318,7 @@ void NoiseStage::share_work()
   const LoopData &pairs = engine.pairs();
   const double half = 0.5 * update->dt;
   engine.sum_pairs(flow_sums, flow.data(), nall, [&](int i, int j, bigint entry, double *sum) {
+    if (row[i].temperature < 0.0 || row[j].temperature < 0.0) return;
     const Particle &a = engine.particle[i], &b = engine.particle[j];
     double by_i = 0.0, by_j = 0.0;
     for (int d = 0; d < 3; d++) {

@@ -36,7 +36,8 @@ namespace SPHDissipation {
   //
   // temp energy: each particle has the temperature T_i of its heat, what its internal energy has beyond the elastic one.
   // Pairs have T_ij = 2 T_i T_j/(T_i + T_j) and less friction, so that exp(S/k) prod dS_i is stationary, and conduction
-  // has a random flow, see the theory page.
+  // has a random flow, see the theory page.  Friction with a wall has T_i and the heat of the particle of the fluid alone,
+  // a wall with a temperature is a heat bath for the flow.  Pass 2 then conducts the heat, too: all of a pair is at hand there.
 
   class NoiseStage : public Stage {
    public:
@@ -53,10 +54,6 @@ namespace SPHDissipation {
     // kick, and a particle has not of what it pays for its own kick, see the theory page
 
     void share_work();
-
-    // what the random flow of heat needs, after run()
-
-    const NoiseData &numbers_of_step() const { return data; }
 
     // The noise of the relaxing processes of owned particles, for RelaxStage::advance(), after the forces of the last
     // step, in the next one
@@ -81,8 +78,8 @@ namespace SPHDissipation {
     void check_box() const;
     void set_tags();
     void count_step();
-    void find_masses();
-    void set_temperatures(bool continued);
+    void find_masses(int not_fluid);
+    void set_temperatures(bool continued, int not_fluid);
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);

@@ -28,8 +28,7 @@ namespace SPHDissipation {
     PRESSURE,
     PAIR,
     DRAG,
-    STRAIN,    // one for every four processes
-    HEAT = STRAIN + (MOST_PROCESSES + 3) / 4
+    STRAIN    // and those that follow, one for every four processes
   };
 
   // the step of the last random numbers, and what is added to a step to get numbers that no step before had
@@ -47,13 +46,16 @@ namespace SPHDissipation {
     double spin_along;         // of the spins, along e
     double spin_across;        // across e
     double inverse_central;    // 1 / what the shear term puts before (u.e)^2, or 0
+    double conductivity;       // of heat
+    double softness;           // k/(dt cv) of the second one
   };
 
-  // of a particle that has a temperature of its own
+  // Of a particle that has a temperature of its own.  One of a wall has minus the temperature of the wall, no mobility,
+  // and 1 or 0 instead of the pressure: whether heat passes its surface.
 
   struct NoiseRow {
+    double tag;    // ID
     double temperature;
-    double softness;    // k over its heat capacity
     double mobility;    // dt/m
     double pressure;    // random pressure / c^2
   };
@@ -73,12 +75,15 @@ namespace SPHDissipation {
     double *eta;                // sums of the numbers of a particle, accumulated
   };
 
-  constexpr int MOST_NUMBERS = 8;    // of a pair
+  constexpr int MOST_NUMBERS =
+      15;    // that are kept of a pair: 8 random ones, 7 of the temperatures
 
   // DIRECTED: two numbers along e, one of each partner
   // ENERGY: at the temperatures of the particles, with the energy of motion and heat together constant
 
-  enum class NoiseKind { PLAIN, DIRECTED, ENERGY };
+  // CONDUCTION: the same with conduction and its random flow, and with walls
+
+  enum class NoiseKind { PLAIN, DIRECTED, ENERGY, CONDUCTION };
 
   // which numbers a pair needs
 

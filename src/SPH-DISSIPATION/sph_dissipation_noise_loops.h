@@ -22,25 +22,29 @@
 //   3d: 0 to 2 = vector
 //   3d with more, 16 bits each: 0 to 2 = vector, 3 = along e, 4 to 6 = vector of the spin, 7 = back
 // "Back" is the number of the particle with the higher ID, if each of both has its own along e, then "along e" is that
-// of the other one.  Vectors are those of the particle with the lower ID, and opposite for the other one; numbers along
-// and across e need no sign, since e_ji = -e_ij.
+// of the other one.  With a random flow of heat, which never needs it, it is the number of this; so is number 3 of
+// three-dimensional vectors.  Vectors and the flow are those of the particle with the lower ID, and opposite for the
+// other one; numbers along and across e need no sign, since e_ji = -e_ij.
 
-template <int ACROSS, bool SPIN, bool DIRECTED> struct PairNumbers {
+template <int ACROSS, bool SPIN, bool DIRECTED, bool CONDUCTS = false> struct PairNumbers {
   static constexpr bool MANY = (ACROSS == 3 && (SPIN || DIRECTED));
   static constexpr int NONE = -1;
   static constexpr int ALONG = MANY ? 3 : (ACROSS == 3) ? NONE : 0;
   static constexpr int BACK = MANY ? 7 : (ACROSS == 3) ? NONE : (ACROSS == 2) ? 3 : 1;
+  static constexpr int FLOW = (BACK == NONE) ? 3 : BACK;
   static constexpr int N = MANY ? 8 : 4;
   Vec z[N];
 
   static constexpr bool is_used(int k)
   {
+    if (k == FLOW && CONDUCTS) return true;
     if (k == BACK) return DIRECTED;
     if (k == ALONG) return DIRECTED || ACROSS != 3;
     return k < ACROSS || (SPIN && is_of_vector(k));
   }
   static constexpr bool is_of_vector(int k)
   {
+    if (k == FLOW && CONDUCTS) return true;
     return (ACROSS == 3) ? k != ALONG && k != BACK : ACROSS == 2 && k == 2;
   }
 
@@ -63,8 +67,8 @@ struct NoiseStep {
   PhiloxKeys pair;
   std::uint64_t low, high;
 
-  NoiseStep(const NoiseData &data, NoiseChannel channel = NoiseChannel::PAIR) :
-      pair(keys_of(data, channel)), low(data.step & 0xffffffff), high(data.step >> 32)
+  NoiseStep(const NoiseData &data) :
+      pair(keys_of(data, NoiseChannel::PAIR)), low(data.step & 0xffffffff), high(data.step >> 32)
   {
   }
   static PhiloxKeys keys_of(const NoiseData &data, NoiseChannel channel)
@@ -95,11 +99,14 @@ struct PairCounter {
 
 // numbers of NoiseCoeff
 
-enum { CENTRAL, TRANSVERSE, SPIN_ALONG, SPIN_ACROSS, INVERSE_CENTRAL };
-template <int ACROSS, bool SPIN> struct NoiseUses {
+enum { CENTRAL, TRANSVERSE, SPIN_ALONG, SPIN_ACROSS, INVERSE_CENTRAL, PAIR_CONDUCTION, SOFTNESS };
+template <int ACROSS, bool SPIN, NoiseKind KIND> struct NoiseUses {
   static constexpr bool uses(int k)
   {
-    return k == CENTRAL || k == INVERSE_CENTRAL || (k == TRANSVERSE && ACROSS > 0) || SPIN;
+    if (k == INVERSE_CENTRAL) return KIND == NoiseKind::DIRECTED;
+    if (k == PAIR_CONDUCTION) return KIND == NoiseKind::CONDUCTION;
+    if (k == SOFTNESS) return KIND == NoiseKind::ENERGY || KIND == NoiseKind::CONDUCTION;
+    return k == CENTRAL || (k == TRANSVERSE && ACROSS > 0) || SPIN;
   }
 };
 
@@ -114,7 +121,8 @@ SPH_INLINE Vec root_of(Vec slope, Vec metric, Vec inverse_central)
 
 template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseData &data)
 {
-  Coeffs<NoiseCoeff, NoiseUses<0, false>> coeff(data.coeff[pairs.par->ntypes_1 + 1]);
+  Coeffs<NoiseCoeff, NoiseUses<0, false, NoiseKind::DIRECTED>> coeff(
+      data.coeff[pairs.par->ntypes_1 + 1]);
   const NoiseStep step(data);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
@@ -148,7 +156,7 @@ template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseD
 // what pass 2 adds to the force and torques of a block of pairs
 
 struct NoNoise {
-  static constexpr bool ON = false, VECTOR = false, ENERGY = false;
+  static constexpr bool ON = false, VECTOR = false, ENERGY = false, CONDUCTS = false;
   SPH_INLINE NoNoise(const LoopData &) {}
   SPH_INLINE void begin(int) {}
 };
@@ -157,15 +165,18 @@ struct NoNoise {
 // of one block overlaps with those of the next ones.
 
 template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
-  static constexpr bool ON = true, VECTOR = (ACROSS == 3);
+  static constexpr bool ON = true, VECTOR = (ACROSS == 3), CENTRAL_ONLY = (ACROSS == 0);
   static constexpr bool DIRECTED = (KIND == NoiseKind::DIRECTED);
-  static constexpr bool ENERGY = (KIND == NoiseKind::ENERGY);
+  static constexpr bool CONDUCTS = (KIND == NoiseKind::CONDUCTION);
+  static constexpr bool ENERGY = (KIND == NoiseKind::ENERGY || CONDUCTS);
 
   Vec central;      // force on i along r_ij, times 1/r
   Vec rest[3];      // and in other directions, if there is any
   Vec torque[3];    // on both, which balances the force
   Vec spin[3];      // torque on i, opposite on j
   Vec friction;     // factor of that of the pair, if ENERGY
+  Vec flow;         // heat that i gets from j per time, if CONDUCTS
+  Vec wall;         // the same: 1 where j is of a wall, -1 where i is
 
   SPH_INLINE PairNoise(const LoopData &pairs) :
       pairs(pairs), data(*pairs.noise), step(data), coeff(data.coeff[pairs.par->ntypes_1 + 1])
@@ -174,19 +185,52 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   SPH_INLINE void begin(int ii)
   {
     i = pairs.ilist[ii];
+    if constexpr (ENERGY)
+      own_softness = data.coeff[pairs.type[i] * pairs.par->ntypes_1 + pairs.type[i]].softness;
     const int n = pairs.count[ii];
     const int *const neighbor = pairs.neighbor + pairs.first[ii];
     next = pairs.random;
     for (int k = 0; k < n; k += LANES) {
-      const PairCounter counter(step, data.tag[i], gather(data.tag, neighbor + k));
+      Vec tag;
+      if constexpr (ENERGY) {
+        Vec other[NROW];
+        load_4_columns<WIDTH<NoiseRow>>(numbers(data.row), neighbor + k, other);
+        tag = other[TAG];
+        Vec own = all(data.row[i].temperature), its = other[TEMPERATURE];
+        if constexpr (CONDUCTS) set_wall(own, its, other[PRESSURE]);
+        const Vec inverse = 1.0 / (own + its + TINY);
+        const Vec share = own * its * inverse;
+        keep(2.0 * share);
+        keep(share * inverse);
+        keep(other[MOBILITY]);
+        keep(other[PRESSURE]);
+      } else
+        tag = gather(data.tag, neighbor + k);
+      const PairCounter counter(step, data.tag[i], tag);
       const Numbers random(counter.word, step.pair);
-      for (int c = 0; c < Numbers::N; c++) {
-        if (!Numbers::is_used(c)) continue;
-        store(next, Numbers::is_of_vector(c) ? counter.sign * random.z[c] : random.z[c]);
-        next += LANES;
-      }
+      for (int c = 0; c < Numbers::N; c++)
+        if (Numbers::is_used(c))
+          keep(Numbers::is_of_vector(c) ? counter.sign * random.z[c] : random.z[c]);
     }
     next = pairs.random;
+  }
+
+  // Friction with a wall has the temperature and the heat of the particle of the fluid alone.  What conducts: 1, or that of
+  // the wall; wall: 1 where j is one, -1 where i is one
+
+  SPH_INLINE void set_wall(Vec &own, Vec &its, Vec passes)
+  {
+    keep(larger(its, -its));
+    if (data.row[i].temperature < 0.0) {
+      keep(all(data.row[i].pressure));
+      keep(all(-1.0));
+      own = its;
+      return;
+    }
+    const Vec wall = if_positive(-its, all(1.0));
+    keep(1.0 - wall + wall * passes);
+    keep(wall);
+    its += wall * (own - its);
   }
 
   // d = r_ij, by_metric = vv/metric, inverse = 1/r^2 if VECTOR
@@ -195,21 +239,31 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
                        Vec by_metric, Vec inverse)
   {
     if (!pairs.par->uniform) coeff.load(data.coeff, pairs, i, j, n);
-    Vec z[Numbers::N];
-    for (int c = 0; c < Numbers::N; c++) {
-      if (!Numbers::is_used(c)) continue;
-      z[c] = load(next);
-      next += LANES;
+    Vec z[Numbers::N], temperature, passes, common;
+    if constexpr (CONDUCTS) {
+      temperature = kept();
+      passes = kept();
+      wall = kept();
     }
-
     if constexpr (ENERGY) {
-      load_4_columns<WIDTH<NoiseRow>>(numbers(data.row), j, other);
-      if constexpr (SPIN) other_spin_mobility = gather(data.spin_mobility, j);
-      const NoiseRow &own = data.row[i];
-      const Vec sum = own.temperature + other[TEMPERATURE] + TINY;
-      const Vec share_i = own.temperature / sum, share_j = other[TEMPERATURE] / sum;
-      const Vec common = 2.0 * own.temperature * share_j;
-      friction = 1.0 - share_i * share_j * (own.softness + other[SOFTNESS]);
+      common = kept();
+      Vec share = kept();
+      mobility = kept();
+      pressure = kept();
+      if constexpr (SPIN) spin_mobility = gather(data.spin_mobility, j);
+      if constexpr (CONDUCTS) share *= 1.0 - wall * wall;
+      friction = 1.0 - share * (data.row[i].mobility * own_softness + mobility * coeff.a[SOFTNESS]);
+    }
+    for (int c = 0; c < Numbers::N; c++)
+      if (Numbers::is_used(c)) z[c] = kept();
+    if constexpr (CONDUCTS) {
+      const double own = std::fabs(data.row[i].temperature);
+      const Vec conductivity = coeff.a[PAIR_CONDUCTION] * passes;
+      flow = heat_flow(conductivity, vv, own, temperature) +
+          z[Numbers::FLOW] *
+              square_root(data.heat * heat_noise(conductivity, vv, own, temperature));
+    }
+    if constexpr (ENERGY) {
       vv *= common;
       by_metric *= common;
     }
@@ -295,15 +349,15 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
 
   // Heat that i gets from j, on average of the noise: each particle pays for the kinetic energy that the impulses of a
   // step give to it, while of those of a pair each partner should pay half, and of those of a random pressure its
-  // particle all.  f = viscous and random force of the pair on i; pressing times P/c^2 times r: of pressures P
+  // particle all.  square = that of the viscous and random force of the pair; pressing times P/c^2 times r: of pressures
+  // P
 
-  SPH_INLINE Vec given(const Vec *f, Vec rsq, Vec pressing) const
+  SPH_INLINE Vec given(Vec square, Vec rsq, Vec pressing) const
   {
     const NoiseRow &own = data.row[i];
-    const Vec square = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
-    const Vec by_i = own.pressure * pressing, by_j = other[PRESSURE] * pressing;
-    return 0.25 * square * (own.mobility - other[MOBILITY]) +
-        0.5 * rsq * (by_j * by_j * own.mobility - by_i * by_i * other[MOBILITY]);
+    const Vec by_i = own.pressure * pressing, by_j = pressure * pressing;
+    return 0.25 * square * (own.mobility - mobility) +
+        0.5 * rsq * (by_j * by_j * own.mobility - by_i * by_i * mobility);
   }
 
   // the same for the torques on both and the one on j, which is opposite on i
@@ -316,19 +370,31 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
       square_i += torque_i * torque_i;
       square_j += torque_j * torque_j;
     }
-    return 0.25 * (square_i * data.spin_mobility[i] - square_j * other_spin_mobility);
+    return 0.25 * (square_i * data.spin_mobility[i] - square_j * spin_mobility);
   }
 
  private:
-  using Numbers = PairNumbers<ACROSS, SPIN, DIRECTED>;
+  using Numbers = PairNumbers<ACROSS, SPIN, DIRECTED, CONDUCTS>;
   const LoopData &pairs;
   const NoiseData &data;
   const NoiseStep step;
-  Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN>> coeff;
+  Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND>> coeff;
   int i;
-  double *next;    // of the numbers of i
-  enum { TEMPERATURE, SOFTNESS, MOBILITY, PRESSURE, NROW };
-  Vec other[NROW], other_spin_mobility;    // of j
+  double own_softness;
+  double *next;    // of what begin() has found for the pairs of i
+  enum { TAG, TEMPERATURE, MOBILITY, PRESSURE, NROW };
+  Vec mobility, pressure, spin_mobility;    // of j
+
+  SPH_INLINE void keep(Vec a)
+  {
+    store(next, a);
+    next += LANES;
+  }
+  SPH_INLINE Vec kept()
+  {
+    next += LANES;
+    return load(next - LANES);
+  }
 };
 
 // count random numbers of each of the particles from ... to - 1 of n, and of some behind them, the next number after the

@@ -61,6 +61,8 @@ namespace SPHDissipation {
     Eos eos;
     const double *esph, *desph;
     double *relaxed[MOST_PROCESSES];
+    const double *by_walls =
+        nullptr;    // energy that the walls hold of each particle; nullptr: none
 
     // strain x at a density, of the relaxed density rest; of process k
 
@@ -195,13 +197,17 @@ namespace SPHDissipation {
       return rmass[i] * sum;
     }
 
-    // what the internal energy has beyond that of the equation of state without heat, of the strains, and of the
-    // vibrations
+    // what the internal energy has beyond that of the equation of state without heat, of the strains, of the
+    // vibrations, and of walls
 
     SPH_FUNCTION double thermal_energy(int i) const
     {
-      return esph[i] - (energy(i) + vibrational_energy(i)) -
-          rmass[i] * elastic_energy(eos, types[type[i]].eos, rho[i]);
+      return esph[i] - held(i) - rmass[i] * elastic_energy(eos, types[type[i]].eos, rho[i]);
+    }
+    SPH_FUNCTION double held(int i) const
+    {
+      const double own = energy(i) + vibrational_energy(i);
+      return by_walls ? own + by_walls[i] : own;
     }
 
     // temperature, 0 without heat capacity; the internal energy at a temperature
@@ -215,7 +221,7 @@ namespace SPHDissipation {
     {
       const TypeParameters &par = types[type[i]];
       return rmass[i] * (elastic_energy(eos, par.eos, rho[i]) + par.heat_capacity * temperature) +
-          (energy(i) + vibrational_energy(i));
+          held(i);
     }
   };
 

@@ -42,8 +42,9 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
 void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool at_rest,
                        double missing, int not_fluid)
 {
-  const bool relaxes = engine.parameters().nprocess, conducts = engine.parameters().conducts;
+  const bool relaxes = engine.parameters().nprocess;
   const bool completes = engine.parameters().own_temperatures;
+  const bool conducts = engine.parameters().conducts && !completes;
   if (!relaxes && !conducts && !completes) return run(list, vest, omegaest);
   engine.accumulate_density(list, vest, omegaest);
   exchange.reverse({field(engine.density, &engine.density->c, 2)});
@@ -224,9 +225,9 @@ double RelaxStage::energy(int groupbits, int not_fluid) const
 
 /* ---------------------------------------------------------------------- */
 
-void HeatStage::run(const NoiseData *noise, const std::function<void(std::vector<double> &)> &add)
+void HeatStage::run(const std::function<void(std::vector<double> &)> &add)
 {
-  engine.accumulate_heat(flow, noise);
+  engine.accumulate_heat(flow);
   add(flow);
   double *const desph = atom->desph;
   engine.for_each(nheat(), [&](int i) {

@@ -29,7 +29,6 @@ namespace SPHDissipation {
   class Engine;
   class Exchange;
   class PairTally;
-  struct NoiseData;
 
   // A stage of the force computation: sums of its own over the pairs that pass 1 of the engine has
   // found, and what it sends to ghost atoms or gets back from them.  Fluid::compute() lists the stages
@@ -133,15 +132,15 @@ namespace SPHDissipation {
     double energy(int groupbits, int not_fluid) const;
   };
 
-  // Conduction of heat, after pass 2, onto the heating of LAMMPS as ForceStage: see HeatChannel; with the noise of
-  // NoiseStage, nullptr: without
+  // Conduction of heat, after pass 2, onto the heating of LAMMPS as ForceStage: see HeatChannel.  With temp energy,
+  // pass 2 does it.
 
   class HeatStage : public Stage {
    public:
     using Stage::Stage;
 
     // with the heat per time of owned and ghost atoms that another stage adds
-    void run(const NoiseData *noise, const std::function<void(std::vector<double> &flow)> &add);
+    void run(const std::function<void(std::vector<double> &flow)> &add);
 
     // heat per time that particles of a group got in run(), on this processor
     double received(int groupbit) const;

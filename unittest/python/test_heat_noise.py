@@ -168,3 +168,114 @@ def test_vibrations_have_no_noise(lammps):
     particles = disordered(2, 12)
     result = lammps(start(lammps, particles, fluid(2, "temp energy 10.0 77 eos ideal", keywords="vibration 1.0 0.1")) + "run 1\n", check=False)
     assert result.code and "temp cannot be used with vibration of pair_coeff" in result.error
+
+
+# ---- walls ----------------------------------------------------------------------------------------------------------
+
+
+def particles_at_walls(lammps, count, heat, speed, style="sph/bulk"):
+    """count single particles of the fluid on a line, between two of a wall each."""
+    spin = "0.2 " if style == "sph/micropolar" else ""
+    atoms, velocities = "", ""
+    for k in range(count):
+        for one, (place, kind) in enumerate(((-1.0, 2), (0.0, 1), (1.0, 2))):
+            tag = 3 * k + one + 1
+            atoms += f"{tag} {kind} 1.0 {spin}{heat if kind == 1 else 0.0:.17g} {APART * k + 10.0 + place} 0 0\n"
+            velocities += f"{tag} {speed if kind == 1 else 0.0:.17g} 0 0{' 0 0 0' if spin else ''}\n"
+    lammps.path("walls.data").write_text(
+        f"walls\n\n{3 * count} atoms\n2 atom types\n0 {APART * count} xlo xhi\n-10 10 ylo yhi\n-0.5 0.5 zlo zhi\n\n"
+        f"Atoms # {style}\n\n{atoms}\nVelocities\n\n{velocities}")
+    return (f"units lj\ndimension 2\natom_style {style}\nread_data walls.data\nneighbor 1.0 bin\ngroup fluid type 1\ngroup wall type 2\n"
+            f"fix FLUID fluid {style}\ncompute E fluid sph/energy\n")
+
+
+@pytest.mark.parametrize("heat", ["adiabatic", "temp"])
+def test_one_particle_and_a_wall(lammps, heat):
+    """Friction with a wall is that of the temperature of the particle alone, prod Q^(C/k - 1) dQ dp at constant energy; a wall
+    with a temperature is a heat bath, in which Q and p are independent."""
+    capacity, T = 3.0, 1e-7
+    total = (capacity + 0.5) * T
+    box = particles_at_walls(lammps, 400, capacity * T, np.sqrt(T))
+    conductivity, wall = ("", "") if heat == "adiabatic" else (" conductivity 0.5", f" heat temp {T}")
+    given = "" if heat == "adiabatic" else " f_W[8]"
+    thermo = lammps(
+        box + f"pair_style sph/bulk dim 1 temp energy {capacity} 5\npair_coeff * * 1.0 1e-7 0.4 intrinsic 3.0{conductivity}\n"
+        f"fix W wall sph/wall{wall}\ntimestep 0.02\ncompute e all property/atom esph\nvariable s atom c_e*c_e\n"
+        f"compute q fluid reduce ave c_e v_s\nthermo_style custom step c_E[1] c_E c_q[1] c_q[2]{given}\nthermo 20\n"
+        "thermo_modify norm no format float %.17g\nrun 2000\nrun 16000\n", timeout=300).thermo()[-1]
+    energy = thermo["c_E"] - (thermo["f_W[8]"] if given else 0.0)
+    assert np.ptp(energy) < 1e-12 * energy[0]
+    motion, error = blocks(thermo["c_E[1]"][1:] / 400.0)
+    exact = total / (2.0 * capacity + 1.0) if heat == "adiabatic" else 0.5 * T
+    assert abs(motion - exact) < 4.0 * error + 0.005 * exact
+    if heat == "adiabatic":
+        return
+    mean, error = blocks(thermo["c_q[1]"][1:])
+    square, error_of_square = blocks(thermo["c_q[2]"][1:])
+    variance = capacity * T**2
+    assert abs(mean / (capacity * T) - 1.0) < 4.0 * error / mean + 0.003
+    assert abs((square - mean**2) / variance - 1.0) < 4.0 * error_of_square / variance + 0.01
+
+
+def between_walls(style="sph/bulk", lower="heat temp 1.0", upper="", options="", keywords="conductivity 60.0", every=100):
+    """A fluid in two dimensions that begins with all temperatures at 1; everything up to thermo_style."""
+    spin = " 0.1 0.02 -0.02" if style == "sph/micropolar" else ""
+    return (f"units lj\ndimension 2\natom_style {style}\nlattice sq 1.0\nregion box block 0 10 -3 9 -0.5 0.5\ncreate_box 1 box\n"
+            "create_atoms 1 box\nset group all mass 1.0\nregion low block INF INF INF -0.25 INF INF\n"
+            "region high block INF INF 5.75 INF INF INF\ngroup low region low\ngroup high region high\ngroup fluid subtract all low high\n"
+            "displace_atoms fluid random 0.1 0.1 0.0 5\nvelocity fluid create 1.0 87 loop geom\n"
+            f"pair_style {style} temp energy 20.0 4711 {options}\npair_coeff * * 1.0 15.0 0.5 1.5{spin} 3.0 pb 200.0 {keywords}\n"
+            f"fix FLUID fluid {style}" + (" inertia 0.16 0.0" if spin else "") + f" temperature 1.0\nfix LOW low sph/wall {lower}\n"
+            f"fix HIGH high sph/wall {upper}\ntimestep 0.004\ncompute E fluid sph/energy\ncompute T fluid sph/temp\n"
+            f"thermo {every}\n")
+
+
+@pytest.mark.parametrize("style", ["sph/bulk", "sph/micropolar"])
+def test_energy_between_walls(lammps, style):
+    """With what the wall has given, to rounding errors; the same forces and heats on any number of ranks."""
+    box, rest = between_walls(style, "heat temp 1.5", every=3).split("pair_style")
+    lammps(box + "write_restart box.restart\n")
+    reference = None
+    for ranks, newton in ((1, "on"), (2, "off"), (4, "on")):
+        lammps(f"newton {newton}\nread_restart box.restart\npair_style{rest}{dump('a.dump', 3)}run 3\n", ranks=ranks)
+        frame = lammps.frames("a.dump")[-1]
+        now = np.column_stack((frame["f"], frame["desph"]))
+        reference = now if reference is None else reference
+        assert relative(now - reference, reference) < 1e-10, (ranks, newton)
+    thermo = lammps(between_walls(style, "heat temp 1.5") + "thermo_style custom step c_E c_E[1] f_LOW[8] c_T[5]\n"
+                    "thermo_modify norm no format float %.17g\nrun 0\nrun 1000\n").thermo()
+    assert thermo[0]["c_T[5]"][0] == pytest.approx(1.0, rel=1e-10)
+    energy = thermo[-1]["c_E"] - thermo[-1]["f_LOW[8]"]
+    assert np.ptp(energy) < 1e-12 * energy[0]
+    assert thermo[-1]["f_LOW[8]"][-1] > 5.0
+
+
+@pytest.mark.parametrize("upper", ["", pytest.param("heat temp 1.0", marks=LONG)])
+def test_temperatures_between_walls(lammps, upper):
+    """Of the motion, and of the heat, next to the walls too."""
+    thermo = lammps(
+        between_walls(upper=upper) + "region near block INF INF 3.75 INF INF INF\ngroup near dynamic fluid region near every 100\n"
+        "compute e fluid property/atom tsph\nvariable k atom 0.5*mass*(vx*vx+vy*vy)\ncompute warm near reduce ave c_e\ncompute fast near reduce sum v_k\nrun 3000\n"
+        "variable fast equal c_fast/count(near)\nfix A fluid ave/time 5 200 1000 c_T c_T[5]\nfix B fluid ave/time 100 10 1000 c_warm v_fast\n"
+        "thermo_style custom step f_A[*] f_B[*]\nthermo 1000\nrun 12000\n", timeout=300).thermo()[-1]  # near the upper one
+    for name, bound in (("f_A[1]", 0.005), ("f_A[2]", 0.003), ("f_B[1]", 0.005), ("f_B[2]", 0.01)):
+        mean, error = blocks(thermo[name][1:], 12)
+        print(name, mean, error)
+        assert abs(mean - 1.0) < 4.0 * error + bound, (name, mean, error)
+
+
+@pytest.mark.parametrize("lower, options, keywords, words", [
+    ("heat flux 1.0", "", "conductivity 1.0", "heat flux cannot be used with temp energy"),
+    ("", "eos ideal", "gamma 1.4", "cannot be used with temp energy and eos ideal or gruneisen"),
+    ("", "", "gruneisen 0.2 1.0", "cannot be used with temp energy and eos ideal or gruneisen")])
+def test_walls_that_are_refused(lammps, lower, options, keywords, words):
+    text = between_walls(lower=lower, options=options, keywords=keywords) + "run 1\n"
+    result = lammps(text.replace("pb 200.0 ", ""), check=False)
+    assert result.code and words in result.error
+
+
+def test_a_wall_with_a_temperature_needs_a_conductivity_of_its_own(lammps):
+    box = particles_at_walls(lammps, 2, 3.0, 0.0)
+    result = lammps(box + "pair_style sph/bulk dim 1 temp energy 3.0 5\npair_coeff 1 1 1.0 1e-7 0.4 intrinsic 3.0 conductivity 0.5\n"
+                    "pair_coeff 2 2 1.0 1e-7 0.4 intrinsic 3.0\nfix W wall sph/wall heat temp 1.0\ntimestep 0.02\nrun 1\n", check=False)
+    assert result.code and "the types of the wall need a conductivity as well" in result.error

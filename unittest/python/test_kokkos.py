@@ -183,6 +183,25 @@ def test_conduction_of_heat(lammps, style, ranks, options, viscous):
     compare(lammps, style, particles, text, ranks)
 
 
+@pytest.mark.parametrize("ranks, options, walls", [(1, "eos ideal", False), (2, "volume mass", False), (1, "", True), (2, "", True)])
+def test_noise_of_heat(lammps, style, ranks, options, walls):
+    """Temperatures of particles of two masses, their conduction and its random flow; between a heat bath and an adiabatic wall."""
+    particles = disordered(2, 20 if walls else 14, seed=4, jitter=0.1, ntypes=2, speed=0.3, spread=0.0)
+    particles.esph[:] = 80.0
+    words = {"pair_coeff 1 1": " cv 20.0 conductivity 7.0", "pair_coeff 2 2": " cv 12.0 conductivity 4.0"}
+    lines = fluids(style, 2, 2, options=f"temp energy 20.0 77 {options}").splitlines()
+    model = "".join(line + words.get(line[:14], "") + "\n" for line in lines)
+    fixes = integrate(style)
+    if walls:
+        fixes = ("region LOW block INF INF 0 3.2 INF INF\nregion HIGH block INF INF 16.8 INF INF INF\ngroup LOW region LOW\n"
+                 "group HIGH region HIGH\ngroup REST subtract all LOW HIGH\n" + integrate(style, group="REST")
+                 + "fix LOW LOW sph/wall heat temp 5.0\nfix HIGH HIGH sph/wall velocity 0.1 0 0\n")
+    text = script(style, particles, model, 30, fixes=fixes)
+    if walls:
+        text = text.replace(" c_E\n", " c_E f_LOW[7] f_LOW[8]\n")
+    compare(lammps, style, particles, text, ranks)
+
+
 @pytest.mark.parametrize("kernel", ["wendland/c2", "wendland/c4", "wendland/c6", "cubic", "quintic", "lucy"])
 def test_kernels(lammps, style, kernel):
     particles = disordered(3, 8, seed=5, jitter=0.1, speed=0.3, spread=0.0)
