@@ -329,13 +329,15 @@ namespace SPHDissipation {
           Vec heat_j = heat;
           if constexpr (Noise::ENERGY) {
             const Vec work = 0.5 * noise.power(pair.approach, pair.u[0], pair.u[1], pair.u[2]);
-            const Vec viscous = pair.central - by_pressure;
-            Vec square = viscous * viscous * rsq;
+            Vec square = noise.central * (pair.central - by_pressure) * rsq;
             if constexpr (Form::VECTOR || !Noise::CENTRAL_ONLY) {
-              const Vec f[3] = {pair.f[0] - by_pressure * pair.r[0],
-                                pair.f[1] - by_pressure * pair.r[1],
-                                pair.f[2] - by_pressure * pair.r[2]};
-              square = dot(f, f);
+              Vec random[3], viscous[3];
+              for (int d = 0; d < 3; d++) {
+                random[d] = noise.central * pair.r[d];
+                viscous[d] = pair.f[d] - by_pressure * pair.r[d];
+              }
+              noise.add_force(random[0], random[1], random[2]);
+              square = dot(random, viscous);
             }
             given += noise.given(square, rsq, pressing);
             if constexpr (Noise::CONDUCTS) {

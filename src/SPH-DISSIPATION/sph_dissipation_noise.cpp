@@ -299,8 +299,39 @@ void NoiseStage::find_masses(int not_fluid)
 }
 
 /* ----------------------------------------------------------------------
+   of a pair on i, without the random force: r = r_ij
+------------------------------------------------------------------------- */
+
+void NoiseStage::find_friction(int i, int j, const double *r, double slope, double *f) const
+{
+  const Parameters &par = engine.parameters();
+  const int first = atom->type[i] * par.ntypes_1, second = atom->type[j] * par.ntypes_1;
+  const PairFriction friction = pair_friction(par.shear, par.pair[first + atom->type[j]]);
+  const Particle &a = engine.particle[i], &b = engine.particle[j];
+  double u[3], m[3] = {0.0, 0.0, 0.0};
+  for (int d = 0; d < 3; d++) {
+    u[d] = a.u[d] - b.u[d];
+    if (engine.has_spin()) m[d] = 0.5 * (engine.spin[i].w[d] + engine.spin[j].w[d]);
+  }
+  for (int d = 0; d < 3; d++) {
+    const int e = (d + 1) % 3, g = (d + 2) % 3;
+    u[d] -= m[e] * r[g] - m[g] * r[e];
+  }
+  const double rsq = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+  const double sum = row[i].temperature + row[j].temperature;
+  const double share = (sum > 0.0) ? row[i].temperature * row[j].temperature / (sum * sum) : 0.0;
+  const double softness = row[i].mobility * coeff[first + atom->type[i]].softness +
+      row[j].mobility * coeff[second + atom->type[j]].softness;
+  const double vv = (1.0 - share * softness) * slope * a.vol * b.vol *
+      ((par.shear == Shear::MG_FR) ? sqrt(rsq) : 1.0);
+  const double approach = (rsq > 0.0) ? (r[0] * u[0] + r[1] * u[1] + r[2] * u[2]) / rsq : 0.0;
+  for (int d = 0; d < 3; d++)
+    f[d] = -vv * ((friction.along - friction.across) * approach * r[d] + friction.across * u[d]);
+}
+
+/* ----------------------------------------------------------------------
    The pressure of i, random pressures left out, has the part f_i of the force on i by its pair with j, and -f_i of that
-   on j.
+   on j.  The friction of a pair meets that of the other pairs of both particles, too.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::share_work()
@@ -320,14 +351,17 @@ void NoiseStage::share_work()
   engine.sum_pairs(flow_sums, flow.data(), nall, [&](int i, int j, bigint entry, double *sum) {
     if (row[i].temperature < 0.0 || row[j].temperature < 0.0) return;
     const Particle &a = engine.particle[i], &b = engine.particle[j];
-    double by_i = 0.0, by_j = 0.0;
+    double r[3], by_i = 0.0, by_j = 0.0, f[3];
     for (int d = 0; d < 3; d++) {
-      const double r = a.x[d] - b.x[d];
-      by_i += r * acceleration[3 * i + d];
-      by_j += r * acceleration[3 * j + d];
+      r[d] = a.x[d] - b.x[d];
+      by_i += r[d] * acceleration[3 * i + d];
+      by_j += r[d] * acceleration[3 * j + d];
     }
-    const double heat = half * pairs.slope[entry] * engine.weight(i) * engine.weight(j) *
+    double heat = half * pairs.slope[entry] * engine.weight(i) * engine.weight(j) *
         ((a.g - row[i].pressure) * by_j + (b.g - row[j].pressure) * by_i);
+    find_friction(i, j, r, pairs.slope[entry], f);
+    for (int d = 0; d < 3; d++)
+      heat += 0.5 * half * f[d] * (acceleration[3 * i + d] + acceleration[3 * j + d]);
     sum[i] += heat;
     sum[j] -= heat;
   });

@@ -50,8 +50,8 @@ namespace SPHDissipation {
     void run(const double *bound, int not_fluid, bool continued);
 
     // After pass 2, with the forces on owned particles complete, in a fluid of different masses whose particles have
-    // temperatures: adds to the heating what each pair has of the work of the pressures at the mean velocities of the
-    // kick, and a particle has not of what it pays for its own kick, see the theory page
+    // temperatures: adds to the heating what each pair has of the work of pressures and friction at the mean velocities
+    // of the kick, and a particle has not of what it pays for its own kick, see the theory page
 
     void share_work();
 
@@ -79,6 +79,7 @@ namespace SPHDissipation {
     void set_tags();
     void count_step();
     void find_masses(int not_fluid);
+    void find_friction(int i, int j, const double *r, double slope, double *f) const;
     void set_temperatures(bool continued, int not_fluid);
     bool set_coeffs(double factor);
     bool is_negative(int i) const;

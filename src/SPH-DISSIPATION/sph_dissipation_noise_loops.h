@@ -349,8 +349,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
 
   // Heat that i gets from j, on average of the noise: each particle pays for the kinetic energy that the impulses of a
   // step give to it, while of those of a pair each partner should pay half, and of those of a random pressure its
-  // particle all.  square = that of the viscous and random force of the pair; pressing times P/c^2 times r: of pressures
-  // P
+  // particle all.  square = random force of the pair times it and friction; pressing times P/c^2 times r: of pressures P.
+  // NoiseStage::share_work() has the same of friction and of pressures that are not random.
 
   SPH_INLINE Vec given(Vec square, Vec rsq, Vec pressing) const
   {

@@ -129,21 +129,21 @@ def test_energy_is_exact(lammps, options, keywords):
 
 
 def test_unequal_masses_have_one_temperature(lammps):
-    """Motion and heat of light and heavy particles; the rest of the work of the pressures would make the heats differ by 1.7 percent."""
+    """Motion and heat of light and heavy particles, at a time step at which the rest of the work of pressures and friction
+    would make the heats differ by 6 percent."""
     thermo = lammps(
         "units lj\ndimension 2\natom_style sph/bulk\nlattice sq 1.0\nregion box block 0 20 0 20 -0.5 0.5\ncreate_box 2 box\n"
         "create_atoms 1 box\nset group all type/fraction 2 0.5 77\nset type 1 mass 1.0\nset type 2 mass 4.0\n"
         "displace_atoms all random 0.1 0.1 0.0 5\nvelocity all create 1.0 87 loop geom\npair_style sph/bulk temp energy 20.0 4711\n"
         "pair_coeff 1 1 1.0 6.0 0.3 0.8 3.0 pb 20.0 conductivity 1.0\npair_coeff 2 2 4.0 6.0 0.3 0.8 3.0 pb 20.0 conductivity 1.0\n"
-        "fix FLUID all sph/bulk temperature 1.0\ntimestep 0.004\ngroup light type 1\ngroup heavy type 2\n"
+        "fix FLUID all sph/bulk temperature 1.0\ntimestep 0.012\ngroup light type 1\ngroup heavy type 2\n"
         "compute light light sph/temp\ncompute heavy heavy sph/temp\nrun 3000\nreset_timestep 0\n"
         "fix A all ave/time 2 500 1000 c_light c_heavy c_light[5] c_heavy[5]\nthermo_style custom step f_A[*]\nthermo 1000\nrun 12000\n",
         timeout=300).thermo()[-1]
-    light, heavy, warm_light, warm_heavy = (blocks(thermo[f"f_A[{k}]"][1:], 12) for k in (1, 2, 3, 4))
-    print(light, heavy, warm_light, warm_heavy)
-    assert abs(warm_light[0] / warm_heavy[0] - 1.0) < 0.003 + 4.0 * np.hypot(warm_light[1], warm_heavy[1])
+    light, heavy, warm_light, warm_heavy = (blocks(thermo[f"f_A[{k}]"][1:], 4) for k in (1, 2, 3, 4))
+    assert abs(warm_light[0] / warm_heavy[0] - 1.0) < 0.03
     for one in (light, heavy):
-        assert abs(one[0] / warm_heavy[0] - 1.0) < 0.003 + 4.0 * one[1]
+        assert abs(one[0] / warm_heavy[0] - 1.0) < 0.03 + 2.0 * one[1]
 
 
 def test_particles_without_heat_in_a_continued_run(lammps):
