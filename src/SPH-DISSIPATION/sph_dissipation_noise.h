@@ -53,6 +53,8 @@ namespace SPHDissipation {
     // kick, and a particle has not of what it pays for its own kick, see the theory page
 
     void share_work();
+    bool shares_work() const { return !equal_masses; }
+    void find_masses();    // whether they differ; before run()
 
     // what the random flow of heat needs, after run()
 
@@ -80,7 +82,6 @@ namespace SPHDissipation {
     void check_box() const;
     void set_tags();
     void count_step();
-    void find_masses();
     void set_temperatures(bool continued);
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
