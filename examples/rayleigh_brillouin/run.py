@@ -149,9 +149,10 @@ class Case:
                 models = [(self.model(omega, number, np.exp(logs)), power, size) for number, omega, power, size in chosen]
                 if any((model <= 0).any() for model, *_ in models):
                     return 1e30
-                return sum(size * (np.log(model) + power / model).sum() for model, power, size in models)
+                return sum(size * (np.log(model) + power / model).sum() for model, power, size in models) / count
 
-            return minimize(unlikely, start, method="Nelder-Mead", options={"xatol": 1e-4, "fatol": 1e-2, "adaptive": True}).x
+            count = sum(size * len(omega) for _, omega, _, size in chosen)
+            return minimize(unlikely, start, method="BFGS", options={"gtol": 1e-6}).x
 
         every = np.arange(PIECES)
         own = best(every, np.zeros(len(NAMES)))

@@ -2,6 +2,9 @@
 
 Stationary distributions are those of the measure exp(S/k) prod dS_i, found here by quadrature or in closed form."""
 
+import importlib.util
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -10,6 +13,7 @@ from run_lammps import exponents
 from test_relax import start
 
 APART = 20.0
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
 def groups(lammps, count, masses, heats, speed=0.0):
@@ -178,6 +182,21 @@ def test_particles_without_heat_in_a_continued_run(lammps):
     particles.esph[0] = -1.0
     result = lammps(start(lammps, particles, model, timestep=0.002) + "run 1\n", check=False)
     assert result.code and "1 particles have no heat" in result.error
+
+
+def test_gas_and_piston(lammps):
+    """Three particles of gas under a piston that another pair style holds up: the example, small, and its integral."""
+    folder = EXAMPLES / "piston"
+    spec = importlib.util.spec_from_file_location("piston", folder / "run.py")
+    piston = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(piston)
+    small = "".join(f"variable {name} index {value}\n" for name, value in {"cylinders": 100, "steps": 20000, "out": "a"}.items())
+    lammps(small + (folder / "in.piston").read_text(), timeout=300)
+    means, errors = piston.blocks(np.loadtxt(lammps.path("a.means.txt"))[:, 1:])
+    exact = piston.Exact(means[3], 3.0, 5.0 / 3.0, 4.0, nodes=24)
+    assert abs(means[3] - 15.0) < 0.015
+    for mean, error, value in zip(means, errors, exact.means.values()):
+        assert abs(mean - value) < 4.0 * error + 0.003 * value
 
 
 def test_vibrations_have_no_noise(lammps):
