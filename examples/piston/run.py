@@ -105,11 +105,10 @@ def plot(path, found):
             width, center = edges[1] - edges[0], 0.5 * (edges[1:] + edges[:-1])
             axis.plot(center, np.diff(exact.below(name, edges)) / width, color, lw=1.2)
             axis.plot(center, np.diff(others.below(name, edges)) / width, color, lw=0.8, ls=":")
-            axis.plot(center[::2], share.mean(axis=0)[::2] / width, color + ".", ms=4, label=TITLES[case])
+            axis.plot(center[::2], share.mean(axis=0)[::2] * np.ptp(exact.below(name, edges[[0, -1]])) / width, color + ".", ms=4, label=TITLES[case])
         axis.set(xlabel=title, ylim=(0, None))
     axes[0].set_ylabel("probability density")
     axes[0].set_xlim(1, 10)
-    axes[1].set_xlim(-2.5, 2.5)
     axes[2].set_xlim(0, 9)
     axes[2].legend()
     return save(figure, path)
@@ -141,7 +140,8 @@ def main():
                 example.merit(f"{TITLES[name]}: {what} over the exact mean", means[number] / exact.means[key], 1 - bar, 1 + bar)
             for what, (edges, share) in histograms.items():
                 sums, error = blocks(np.cumsum(share, axis=1))
-                off = abs(sums - exact.below(what, edges[1:]))
+                below = exact.below(what, edges)
+                off = abs(sums - (below[1:] - below[0]) / (below[-1] - below[0]))       # of what is between the edges
                 bar = max(DISTANCE, width * error.max())
                 example.merit(f"{TITLES[name]}: cumulative distribution of the {what}, largest difference", off.max(), 0, bar)
     return example.finish(table, plot(example.out / "piston.png", found))
