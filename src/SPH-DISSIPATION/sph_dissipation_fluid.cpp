@@ -241,6 +241,8 @@ bigint Fluid::compute(PairTally *tally)
 {
   if (neighbor->ago == 0) check_masses(lmp, style, *model);
   if (own_list && search->update(pair->list)) timer->stamp(Timer::NEIGH);
+  if (model->choice.own_temperatures && (neighbor->ago == 0 || update->setupflag))
+    noise->find_masses(boundary->bits());
 
   const Parameters &par = model->parameters();
   const bool known = continued && !changed && update->setupflag;
@@ -303,12 +305,14 @@ void Fluid::sum_density()
 }
 
 /* ----------------------------------------------------------------------
-   in a step, internal energies that get half of their rate at each end of it are those of its middle
+   In a step, internal energies that get half of their rate at each end of it are those of its middle.  This rate has the
+   work of the pressure at the velocity before the kick, which is half a step late; NoiseStage::share_work() mends that.
 ------------------------------------------------------------------------- */
 
 double Fluid::missing_time() const
 {
-  return (update->setupflag && !continued) ? 0.0 : 0.5 * update->dt;
+  if (update->setupflag && !continued) return 0.0;
+  return (noise->shares_work() ? 0.5 : 1.0) * update->dt;
 }
 
 bool Fluid::at_rest() const

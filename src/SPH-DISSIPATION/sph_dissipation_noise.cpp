@@ -62,7 +62,6 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
 
   set_tags();
-  if (energy && (neighbor->ago == 0 || update->setupflag)) find_masses(not_fluid);
   if (energy) set_temperatures(continued, not_fluid);
   data.heat = 2.0 * force->boltz / update->dt;
   add_pressure(factor, not_fluid);

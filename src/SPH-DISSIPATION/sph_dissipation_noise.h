@@ -54,6 +54,8 @@ namespace SPHDissipation {
     // of the kick, and a particle has not of what it pays for its own kick, see the theory page
 
     void share_work();
+    bool shares_work() const { return !equal_masses; }
+    void find_masses(int not_fluid);    // whether they differ; before run()
 
     // The noise of the relaxing processes of owned particles, for RelaxStage::advance(), after the forces of the last
     // step, in the next one
@@ -78,7 +80,6 @@ namespace SPHDissipation {
     void check_box() const;
     void set_tags();
     void count_step();
-    void find_masses(int not_fluid);
     void find_friction(int i, int j, const double *r, double slope, double *f) const;
     void set_temperatures(bool continued, int not_fluid);
     bool set_coeffs(double factor);
