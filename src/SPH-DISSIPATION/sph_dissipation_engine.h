@@ -119,8 +119,9 @@ namespace SPHDissipation {
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int from, int to, int n, int count,
                              double *numbers);
     HeatLoop (*heat)(bool alike);    // the same conductivity of all particles that conduct
+    // take (x - corner) * scale
     void (*take_candidates)(const PlaceColumns &, int from, int to, const double *corner,
-                            CandidateColumns &);
+                            double scale, CandidateColumns &);
     // write the indices of candidates nearer to a place than the root of bound, return how many; doubt: one is not
     // nearer than the root of safe
     int (*near)(const CandidateColumns &, const float *place, float bound, float safe, int *found,

@@ -14,13 +14,13 @@
 // The loops of the neighbor search; compiled as sph_dissipation_loops.h, which includes this file inside its namespace.
 
 SPH_INLINE void take_candidates(const PlaceColumns &from, int begin, int end, const double *corner,
-                                CandidateColumns &to)
+                                double scale, CandidateColumns &to)
 {
   for (int d = 0; d < 3; d++) {
     const double *const x = from.x[d] + begin;
     float *const out = to.x[d] + to.n;
     for (int k = 0; k < end - begin; k += LANES)
-      store_floats(out + k, load(x + k) - all(corner[d]));
+      store_floats(out + k, (load(x + k) - all(corner[d])) * all(scale));
   }
   for (int k = 0; k < end - begin; k++) to.index[to.n + k] = from.index[begin + k];
   to.n += end - begin;

@@ -14,7 +14,6 @@
 #include "sph_dissipation_neighbors.h"
 
 #include "atom.h"
-#include "domain.h"
 #include "force.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -29,13 +28,13 @@ static constexpr int ROOM = 16;    // entries that the widest vector may write b
 static constexpr double SPARSE = 16.0;    // most cells per particle
 static constexpr double ROUND_OFF = 1.0e-9;
 static constexpr double FLOAT_ROUND_OFF =
-    1.0e-6;    // of the square of a distance as long as the largest coordinate
+    1.0e-6;    // of the square of a distance, in units of the cutoff
 
 /* ---------------------------------------------------------------------- */
 
 NeighborSearch::NeighborSearch(LAMMPS *lmp) :
     NPair(lmp), loops(nullptr), threads(nullptr), cutoff(0.0), ncalls(-1), lastcall(-1),
-    halved(true), skips(false), lo(), hi(), size(), nbox(), first(), ncell(), sorted()
+    skips(false), lo(), size(), ncell()
 {
 }
 
@@ -82,13 +81,13 @@ bool NeighborSearch::update(NeighList *list)
 
 void NeighborSearch::build(NeighList *list)
 {
-  halved = force->newton_pair && !domain->triclinic;
   list->inum = list->gnum = 0;
   find_members(list);
   if (members.empty()) return;
   choose_cells();
   find_rows();
-  sort();
+  sort(owned, 0, atom->nlocal);
+  sort(ghosts, atom->nlocal, atom->nlocal + atom->nghost);
 
   skips = false;
   if (list->ijskip)
@@ -101,6 +100,7 @@ void NeighborSearch::build(NeighList *list)
   parts.resize(nthread);
   threads->run([&](int k) {
     auto first_cell = [&](int thread) {    // about as many particles for each
+      const auto &start = owned.start;
       const auto entry = static_cast<int>(static_cast<bigint>(start[total]) * thread / nthread);
       return static_cast<int>(std::lower_bound(start.begin(), start.end(), entry) - start.begin());
     };
@@ -119,34 +119,53 @@ void NeighborSearch::build(NeighList *list)
 void NeighborSearch::search(int from, int to, NeighList *list, Part &part) const
 {
   const double longest = *std::max_element(size, size + 3);
-  const double error = FLOAT_ROUND_OFF * cutoff * (2.0 * cutoff + 2.0 * longest);
-  const auto bound = static_cast<float>(cutoff * cutoff + error);
-  const auto safe = static_cast<float>(cutoff * cutoff - error);
-  const int nlocal = atom->nlocal;
+  const double error = FLOAT_ROUND_OFF * (2.0 + 2.0 * longest / cutoff);
+  const auto bound = static_cast<float>(1.0 + error);
+  const auto safe = static_cast<float>(1.0 - error);
   part.rows.clear();
   part.offset.clear();
   bigint end = 0;
 
   for (int c = from; c < to; c++) {
-    if (start[c] == start[c + 1] || sorted.index[start[c]] >= nlocal) continue;    // ghosts at most
+    const int first = owned.start[c], last = owned.start[c + 1];
+    if (first == last) continue;
     const int place[3] = {c % ncell[0], c / ncell[0] % ncell[1], c / ncell[0] / ncell[1]};
     double corner[3];
-    for (int d = 0; d < 3; d++) corner[d] = lo[d] + (first[d] + place[d]) * size[d];
-    find_candidates(place, corner, part);
+    for (int d = 0; d < 3; d++) corner[d] = lo[d] + place[d] * size[d];
+    find_candidates(owned, upper_rows, place, corner, part.owned);
+    find_candidates(ghosts, all_rows, place, corner, part.ghosts);
 
-    const int most = part.candidates.n + start[c + 1] - start[c] + ROOM;
-    for (int p = start[c]; p < start[c + 1] && sorted.index[p] < nlocal; p++) {
-      const int i = sorted.index[p];
+    const int most = part.owned.columns.n + part.ghosts.columns.n + last - first + 2 * ROOM;
+    for (int p = first; p < last; p++) {
+      const int i = owned.index[p];
       if (static_cast<bigint>(part.neighbors.size()) < end + most)
         part.neighbors.resize(end + end / 8 + std::max(most, 1024));
       int *const found = part.neighbors.data() + end;
-      int n = halved ? add_own_cell(p, start[c + 1], found) : 0;
       float at[3];
-      for (int d = 0; d < 3; d++) at[d] = static_cast<float>(sorted.x[d][p] - corner[d]);
-      bool doubt = false;
-      const int nnear = loops->near(part.candidates, at, bound, safe, found + n, doubt);
-      n += doubt ? check(i, found + n, nnear) : nnear;
-      if (skips || !halved || has_exclusions(i)) n = filter(list, i, found, n);
+      for (int d = 0; d < 3; d++) at[d] = static_cast<float>((owned.x[d][p] - corner[d]) / cutoff);
+
+      auto find = [&](const Candidates &candidates, int *to) {
+        bool doubt = false;
+        const int n = loops->near(candidates.columns, at, bound, safe, to, doubt);
+        return doubt ? check(i, to, n) : n;
+      };
+      int n = last - p - 1;    // owned ones in the same cell
+      std::copy_n(owned.index.begin() + p + 1, n, found);
+      n = check(i, found, n);
+      n += find(part.owned, found + n);
+      if (part.ghosts.columns.n) {
+        int *const images = found + n;
+        int nimage = find(part.ghosts, images);
+        if (force->newton_pair)
+          nimage = filter(images, nimage, [&](int j) {
+            return has_pair(i, j);
+          });
+        n += nimage;
+      }
+      if (skips || has_exclusions(i))
+        n = filter(found, n, [&](int j) {
+          return is_wanted(list, i, j);
+        });
       list->numneigh[i] = n;
       part.rows.push_back(i);
       part.offset.push_back(end);
@@ -170,53 +189,35 @@ void NeighborSearch::find_members(const NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   as class NBinStandard of LAMMPS: the cells fill the box, and what is outside of it is in none of those inside.  That class
-   has looked at all positions: they are numbers
+   half of the reach is long enough for few cells and short enough for few candidates; where most of the space is empty,
+   the cells are larger.  LAMMPS's bins have looked at all positions: they are numbers
 ------------------------------------------------------------------------- */
-
-int NeighborSearch::cell_of(double x, int d) const
-{
-  if (x >= hi[d]) return static_cast<int>((x - hi[d]) / size[d]) + nbox[d];
-  if (x >= lo[d]) return std::min(static_cast<int>((x - lo[d]) / size[d]), nbox[d] - 1);
-  return static_cast<int>((x - lo[d]) / size[d]) - 1;
-}
 
 void NeighborSearch::choose_cells()
 {
-  for (int d = 0; d < 3; d++) {
-    lo[d] = bboxlo[d];
-    hi[d] = bboxhi[d];
-  }
-
-  // the same cells on all processors; larger ones where most of the box is empty
-
-  const double most_cells = SPARSE * static_cast<double>(atom->natoms) + 1000.0;
-  double total, length = 0.5 * cutoff;
-  do {
-    total = 1.0;
-    for (int d = 0; d < 3; d++) total *= std::max(1.0, std::floor((hi[d] - lo[d]) / length));
-    if (total > most_cells) length *= 1.25;
-  } while (total > most_cells);
-  for (int d = 0; d < 3; d++) {
-    nbox[d] = std::max(1, static_cast<int>((hi[d] - lo[d]) / length));
-    size[d] = (hi[d] - lo[d]) / nbox[d];
-  }
-
-  double least[3] = {hi[0], hi[1], hi[2]}, most[3] = {lo[0], lo[1], lo[2]};
   double **const x = atom->x;
+  double hi[3];
+  for (int d = 0; d < 3; d++) lo[d] = hi[d] = x[members[0]][d];
   for (const int i : members)
     for (int d = 0; d < 3; d++) {
-      least[d] = std::min(least[d], x[i][d]);
-      most[d] = std::max(most[d], x[i][d]);
+      lo[d] = std::min(lo[d], x[i][d]);
+      hi[d] = std::max(hi[d], x[i][d]);
     }
+  const double most = SPARSE * static_cast<double>(members.size()) + 1000.0;
+  double length = 0.5 * cutoff, total;
+  do {
+    total = 1.0;
+    for (int d = 0; d < 3; d++) total *= std::floor((hi[d] - lo[d]) / length) + 1.0;
+    if (total > most) length *= 1.25;
+  } while (total > most);
   for (int d = 0; d < 3; d++) {
-    first[d] = cell_of(least[d], d);
-    ncell[d] = cell_of(most[d], d) - first[d] + 1;
+    size[d] = length;
+    ncell[d] = static_cast<int>((hi[d] - lo[d]) / length) + 1;
   }
 }
 
 /* ----------------------------------------------------------------------
-   the cells that may have a neighbor of a particle: all, or those above its own
+   the rows of cells that may have a neighbor of a particle
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::find_rows()
@@ -228,28 +229,36 @@ void NeighborSearch::find_rows()
   };
   const int zmost = std::min(ncell[2] - 1, static_cast<int>(cutoff / size[2]) + 1);
   const int ymost = std::min(ncell[1] - 1, static_cast<int>(cutoff / size[1]) + 1);
-  rows.clear();
-  for (int z = halved ? 0 : -zmost; z <= zmost; z++)
-    for (int y = (halved && z == 0) ? 0 : -ymost; y <= ymost; y++) {
+  all_rows.clear();
+  upper_rows.clear();
+  for (int z = -zmost; z <= zmost; z++)
+    for (int y = -ymost; y <= ymost; y++) {
       const double left = reach_sq - gap_sq(y, 1) - gap_sq(z, 2);
-      if (left > 0.0)
-        rows.push_back({y, z, static_cast<int>(std::ceil(std::sqrt(left) / size[0]))});
+      if (!(left > 0.0)) continue;
+      const auto reach = static_cast<int>(std::ceil(std::sqrt(left) / size[0]));
+      all_rows.push_back({y, z, -reach, reach});
+      if (z > 0 || (z == 0 && y > 0)) upper_rows.push_back({y, z, -reach, reach});
+      if (z == 0 && y == 0) upper_rows.push_back({y, z, 1, reach});
     }
 }
 
 /* ----------------------------------------------------------------------
-   counting sort; in each cell the owned particles come before the ghosts
+   counting sort of the members from <= i < to
 ------------------------------------------------------------------------- */
 
-void NeighborSearch::sort()
+void NeighborSearch::sort(Sorted &sorted, int from, int to)
 {
   double **const x = atom->x;
-  const std::size_t n = members.size();
+  const int *const begin = &*std::lower_bound(members.begin(), members.end(), from);
+  const auto n = static_cast<int>(std::lower_bound(members.begin(), members.end(), to) -
+                                  members.begin() - (begin - members.data()));
+  auto &start = sorted.start;
   start.assign(ncell[0] * ncell[1] * ncell[2] + 1, 0);
   cell.resize(n);
-  threads->for_each(static_cast<int>(n), [&](int m) {
+  threads->for_each(n, [&](int m) {
     int place[3];
-    for (int d = 0; d < 3; d++) place[d] = cell_of(x[members[m]][d], d) - first[d];
+    for (int d = 0; d < 3; d++)
+      place[d] = std::min(static_cast<int>((x[begin[m]][d] - lo[d]) / size[d]), ncell[d] - 1);
     cell[m] = (place[2] * ncell[1] + place[1]) * ncell[0] + place[0];
   });
   for (const int c : cell) start[c]++;
@@ -258,68 +267,47 @@ void NeighborSearch::sort()
     sum += entry;
     entry = sum;
   }
-  if (sorted_index.size() < n + ROOM) {
-    for (auto &column : sorted_x) column.resize(n + n / 16 + ROOM);
-    sorted_index.resize(n + n / 16 + ROOM);
+  if (static_cast<int>(sorted.index.size()) < n + ROOM) {
+    for (auto &column : sorted.x) column.resize(n + n / 16 + ROOM);
+    sorted.index.resize(n + n / 16 + ROOM);
   }
-  for (std::size_t m = n; m-- > 0;) {
-    const int to = --start[cell[m]];
-    sorted_index[to] = members[m];
-    for (int d = 0; d < 3; d++) sorted_x[d][to] = x[members[m]][d];
+  for (int m = n - 1; m >= 0; m--) {
+    const int entry = --start[cell[m]];
+    sorted.index[entry] = begin[m];
+    for (int d = 0; d < 3; d++) sorted.x[d][entry] = x[begin[m]][d];
   }
-  sorted = {{sorted_x[0].data(), sorted_x[1].data(), sorted_x[2].data()}, sorted_index.data()};
 }
 
 /* ----------------------------------------------------------------------
-   of one cell: the particles of the rows of cells around it, relative to its corner
+   of one cell: the particles in some rows of cells around it, relative to its corner, in units of the cutoff
 ------------------------------------------------------------------------- */
 
-void NeighborSearch::find_candidates(const int *place, const double *corner, Part &part) const
+void NeighborSearch::find_candidates(const Sorted &sorted, const std::vector<CellRow> &rows,
+                                     const int *place, const double *corner,
+                                     Candidates &candidates) const
 {
-  CandidateColumns &candidates = part.candidates;
-  candidates.n = 0;
-  const int x = place[0];
+  const PlaceColumns places = {{sorted.x[0].data(), sorted.x[1].data(), sorted.x[2].data()},
+                               sorted.index.data()};
+  CandidateColumns &columns = candidates.columns;
+  columns.n = 0;
   for (const auto &row : rows) {
     const int y = place[1] + row.y, z = place[2] + row.z;
     if (y < 0 || y >= ncell[1] || z < 0 || z >= ncell[2]) continue;
-    const bool own = halved && row.y == 0 && row.z == 0;
     const int base = (z * ncell[1] + y) * ncell[0];
-    const int from = start[base + (own ? x + 1 : std::max(x - row.reach, 0))];
-    const int to = start[base + std::min(x + row.reach, ncell[0] - 1) + 1];
+    const int from = sorted.start[base + std::max(place[0] + row.first, 0)];
+    const int to = sorted.start[base + std::min(place[0] + row.last, ncell[0] - 1) + 1];
     if (from >= to) continue;
-    const std::size_t room = candidates.n + to - from + 2 * ROOM;
-    if (part.index.size() < room) {
+    const std::size_t room = columns.n + to - from + 2 * ROOM;
+    if (candidates.index.size() < room) {
       for (int d = 0; d < 3; d++) {
-        part.x[d].resize(2 * room);
-        candidates.x[d] = part.x[d].data();
+        candidates.x[d].resize(2 * room);
+        columns.x[d] = candidates.x[d].data();
       }
-      part.index.resize(2 * room);
-      candidates.index = part.index.data();
+      candidates.index.resize(2 * room);
+      columns.index = candidates.index.data();
     }
-    loops->take_candidates(sorted, from, to, corner, candidates);
+    loops->take_candidates(places, from, to, corner, 1.0 / cutoff, columns);
   }
-}
-
-/* ----------------------------------------------------------------------
-   neighbors of the p-th sorted particle in its own cell: owned ones after it, and ghosts above it
-------------------------------------------------------------------------- */
-
-int NeighborSearch::add_own_cell(int p, int end, int *found) const
-{
-  const double here[3] = {sorted.x[0][p], sorted.x[1][p], sorted.x[2][p]};
-  auto is_above = [&](int q) {
-    for (const int d : {2, 1, 0})
-      if (sorted.x[d][q] != here[d]) return sorted.x[d][q] > here[d];
-    return true;
-  };
-  int n = 0;
-  for (int q = p + 1; q < end; q++) {
-    if (sorted.index[q] >= atom->nlocal && !is_above(q)) continue;
-    double rsq = 0.0;
-    for (int d = 0; d < 3; d++) rsq += (here[d] - sorted.x[d][q]) * (here[d] - sorted.x[d][q]);
-    if (rsq <= cutoff * cutoff) found[n++] = sorted.index[q];
-  }
-  return n;
 }
 
 /* ----------------------------------------------------------------------
@@ -329,33 +317,22 @@ int NeighborSearch::add_own_cell(int p, int end, int *found) const
 int NeighborSearch::check(int i, int *found, int n) const
 {
   double **const x = atom->x;
-  int kept = 0;
-  for (int k = 0; k < n; k++) {
-    const int j = found[k];
+  return filter(found, n, [&](int j) {
     double rsq = 0.0;
     for (int d = 0; d < 3; d++) rsq += (x[i][d] - x[j][d]) * (x[i][d] - x[j][d]);
-    found[kept] = j;
-    if (rsq <= cutoff * cutoff) kept++;
-  }
-  return kept;
+    return rsq <= cutoff * cutoff;
+  });
 }
 
 /* ----------------------------------------------------------------------
-   keeps the pairs that this list is to have; returns how many
+   pairs that neither pair_style hybrid nor neigh_modify exclude takes away
 ------------------------------------------------------------------------- */
 
-int NeighborSearch::filter(const NeighList *list, int i, int *found, int n) const
+bool NeighborSearch::is_wanted(const NeighList *list, int i, int j) const
 {
-  const int *const type = atom->type;
-  int kept = 0;
-  for (int k = 0; k < n; k++) {
-    const int j = found[k];
-    if (!halved && !has_pair(i, j)) continue;
-    if (skips && list->ijskip[type[i]][type[j]]) continue;
-    if (exclude && exclusion(i, j, type[i], type[j], atom->mask, atom->molecule)) continue;
-    found[kept++] = j;
-  }
-  return kept;
+  const int itype = atom->type[i], jtype = atom->type[j];
+  if (skips && list->ijskip[itype][jtype]) return false;
+  return !exclude || !exclusion(i, j, itype, jtype, atom->mask, atom->molecule);
 }
 
 /* ----------------------------------------------------------------------
@@ -376,19 +353,16 @@ bool NeighborSearch::has_exclusions(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   newton off: pairs of owned particles once, others on both processors; on: by ID, as class NPairBin of LAMMPS does in
-   triclinic boxes, and by position for images of the same particle
+   newton on, an owned particle and a ghost: by ID, as class NPairNsq of LAMMPS; by position for images of one particle
 ------------------------------------------------------------------------- */
 
 bool NeighborSearch::has_pair(int i, int j) const
 {
-  if (j < atom->nlocal || !force->newton_pair) return j > i;
   const tagint itag = atom->tag[i], jtag = atom->tag[j];
   if (itag != jtag) return (itag > jtag) == ((itag + jtag) % 2 == 1);
-  const double delta = 0.01 * force->angstrom;
   double **const x = atom->x;
   for (const int d : {2, 1})
-    if (std::fabs(x[j][d] - x[i][d]) > delta) return x[j][d] > x[i][d];
+    if (std::fabs(x[j][d] - x[i][d]) > ROUND_OFF * cutoff) return x[j][d] > x[i][d];
   return x[j][0] > x[i][0];
 }
 
@@ -396,11 +370,14 @@ bool NeighborSearch::has_pair(int i, int j) const
 
 double NeighborSearch::memory_usage() const
 {
-  std::size_t bytes = (start.capacity() + cell.capacity() + members.capacity()) * sizeof(int) +
-      sorted_index.capacity() * (3 * sizeof(double) + sizeof(int));
+  std::size_t bytes = (cell.capacity() + members.capacity()) * sizeof(int);
+  for (const Sorted *some : {&owned, &ghosts})
+    bytes += some->start.capacity() * sizeof(int) +
+        some->index.capacity() * (3 * sizeof(double) + sizeof(int));
   for (const auto &part : parts)
     bytes += (part.neighbors.capacity() + part.rows.capacity()) * sizeof(int) +
         part.offset.capacity() * sizeof(bigint) +
-        part.index.capacity() * (3 * sizeof(float) + sizeof(int));
+        (part.owned.index.capacity() + part.ghosts.index.capacity()) *
+            (3 * sizeof(float) + sizeof(int));
   return static_cast<double>(bytes);
 }

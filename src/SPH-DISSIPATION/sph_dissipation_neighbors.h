@@ -27,9 +27,8 @@ namespace SPHDissipation {
   // excluded, of the types that pair_style hybrid leaves to the fluid.  The particles are sorted into cells of half the
   // reach; the candidates of a cell are copied into columns, relative to its corner and in single precision, where whole
   // vectors of them are tested for each particle of the cell.  Those too close to the bound for single precision are
-  // tested in double precision.  Newton on in an orthogonal box: of two particles in different cells the list of the lower
-  // cell has the pair, so that half of the cells are looked at.  As those of LAMMPS, the cells fill the whole box and are the
-  // same on all processors, and a periodic image is in a cell of its own.
+  // tested in double precision.  Of two owned particles the one in the lower cell has the pair, so that half of the cells are
+  // looked at for them; with newton on, IDs tell which processor has the pair of an owned particle and a ghost.
 
   class NeighborSearch : public NPair {
    public:
@@ -49,17 +48,29 @@ namespace SPHDissipation {
     double memory_usage() const;    // bytes
 
    private:
-    // cells next to that of a particle, in a row along x: from x - reach to x + reach; in its own row x + 1 to x + reach
+    // cells next to that of a particle, in a row along x: from first to last
+
     struct CellRow {
-      int y, z, reach;
+      int y, z, first, last;
+    };
+
+    // particles sorted into cells; those of cell c are the entries start[c] to start[c + 1] - 1
+
+    struct Sorted {
+      std::vector<int> start, index;
+      std::vector<double> x[3];
+    };
+
+    struct Candidates {
+      CandidateColumns columns;    // of x, index
+      std::vector<float> x[3];
+      std::vector<int> index;
     };
 
     // what one thread finds
 
     struct Part {
-      CandidateColumns candidates;    // of x, index
-      std::vector<float> x[3];
-      std::vector<int> index;
+      Candidates owned, ghosts;      // of one cell
       std::vector<int> neighbors;    // of all of its rows of the list
       std::vector<int> rows;         // their particles
       std::vector<bigint> offset;    // of their neighbors
@@ -69,33 +80,36 @@ namespace SPHDissipation {
     Threads *threads;
     double cutoff;
     bigint ncalls, lastcall;    // of class Neighbor, when the list was built
-    bool halved;                // the order of the cells tells which list has a pair
     bool skips;                 // pair_style hybrid gives pairs of types of the fluid to others
-    double lo[3], hi[3], size[3];
-    int nbox[3];     // cells in the box
-    int first[3];    // lowest cell of this processor
-    int ncell[3];    // cells of this processor
-    std::vector<CellRow> rows;
-    std::vector<int> start;      // first entry of each cell in sorted
-    std::vector<int> cell;       // of each entry, before they are sorted
-    std::vector<int> members;    // particles of the fluid
-    std::vector<double> sorted_x[3];
-    std::vector<int> sorted_index;
-    PlaceColumns sorted;    // of sorted_x, sorted_index
+    double lo[3], size[3];      // of the cells
+    int ncell[3];
+    std::vector<CellRow> all_rows, upper_rows;
+    std::vector<int> members;    // owned and ghost particles of the fluid
+    std::vector<int> cell;       // of each of those that are being sorted
+    Sorted owned, ghosts;
     std::vector<Part> parts;
 
-    int cell_of(double x, int d) const;
     void find_members(const NeighList *);
     void choose_cells();
     void find_rows();
-    void sort();
+    void sort(Sorted &, int from, int to);
     void search(int from, int to, NeighList *, Part &) const;
-    void find_candidates(const int *place, const double *corner, Part &) const;
-    int add_own_cell(int p, int end, int *found) const;
+    void find_candidates(const Sorted &, const std::vector<CellRow> &, const int *place,
+                         const double *corner, Candidates &) const;
     int check(int i, int *found, int n) const;
-    int filter(const NeighList *, int i, int *found, int n) const;
+    bool is_wanted(const NeighList *, int i, int j) const;
     bool has_exclusions(int i) const;
     bool has_pair(int i, int j) const;
+
+    // keeps those of which keep(j) is true; returns how many
+
+    template <class Keep> static int filter(int *found, int n, const Keep &keep)
+    {
+      int kept = 0;
+      for (int k = 0; k < n; k++)
+        if (keep(found[k])) found[kept++] = found[k];
+      return kept;
+    }
   };
 
 }    // namespace SPHDissipation
