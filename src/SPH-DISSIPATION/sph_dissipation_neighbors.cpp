@@ -30,6 +30,13 @@ static constexpr double ROUND_OFF = 1.0e-9;
 static constexpr double FLOAT_ROUND_OFF =
     1.0e-6;    // of the square of a distance, in units of the cutoff
 
+// the lower bits of an ID
+
+static int word_of(tagint tag)
+{
+  return static_cast<int>(tag & 0x7fffffff);
+}
+
 /* ---------------------------------------------------------------------- */
 
 NeighborSearch::NeighborSearch(LAMMPS *lmp) :
@@ -144,24 +151,27 @@ void NeighborSearch::search(int from, int to, NeighList *list, Part &part) const
       float at[3];
       for (int d = 0; d < 3; d++) at[d] = static_cast<float>((owned.x[d][p] - corner[d]) / cutoff);
 
-      auto find = [&](const Candidates &candidates, int *to) {
-        bool doubt = false;
-        const int n = loops->near(candidates.columns, at, bound, safe, to, doubt);
-        return doubt ? check(i, to, n) : n;
-      };
       int n = last - p - 1;    // owned ones in the same cell
       std::copy_n(owned.index.begin() + p + 1, n, found);
       n = check(i, found, n);
-      n += find(part.owned, found + n);
-      if (part.ghosts.columns.n) {
-        int *const images = found + n;
-        int nimage = find(part.ghosts, images);
-        if (force->newton_pair)
-          nimage = filter(images, nimage, [&](int j) {
-            return has_pair(i, j);
-          });
-        n += nimage;
-      }
+
+      auto find = [&](const Candidates &candidates, bool by_id) {
+        int *const to = found + n;
+        bool doubt = false;
+        const int word = by_id ? owned.word[p] : -1;
+        int nfound = loops->near(candidates.columns, at, word, bound, safe, to, doubt);
+        if (doubt) {
+          if (by_id) nfound = loops->near(candidates.columns, at, -1, bound, safe, to, doubt);
+          nfound = check(i, to, nfound);
+          if (by_id)
+            nfound = filter(to, nfound, [&](int j) {
+              return has_pair(i, j);
+            });
+        }
+        n += nfound;
+      };
+      find(part.owned, false);
+      if (part.ghosts.columns.n) find(part.ghosts, force->newton_pair);
       if (skips || has_exclusions(i))
         n = filter(found, n, [&](int j) {
           return is_wanted(list, i, j);
@@ -270,10 +280,12 @@ void NeighborSearch::sort(Sorted &sorted, int from, int to)
   if (static_cast<int>(sorted.index.size()) < n + ROOM) {
     for (auto &column : sorted.x) column.resize(n + n / 16 + ROOM);
     sorted.index.resize(n + n / 16 + ROOM);
+    sorted.word.resize(n + n / 16 + ROOM);
   }
   for (int m = n - 1; m >= 0; m--) {
     const int entry = --start[cell[m]];
     sorted.index[entry] = begin[m];
+    sorted.word[entry] = word_of(atom->tag[begin[m]]);
     for (int d = 0; d < 3; d++) sorted.x[d][entry] = x[begin[m]][d];
   }
 }
@@ -287,7 +299,8 @@ void NeighborSearch::find_candidates(const Sorted &sorted, const std::vector<Cel
                                      Candidates &candidates) const
 {
   const PlaceColumns places = {{sorted.x[0].data(), sorted.x[1].data(), sorted.x[2].data()},
-                               sorted.index.data()};
+                               sorted.index.data(),
+                               sorted.word.data()};
   CandidateColumns &columns = candidates.columns;
   columns.n = 0;
   for (const auto &row : rows) {
@@ -304,7 +317,9 @@ void NeighborSearch::find_candidates(const Sorted &sorted, const std::vector<Cel
         columns.x[d] = candidates.x[d].data();
       }
       candidates.index.resize(2 * room);
+      candidates.word.resize(2 * room);
       columns.index = candidates.index.data();
+      columns.word = candidates.word.data();
     }
     loops->take_candidates(places, from, to, corner, 1.0 / cutoff, columns);
   }
@@ -353,13 +368,16 @@ bool NeighborSearch::has_exclusions(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   newton on, an owned particle and a ghost: by ID, as class NPairNsq of LAMMPS; by position for images of one particle
+   newton on, an owned particle and a ghost: by the words of the IDs, as class NPairNsq of LAMMPS by the IDs; by the IDs if
+   the words are the same; by position for images of one particle
 ------------------------------------------------------------------------- */
 
 bool NeighborSearch::has_pair(int i, int j) const
 {
   const tagint itag = atom->tag[i], jtag = atom->tag[j];
-  if (itag != jtag) return (itag > jtag) == ((itag + jtag) % 2 == 1);
+  const int a = word_of(itag), b = word_of(jtag);
+  if (a != b) return (a > b) == ((a ^ b) & 1);
+  if (itag != jtag) return itag > jtag;
   double **const x = atom->x;
   for (const int d : {2, 1})
     if (std::fabs(x[j][d] - x[i][d]) > ROUND_OFF * cutoff) return x[j][d] > x[i][d];
@@ -373,11 +391,11 @@ double NeighborSearch::memory_usage() const
   std::size_t bytes = (cell.capacity() + members.capacity()) * sizeof(int);
   for (const Sorted *some : {&owned, &ghosts})
     bytes += some->start.capacity() * sizeof(int) +
-        some->index.capacity() * (3 * sizeof(double) + sizeof(int));
+        some->index.capacity() * (3 * sizeof(double) + 2 * sizeof(int));
   for (const auto &part : parts)
     bytes += (part.neighbors.capacity() + part.rows.capacity()) * sizeof(int) +
         part.offset.capacity() * sizeof(bigint) +
         (part.owned.index.capacity() + part.ghosts.index.capacity()) *
-            (3 * sizeof(float) + sizeof(int));
+            (3 * sizeof(float) + 2 * sizeof(int));
   return static_cast<double>(bytes);
 }

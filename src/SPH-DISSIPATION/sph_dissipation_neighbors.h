@@ -57,14 +57,14 @@ namespace SPHDissipation {
     // particles sorted into cells; those of cell c are the entries start[c] to start[c + 1] - 1
 
     struct Sorted {
-      std::vector<int> start, index;
+      std::vector<int> start, index, word;    // word: of the ID
       std::vector<double> x[3];
     };
 
     struct Candidates {
-      CandidateColumns columns;    // of x, index
+      CandidateColumns columns;    // of x, index, word
       std::vector<float> x[3];
-      std::vector<int> index;
+      std::vector<int> index, word;
     };
 
     // what one thread finds

@@ -37,7 +37,8 @@
 // one row after another: an index may occur twice.
 
 // Floats holds FLOATS numbers of single precision, for distances: all_floats(), load_floats(), bits_below(), and
-// pack_indices(), which writes the indices whose bits are set one after another, as pack() does.
+// pack_indices(), which writes the indices whose bits are set one after another, as pack() does.  bits_of_pairs(a, b, alike):
+// where a > b, if the sum of both is odd, else where a < b, for FLOATS words b >= 0; alike: where a = b.
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -154,6 +155,13 @@ namespace SPHDissipation {
     SPH_INLINE int bits_below(Floats a, Floats bound)
     {
       return _mm512_cmp_ps_mask(a, bound, _CMP_LT_OQ);
+    }
+    SPH_INLINE int bits_of_pairs(int word, const int *words, int &alike)
+    {
+      const __m512i a = _mm512_set1_epi32(word), b = _mm512_loadu_si512(words);
+      alike = _mm512_cmpeq_epi32_mask(a, b);
+      const int odd = _mm512_test_epi32_mask(_mm512_xor_si512(a, b), _mm512_set1_epi32(1));
+      return ~(_mm512_cmpgt_epi32_mask(a, b) ^ odd);
     }
     SPH_INLINE void pack_indices(int *to, const int *from, int bits)
     {
@@ -357,6 +365,16 @@ namespace SPHDissipation {
       return _mm256_movemask_ps(_mm256_cmp_ps(a, bound, _CMP_LT_OQ));
     }
 
+    SPH_INLINE int bits_of_pairs(int word, const int *words, int &alike)
+    {
+      const __m256i a = _mm256_set1_epi32(word);
+      const __m256i b = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(words));
+      const __m256i odd = _mm256_slli_epi32(_mm256_xor_si256(a, b), 31);
+      alike = _mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b)));
+      return ~(_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpgt_epi32(a, b))) ^
+               _mm256_movemask_ps(_mm256_castsi256_ps(odd)));
+    }
+
     // PACK_BYTES[bits]: the 32-bit lanes whose bits are set first, byte by byte; of half a vector
 
     struct PackBytes {
@@ -524,6 +542,11 @@ namespace SPHDissipation {
     SPH_INLINE int bits_below(Floats a, Floats bound)
     {
       return (a < bound) ? 1 : 0;
+    }
+    SPH_INLINE int bits_of_pairs(int word, const int *words, int &alike)
+    {
+      alike = (word == *words) ? 1 : 0;
+      return ((word > *words) == ((word ^ *words) & 1)) ? 1 : 0;
     }
     SPH_INLINE void pack_indices(int *to, const int *from, int)
     {
