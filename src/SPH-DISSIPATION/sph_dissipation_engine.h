@@ -98,7 +98,7 @@ namespace SPHDissipation {
 
   struct PlaceColumns {
     const double *x[3];
-    const int *index, *word;
+    const int *index, *word;    // word: nullptr if nobody asks
   };
 
   struct CandidateColumns {

@@ -22,10 +22,8 @@ SPH_INLINE void take_candidates(const PlaceColumns &from, int begin, int end, co
     for (int k = 0; k < end - begin; k += LANES)
       store_floats(out + k, (load(x + k) - all(corner[d])) * all(scale));
   }
-  for (int k = 0; k < end - begin; k++) {
-    to.index[to.n + k] = from.index[begin + k];
-    to.word[to.n + k] = from.word[begin + k];
-  }
+  copy_indices(to.index + to.n, from.index + begin, end - begin);
+  if (from.word) copy_indices(to.word + to.n, from.word + begin, end - begin);
   to.n += end - begin;
 }
 

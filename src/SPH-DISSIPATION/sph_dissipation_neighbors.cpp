@@ -300,7 +300,7 @@ void NeighborSearch::find_candidates(const Sorted &sorted, const std::vector<Cel
 {
   const PlaceColumns places = {{sorted.x[0].data(), sorted.x[1].data(), sorted.x[2].data()},
                                sorted.index.data(),
-                               sorted.word.data()};
+                               (&sorted == &ghosts) ? sorted.word.data() : nullptr};
   CandidateColumns &columns = candidates.columns;
   columns.n = 0;
   for (const auto &row : rows) {

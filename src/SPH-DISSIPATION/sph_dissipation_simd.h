@@ -39,6 +39,7 @@
 // Floats holds FLOATS numbers of single precision, for distances: all_floats(), load_floats(), bits_below(), and
 // pack_indices(), which writes the indices whose bits are set one after another, as pack() does.  bits_of_pairs(a, b, alike):
 // where a > b, if the sum of both is odd, else where a < b, for FLOATS words b >= 0; alike: where a = b.
+// copy_indices(to, from, n) writes whole vectors.
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -155,6 +156,10 @@ namespace SPHDissipation {
     SPH_INLINE int bits_below(Floats a, Floats bound)
     {
       return _mm512_cmp_ps_mask(a, bound, _CMP_LT_OQ);
+    }
+    SPH_INLINE void copy_indices(int *to, const int *from, int n)
+    {
+      for (int k = 0; k < n; k += FLOATS) _mm512_storeu_si512(to + k, _mm512_loadu_si512(from + k));
     }
     SPH_INLINE int bits_of_pairs(int word, const int *words, int &alike)
     {
@@ -365,6 +370,12 @@ namespace SPHDissipation {
       return _mm256_movemask_ps(_mm256_cmp_ps(a, bound, _CMP_LT_OQ));
     }
 
+    SPH_INLINE void copy_indices(int *to, const int *from, int n)
+    {
+      for (int k = 0; k < n; k += FLOATS)
+        _mm256_storeu_si256(reinterpret_cast<__m256i *>(to + k),
+                            _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from + k)));
+    }
     SPH_INLINE int bits_of_pairs(int word, const int *words, int &alike)
     {
       const __m256i a = _mm256_set1_epi32(word);
@@ -542,6 +553,10 @@ namespace SPHDissipation {
     SPH_INLINE int bits_below(Floats a, Floats bound)
     {
       return (a < bound) ? 1 : 0;
+    }
+    SPH_INLINE void copy_indices(int *to, const int *from, int n)
+    {
+      for (int k = 0; k < n; k++) to[k] = from[k];
     }
     SPH_INLINE int bits_of_pairs(int word, const int *words, int &alike)
     {
