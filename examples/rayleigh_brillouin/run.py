@@ -19,7 +19,7 @@ from run_lammps import Example, pyplot, save      # noqa: E402
 MU, T, PARTICLES, SUPPORT = 0.3, 1e-4, 256, 4.0     # as in the input; density, particle spacing, and isothermal speed of sound are 1
 WAVES = np.arange(6, 25)            # waves in the box, in the order of the columns
 BANDS = ((6, 11), (12, 17), (18, 24))
-PICTURE = (9, 10, 11)               # waves of the spectra in the figure
+PICTURE = 10                        # wave of the spectra in the figure
 D = 0.45                            # diffusivity of heat, Prandtl number 2/3
 INTERVAL = 0.8                      # time between two rows
 QUICK = 40000
@@ -167,7 +167,7 @@ def plot(path, cases):
     shown = [case for case in cases if case.gamma > 1.5 and case.heat == 1], [case for case in cases if case.kappa == 1]
     for axis, group in zip(axes, shown):
         for color, case in zip(("C0", "C1", "C2"), sorted(group, key=lambda case: (case.kappa, -case.gamma, case.heat))):
-            numbers = [np.flatnonzero(WAVES == wave)[0] for wave in PICTURE]
+            numbers = [np.flatnonzero(WAVES == wave)[0] for wave in (PICTURE,)]
             size = 12
             count = int(0.6 / case.omega[0]) // size * size
             omega = case.omega[:count]
@@ -213,8 +213,8 @@ def main():
                 writer.writerow([f"{case.gamma:.4f}", case.kappa, case.heat * D, *band, f"{2 * np.pi * np.mean(band) / PARTICLES:.4f}",
                                  *(f"{x:.4f}" for pair in zip(factors, errors) for x in pair)])
             factors, errors = case.bands.pop((WAVES[0], WAVES[-1]))
-            share, *rest = case.exact[PICTURE[1] - WAVES[0]]
-            print(f"\ngamma {case.gamma:.4f}, kappa/mu {case.kappa}, diffusivity {case.heat * D:g}: exact at k = {case.k[PICTURE[1] - WAVES[0]]:.4f}: "
+            share, *rest = case.exact[PICTURE - WAVES[0]]
+            print(f"\ngamma {case.gamma:.4f}, kappa/mu {case.kappa}, diffusivity {case.heat * D:g}: exact at k = {case.k[PICTURE - WAVES[0]]:.4f}: "
                   f"I_R/2I_B {share / (1 - share):.4f} (gamma - 1 = {case.gamma - 1:.4f}), "
                   "half widths {:.5f} and {:.5f}, frequency {:.5f}".format(*rest))
             for title, factor, error in zip(TITLES, factors, errors):
