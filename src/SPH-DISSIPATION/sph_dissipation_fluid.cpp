@@ -681,7 +681,10 @@ CoeffTable Fluid::coeff_table()
   const StrainRows strains = engine->strains();
   std::vector<double> mine(2 * (n + 1), 0.0), all(2 * (n + 1));
   double *const speed = all.data(), *const thinness = speed + n + 1;    // rho0/rho
-  double &fastest = mine[0];                                            // there is no type 0
+
+  // in the place of type 0, which does not exist: the largest speed
+
+  double &fastest = mine[0];
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
     const TypeCoeff &coeff = model->coeffs[type];
