@@ -151,7 +151,7 @@ def count(args):
 
 
 # Time of a step on a rank that has n particles and g ghosts, spacing 1: own n + ghost g + MESSAGES latency + BYTES g / bandwidth +
-# REDUCTIONS 2 log2(ranks) latency, where a reduction goes up and down a tree.  own and ghost are fits to one rank; the others are
+# REDUCTIONS 2 log2(ranks) latency, where a reduction goes up and down a tree.  own and ghost are measured on one rank; the others are
 # counts of the Taylor-Green flow on 8 ranks.  The load is taken to be the same on all ranks.
 
 REACH = 3.3           # support radius and skin
@@ -172,22 +172,8 @@ def step_time(n, ranks, own, ghost, args):
     return time + BYTES * g / args.bandwidth + (MESSAGES + 2 * REDUCTIONS * math.log2(ranks)) * args.latency
 
 
-def fit_costs(args):
-    """seconds per particle and per ghost, of the Taylor-Green flow on one rank: least squares of relative errors"""
-    rows = []
-    for n in (12, 16, 20, 28, 40):
-        results = [launch(args.lmp, PEER_FLOW, args, n=n, steps=round(50 * (40 / n) ** 2)) for _ in range(args.repeat)]
-        seconds = statistics.median(one["seconds"] / one["steps"] for one in results)
-        rows.append((n**3 / seconds, statistics.median(one["ghosts"] for one in results) / seconds))
-        print(f"  {n**3:6} particles: {1e6 * seconds / n**3:.3f} us per particle and step", flush=True)
-    aa, ab, bb = (sum(x * y for x, y in pairs) for pairs in ([(a, a) for a, _ in rows], [(a, b) for a, b in rows], [(b, b) for _, b in rows]))
-    a, b = sum(a for a, _ in rows), sum(b for _, b in rows)
-    det = aa * bb - ab * ab
-    return (a * bb - b * ab) / det, (b * aa - a * ab) / det
-
-
 def predict(args):
-    own, ghost = args.costs or fit_costs(args)
+    own, ghost = args.costs
     print(f"\n{1e6 * own:.3f} us per particle and step, {1e6 * ghost:.3f} per ghost; {1e6 * args.latency:g} us per message, "
           f"{args.bandwidth / 1e9:g} GB/s per rank")
     print(f"  {'particles':>9} {'ranks at 80 %':>13} {'particles of each':>17} {'steps per second':>16}")
@@ -210,7 +196,8 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", help="lines of the table whose names have this in them")
     parser.add_argument("--messages", action="store_true", help="count messages on 1, 2, 4, 8 and 16 ranks, and predict the scaling")
-    parser.add_argument("--costs", type=float, nargs=2, metavar=("OWN", "GHOST"), help="seconds per particle and per ghost (default: measured)")
+    parser.add_argument("--costs", type=float, nargs=2, default=[0.43e-6, 0.065e-6], metavar=("OWN", "GHOST"),
+                        help="seconds per particle and per ghost (default: those of README.md)")
     parser.add_argument("--latency", type=float, default=2e-6, help="of a message, seconds")
     parser.add_argument("--bandwidth", type=float, default=1.6e9, help="bytes per second of each rank")
     args = parser.parse_args()
