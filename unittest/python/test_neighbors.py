@@ -125,3 +125,41 @@ def test_runs_continue(lammps):
         ends.append(lammps.frame("out.dump"))
     assert relative(ends[0]["x"] - ends[1]["x"], ends[1]["x"]) < 1e-11
     assert relative(ends[0]["f"] - ends[1]["f"], ends[1]["f"]) < 1e-9
+
+
+@pytest.mark.parametrize("ranks", [1, 4])
+@pytest.mark.parametrize("lo, hi", [((0.52, -0.83, 0.58), (6.81, 7.79, 7.04)), ((-0.9, -0.28, 0.94), (7.8, 7.38, 7.11)),
+                                    ((-8.0, -7.3, -8.0), (0.0, 0.0, 0.0))])
+def test_faces_of_the_box(lammps, lo, hi, ranks):
+    """Particles on the faces of a box whose length has round-off, where LAMMPS's own bins lose pairs or count them twice."""
+    particles = disordered(3, (7, 7, 7), ntypes=3)
+    lo, hi = np.array(lo), np.array(hi)
+    particles.x *= (hi - lo) / particles.hi
+    particles.x += lo
+    particles.lo, particles.hi = lo, hi
+    inside = np.nextafter(hi, lo)
+    inside[hi == 0.0] = -1e-17
+    for number in range(0, len(particles), 3):
+        particles.x[number, number % 4 % 3] = lo[number % 4 % 3]
+    for number in range(1, len(particles), 5):
+        particles.x[number, number % 4 % 3] = inside[number % 4 % 3]
+    found, here, _ = forces(lammps, "bin", particles, ranks)
+    known, there, _ = forces(lammps, "nsq", particles, ranks)
+    assert found == known
+    assert relative(here["f"] - there["f"], there["f"]) < 1e-11
+
+
+@pytest.mark.parametrize("unit", [1e-25, 1e-9, 1e19])
+def test_unit_of_length(lammps, unit):
+    """Lengths whose squares are no numbers of single precision."""
+    particles = disordered(3, (6, 7, 5))
+    particles.x, particles.lo, particles.hi = unit * particles.x, unit * particles.lo, unit * particles.hi
+    particles.mass, particles.esph = unit**3 * particles.mass, unit**3 * particles.esph
+    particles.write(lammps.path("box.data"))
+    counts = []
+    for style in ("bin", "nsq"):
+        log = lammps(header(3) + f"comm_modify cutoff {3.0 * unit}\nread_data box.data\nneighbor {0.5 * unit} {style}\n"
+                     + fluid(3, mu=0.5 * unit, kappa=2.0 * unit, support=2.5 * unit)
+                     + f"fix FLUID all sph/bulk\ntimestep {0.005 * unit}\nrun 0 post yes\n").log
+        counts += [line for line in log.splitlines() if line.startswith("Total # of neighbors")]
+    assert counts[0] == counts[1]
