@@ -585,10 +585,3 @@ def test_wrong_arguments_of_temp_energy(lammps, options, words):
     make_box(lammps)
     kappa = 0.1 if "limit" in options else 2.0
     fails(lammps, deck(options=options, kappa=kappa, extra="set group all sph/e 0.0\n") + "run 1\n", words, ranks=(1,))
-
-
-def test_what_temp_energy_does_not_go_with(lammps):
-    make_box(lammps)
-    text = deck(options=ENERGY).replace("fix FLUID all", "region low block INF INF INF 2.9 INF INF\ngroup wall region low\n"
-                                        "group fluid subtract all wall\nfix FLUID fluid")
-    fails(lammps, text + "fix W wall sph/wall\nset group all sph/e 100.0\nrun 1\n", "cannot be used with walls", ranks=(1,))
