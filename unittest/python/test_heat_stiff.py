@@ -90,11 +90,12 @@ def test_energy_and_entropy(lammps, name, ranks, newton):
 @pytest.mark.parametrize("factor", [5.0, 30.0, 1000.0])
 @pytest.mark.parametrize("temperature", [RANDOM.format(1e4), "1.0+99.0*(id==30)"])
 def test_scheme_euler_has_no_new_extremum(lammps, temperature, factor):
-    """In no step, of random temperatures and of one hot particle."""
+    """In no step, of random temperatures and of one hot particle, to round-off of the highest one at the start."""
     frames = at_rest(lammps, tight("euler"), temperature, factor)
+    slack = 1e-12 * frames[0]["c_T"].max()
     for before, after in zip(frames, frames[1:]):
         a, b = before["c_T"], after["c_T"]
-        assert b.max() < a.max() * (1 + 1e-11) and b.min() > a.min() * (1 - 1e-11)
+        assert b.max() < a.max() + slack and b.min() > a.min() - slack
 
 
 def test_others_may_have_one(lammps):
