@@ -281,6 +281,7 @@ void BoundaryStageKokkos<DeviceType>::sum_surface_heat(const LoopDataKokkos<Devi
           if (number(j) < 0) total += heat_of(j, i, r, rsq);
         });
         flow[i] = -total;
+        loop.desph[i] -= total;
       });
 }
 

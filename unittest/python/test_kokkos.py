@@ -446,7 +446,6 @@ def test_output_of_walls_on_the_way(lammps, style):
     assert_same_totals(thermo, thermo_kokkos, 1e-10)
 
 
-@pytest.mark.skipif(DEVICE_LOOPS, reason="the loops of a GPU give other rates of heat next to such walls, see Howto_sph_kokkos")
 @pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off")])
 def test_heat_of_walls(lammps, style, ranks, newton):
     """A wall with a temperature, one that gives a flux of heat and moves, one without either."""
