@@ -691,38 +691,40 @@ double FixSPHBulk::rest_of_heat(const double *v, const double *acting, const dou
 
 void FixSPHBulk::integrate(Half half)
 {
-  const Fields &kept = fields();
-  const Particles particles(atom, kept);
   const int nlocal = nlocal_group();
-  const TimeStep step = time_step();
   const bool carries = half == BEGIN && has_viscous_stage();
   if (carries) fluid->viscous->begin_carrying();
 
   Threads one_thread;
-  (fluid ? fluid->team() : one_thread).for_each(nlocal, [&](int i) {
-    if (!(atom->mask[i] & groupbit)) return;
-    double rest[2] = {0.0, 0.0};
-    if (exact) {
-      const double mass = atom->rmass[i];
-      rest[0] =
-          rest_of_heat(atom->v[i], atom->vest[i], atom->f[i], fluid->own_force(i), 1.0 / mass);
-      if (spins)
-        rest[1] =
-            rest_of_heat(atom->omega[i], kept.omegaest[i], atom->torque[i], fluid->own_torque(i),
-                         TimeStep::inverse_inertia(mass, kept.inertia[i]));
-    }
-    if (half == BEGIN)
-      step.begin(particles, i);
-    else
-      step.end(particles, i);
-    if (exact)
-      for (const double heat : rest) {
-        atom->esph[i] += heat;
-        if (half == END) kept.desph_before[i] += heat;
+  (fluid ? fluid->team() : one_thread).in_parts(nlocal, [&](int, int from, int to) {
+    const Fields &kept = fields();
+    const Particles particles(atom, kept);
+    const TimeStep step = time_step();
+    for (int i = from; i < to; i++) {
+      if (!(atom->mask[i] & groupbit)) continue;
+      double rest[2] = {0.0, 0.0};
+      if (exact) {
+        const double mass = atom->rmass[i];
+        rest[0] =
+            rest_of_heat(atom->v[i], atom->vest[i], atom->f[i], fluid->own_force(i), 1.0 / mass);
+        if (spins)
+          rest[1] =
+              rest_of_heat(atom->omega[i], kept.omegaest[i], atom->torque[i], fluid->own_torque(i),
+                           TimeStep::inverse_inertia(mass, kept.inertia[i]));
       }
-    if (!carries) return;
-    fluid->viscous->carry_force(i, step.keep);
-    if (spins) fluid->viscous->carry_torque(i, kept.inertia, kept.omegaest);
+      if (half == BEGIN)
+        step.begin(particles, i);
+      else
+        step.end(particles, i);
+      if (exact)
+        for (const double heat : rest) {
+          atom->esph[i] += heat;
+          if (half == END) kept.desph_before[i] += heat;
+        }
+      if (!carries) continue;
+      fluid->viscous->carry_force(i, step.keep);
+      if (spins) fluid->viscous->carry_torque(i, kept.inertia, kept.omegaest);
+    }
   });
 }
 

@@ -93,17 +93,17 @@ namespace SPHDissipation {
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
   typedef void (*HeatLoop)(const LoopData &, const Conductor *, double *flow);
 
-  // Positions, indices, and words of the IDs of particles, sorted into cells; candidates for neighbors, relative to the
-  // corner of a cell.  Both have room for a vector of 16 numbers behind the last entry
+  // Positions and indices of particles, sorted into cells; candidates for neighbors, relative to the corner of a cell.
+  // Both have room for a vector of 16 numbers behind the last entry
 
   struct PlaceColumns {
     const double *x[3];
-    const int *index, *word;    // word: nullptr if nobody asks
+    const int *index;
   };
 
   struct CandidateColumns {
     float *x[3];
-    int *index, *word;
+    int *index;
     int n;
   };
 
@@ -122,11 +122,10 @@ namespace SPHDissipation {
     // take (x - corner) * scale
     void (*take_candidates)(const PlaceColumns &, int from, int to, const double *corner,
                             double scale, CandidateColumns &);
-    // Write the indices of candidates nearer to a place than the root of bound, return how many.  word: of the ID at the
-    // place; only those of which has_pair(word, theirs) is true, or all if it is negative.  doubt: one is not nearer than
-    // the root of safe, or has the same word
-    int (*near)(const CandidateColumns &, const float *place, int word, float bound, float safe,
-                int *found, bool &doubt);
+    // Write the indices of candidates nearer to a place than the root of bound, return how many.  doubt: one is not nearer
+    // than the root of safe
+    int (*near)(const CandidateColumns &, const float *place, float bound, float safe, int *found,
+                bool &doubt);
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;

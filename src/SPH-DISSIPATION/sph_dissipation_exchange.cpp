@@ -24,7 +24,10 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-Exchange::Exchange(LAMMPS *lmp, Pair *pair) : Pointers(lmp), pair(pair), threads(&one_thread) {}
+Exchange::Exchange(LAMMPS *lmp, Pair *pair) :
+    Pointers(lmp), pair(pair), nreceived(-1), threads(&one_thread)
+{
+}
 
 /* ----------------------------------------------------------------------
    call send(# of values per atom) for each message, with the fields that are in it
@@ -69,6 +72,20 @@ void Exchange::reverse(std::initializer_list<Field> next)
 }
 
 /* ----------------------------------------------------------------------
+   class CommBrick sends downwards and upwards in turn, along x, y, z
+------------------------------------------------------------------------- */
+
+const std::vector<int> &Exchange::ghosts_from_above()
+{
+  fields.clear();
+  from_above.clear();
+  nreceived = 0;
+  comm->forward_comm(pair, 1);
+  nreceived = -1;
+  return from_above;
+}
+
+/* ----------------------------------------------------------------------
    copy(field, k, its values in the message) for each field and k < n; returns the length of the message
 ------------------------------------------------------------------------- */
 
@@ -96,8 +113,13 @@ int Exchange::pack_forward(int n, const int *list, double *buf) const
 
 /* ---------------------------------------------------------------------- */
 
-void Exchange::unpack_forward(int n, int nfirst, const double *buf) const
+void Exchange::unpack_forward(int n, int nfirst, const double *buf)
 {
+  if (nreceived >= 0) {
+    if (nreceived++ % 2 == 0)
+      for (int k = 0; k < n; k++) from_above.push_back(nfirst + k);
+    return;
+  }
   for_each(n, [=](const Field &one, int k, int at) {
     double *const value = one.first + (nfirst + k) * one.stride;
     for (int d = 0; d < one.width; d++) value[d] = buf[at + d];

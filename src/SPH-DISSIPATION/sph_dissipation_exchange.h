@@ -56,14 +56,21 @@ namespace SPHDissipation {
     void forward(std::initializer_list<Field>);    // owned atoms to their ghosts
     void reverse(std::initializer_list<Field>);    // ghosts, summed, to their owners; newton on
 
+    // With communication by bricks a ghost comes along x, then y, then z; returns the ghosts whose last step was downwards.
+    // A particle next to one of them is, on the processor of the other, a ghost whose last step was upwards.  By messages
+    // without contents
+    const std::vector<int> &ghosts_from_above();
+
     int pack_forward(int n, const int *list, double *buf) const;
-    void unpack_forward(int n, int nfirst, const double *buf) const;
+    void unpack_forward(int n, int nfirst, const double *buf);
     int pack_reverse(int n, int nfirst, double *buf) const;
     void unpack_reverse(int n, const int *list, const double *buf) const;
 
    private:
     Pair *pair;
     std::vector<Field> fields;
+    std::vector<int> from_above;
+    int nreceived;    // messages so far, while somebody asks for ghosts_from_above(); else -1
     mutable Threads one_thread;
     Threads *threads;
 

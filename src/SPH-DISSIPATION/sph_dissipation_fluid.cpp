@@ -54,7 +54,7 @@ static constexpr double ACCURATE_NOISE = 0.1;
 Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     Pointers(lmp), pair(pair), spins(spins), style(spins ? "sph/micropolar" : "sph/bulk"),
     model(new FluidModel(lmp, style, spins)), engine(new Engine(lmp)),
-    exchange(new Exchange(lmp, pair)), search(new NeighborSearch(lmp)),
+    exchange(new Exchange(lmp, pair)), search(new NeighborSearch(lmp, *exchange)),
     density(new DensityStage(lmp, *engine, *exchange)),
     limit(new LimitStage(lmp, *engine, *exchange)),
     pressure(new PressureStage(lmp, *engine, *exchange)),

@@ -23,12 +23,11 @@ SPH_INLINE void take_candidates(const PlaceColumns &from, int begin, int end, co
       store_floats(out + k, (load(x + k) - all(corner[d])) * all(scale));
   }
   copy_indices(to.index + to.n, from.index + begin, end - begin);
-  if (from.word) copy_indices(to.word + to.n, from.word + begin, end - begin);
   to.n += end - begin;
 }
 
-SPH_INLINE int near(const CandidateColumns &from, const float *place, int word, float bound,
-                    float safe, int *found, bool &doubt)
+SPH_INLINE int near(const CandidateColumns &from, const float *place, float bound, float safe,
+                    int *found, bool &doubt)
 {
   const Floats x = all_floats(place[0]), y = all_floats(place[1]), z = all_floats(place[2]);
   const Floats farthest = all_floats(bound), surely = all_floats(safe);
@@ -41,12 +40,6 @@ SPH_INLINE int near(const CandidateColumns &from, const float *place, int word, 
     int inside = bits_below(rsq, farthest);
     if (from.n - k < FLOATS) inside &= (1 << (from.n - k)) - 1;
     doubtful |= inside & ~bits_below(rsq, surely);
-    if (word >= 0) {
-      int alike;
-      const int mine = bits_of_pairs(word, from.word + k, alike);
-      doubtful |= inside & alike;
-      inside &= mine;
-    }
     pack_indices(found + n, from.index + k, inside);
     n += count_bits(inside);
   }

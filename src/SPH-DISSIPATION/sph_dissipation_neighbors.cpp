@@ -14,6 +14,8 @@
 #include "sph_dissipation_neighbors.h"
 
 #include "atom.h"
+#include "comm.h"
+#include "domain.h"
 #include "force.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -30,18 +32,11 @@ static constexpr double ROUND_OFF = 1.0e-9;
 static constexpr double FLOAT_ROUND_OFF =
     1.0e-6;    // of the square of a distance, in units of the cutoff
 
-// the lower bits of an ID
-
-static int word_of(tagint tag)
-{
-  return static_cast<int>(tag & 0x7fffffff);
-}
-
 /* ---------------------------------------------------------------------- */
 
-NeighborSearch::NeighborSearch(LAMMPS *lmp) :
-    NPair(lmp), loops(nullptr), threads(nullptr), cutoff(0.0), ncalls(-1), lastcall(-1),
-    skips(false), lo(), size(), ncell()
+NeighborSearch::NeighborSearch(LAMMPS *lmp, Exchange &messages) :
+    NPair(lmp), exchange(messages), loops(nullptr), threads(nullptr), cutoff(0.0), ncalls(-1),
+    lastcall(-1), skips(false), by_id(false), nowned(0), lo(), size(), ncell()
 {
 }
 
@@ -93,8 +88,8 @@ void NeighborSearch::build(NeighList *list)
   if (members.empty()) return;
   choose_cells();
   find_rows();
-  sort(owned, 0, atom->nlocal);
-  sort(ghosts, atom->nlocal, atom->nlocal + atom->nghost);
+  sort(owned, 0, nowned);
+  sort(ghosts, nowned, static_cast<int>(members.size()));
 
   skips = false;
   if (list->ijskip)
@@ -155,23 +150,17 @@ void NeighborSearch::search(int from, int to, NeighList *list, Part &part) const
       std::copy_n(owned.index.begin() + p + 1, n, found);
       n = check(i, found, n);
 
-      auto find = [&](const Candidates &candidates, bool by_id) {
+      for (const Candidates *candidates : {&part.owned, &part.ghosts}) {
         int *const to = found + n;
         bool doubt = false;
-        const int word = by_id ? owned.word[p] : -1;
-        int nfound = loops->near(candidates.columns, at, word, bound, safe, to, doubt);
-        if (doubt) {
-          if (by_id) nfound = loops->near(candidates.columns, at, -1, bound, safe, to, doubt);
-          nfound = check(i, to, nfound);
-          if (by_id)
-            nfound = filter(to, nfound, [&](int j) {
-              return has_pair(i, j);
-            });
-        }
+        int nfound = loops->near(candidates->columns, at, bound, safe, to, doubt);
+        if (doubt) nfound = check(i, to, nfound);
+        if (by_id && candidates == &part.ghosts)
+          nfound = filter(to, nfound, [&](int j) {
+            return has_pair(i, j);
+          });
         n += nfound;
-      };
-      find(part.owned, false);
-      if (part.ghosts.columns.n) find(part.ghosts, force->newton_pair);
+      }
       if (skips || has_exclusions(i))
         n = filter(found, n, [&](int j) {
           return is_wanted(list, i, j);
@@ -187,43 +176,61 @@ void NeighborSearch::search(int from, int to, NeighList *list, Part &part) const
 }
 
 /* ----------------------------------------------------------------------
-   owned and ghost particles of the types of the fluid
+   owned particles of the types of the fluid, and the ghosts of these types with which they may have pairs
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::find_members(const NeighList *list)
 {
-  const int nall = atom->nlocal + atom->nghost;
-  members.clear();
-  for (int i = 0; i < nall; i++)
+  const int nlocal = atom->nlocal, nall = atom->nlocal + atom->nghost;
+  auto add = [&](int i) {
     if (!list->iskip || !list->iskip[atom->type[i]]) members.push_back(i);
+  };
+  members.clear();
+  for (int i = 0; i < nlocal; i++) add(i);
+  nowned = static_cast<int>(members.size());
+  by_id = force->newton_pair && comm->style != Comm::BRICK;
+  if (force->newton_pair && !by_id)
+    for (const int i : exchange.ghosts_from_above()) add(i);
+  else
+    for (int i = nlocal; i < nall; i++) add(i);
 }
 
 /* ----------------------------------------------------------------------
    half of the reach is long enough for few cells and short enough for few candidates; where most of the space is empty,
-   the cells are larger.  LAMMPS's bins have looked at all positions: they are numbers
+   the cells are larger.  They divide the domain of the processor as the bins do by which LAMMPS sorts the particles, so that
+   those of a cell are next to each other in memory.  LAMMPS's bins have looked at all positions: they are numbers
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::choose_cells()
 {
   double **const x = atom->x;
-  double hi[3];
-  for (int d = 0; d < 3; d++) lo[d] = hi[d] = x[members[0]][d];
+  double first[3], last[3];    // of the positions
+  for (int d = 0; d < 3; d++) first[d] = last[d] = x[members[0]][d];
   for (const int i : members)
     for (int d = 0; d < 3; d++) {
-      lo[d] = std::min(lo[d], x[i][d]);
-      hi[d] = std::max(hi[d], x[i][d]);
+      first[d] = std::min(first[d], x[i][d]);
+      last[d] = std::max(last[d], x[i][d]);
     }
+  double sublo[3], subhi[3];
+  if (domain->triclinic)
+    domain->bbox(domain->sublo_lamda, domain->subhi_lamda, sublo, subhi);
+  else {
+    std::copy_n(domain->sublo, 3, sublo);
+    std::copy_n(domain->subhi, 3, subhi);
+  }
   const double most = SPARSE * static_cast<double>(members.size()) + 1000.0;
   double length = 0.5 * cutoff, total;
   do {
     total = 1.0;
-    for (int d = 0; d < 3; d++) total *= std::floor((hi[d] - lo[d]) / length) + 1.0;
-    if (total > most) length *= 1.25;
+    for (int d = 0; d < 3; d++) {
+      const double domain_length = subhi[d] - sublo[d];
+      size[d] = std::max(domain_length / std::max(std::floor(domain_length / length), 1.0), length);
+      lo[d] = sublo[d] + size[d] * std::floor((first[d] - sublo[d]) / size[d]);
+      total *= std::floor((last[d] - lo[d]) / size[d]) + 1.0;
+    }
+    length *= 1.25;
   } while (total > most);
-  for (int d = 0; d < 3; d++) {
-    size[d] = length;
-    ncell[d] = static_cast<int>((hi[d] - lo[d]) / length) + 1;
-  }
+  for (int d = 0; d < 3; d++) ncell[d] = static_cast<int>((last[d] - lo[d]) / size[d]) + 1;
 }
 
 /* ----------------------------------------------------------------------
@@ -253,15 +260,14 @@ void NeighborSearch::find_rows()
 }
 
 /* ----------------------------------------------------------------------
-   counting sort of the members from <= i < to
+   counting sort
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::sort(Sorted &sorted, int from, int to)
 {
   double **const x = atom->x;
-  const int *const begin = &*std::lower_bound(members.begin(), members.end(), from);
-  const auto n = static_cast<int>(std::lower_bound(members.begin(), members.end(), to) -
-                                  members.begin() - (begin - members.data()));
+  const int *const begin = members.data() + from;
+  const int n = to - from;
   auto &start = sorted.start;
   start.assign(ncell[0] * ncell[1] * ncell[2] + 1, 0);
   cell.resize(n);
@@ -280,12 +286,10 @@ void NeighborSearch::sort(Sorted &sorted, int from, int to)
   if (static_cast<int>(sorted.index.size()) < n + ROOM) {
     for (auto &column : sorted.x) column.resize(n + n / 16 + ROOM);
     sorted.index.resize(n + n / 16 + ROOM);
-    sorted.word.resize(n + n / 16 + ROOM);
   }
   for (int m = n - 1; m >= 0; m--) {
     const int entry = --start[cell[m]];
     sorted.index[entry] = begin[m];
-    sorted.word[entry] = word_of(atom->tag[begin[m]]);
     for (int d = 0; d < 3; d++) sorted.x[d][entry] = x[begin[m]][d];
   }
 }
@@ -299,8 +303,7 @@ void NeighborSearch::find_candidates(const Sorted &sorted, const std::vector<Cel
                                      Candidates &candidates) const
 {
   const PlaceColumns places = {{sorted.x[0].data(), sorted.x[1].data(), sorted.x[2].data()},
-                               sorted.index.data(),
-                               (&sorted == &ghosts) ? sorted.word.data() : nullptr};
+                               sorted.index.data()};
   CandidateColumns &columns = candidates.columns;
   columns.n = 0;
   for (const auto &row : rows) {
@@ -317,9 +320,7 @@ void NeighborSearch::find_candidates(const Sorted &sorted, const std::vector<Cel
         columns.x[d] = candidates.x[d].data();
       }
       candidates.index.resize(2 * room);
-      candidates.word.resize(2 * room);
       columns.index = candidates.index.data();
-      columns.word = candidates.word.data();
     }
     loops->take_candidates(places, from, to, corner, 1.0 / cutoff, columns);
   }
@@ -368,16 +369,13 @@ bool NeighborSearch::has_exclusions(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   newton on, an owned particle and a ghost: by the words of the IDs, as class NPairNsq of LAMMPS by the IDs; by the IDs if
-   the words are the same; by position for images of one particle
+   newton on, an owned particle and a ghost: by the IDs, as class NPairNsq of LAMMPS; by position for images of one particle
 ------------------------------------------------------------------------- */
 
 bool NeighborSearch::has_pair(int i, int j) const
 {
   const tagint itag = atom->tag[i], jtag = atom->tag[j];
-  const int a = word_of(itag), b = word_of(jtag);
-  if (a != b) return (a > b) == ((a ^ b) & 1);
-  if (itag != jtag) return itag > jtag;
+  if (itag != jtag) return (itag > jtag) == ((itag ^ jtag) & 1);
   double **const x = atom->x;
   for (const int d : {2, 1})
     if (std::fabs(x[j][d] - x[i][d]) > ROUND_OFF * cutoff) return x[j][d] > x[i][d];
@@ -391,11 +389,11 @@ double NeighborSearch::memory_usage() const
   std::size_t bytes = (cell.capacity() + members.capacity()) * sizeof(int);
   for (const Sorted *some : {&owned, &ghosts})
     bytes += some->start.capacity() * sizeof(int) +
-        some->index.capacity() * (3 * sizeof(double) + 2 * sizeof(int));
+        some->index.capacity() * (3 * sizeof(double) + sizeof(int));
   for (const auto &part : parts)
     bytes += (part.neighbors.capacity() + part.rows.capacity()) * sizeof(int) +
         part.offset.capacity() * sizeof(bigint) +
         (part.owned.index.capacity() + part.ghosts.index.capacity()) *
-            (3 * sizeof(float) + 2 * sizeof(int));
+            (3 * sizeof(float) + sizeof(int));
   return static_cast<double>(bytes);
 }

@@ -16,6 +16,7 @@
 
 #include "npair.h"
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
 
 #include <string>
 #include <vector>
@@ -28,11 +29,12 @@ namespace SPHDissipation {
   // reach; the candidates of a cell are copied into columns, relative to its corner and in single precision, where whole
   // vectors of them are tested for each particle of the cell.  Those too close to the bound for single precision are
   // tested in double precision.  Of two owned particles the one in the lower cell has the pair, so that half of the cells are
-  // looked at for them; with newton on, IDs tell which processor has the pair of an owned particle and a ghost.
+  // looked at for them.  With newton on, an owned particle has its pairs with the ghosts that have come from above; where the
+  // communication of LAMMPS is not by bricks, IDs tell which processor has the pair.
 
   class NeighborSearch : public NPair {
    public:
-    explicit NeighborSearch(class LAMMPS *);
+    NeighborSearch(class LAMMPS *, Exchange &);
 
     // what the settings of a run have that is left to LAMMPS, or empty
     std::string left_to_lammps() const;
@@ -57,14 +59,14 @@ namespace SPHDissipation {
     // particles sorted into cells; those of cell c are the entries start[c] to start[c + 1] - 1
 
     struct Sorted {
-      std::vector<int> start, index, word;    // word: of the ID
+      std::vector<int> start, index;
       std::vector<double> x[3];
     };
 
     struct Candidates {
-      CandidateColumns columns;    // of x, index, word
+      CandidateColumns columns;    // of x, index
       std::vector<float> x[3];
-      std::vector<int> index, word;
+      std::vector<int> index;
     };
 
     // what one thread finds
@@ -76,23 +78,26 @@ namespace SPHDissipation {
       std::vector<bigint> offset;    // of their neighbors
     };
 
+    Exchange &exchange;
     const LoopSet *loops;
     Threads *threads;
     double cutoff;
     bigint ncalls, lastcall;    // of class Neighbor, when the list was built
     bool skips;                 // pair_style hybrid gives pairs of types of the fluid to others
+    bool by_id;                 // has_pair() tells which pairs with ghosts are wanted
     double lo[3], size[3];      // of the cells
     int ncell[3];
     std::vector<CellRow> all_rows, upper_rows;
-    std::vector<int> members;    // owned and ghost particles of the fluid
-    std::vector<int> cell;       // of each of those that are being sorted
+    std::vector<int> members;    // nowned owned particles of the fluid, then ghosts
+    int nowned;
+    std::vector<int> cell;    // of each of those that are being sorted
     Sorted owned, ghosts;
     std::vector<Part> parts;
 
     void find_members(const NeighList *);
     void choose_cells();
     void find_rows();
-    void sort(Sorted &, int from, int to);
+    void sort(Sorted &, int from, int to);    // of the members
     void search(int from, int to, NeighList *, Part &) const;
     void find_candidates(const Sorted &, const std::vector<CellRow> &, const int *place,
                          const double *corner, Candidates &) const;

@@ -37,8 +37,7 @@
 // one row after another: an index may occur twice.
 
 // Floats holds FLOATS numbers of single precision, for distances: all_floats(), load_floats(), bits_below(), and
-// pack_indices(), which writes the indices whose bits are set one after another, as pack() does.  bits_of_pairs(a, b, alike):
-// where a > b, if the sum of both is odd, else where a < b, for FLOATS words b >= 0; alike: where a = b.
+// pack_indices(), which writes the indices whose bits are set one after another, as pack() does.
 // copy_indices(to, from, n) writes whole vectors.
 
 namespace LAMMPS_NS {
@@ -160,13 +159,6 @@ namespace SPHDissipation {
     SPH_INLINE void copy_indices(int *to, const int *from, int n)
     {
       for (int k = 0; k < n; k += FLOATS) _mm512_storeu_si512(to + k, _mm512_loadu_si512(from + k));
-    }
-    SPH_INLINE int bits_of_pairs(int word, const int *words, int &alike)
-    {
-      const __m512i a = _mm512_set1_epi32(word), b = _mm512_loadu_si512(words);
-      alike = _mm512_cmpeq_epi32_mask(a, b);
-      const int odd = _mm512_test_epi32_mask(_mm512_xor_si512(a, b), _mm512_set1_epi32(1));
-      return ~(_mm512_cmpgt_epi32_mask(a, b) ^ odd);
     }
     SPH_INLINE void pack_indices(int *to, const int *from, int bits)
     {
@@ -376,15 +368,6 @@ namespace SPHDissipation {
         _mm256_storeu_si256(reinterpret_cast<__m256i *>(to + k),
                             _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from + k)));
     }
-    SPH_INLINE int bits_of_pairs(int word, const int *words, int &alike)
-    {
-      const __m256i a = _mm256_set1_epi32(word);
-      const __m256i b = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(words));
-      const __m256i odd = _mm256_slli_epi32(_mm256_xor_si256(a, b), 31);
-      alike = _mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b)));
-      return ~(_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpgt_epi32(a, b))) ^
-               _mm256_movemask_ps(_mm256_castsi256_ps(odd)));
-    }
 
     // PACK_BYTES[bits]: the 32-bit lanes whose bits are set first, byte by byte; of half a vector
 
@@ -557,11 +540,6 @@ namespace SPHDissipation {
     SPH_INLINE void copy_indices(int *to, const int *from, int n)
     {
       for (int k = 0; k < n; k++) to[k] = from[k];
-    }
-    SPH_INLINE int bits_of_pairs(int word, const int *words, int &alike)
-    {
-      alike = (word == *words) ? 1 : 0;
-      return ((word > *words) == ((word ^ *words) & 1)) ? 1 : 0;
     }
     SPH_INLINE void pack_indices(int *to, const int *from, int)
     {
