@@ -49,6 +49,13 @@ CASES = {
     "hybrid, a pair of types to another": (CUBE, 2, "on", "p p p", "", HYBRID + "pair_coeff 1 2 lj/cut 0.0 1.0\n"),
     "hybrid, newton off": (CUBE, 2, "off", "p p p", "", HYBRID),
     "bins of the user": (CUBE, 2, "on", "p p p", "neigh_modify binsize 0.7\n"),
+    "domains of several sizes": (CUBE, 4, "on", "p p p", "balance 0.9 shift xyz 10 1.0\n"),
+    "a domain shorter than the reach": (SMALL, 2, "on", "p p p", "balance 1.0 y 0.2\n"),
+    "tiled": (CUBE, 1, "on", "p p p", "comm_style tiled\n"),
+    "tiled, 4 ranks": (CUBE, 4, "on", "p p p", "comm_style tiled\nbalance 1.0 rcb\n"),
+    "tiled, small, 2 ranks": (SMALL, 2, "on", "p p p", "comm_style tiled\nbalance 1.0 rcb\n"),
+    "tiled, triclinic, 3 ranks": (TILTED, 3, "on", "p p p", "comm_style tiled\nbalance 1.0 rcb\n"),
+    "tiled, free, newton off, 3 ranks": (CUBE, 3, "off", free(3), "comm_style tiled\nbalance 1.0 rcb\n"),
     "wide skin": (CUBE, 2, "on", "p p p", "neigh_modify every 1\n"),
 }
 
@@ -60,7 +67,7 @@ def forces(lammps, style, particles, ranks=1, newton="on", boundary="p p p", aft
     pairs = pairs or fluid(dim, simd)
     skin = 1.5 if "binsize" in after or "every" in after else 0.5
     result = lammps(header(dim, newton, boundary) + f"read_data box.data\nneighbor {skin} {style}\n"
-                    "group ODD id 1:100000:2\ngroup third type 3\n" + pairs + after + INTEGRATE
+                    "group ODD id 1:100000:2\ngroup third type 3\n" + pairs + INTEGRATE + after
                     + "thermo_modify lost error\n" + dump("out.dump", 10) + "run 0 post yes\nrun 10\n", ranks=ranks)
     counts = [int(line.split("=")[1]) for line in result.log.splitlines() if line.startswith("Total # of neighbors")]
     return counts[0], lammps.frame("out.dump"), result
