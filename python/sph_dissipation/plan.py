@@ -242,6 +242,12 @@ class Plan:
         decay = f", decay of its amplitude {-1 / s.real:.4g}" if s.real else ""
         return lines + [f"times               period of the wave {2 * math.pi / s.imag:.4g}{decay}"]
 
+    def skin(self):
+        """of the neighbor list, with the least time per step at this velocity (page of pair_style sph/bulk)"""
+        if self.wave or self.args.temperature is not None:
+            return 0.3 * self.dx
+        return min(0.5 * self.rc, math.sqrt(10 / (3 * self.dim) * self.args.velocity * self.dt * self.rc))
+
     def input(self, time=""):
         args = self.args
         noise = "" if args.temperature is None else (" limit yes" if self.zeta < 0.0 else "") + f" temp {args.temperature:g} 4711"
@@ -269,7 +275,7 @@ create_box      1 box
 create_atoms    1 box
 set             group all mass {self.rho * self.dx**self.dim:.8g}
 {flow}
-neighbor        {0.3 * self.dx:.4g} bin
+neighbor        {self.skin():.4g} bin
 pair_style      sph/bulk kernel {args.kernel} shear {args.shear}{noise}
 pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa} {self.rc:.6g}{relax}{pressure}    # rho0 c0 mu kappa rc
 fix             1 all sph/bulk density rho0{viscous}{shift}

@@ -80,7 +80,7 @@ namespace SPHDissipation {
   // the skin.  A rebuild takes as long as REBUILD steps; LISTED is the part of a step that goes through the whole
   // list, whose length is proportional to (support + skin)^dim.  Both are measured: bench/README.md.
 
-  constexpr double REBUILD = 1.0, LISTED = 0.4;
+  constexpr double REBUILD = 0.5, LISTED = 0.3;
 
   inline double time_with_skin(double skin, double motion_per_step, double support, int dim)
   {

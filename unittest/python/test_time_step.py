@@ -229,7 +229,7 @@ def best_skin(log):
     return found and tuple(float(number) for number in found.groups())
 
 
-@pytest.mark.parametrize("skin, steps", [(0.05, 2), (0.09, 3), (8.0, 200)])
+@pytest.mark.parametrize("skin, steps", [(0.05, 2), (0.081, 3), (8.0, 200)])
 def test_life_of_a_neighbor_list(lammps, skin, steps):
     """As many rebuilds as the line says, and what it recommends needs no recommendation."""
     lattice(2, 12).write(lammps.path("data.txt"))
@@ -238,8 +238,8 @@ def test_life_of_a_neighbor_list(lammps, skin, steps):
     assert lasts == steps and percent >= 10
     assert int(re.findall(r"^Neighbor list builds = (\d+)", log, re.MULTILINE)[-1]) == 100 // steps
     assert best_skin(lammps(stream(best)).log) is None
-    # the sum of a term proportional to the skin and one inverse to it, 0.8 skin/rc + 2 u dt/skin, has its minimum there
-    assert best == pytest.approx(np.sqrt(2 * 0.02 * 3.0 / 0.8), rel=0.05)
+    # the sum of a term proportional to the skin and one inverse to it, 0.6 skin/rc + u dt/skin, has its minimum there
+    assert best == pytest.approx(np.sqrt(0.02 * 3.0 / 0.6), rel=0.05)
 
 
 @pytest.mark.parametrize("case", [{"speed": 0.0}, {"options": "temp 1e-3 1"}, {"lists": "every 5 delay 0 check no"}])
