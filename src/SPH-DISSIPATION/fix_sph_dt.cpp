@@ -16,7 +16,6 @@
 #include "error.h"
 #include "fix_sph_bulk.h"
 #include "force.h"
-#include "integrate.h"
 #include "modify.h"
 #include "output.h"
 #include "pair.h"
@@ -28,7 +27,6 @@
 #include "update.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 using namespace LAMMPS_NS;

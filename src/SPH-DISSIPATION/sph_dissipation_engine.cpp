@@ -14,8 +14,6 @@
 #include "sph_dissipation_engine.h"
 
 #include "atom.h"
-#include "comm.h"
-#include "error.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "sph_dissipation_fields.h"
@@ -23,8 +21,6 @@
 #include "update.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -565,7 +561,7 @@ double Engine::memory_usage() const
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double)) +
       (double) conductor.capacity() * sizeof(Conductor) +
-      (double) energy.capacity() * sizeof(double);
+      (double) (energy.capacity() + wall_energy.capacity()) * sizeof(double);
   for (const auto &numbers : random)
     bytes += static_cast<double>(numbers.capacity() * sizeof(double));
   return bytes + density_sums.memory_usage() + force_sums.memory_usage() +

@@ -802,7 +802,8 @@ bool Fluid::has_type(int type) const
 
 double Fluid::memory_usage() const
 {
-  return engine->memory_usage() + limit->memory_usage() + open->memory_usage() +
-      boundary->memory_usage() + shift->memory_usage() + noise->memory_usage() +
-      viscous->memory_usage() + temperature->memory_usage() + conduction->memory_usage();
+  return engine->memory_usage() + search->memory_usage() + limit->memory_usage() +
+      open->memory_usage() + boundary->memory_usage() + shift->memory_usage() +
+      noise->memory_usage() + viscous->memory_usage() + temperature->memory_usage() +
+      conduction->memory_usage();
 }

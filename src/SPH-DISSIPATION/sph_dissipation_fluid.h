@@ -20,7 +20,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 class NeighList;

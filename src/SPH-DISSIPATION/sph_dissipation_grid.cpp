@@ -14,7 +14,6 @@
 #include "sph_dissipation_grid.h"
 
 #include "atom.h"
-#include "comm.h"
 #include "domain.h"
 #include "grid2d.h"
 #include "grid3d.h"

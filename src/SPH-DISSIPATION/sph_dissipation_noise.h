@@ -17,7 +17,6 @@
 #include "sph_dissipation_noise_data.h"
 #include "sph_dissipation_stages.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace LAMMPS_NS {

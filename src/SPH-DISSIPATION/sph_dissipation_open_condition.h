@@ -19,7 +19,6 @@
 #include "sph_dissipation_value.h"
 
 #include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 

@@ -15,12 +15,10 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "domain.h"
 #include "error.h"
 #include "math_extra.h"
 #include "sph_dissipation_create.h"
 #include "sph_dissipation_open_plane.h"
-#include "update.h"
 
 #include <algorithm>
 #include <cmath>

@@ -21,7 +21,6 @@
 #include "sph_dissipation_exchange.h"
 
 #include <algorithm>
-#include <cmath>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;

@@ -14,7 +14,6 @@
 #include "sph_dissipation_refine_event.h"
 
 #include "atom.h"
-#include "atom_vec.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"

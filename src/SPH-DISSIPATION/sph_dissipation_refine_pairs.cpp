@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;

@@ -55,6 +55,23 @@ namespace SPHDissipation {
       return row + N * static_cast<bigint>(i);
     }
 
+#if defined(LOOPS_AVX512) || defined(LOOPS_AVX2)
+
+    SPH_INLINE int count_bits(int bits)
+    {
+      return __builtin_popcount(bits);
+    }
+    SPH_INLINE void prefetch(const void *p)
+    {
+      _mm_prefetch(static_cast<const char *>(p), _MM_HINT_T0);
+    }
+    SPH_INLINE void add_128(double *to, __m128d a)
+    {
+      _mm_storeu_pd(to, _mm_loadu_pd(to) + a);
+    }
+
+#endif
+
 #if defined(LOOPS_AVX512)
 
     constexpr int LANES = 8;
@@ -122,19 +139,11 @@ namespace SPHDissipation {
                             _mm256_mask_and_epi32(fills, there, j, _mm256_set1_epi32(NEIGHMASK)));
       }
     }
-    SPH_INLINE int count_bits(int bits)
-    {
-      return __builtin_popcount(bits);
-    }
     SPH_INLINE double sum(Vec a)
     {
       const __m256d half = _mm512_castpd512_pd256(a) + _mm512_extractf64x4_pd(a, 1);
       const __m128d pair = _mm256_castpd256_pd128(half) + _mm256_extractf128_pd(half, 1);
       return _mm_cvtsd_f64(pair) + _mm_cvtsd_f64(_mm_unpackhi_pd(pair, pair));
-    }
-    SPH_INLINE void prefetch(const void *p)
-    {
-      _mm_prefetch(static_cast<const char *>(p), _MM_HINT_T0);
     }
 
     constexpr int FLOATS = 16;
@@ -207,10 +216,6 @@ namespace SPHDissipation {
     SPH_INLINE void add_256(double *to, __m256d a)
     {
       _mm256_storeu_pd(to, _mm256_loadu_pd(to) + a);
-    }
-    SPH_INLINE void add_128(double *to, __m128d a)
-    {
-      _mm_storeu_pd(to, _mm_loadu_pd(to) + a);
     }
 
     template <int N> SPH_INLINE void add_4_columns(double *row, const int *i, const Vec *column)
@@ -322,24 +327,10 @@ namespace SPHDissipation {
         n += (bits >> l) & 1;
       }
     }
-
-    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int fill)
-    {
-      for (int k = 0; k < n; k++) to[k] = from[k] & NEIGHMASK;
-      for (int l = 0; l < LANES; l++) to[n + l] = fill + l;
-    }
-    SPH_INLINE int count_bits(int bits)
-    {
-      return __builtin_popcount(bits);
-    }
     SPH_INLINE double sum(Vec a)
     {
       const __m128d pair = _mm256_castpd256_pd128(a) + _mm256_extractf128_pd(a, 1);
       return _mm_cvtsd_f64(pair) + _mm_cvtsd_f64(_mm_unpackhi_pd(pair, pair));
-    }
-    SPH_INLINE void prefetch(const void *p)
-    {
-      _mm_prefetch(static_cast<const char *>(p), _MM_HINT_T0);
     }
 
     constexpr int FLOATS = 8;
@@ -435,11 +426,6 @@ namespace SPHDissipation {
       }
     }
 
-    SPH_INLINE void add_128(double *to, __m128d a)
-    {
-      _mm_storeu_pd(to, _mm_loadu_pd(to) + a);
-    }
-
     template <int N> SPH_INLINE void add_2_columns(double *row, const int *i, const Vec *column)
     {
       const Vec even = _mm256_unpacklo_pd(column[0], column[1]);
@@ -503,11 +489,6 @@ namespace SPHDissipation {
     {
       *to = *from;
     }
-    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int fill)
-    {
-      for (int k = 0; k < n; k++) to[k] = from[k] & NEIGHMASK;
-      for (int l = 0; l < LANES; l++) to[n + l] = fill + l;
-    }
     SPH_INLINE int count_bits(int bits)
     {
       return bits;
@@ -561,6 +542,16 @@ namespace SPHDissipation {
     template <int N> SPH_INLINE void add_2_columns(double *row, const int *i, const Vec *column)
     {
       for (int c = 0; c < 2; c++) at<N>(row, *i)[c] += column[c];
+    }
+
+#endif
+
+#if !defined(LOOPS_AVX512)
+
+    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int fill)
+    {
+      for (int k = 0; k < n; k++) to[k] = from[k] & NEIGHMASK;
+      for (int l = 0; l < LANES; l++) to[n + l] = fill + l;
     }
 
 #endif

@@ -23,8 +23,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {

@@ -23,7 +23,6 @@
 
 #include "sph_dissipation_kernel.h"
 
-#include <cmath>
 #include <complex>
 
 namespace LAMMPS_NS {

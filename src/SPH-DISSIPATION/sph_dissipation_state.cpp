@@ -25,7 +25,6 @@
 #include "sph_dissipation_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 using namespace LAMMPS_NS;

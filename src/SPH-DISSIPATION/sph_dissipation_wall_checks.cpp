@@ -34,7 +34,6 @@
 #include <cmath>
 #include <numeric>
 #include <set>
-#include <utility>
 #include <vector>
 
 using namespace LAMMPS_NS;
