@@ -32,7 +32,7 @@ MACH = {"mach": 0.1, "dt": 0.35}
 FLOWS = {
     "pair loops alone": (PERIODIC, {"n": 40, "steps": 50}, {"n": 24}),
     "Taylor-Green, Mach 0.1": (PERIODIC, {"n": 40, "steps": 50, **MACH}, {"n": 24}),
-    "lid-driven cavity": (EXAMPLES / "cavity" / "in.cavity", {"N": 100, "end": 0.15, "mean": 0.15, "sample": 20}, {"N": 80}),
+    "lid-driven cavity": (EXAMPLES / "cavity" / "in.cavity", {"N": 100, "c0": 5, "end": 0.15, "mean": 0.15, "sample": 20}, {"N": 80}),
     "cylinder, open ends": (EXAMPLES / "cylinder" / "in.cylinder", {"n": 12, "end": 1, "mean": 1}, {"n": 6}),
 }
 PEER_FLOW = "Taylor-Green, Mach 0.1"

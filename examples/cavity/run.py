@@ -22,9 +22,9 @@ import reference                    # noqa: E402
 # in the corners at the lid, and the fluid has to be stiffer.
 CASES = {
     "k3": ("$K = 3$, spin diffuses", "k3", {"Re": 400, "K": 3, "c0": 10, "pb": 0, "end": 12, "mean": 4}),
-    "re1000": ("Re = 1000", "re1000", {"Re": 1000, "end": 40, "mean": 10}),
+    "re1000": ("Re = 1000", "re1000", {"Re": 1000, "c0": 5, "end": 40, "mean": 10}),
     "k3b": ("$K = 3$, spin does not diffuse", "re160", {"Re": 400, "K": 3, "gamma1": 0, "inertia": 1e-4, "c0": 10, "pb": 0, "end": 12, "mean": 4}),
-    "re400": ("Re = 400", "re400", {"Re": 400, "end": 25, "mean": 5}),
+    "re400": ("Re = 400", "re400", {"Re": 400, "c0": 5, "end": 25, "mean": 5}),
     "re100": ("Re = 100", "re100", {"Re": 100, "c0": 10, "pb": 0, "end": 10, "mean": 4}),
 }
 QUICK = {"k3": {"end": 9, "mean": 3}, "re100": {"end": 9, "mean": 3}}
