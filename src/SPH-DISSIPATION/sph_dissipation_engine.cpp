@@ -238,7 +238,8 @@ StrainRows Engine::strains() const
   StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho, atom->drho,
                      par->eos,         atom->esph, atom->desph, {}};
   if (par->nprocess) std::copy_n(Fields::of(atom)->rho_relaxed, par->nprocess, rows.relaxed);
-  if (static_cast<int>(wall_energy.size()) > atom->nlocal) rows.by_walls = wall_energy.data();
+  if (!wall_energy.empty() && static_cast<int>(wall_energy.size()) >= atom->nlocal)
+    rows.by_walls = wall_energy.data();
   return rows;
 }
 

@@ -288,6 +288,16 @@ def test_energy_between_walls(lammps, style):
     assert thermo[-1]["f_LOW[8]"][-1] > 5.0
 
 
+def test_energies_of_walls_in_full_arrays(lammps):
+    """LAMMPS's arrays have room for multiples of 16384 particles; sorting enlarges them when they are full."""
+    energies = []
+    for sort in ("", "atom_modify sort 0 0\n"):
+        text = between_walls().replace("lattice", f"boundary f f p\n{sort}lattice").replace("block 0 10 -3 9", "block 0.5 128.5 -3.5 124.5")
+        energies.append(lammps(text + "thermo_style custom step c_E atoms\nthermo_modify norm no format float %.17g\nrun 0\n").thermo()[0])
+    assert energies[0]["Atoms"] == 16384
+    assert energies[0]["c_E"] == pytest.approx(energies[1]["c_E"], rel=1e-12)
+
+
 @pytest.mark.parametrize("upper", ["", pytest.param("heat temp 1.0", marks=LONG)])
 def test_temperatures_between_walls(lammps, upper):
     """Of the motion, and of the heat, next to the walls too."""
