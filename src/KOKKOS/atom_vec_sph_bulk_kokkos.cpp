@@ -34,7 +34,7 @@ using namespace SPHDissipation;
 AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp) : AtomVecSPHBulkKokkos(lmp, false) {}
 
 /* ----------------------------------------------------------------------
-   the views are those of the object that atomKK is now, also when replicate has made another one
+   the views are those of the present atomKK, also after replicate has made another one
 ------------------------------------------------------------------------- */
 
 AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :

@@ -30,9 +30,9 @@ FixStyle(sph/micropolar/kk/host,FixSPHBulkKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-// What is done in every step is done on the device, but for the exchange of energy of thermal noise,
-// large viscosities, and the velocities that fix deform remaps: those, and the start of a run, by the CPU
-// style, on the host.
+// The device does the work of every step, except for the exchange of energy of thermal noise, large
+// viscosities, and the velocities that fix deform remaps.  The CPU style does these, and the start
+// of a run, on the host.
 
 template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
  public:

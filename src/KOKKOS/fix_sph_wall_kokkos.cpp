@@ -267,8 +267,8 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
 }
 
 /* ----------------------------------------------------------------------
-   Nothing tells when somebody reads array_atom: the host has it in every step.  On a GPU only the values
-   of the wall are copied.
+   It is unknown when array_atom is read, so the host gets it in every step.  On a GPU only the
+   values of the wall are copied.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*vflag*/)

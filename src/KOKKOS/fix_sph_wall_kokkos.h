@@ -28,8 +28,8 @@ FixStyle(sph/wall/kk/host,FixSPHWallKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-// What is done in every step is done on the device; the start of a run, and minimizations, by the CPU
-// style on the host
+// The device does the work of every step; the CPU style does the start of a run, and minimizations,
+// on the host
 
 template <class DeviceType>
 class FixSPHWallKokkos :

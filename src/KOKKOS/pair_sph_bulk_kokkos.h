@@ -32,8 +32,8 @@ namespace SPHDissipation {
 }
 
 // LAMMPS's interface to a FluidKokkos.  It chooses in every run where the forces are computed, see
-// runs_on_device(); on a device, what is not written for it, see on_host_because(), is computed on the
-// host from copies of the particles, too.
+// runs_on_device(); on a device, code that is not written for it, see on_host_because(), runs on
+// the host with copies of the particles.
 
 template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public KokkosBase {
  public:

@@ -59,8 +59,8 @@ namespace SPHDissipation {
    public:
     BoundaryStageKokkos(class LAMMPS *, Pair *, BoundaryStage &);
 
-    // after the pressures, before pass 2: sets what owned boundary particles bring into it, for the
-    // pair style to send to ghosts
+    // after the pressures, before pass 2: sets the values of owned boundary particles for it, which
+    // the pair style sends to ghosts
     void run(LoopDataKokkos<DeviceType> &, int inum);
 
     // after the conduction: heat of surfaces, as BoundaryStage::add_surface_heat(); flow is set of boundary particles,

@@ -93,8 +93,8 @@ void AtomVecSPHBulk::process_args(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   room for relaxing processes, whose state data files have before the position: lines of velocities, which
-   WriteData::velocities() has a buffer of limited width for, have no place
+   room for relaxing processes.  Data files have their state before the position: lines of
+   velocities have no room, because the buffer of WriteData::velocities() has a limited width
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::add_processes(int narg, char **arg)
@@ -140,7 +140,7 @@ void AtomVecSPHBulk::add_spins()
 }
 
 /* ----------------------------------------------------------------------
-   not through atom, which is another one already when replicate deletes the old one
+   not through atom: when replicate deletes the old atom style, this points to the new one
 ------------------------------------------------------------------------- */
 
 AtomVecSPHBulk::~AtomVecSPHBulk()

@@ -112,7 +112,7 @@ void ComputeSPHSpectrum::init()
   if (domain->nonperiodic)
     error->all(FLERR, "Compute {} needs a box that is periodic in all directions", style);
 
-  // waves shorter than two spacings of the grid cannot be told from longer ones
+  // the grid does not resolve waves shorter than two of its spacings
 
   double shortest = KERNEL_PI * count[0] / domain->prd[0];
   for (int d = 1; d < domain->dimension; d++)
@@ -285,7 +285,7 @@ void ComputeSPHSpectrum::sum_modes()
           total[DENSITY2] += column[DENSITY];
         }
 
-        // all shells: what a box that has changed puts beyond the last one belongs to that
+        // all shells; in a box that has changed, modes beyond the last shell belong to the last one
 
         int shell = static_cast<int>(std::sqrt(ksq) / width + 0.5);
         if (!nshell) shell = std::min(shell, size_array_rows - 1);

@@ -358,7 +358,7 @@ void FixSPHBulk::setup(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   fixed particles are legal, forgotten ones are not meant; walls are no fluid
+   particles may be fixed on purpose, but not be forgotten; walls are no fluid
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::warn_not_integrated()
@@ -383,9 +383,10 @@ void FixSPHBulk::warn_not_integrated()
 }
 
 /* ----------------------------------------------------------------------
-   A run that continues the last one begins with the extrapolated velocity and energy of its last step, others
-   with velocity and energy themselves.  Before the exchange of atoms, so that ghost atoms get it with their borders.
-   With velocity remapping vest holds the increment only, see add_remapped_velocity()
+   A run that continues the last one begins with the extrapolated velocity and energy of its last
+   step, others with velocity and energy themselves.  This comes before the exchange of atoms, so
+   that ghost atoms get them with their borders. With velocity remapping vest holds the increment
+   only, see add_remapped_velocity()
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::setup_pre_exchange()
@@ -423,9 +424,9 @@ void FixSPHBulk::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   Sums of two numbers of 32 bits that follow from the bits of the velocity and the spin, the position, as
-   far as writing a restart file leaves it alone, the type, and the ID.  Walls set their velocity themselves,
-   see Fluid::note_change().
+   Sums of two numbers of 32 bits, computed from the bits of velocity, spin, type, ID, and of the
+   position as far as writing a restart file does not change it.  Walls set their velocity
+   themselves, see Fluid::note_change().
 ------------------------------------------------------------------------- */
 
 FixSPHBulk::Motion FixSPHBulk::find_motion() const
@@ -674,9 +675,10 @@ void FixSPHBulk::begin_step()
 }
 
 /* ----------------------------------------------------------------------
-   The heat that the pair style books is the work of its forces against the velocity that acts in the
-   friction, acting.  Over half a kick, before it, they do their work at the mean velocity of the kick: the
-   difference, with which kinetic and internal energy are conserved exactly.  The same of spins.
+   The heat of the pair style is minus the work of its forces at the velocity in the friction,
+   acting.  Over half a kick they do work at the mean velocity of the kick.  With the difference,
+   returned here before the kick, the sum of kinetic and internal energy is conserved exactly. The
+   same for spins.
 ------------------------------------------------------------------------- */
 
 double FixSPHBulk::rest_of_heat(const double *v, const double *acting, const double *f,

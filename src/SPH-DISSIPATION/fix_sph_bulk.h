@@ -34,10 +34,11 @@ namespace SPHDissipation {
 
 // Velocity Verlet for position, velocity and internal energy of a particle fluid, with the
 // velocity extrapolated to the end of the step for the forces: vest = v + dt f/m.  With thermal
-// noise, it is the velocity in the middle of the step: then those at its ends have the temperature of
-// the noise exactly in the linear regime, whatever the time step.  With large viscosities, it carries
-// to ViscousStage what other styles add to the forces.  As sph/micropolar, also for spins: m I d(omega)/dt =
-// torque with a moment of inertia that stays constant, so that angular momentum is conserved exactly.
+// noise, vest is the velocity in the middle of the step: then the velocities at its ends have
+// exactly the temperature of the noise in the linear regime, for any time step.  With large
+// viscosities, vest carries the forces of other styles to ViscousStage.  As sph/micropolar, also
+// for spins: m I d(omega)/dt = torque with a moment of inertia that stays constant, so that angular
+// momentum is conserved exactly.
 
 class FixSPHBulk : public Fix {
  public:
@@ -89,14 +90,14 @@ class FixSPHBulk : public Fix {
 
   bool sets_temperatures() const;    // in setup_pre_force()
 
-  // a particle without inertia gets one, or is an error, when the neighbor list is new
+  // when the neighbor list is new, particles without inertia get one, or are an error
   bool needs_inertia() const { return inertia_flag || has_torques(); }
 
  private:
   const std::string fluid_style;    // also of the atom style and the pair style, without suffix
   const bool spins;                 // the particles have them
   double dt_of_forces;              // time step that the forces are of
-  double dt_of_strain;              // time step that the strain of relaxing processes is of
+  double dt_of_strain;              // time step for which the strain of relaxing processes holds
   double extrapolation;             // of velocities over half a step: 1, with thermal noise 0
   bool balanced;                    // heat gets half of its rate at each end of a step, temp energy
   SPHDissipation::ViscousKeywords *viscous;
@@ -111,9 +112,9 @@ class FixSPHBulk : public Fix {
 
   void reset_extrapolation();    // of particles that no such fix integrates
 
-  // Numbers that tell positions and velocities of the particles of the group, and positions of those of
-  // walls: a run continues the last one, with the extrapolated quantities of its last step, if nobody has
-  // changed them since then
+  // Numbers that depend on the positions and velocities of the particles of the group, and on the
+  // positions of wall particles.  If they have not changed since the last run, a run continues it
+  // with the extrapolated quantities of its last step
 
   struct Motion {
     bigint known;    // 0: no step was taken

@@ -27,7 +27,7 @@ namespace SPHDissipation {
   class Fluid;
 }
 
-// The time step follows the limits that sound, viscosity, and forces set to a particle fluid.
+// Adapts the time step to the limits of sound, viscosity, and forces.
 
 class FixSPHDt : public Fix {
  public:

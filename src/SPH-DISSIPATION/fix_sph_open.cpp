@@ -210,7 +210,7 @@ void FixSPHOpen::init()
   rows->init(support, fluidbit);
   if (rows->are_new()) check_open_styles(lmp, this, fluid, fluidbit);
 
-  // a small radius, for it smooths the profile, but with a few particles
+  // a small radius, because it smooths the profile, but large enough for a few particles
 
   constexpr double PART = 0.6, WIDTHS = 2.2;
   radius = std::min(support, std::max(PART * support, WIDTHS * rows->width()));
@@ -318,7 +318,7 @@ void FixSPHOpen::pre_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   ... unless a fix that comes before this one, as sph/refine, has changed them in this step
+   ... unless a fix defined before this one, such as sph/refine, has changed them in this step
 ------------------------------------------------------------------------- */
 
 bool FixSPHOpen::has_lost_members() const
@@ -347,8 +347,8 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 
 /* ----------------------------------------------------------------------
    Correct the move to that of the mean velocity of the step, and let particles enter and leave.  Along
-   the plane they move with the given velocity, if there is one: with their own, those that leave would
-   gather, or enter walls.
+   the plane they move with the given velocity, if there is one: with their own, particles that
+   leave would gather, or enter walls.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::post_integrate()
@@ -400,7 +400,8 @@ void FixSPHOpen::enter(int i, const double *v)
 }
 
 /* ----------------------------------------------------------------------
-   Bring a particle to the density that it will have in the fluid, a sum over its neighbors, at constant entropy.
+   Change the density of a particle, at constant entropy, to the one that it will have in the fluid,
+   a sum over its neighbors.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::compress(int i)
@@ -431,7 +432,7 @@ void FixSPHOpen::leave(int i)
 }
 
 /* ----------------------------------------------------------------------
-   Set the velocity of a particle of the zone that no step has brought where it is.
+   Set the velocity of a particle of the zone that no step has moved.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_velocity(int i)
@@ -651,7 +652,7 @@ void FixSPHOpen::restart(char *buf)
 }
 
 /* ----------------------------------------------------------------------
-   Warn that waves and rows of another plane are of no use.
+   Warn that the restart file has waves and rows of another plane, which are not used.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn_of_other_plane()

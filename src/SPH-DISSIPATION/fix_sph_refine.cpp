@@ -205,7 +205,7 @@ void FixSPHRefine::init()
 }
 
 /* ----------------------------------------------------------------------
-   Return the volume that a value of the target stands for.
+   Return the volume that belongs to a value of the target.
 ------------------------------------------------------------------------- */
 
 double FixSPHRefine::target_volume(double value) const
@@ -297,8 +297,8 @@ bool FixSPHRefine::is_fluid(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether the last event of a particle is long enough ago.  It seems to be in the future after
-   reset_timestep, if this fix was not there then to count anew: such an event does not count.
+   Tell whether the last event of a particle is long enough ago.  After a reset_timestep before this
+   fix existed, it seems to be in the future: such an event does not count.
 ------------------------------------------------------------------------- */
 
 bool FixSPHRefine::may_change(int i) const
@@ -347,7 +347,7 @@ void FixSPHRefine::post_integrate()
   if (!wanted(nfluid)) return;
 
   comm->forward_comm();
-  list->np->last_build = -1;    // KOKKOS does not see that it is of particles that are gone
+  list->np->last_build = -1;    // KOKKOS does not notice that its particles are gone
   neighbor->build_one(list);
   set_items();
   const auto most = static_cast<bigint>(fraction * static_cast<double>(nfluid));

@@ -398,8 +398,8 @@ void FixSPHWall::move_surface(BoundaryStage &stage, Surface *surface, bool befor
 }
 
 /* ----------------------------------------------------------------------
-   what the particles of the wall bring into the pair forces.  An extrapolated pressure has no
-   energy: in a minimization, they have none, and the forces are the gradient of that of the fluid.
+   values of the wall particles in the pair forces.  An extrapolated pressure has no energy: in a
+   minimization it is zero, and the forces are the gradient of the energy of the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
@@ -484,7 +484,7 @@ void FixSPHWall::book_heat()
 }
 
 /* ----------------------------------------------------------------------
-   the minimizer moves particles along their forces: not those of the wall
+   the minimizer moves particles along their forces, but must not move the wall
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::min_post_force(int vflag)

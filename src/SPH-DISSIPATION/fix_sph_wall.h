@@ -76,7 +76,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   SPHDissipation::WallCondition *condition;
   bool move;
   bool noise;      // of the fluid
-  bool checked;    // the thickness, in the first run; false: not set up since it was defined
+  bool checked;    // thickness checked, in the first run; false: not set up since defined
 
   double total[6], total_all[6];    // force and torque, of this rank and of all
   bool total_summed;

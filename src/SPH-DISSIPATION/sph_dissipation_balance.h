@@ -25,8 +25,8 @@ namespace SPHDissipation {
   class Fields;
   struct OpenImpact;
 
-  // What a fix has brought to the fluid and taken from it since it was defined: sums of this
-  // processor; total() gives those of all.
+  // What a fix has added to the fluid and taken from it since it was defined: sums of this
+  // processor; total() gives those of all processors.
 
   class Balance : protected Pointers {
    public:

@@ -21,9 +21,9 @@ namespace SPHDissipation {
   struct BoundarySum;
   struct Surface;
 
-  // What a fix does between the two passes of the pair style whose particles are not fluid, but
-  // stand for what lies beyond the edge of the fluid.  The fix hands itself to BoundaryStage::add() in
-  // its init() and takes itself back when it is deleted.
+  // Interface of a fix whose particles are not fluid, but represent what lies beyond its edge: what
+  // the fix does between the two passes of the pair style.  The fix hands itself to
+  // BoundaryStage::add() in its init() and takes itself back when it is deleted.
 
   class Boundary {
    public:
@@ -34,13 +34,14 @@ namespace SPHDissipation {
 
     virtual void move_surface(BoundaryStage &, Surface *, bool before) = 0;
 
-    // set what its owned particles bring into the pair forces, from the sums over the fluid around
+    // set the values of its owned particles in the pair forces, from the sums over the fluid around
     // them: BoundaryStage::set_state() or extend_fluid() and, if there are spins, spin()
 
     virtual void set_boundary(BoundaryStage &, const Surface *, const BoundarySum *) = 0;
 
-    // what its particles bring into the conduction of heat: BoundaryStage::set_heat(); of increments of the temperatures,
-    // which are zero at the surface; whether heat passes the surface
+    // set the values of its particles in the conduction of heat: BoundaryStage::set_heat(); the
+    // same for increments of the temperatures, which are zero at the surface; whether heat passes
+    // the surface
 
     virtual bool gives_heat() const { return false; }
     virtual void set_heat(BoundaryStage &, const Surface *, bool /*increments*/) {}

@@ -48,7 +48,7 @@ namespace SPHDissipation {
     // after the pressures, before pass 2
     void run(NeighList *);
 
-    // the same once more in the step, for other velocities and pressures of the fluid
+    // the same again in this step, for other velocities and pressures of the fluid
     void extend();
 
     // the temperatures alone, or increments of them

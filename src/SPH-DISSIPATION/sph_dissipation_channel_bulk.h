@@ -39,7 +39,7 @@ namespace SPHDissipation {
     return (bulk == Bulk::DENSITY) ? "density" : (bulk == Bulk::VOLUME) ? "volume" : "none";
   }
 
-  // coefficient of the bulk term, for intrinsic = what the pair terms bring with them; P1 (67)
+  // coefficient of the bulk term; intrinsic = bulk viscosity of the pair terms; P1 (67)
   inline double bulk_coefficient(double kappa, double intrinsic)
   {
     return kappa - intrinsic;

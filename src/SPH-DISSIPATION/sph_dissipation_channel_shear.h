@@ -82,9 +82,9 @@ namespace SPHDissipation {
     }
   }
 
-  // bulk viscosity that the shear term brings with it: lambda = mu for mg and
-  // lambda = -mu for Morris, kappa = lambda + 2 mu/n; P1 (66).  The form of Espanol and Revenga
-  // is the sum of mg with mu/(n+3) and Morris with mu (n+2)/(n+3).
+  // bulk viscosity of the shear term: lambda = mu for mg and lambda = -mu for Morris, kappa =
+  // lambda + 2 mu/n; P1 (66).  The form of Espanol and Revenga is the sum of mg with mu/(n+3) and
+  // Morris with mu (n+2)/(n+3).
   inline double intrinsic_kappa(Shear shear, int n, double mu)
   {
     switch (shear) {

@@ -11,9 +11,9 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The dissipative channels of a fluid.  Its dissipation function is a sum of terms, and a term is a rate,
-// a coefficient, and a weight: each channel has them in a header of its own, and stands here in the lists
-// that everything else goes through.
+// The dissipative channels of a fluid.  Its dissipation function is a sum of terms, and a term is a
+// rate, a coefficient, and a weight.  Each channel has them in its own header; all other code goes
+// through the lists of channels in this file.
 //
 // mu = shear viscosity, kappa = bulk viscosity, stress = 2 mu dev(E) + kappa tr(E), both in
 // pressure * time (in dimension n = 1 kappa is the longitudinal viscosity).
@@ -191,7 +191,7 @@ namespace SPHDissipation {
 
   // inertia of the motion that a channel damps, for its fastest rate
   struct PairInertia {
-    double hsq;    // square of the length that stability knows, see stability_length_squared()
+    double hsq;    // square of the smoothing length for stability, see stability_length_squared()
     double rho;    // of velocities
     double rho_inertia;    // of spins
   };
@@ -202,7 +202,7 @@ namespace SPHDissipation {
     double stream[3] = {0.0, 0.0, 0.0};
   };
 
-  // What a channel does not have is as here
+  // Defaults for what a channel does not have
   struct BaseChannel {
     static constexpr bool SPINS = false;    // it needs particles that spin
     // it stores energy: it has no rate of its own, but belongs to the sound
@@ -296,7 +296,7 @@ namespace SPHDissipation {
     return friction;
   }
 
-  // bulk viscosity that the pair terms bring with them; P1 (66)
+  // bulk viscosity of the pair terms; P1 (66)
   inline double intrinsic_kappa(const PairFluid &fluid)
   {
     double kappa = 0.0;

@@ -18,8 +18,8 @@
 // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009)
 //
 // u = component of the velocity out of the fluid, impedance = rho c, both ' = deviations from the
-// reference state of the end.  What leaves carries J = rho c u' + p'; of what would come in,
-// -rho c u' + p' = 0.  So the same two lines serve inlets and outlets.
+// reference state of the end.  The wave that leaves has J = rho c u' + p', the wave that would
+// enter has -rho c u' + p' = 0.  This holds for inlets and outlets.
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {

@@ -119,7 +119,7 @@ void SPHDissipation::check_styles(LAMMPS *lmp, const std::string &style)
                "Pair style {} requires units in which mass * velocity^2 is an energy, not units {}",
                style, lmp->update->unit_style);
 
-  // the number density, forces, and walls of one fluid know nothing of another one
+  // the number density, forces, and walls of one fluid do not include another one
 
   Pair *const first = force->pair_match("^" + style, 0, 1),
               *const second = force->pair_match("^" + style, 0, 2);
@@ -381,8 +381,8 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
 }
 
 /* ----------------------------------------------------------------------
-   a few particles may fly by themselves, but each one of a fluid has more neighbors than
-   the two along each axis
+   single particles may be alone, but each particle in a fluid has more than two neighbors along
+   each axis
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_neighbors(LAMMPS *lmp, const std::string &style, const FluidModel &model,

@@ -51,8 +51,8 @@ void SPHDissipation::begin_change(LAMMPS *lmp)
 }
 
 /* ----------------------------------------------------------------------
-   Fixes, computes, and variables set what they have of the new particle.  All but fix adapt: what
-   that has is copied, and where it has nothing LAMMPS uses a pointer that was never set.
+   Fixes, computes, and variables set what they have of the new particle.  Not fix adapt: its values
+   are copied, and where it has none LAMMPS uses a pointer that was never set.
 ------------------------------------------------------------------------- */
 
 int SPHDissipation::create_copy(LAMMPS *lmp, int i, tagint id, const double *x)

@@ -49,8 +49,8 @@ namespace SPHDissipation {
 
   // Create and delete particles, for fixes that do it between two neighbor lists.  All processors call
   // begin_change(), from which on there are no ghosts, create and remove owned particles, and call
-  // end_change() with the number of owned particles that there were, or end_change_by() with the particles that all
-  // processors together have more, if they know it.
+  // end_change() with the former number of owned particles, or end_change_by() with the change of
+  // the number on all processors together, if they know it.
 
   void begin_change(LAMMPS *);
   void end_change(LAMMPS *, int nlocal_before);
@@ -62,9 +62,9 @@ namespace SPHDissipation {
   // Remove an owned particle.  The last one takes its place.
   void remove_particle(LAMMPS *, int i);
 
-  // Find new IDs for particles, each so many in a row: in the order of the IDs that the particles have,
-  // on whatever processor they are.  first = of the new IDs, highest = ID that was ever given, before
-  // and after.  False if there are not enough.
+  // Find new IDs for particles, each so many in a row, in the order of their own IDs, which does
+  // not depend on the number of processors.  first = of the new IDs, highest = largest ID ever
+  // given, before and after.  False if there are not enough IDs.
 
   using NewIDs = std::pair<tagint, tagint>;    // ID of a particle, number of new ones
   [[nodiscard]] bool new_ids(LAMMPS *, const std::vector<NewIDs> &mine, tagint &highest,

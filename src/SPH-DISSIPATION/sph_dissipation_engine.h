@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
-// GCC and Clang, and what is built on them, can compile single functions for other instruction sets
-// than the rest of LAMMPS.  NVIDIA's compilers call themselves GCC, too, but cannot; MinGW's GCC does
+// GCC, Clang, and their descendants can compile single functions for other instruction sets than
+// the rest of LAMMPS.  NVIDIA's compilers define the macros of GCC, but cannot; MinGW's GCC does
 // not align the stack for their registers (GCC bug 54412).
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__EDG__) && !defined(__NVCC__) &&         \
@@ -157,8 +157,8 @@ namespace SPHDissipation {
 
   // Pair engine of the particle fluid styles: number density and its rate in one loop over the
   // neighbor list, forces and heating in a second one.  Between them the stages of the pair style set
-  // what pass 2 reads.  With threads each of them has rows of the neighbor list and sums of its own,
-  // which are added up then; loops with a tally of each pair run on one.
+  // what pass 2 reads.  Each thread has some rows of the neighbor list and its own sums, which are
+  // added up at the end; loops with a tally of each pair run on one thread.
 
   class Engine : protected Pointers {
    public:

@@ -65,8 +65,9 @@ namespace SPHDissipation {
     void derive(Eos eos, double gruneisen_in, double reference_heat);
   };
 
-  // Set what follows from c0, pb and gamma, of Grueneisen's constant (read for linear and tait) and the heat
-  // per mass cv T0 at the reference temperature; c_el is NaN if the heat alone makes sound faster than c0.
+  // Set what follows from c0, pb and gamma, of Grueneisen's constant (read for linear and tait) and
+  // the heat per mass cv T0 at the reference temperature; c_el is NaN if sound is faster than c0 by
+  // the heat alone.
 
   inline void EosParams::derive(Eos eos, double gruneisen_in, double reference_heat)
   {

@@ -59,9 +59,9 @@ int Exclusions::find(const Groups &groups) const
 }
 
 /* ----------------------------------------------------------------------
-   the group bits that the lists in use were built with stay as they are until
-   Neighbor::init() makes them anew (Neighbor::exclusion_group_group_delete() would write
-   past their end if groups have been excluded since then)
+   the group bits of the lists in use do not change until Neighbor::init() sets them anew
+   (Neighbor::exclusion_group_group_delete() would write past their end if groups have been excluded
+   since then)
 ------------------------------------------------------------------------- */
 
 void Exclusions::take_back()

@@ -11,12 +11,12 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// How a field of the fluid goes on behind a surface.  Known are its means <q d^3> and <q d^4> over fluid
-// particles at distances d from the surface, and those of d^3 to d^6.  They are what a fit of least squares
-// needs whose weights grow as d^2: next to the surface, q/d is no slope.  The weights decide how fast the
-// friction damps what changes from one layer of particles to the next: with these, not faster than inside of
-// the fluid.  The distances are bounded from below, each by CLOSEST spacings of the particles, their mean by
-// CLOSEST_MEAN, which on lattices is that of the first layer.
+// Extrapolation of a field of the fluid behind a surface, by a least-squares fit with weights d^2,
+// where d are the distances of fluid particles from the surface; next to the surface, q/d is no
+// slope.  The fit needs the means <q d^3>, <q d^4>, and those of d^3 to d^6. The weights decide how
+// fast viscous forces damp what changes from one layer of particles to the next: with these, not
+// faster than inside of the fluid.  The distances are bounded from below, each by CLOSEST spacings
+// of the particles, their mean by CLOSEST_MEAN, which on lattices is that of the first layer.
 
 #ifndef LMP_SPH_DISSIPATION_EXTENSION_H
 #define LMP_SPH_DISSIPATION_EXTENSION_H
@@ -45,10 +45,11 @@ namespace SPHDissipation {
     double d3, d4, d5, d6;
 
     // q is zero at the surface.  Least of <d^2 (q - slope d - bend d^2)^2> + STIFF depth^2 (bend depth^2)^2:
-    // a bend is worth what it adds at this depth, so that deep in a wall, seen by the first layer only,
-    // the field is straight.  So it is where the distances are all alike, for <d^6> is raised by the
-    // share alike.  A field without a bend is met exactly.  The share is less for the spin, for its
-    // diffusion and the vortex viscosity bend it next to the surface.
+    // the second term penalizes a bend by what it adds at this depth, so that the field is straight
+    // deep in a wall, where only the first layer contributes.  It is also straight where all
+    // distances are equal, because <d^6> is raised by the share alike.  A field without a bend is
+    // exact.  The share is smaller for the spin, because its diffusion and the vortex viscosity
+    // bend it next to the surface.
 
     static constexpr double STIFF = 0.001, ALIKE = 0.01, ALIKE_SPIN = 0.001;
 

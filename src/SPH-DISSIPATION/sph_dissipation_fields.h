@@ -21,13 +21,15 @@ class Atom;
 
 namespace SPHDissipation {
 
-  // What the fluid keeps of a particle beyond class Atom, per atom.  The atom style is such an object and
-  // keeps the pointers up to date; class Atom owns the arrays, as custom properties of the same names.
+  // What the fluid keeps of a particle beyond class Atom, per atom.  The atom style derives from
+  // this class and keeps the pointers up to date; class Atom owns the arrays, as custom properties
+  // of the same names.
 
   class Fields {
    public:
     // Return the fields of the atom style, also of a sub-style of hybrid, or nullptr where no particle is of the
-    // fluid.  Command replicate makes another atom style: not to be kept longer than a run.
+    // fluid.  Command replicate creates another atom style: do not keep the pointer longer than a
+    // run.
 
     static Fields *of(Atom *);
 

@@ -180,8 +180,8 @@ void Fluid::check_setup()
 }
 
 /* ----------------------------------------------------------------------
-   types whose particles are ours: pair_style hybrid may have others, also ones that it
-   gave to another style after their coefficients were set here
+   types of this fluid: pair_style hybrid may have others, also types that it gave to another style
+   after their coefficients were set here
 ------------------------------------------------------------------------- */
 
 void Fluid::find_own_types()
@@ -305,8 +305,9 @@ void Fluid::sum_density()
 }
 
 /* ----------------------------------------------------------------------
-   In a step, internal energies that get half of their rate at each end of it are those of its middle.  This rate has the
-   work of the pressure at the velocity before the kick, which is half a step late; NoiseStage::share_work() mends that.
+   In a step, internal energies that get half of their rate at each end of it are those of its
+   middle.  This rate has the work of the pressure at the velocity before the kick, which is half a
+   step late; NoiseStage::share_work() corrects that.
 ------------------------------------------------------------------------- */
 
 double Fluid::missing_time() const
@@ -669,8 +670,8 @@ void Fluid::check_time_step(const CoeffTable &table)
 /* ----------------------------------------------------------------------
    of the pairs of types, for the fluid as it is now: by type, the fastest particle, those of walls
    as well, with the speed of sound at its density and energy, and the thinnest one of the fluid.
-   A type without particles counts with its coefficients.  Whatever has to do with the largest
-   stable time step takes it from here.
+   A type without particles counts with its coefficients.  All code that needs the largest stable
+   time step uses this function.
 ------------------------------------------------------------------------- */
 
 CoeffTable Fluid::coeff_table()

@@ -47,9 +47,10 @@ namespace SPHDissipation {
   class ViscousStage;
 
   // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
-  // friction by pairs, bulk force through the rate of change of the particle volume.  It owns what the
-  // commands set, the pair loops, and the stages around them, and runs them in their order.  The pair
-  // style is LAMMPS's interface to it; fixes and computes get it from find_fluid().
+  // viscous forces between pairs, and a bulk force from the rate of change of the particle volume.
+  // It owns what the commands set, the pair loops, and the stages around them, and runs them in
+  // their order.  The pair style is LAMMPS's interface to it; fixes and computes get it from
+  // find_fluid().
 
   class Fluid : protected Pointers {
    public:
@@ -75,8 +76,8 @@ namespace SPHDissipation {
     const std::unique_ptr<HeatStage> conduction;
 
    public:
-    // stages that fixes ask themselves.  A boundary or an open zone stays one until it is removed, when
-    // its fix is deleted; the fluid may be another one then.
+    // stages that fixes call directly.  A boundary or an open zone is registered until its fix is
+    // deleted; the fluid may be another one by then.
 
     const std::unique_ptr<OpenStage> open;
     const std::unique_ptr<BoundaryStage> boundary;

@@ -23,8 +23,8 @@
 #define SPH_FUNCTION inline
 #endif
 
-// What the pair loops call for every pair is SPH_INLINE: the loops are long, and there are many of them
-// in one file, so that compilers stop to inline it by themselves.
+// Functions that the pair loops call for every pair are SPH_INLINE: the loops are long, and one
+// file has many of them, so that compilers would stop inlining.
 
 #ifdef KOKKOS_FORCEINLINE_FUNCTION
 #define SPH_INLINE KOKKOS_FORCEINLINE_FUNCTION

@@ -25,9 +25,9 @@ class Grid3d;
 
 namespace SPHDissipation {
 
-  // How the values of particles become those of a point: averages weighted by V W, or the weighted
-  // linear regression through the particles, which leaves linear fields as they are (moving least
-  // squares: P. Lancaster, K. Salkauskas, Math. Comput. 37, 141 (1981)).
+  // Values of points from those of particles: averages weighted by V W, or the weighted linear
+  // regression through the particles, which is exact for linear fields (moving least squares: P.
+  // Lancaster, K. Salkauskas, Math. Comput. 37, 141 (1981)).
 
   struct Smoothing {
     Kernel kernel;

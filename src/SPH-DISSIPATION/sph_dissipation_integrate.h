@@ -80,8 +80,8 @@ namespace SPHDissipation {
 
     // The internal energy, too, is extrapolated to the end of the step, so that the pressure of an
     // ideal gas is accurate to second order in the time step; the end corrects it with the new rate.
-    // With random forces, which have no future, it gets half of the rate at each end of the step.
-    // At the end, rate_before becomes what this has added, for a run that continues.
+    // With random forces, which cannot be extrapolated, it gets half of the rate at each end of the
+    // step. At the end, rate_before becomes the rate that this has added, for a run that continues.
 
     SPH_FUNCTION void begin_energy(double rate, double &energy, double &rate_before) const
     {

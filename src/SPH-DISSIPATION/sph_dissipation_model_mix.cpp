@@ -169,7 +169,8 @@ void FluidModel::check_balance(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   of a type: what its temperature needs; a heat bath of one temperature has none for what it does
+   check the keywords of a type that need its temperature: not with a heat bath of one temperature,
+   not without heat capacity
 ------------------------------------------------------------------------- */
 
 void FluidModel::check_heat(int i) const
@@ -251,8 +252,8 @@ void FluidModel::warn_of_ignored() const
 }
 
 /* ----------------------------------------------------------------------
-   what another command may vary; nothing that would have no effect, no torques that begin during a run, which
-   would meet particles whose inertia nobody has checked, and no conduction, for which the same holds of fixes
+   what another command may vary.  It must have an effect.  Torques and conduction must not begin
+   during a run, because the inertia of particles, and the fixes, have not been checked for them
 ------------------------------------------------------------------------- */
 
 void *FluidModel::extract(const char *name, int &dim)

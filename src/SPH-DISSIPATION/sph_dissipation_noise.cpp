@@ -66,13 +66,13 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   data.heat = 2.0 * force->boltz / update->dt;
   add_pressure(factor, not_fluid);
   if (engine.parameters().drag) add_drag(factor, not_fluid);
-  if (!set_coeffs(factor) && !energy) return;    // who pays for a random pressure is known by pairs
+  if (!set_coeffs(factor) && !energy) return;    // pairs share the work of a random pressure
   if (form.kind == NoiseKind::DIRECTED) set_shares(bound, not_fluid);
   engine.add_noise(form, &data);
 }
 
 /* ----------------------------------------------------------------------
-   the random numbers go on when reset_timestep has gone back; rerun repeats them
+   the random numbers continue if reset_timestep goes back; rerun repeats them
 ------------------------------------------------------------------------- */
 
 void NoiseStage::count_step()
@@ -116,7 +116,7 @@ void NoiseStage::set_tags()
 }
 
 /* ----------------------------------------------------------------------
-   A particle without heat has temperature 0: it gets no noise, and friction warms it.
+   A particle without heat has temperature 0: it gets no noise, and friction heats it.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::set_temperatures(bool continued, int not_fluid)
@@ -330,7 +330,8 @@ void NoiseStage::find_friction(int i, int j, const double *r, double slope, doub
 
 /* ----------------------------------------------------------------------
    The pressure of i, random pressures left out, has the part f_i of the force on i by its pair with j, and -f_i of that
-   on j.  The friction of a pair meets that of the other pairs of both particles, too.
+   on j.  The work of the friction of a pair also includes the kicks by the other pairs of both
+   particles.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::share_work()

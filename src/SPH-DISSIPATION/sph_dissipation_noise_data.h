@@ -76,7 +76,7 @@ namespace SPHDissipation {
   };
 
   constexpr int MOST_NUMBERS =
-      15;    // that are kept of a pair: 8 random ones, 7 of the temperatures
+      15;    // numbers kept for a pair: 8 random ones, 7 of the temperatures
 
   // DIRECTED: two numbers along e, one of each partner
   // ENERGY: at the temperatures of the particles, with the energy of motion and heat together constant

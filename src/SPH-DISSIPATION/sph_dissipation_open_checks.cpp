@@ -42,7 +42,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// Refuse another fix that moves particles of the zone.
+// Give an error for another fix that moves particles of the zone.
 
 static void check_moved_once(LAMMPS *lmp, const Fix *fix, const char *fluid_name)
 {
@@ -157,8 +157,8 @@ void SPHDissipation::check_open_places(LAMMPS *lmp, const Fix *fix, const OpenPl
 }
 
 /* ----------------------------------------------------------------------
-   Refuse a region that is not as wide or as long as the zone: it would lose rows, or the fluid that is
-   measured.
+   Give an error for a region that is not as wide or as long as the zone: it would not contain all
+   rows, or all of the fluid that is measured.
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_open_region(LAMMPS *lmp, const Fix *fix, const OpenPlane &plane,
@@ -197,8 +197,8 @@ void SPHDissipation::check_open_region(LAMMPS *lmp, const Fix *fix, const OpenPl
 }
 
 /* ----------------------------------------------------------------------
-   Refuse neighbor lists without pairs of the zone, also of its particles once they have entered, with
-   the group of the fluid instead of that of the zone.
+   Give an error for neighbor lists without the pairs of the zone, or without those of its particles
+   after they have entered, when they have the group of the fluid instead of that of the zone.
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_open_lists(LAMMPS *lmp, const Fix *fix, int fluid_bit)
@@ -341,8 +341,8 @@ void SPHDissipation::check_open_masses(LAMMPS *lmp, const Fix *fix, int fluid_bi
 }
 
 /* ----------------------------------------------------------------------
-   Warn of masses that make another density than the prescribed one: for one particle it may be lower at
-   the side of a jet, hence the largest and the mean.
+   Warn of masses that give another density than the prescribed one.  At the side of a jet the
+   density of single particles may be lower, hence the largest and the mean.
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_open_density(LAMMPS *lmp, const Fix *fix,
@@ -368,8 +368,8 @@ void SPHDissipation::check_open_density(LAMMPS *lmp, const Fix *fix,
 
 /* ----------------------------------------------------------------------
    Mark for each node of the plane, one bit each, the parts of the depth in which there is fluid, and the
-   sides of the node on which particles enter.  Nodes with particles on all sides count: at the side of
-   a jet, which may contract, and at a wall there is no fluid.  A gas may be as thin as it wants.
+   sides of the node on which particles enter.  Nodes with particles on all sides count: at the side
+   of a jet, which may contract, and at a wall there is no fluid. A gas may have any density.
 ------------------------------------------------------------------------- */
 
 bool SPHDissipation::warn_of_gap(LAMMPS *lmp, const Fix *fix, const OpenPlane &plane,

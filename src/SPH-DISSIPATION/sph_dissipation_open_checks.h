@@ -84,13 +84,14 @@ namespace SPHDissipation {
   bool warn_of_gap(LAMMPS *, const Fix *, const OpenPlane &, const Fluid *, int fluid_bit,
                    double radius, double spacing);
 
-  // A particle of the zone has a full support as long as the fluid sees it, and rows may be shorter by
-  // one spacing and by what the fluid moves between two neighbor lists
+  // The zone is so long that its particles have a full support while they are within the support
+  // radius of the fluid, even if rows are shorter by one spacing and by the motion of the fluid
+  // between two neighbor lists
 
   void check_open_length(LAMMPS *, const Fix *, const OpenPlane &, double support, double spacing);
 
-  // No sound comes back from where the fluid leaves faster than sound: nothing can be prescribed there.
-  // number = of such particles; true if there are any, which gives a warning
+  // Where the fluid leaves faster than sound, no wave comes back, and nothing can be prescribed.
+  // number = of such particles; true if there are any, after a warning
 
   bool warn_of_supersonic(LAMMPS *, const Fix *, bigint number);
 

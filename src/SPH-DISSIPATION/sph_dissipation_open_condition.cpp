@@ -389,8 +389,8 @@ OpenCondition::Reference OpenCondition::reference(int i, Side side) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the wave at a particle of the zone.  With condition lagged it is the one that left the fluid so
-   long ago that it is at the particle now.
+   Return the wave at a particle of the zone.  With condition lagged it is the wave that has reached
+   the particle since it left the fluid.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::wave(const Reference &ref) const
@@ -402,8 +402,8 @@ double OpenCondition::wave(const Reference &ref) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the wave less its mean over time.  Where velocity or state is given and the other one is from
-   inside, only that acts: so the given one holds in the mean over time.
+   Return the wave less its mean over time.  It acts instead of the wave if one of velocity and
+   state is given and the other one is from inside: so the given one holds in the mean over time.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::changes(const Reference &ref, double wave) const

@@ -77,12 +77,12 @@ namespace SPHDissipation {
                   const OpenSamples &);    // owner: for messages
 
     double averaging_time;    // 0: by the support radius
-    double clock;             // time of the zone, which no command sets back
+    double clock;             // time of the zone, which reset_timestep does not change
     bool is_new;              // no particle has a state yet: the heat of each is that without waves
 
     // Set what the keyword at arg[iarg] says; return its number of words, 0 if it is none of a condition.
     int keyword_argument(int iarg, int narg, char **arg);
-    void check();    // refuse keywords without an effect, and too few of them
+    void check();    // errors for keywords without an effect, and for too few of them
 
     void init(const FluidModel &);
     bool given_velocity() const;

@@ -145,8 +145,8 @@ void OpenRows::init(double support_in, int fluid_bit)
 }
 
 /* ----------------------------------------------------------------------
-   Give one particle of the zone the next free ID, if all IDs are consecutive.  Sorted dumps take it that
-   such IDs stay the same as long as there are as many of them (Dump::init() and Dump::sort()).
+   Give one particle of the zone the next free ID, if all IDs are consecutive.  Sorted dumps assume
+   that such IDs do not change while their number is the same (Dump::init() and Dump::sort()).
 ------------------------------------------------------------------------- */
 
 void OpenRows::interrupt_ids()
@@ -212,7 +212,7 @@ void OpenRows::find_rows()
   if (front.proc == comm->me && front_i >= 0) std::copy_n(atom->x[front_i], 3, x);
   MPI_Bcast(x, 3, MPI_DOUBLE, front.proc, world);
 
-  // the nearest neighbor tells the size of a particle
+  // the distance of the nearest neighbor is the size of a particle
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
@@ -393,10 +393,10 @@ void OpenRows::check_alone(const OpenBand &band) const
 }
 
 /* ----------------------------------------------------------------------
-   Refuse gaps in the rows of a lattice, which must reach from the plane to the end of the zone, and
-   warn of fluid at the plane with neither a row nor a wall behind it.  What is missing at the end of
-   rows that move into the fluid is created later.  A zone without a lattice, as one that the fluid has
-   filled, has no rows.
+   Give an error for gaps in the rows of a lattice, which must reach from the plane to the end of
+   the zone, and warn of fluid at the plane with neither a row nor a wall behind it.  Missing
+   particles at the end of rows that move into the fluid are created later.  A zone without a
+   lattice, such as one that the fluid has filled, has no rows.
 ------------------------------------------------------------------------- */
 
 void OpenRows::check_lattice(const OpenBand &band, double largest) const

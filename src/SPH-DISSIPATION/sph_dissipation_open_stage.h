@@ -46,8 +46,8 @@ namespace SPHDissipation {
     // whether a particle at x may have pairs across the border of zone and fluid, of this length
     virtual bool zone_near(const double *x, double reach) const = 0;
 
-    // Append numbers of this processor, as many on each one, whose sums over all processors set_states() gets:
-    // one message is enough for all zones
+    // Append numbers of this processor, equally many on each; set_states() gets their sums over all
+    // processors, in one message for all zones
     virtual void measure(const OpenStage &, std::vector<double> &mine) = 0;
 
     // set density and pressure of its owned particles by OpenStage::set_state()

@@ -34,7 +34,7 @@ namespace SPHDissipation {
     return (volume == Volume::MASS) ? "mass" : "number";
   }
 
-  // negative coefficients of the bulk term beyond the bound of a particle: let be, count, cut off
+  // negative coefficients of the bulk term beyond the bound of a particle: ignore, count, limit
 
   enum class Limit { NO, COUNT, YES };
 

@@ -11,10 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// Random numbers that are a function of a counter and a key: whoever asks, and in which order, gets the
-// same ones.  For one counter or, in the loops, for a vector of them: included in more than one
-// namespace, after sph_dissipation_simd.h and sph_dissipation_words.h, hence without guard and without
-// a namespace of its own, as sph_dissipation_kernel_shapes.h.
+// Random numbers that are a function of a counter and a key: they do not depend on the processor
+// and the order of the calls.  For one counter or, in the loops, for a vector of them: included in
+// more than one namespace, after sph_dissipation_simd.h and sph_dissipation_words.h, hence without
+// guard and without a namespace of its own, as sph_dissipation_kernel_shapes.h.
 
 // Four random words of 32 bits: Philox4x32-10, J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw,
 // Parallel random numbers: as easy as 1, 2, 3, Proc. SC11 (2011).  Only the lower 32 bits of counter
@@ -52,8 +52,9 @@ SPH_INLINE void philox(const Words *counter, const PhiloxKeys &keys, Words *rand
 }
 
 // The word as a number of the uniform distribution between -sqrt(3) and sqrt(3), whose mean is 0 and
-// variance 1.  It is all that the balance of noise and friction asks for, B. Duenweg, W. Paul, Int. J.
-// Mod. Phys. C 2, 817 (1991); the velocities, sums of many such numbers, have a normal distribution.
+// variance 1.  The balance of noise and friction needs no other moments, B. Duenweg, W. Paul, Int.
+// J. Mod. Phys. C 2, 817 (1991); the velocities, sums of many such numbers, have a normal
+// distribution.
 
 SPH_INLINE Vec uniform(Words word)
 {

@@ -14,8 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_SHIFT_TERMS_H
 #define LMP_SPH_DISSIPATION_SHIFT_TERMS_H
 
-// Particle shifting: where a particle is crowded, and how far it goes.  S. J. Lind et al., J. Comput.
-// Phys. 231, 1499 (2012); P. N. Sun et al. (2017).  No LAMMPS include.
+// Particle shifting: gradient of the particle concentration, and displacement.  S. J. Lind et al.,
+// J. Comput. Phys. 231, 1499 (2012); P. N. Sun et al. (2017).  No LAMMPS include.
 
 #include "sph_dissipation_function.h"
 

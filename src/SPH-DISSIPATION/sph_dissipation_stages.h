@@ -185,7 +185,7 @@ namespace SPHDissipation {
 
     void run(NeighList *, PairTally *);    // tally of each pair, or nullptr
 
-    // what ghosts have got onto the force and torque of their owners in the engine, too
+    // also add the force and torque of ghosts to those of their owners in the engine
 
     void collect();
 

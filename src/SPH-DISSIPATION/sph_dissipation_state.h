@@ -65,9 +65,9 @@ namespace SPHDissipation {
     double mean_pressure(int type) const;
     std::string table() const;    // for the log
 
-    // Warn, on rank 0, of types whose density is far from rho0, and of those whose shear waves feel
-    // the arrangement; evened_out: shifting takes care that there is none.
-    // fix_style = the integrator, whose keyword helps
+    // Warn, on rank 0, of types whose density is far from rho0, and of those whose arrangement has
+    // a shear elasticity; evened_out: shifting prevents it.  fix_style = the integrator, whose
+    // keyword helps
 
     void warn(const std::string &fix_style, bool evened_out);
 

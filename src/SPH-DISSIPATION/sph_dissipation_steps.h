@@ -31,8 +31,8 @@ namespace SPHDissipation {
     return 3.5 / slope_integral;
   }
 
-  // The forces see the velocity extrapolated to the end of the step, for which a mode of damping rate g is
-  // stable for g dt < 1.  SAFETY is the part of its inverse that each step is.
+  // Forces use the velocity extrapolated to the end of the step, with which a mode of damping rate
+  // g is stable for g dt < 1.  The time step is SAFETY/g.
 
   constexpr double UNLIMITED_STEP = 1.0e300;
   constexpr double SAFETY = 0.9;

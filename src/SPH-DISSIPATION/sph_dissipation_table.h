@@ -44,8 +44,8 @@ namespace SPHDissipation {
     double fastest_rate() const { return rate_of(viscous); }      // of the viscous terms
     double fastest_heat_rate() const { return rate_of(heat); }    // of conduction
 
-    // A line with the fastest skin of the neighbor list at these speeds; empty if less than a tenth of the time
-    // per step is gained over the present skin
+    // A line with the fastest skin of the neighbor list at these speeds; empty if it saves less
+    // than a tenth of the time per step of the present skin
     std::string skin_text(double skin, double dt, double support, int dim) const;
 
    private:

@@ -408,7 +408,7 @@ void StiffStage::sum(double *values, int n) const
 }
 
 /* ----------------------------------------------------------------------
-   a residual by which particles move less in a step than their positions are rounded needs no iteration
+   no iteration is needed if the residual moves particles by less than the rounding of positions
 ------------------------------------------------------------------------- */
 
 double ViscousStage::scale_sq() const
@@ -544,7 +544,7 @@ void StiffStage::sdirk2_step(double interval)
 
 /* ----------------------------------------------------------------------
    Power iteration from a vector without order: of particles that are not on a lattice, or near a free surface,
-   where volumes are large, the fastest mode may be faster than the coefficients tell.
+   where volumes are large, the fastest mode may be faster than the estimate from the coefficients.
 ------------------------------------------------------------------------- */
 
 double StiffStage::estimated_rate()
@@ -808,7 +808,7 @@ void TemperatureStage::friction(const Unknowns &in, Unknowns &out)
 }
 
 /* ----------------------------------------------------------------------
-   a residual by which temperatures change less than they are rounded needs no iteration
+   no iteration is needed if the residual changes temperatures by less than their rounding
 ------------------------------------------------------------------------- */
 
 double TemperatureStage::scale_sq() const

@@ -41,9 +41,9 @@ namespace SPHDissipation {
 
     bool trapezoidal() const { return mode == Viscous::IMPLICIT && scheme == Scheme::TRAPEZOIDAL; }
 
-    // The force is the mean one of a decay over the whole time step.  In a longer one it overshoots,
-    // with more kinetic energy above twice the step; that of the trapezoidal step is the force of
-    // one moment, and what overshoots the next step takes back.
+    // The force is the mean one of a decay over the whole time step.  In a longer step it
+    // overshoots, and adds kinetic energy above twice the step.  The force of the trapezoidal step
+    // is that of one moment, and the next step removes the excess.
 
     bool force_is_a_mean() const { return mode != Viscous::EXPLICIT && !trapezoidal(); }
 
@@ -55,10 +55,10 @@ namespace SPHDissipation {
     }
     bool operator!=(const ViscousSettings &b) const { return !(*this == b); }
 
-    // Velocity that the forces are to see first: this many increments of half a step after the one
-    // in the middle of the step.  The time whose velocity acts in the friction of the scheme is
-    // the best guess where the velocity is smooth; the stages of RKL2 begin in the middle, and noise
-    // is not smooth.
+    // First guess of the velocity in the forces: this many increments of half a step after the one
+    // in the middle of the step.  The time whose velocity acts in the friction of the scheme is the
+    // best guess where the velocity is smooth; the stages of RKL2 begin in the middle, and noise is
+    // not smooth.
 
     double extrapolation(bool noise) const
     {
@@ -71,9 +71,10 @@ namespace SPHDissipation {
   class BoundaryStage;
   class PressureStage;
 
-  // A step of M dy/dt = F(y), F(y) = F(0) - Gamma y, that is stable for all rates, with the positions of one moment: of
-  // velocities, or of temperatures.  In the step from the middle of one to the middle of the next, y- to y+, what
-  // an integrator makes of it is y+ = y- + dt M^-1 F(y_b).  This finds y_b, which the forces are to see:
+  // A step of M dy/dt = F(y), F(y) = F(0) - Gamma y, that is stable for all rates, at fixed
+  // positions: for velocities, or for temperatures.  In the step from the middle of one to the
+  // middle of the next, y- to y+, what an integrator makes of it is y+ = y- + dt M^-1 F(y_b).  This
+  // finds y_b, which the forces use:
   //   rkl2:         y_b = a combination of y- and of those of the stages, see RKL2
   //   trapezoidal:  y_b = (y- + y+)/2
   //   euler:        y_b = y+
@@ -167,8 +168,8 @@ namespace SPHDissipation {
   // move.  This stage sets v_b as the velocity that the forces see (vest, omegaest), on owned and ghost atoms.
   // One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
   //
-  // F contains the forces of other styles, which come after those of the pair style: as they were in the
-  // step before.  In the first half step of a run they are not known.
+  // F contains the forces of other styles.  They come after those of the pair style, so F has those
+  // of the step before.  In the first half step of a run they are not known.
 
   class ViscousStage : public StiffStage {
    public:

@@ -30,14 +30,14 @@ namespace SPHDissipation {
   std::set<Kind> all_kinds(LAMMPS *);    // those of the particles of all ranks
   bool in_neighbor_lists(LAMMPS *, const Kind &, const Kind &);    // pairs of two kinds
 
-  // What a wall of particles must be like to be one.  Called by all ranks; messages name the fix.
+  // Checks of a wall of particles.  Called by all ranks; messages name the fix.
 
   // there are particles, and no other fix moves them
 
   void check_wall_particles(LAMMPS *, const Fix *);
 
-  // pair coefficients, exclusions and neigh_modify include let the fluid feel the wall; if
-  // only a part of the fluid does, a warning if wanted.  Returns the types of the fluid that do.
+  // pair coefficients, exclusions and neigh_modify include let fluid and wall interact; if only a
+  // part of the fluid does, a warning if wanted.  Returns the types of the fluid that do.
 
   std::set<int> check_wall_interacts(LAMMPS *, const Fix *, const Fluid *, bool warn);
 

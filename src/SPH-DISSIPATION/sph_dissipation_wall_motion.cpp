@@ -101,9 +101,10 @@ bool WallMotion::evaluate(double *result)
 }
 
 /* ----------------------------------------------------------------------
-   Set values and rates at the start of a run.  Variables that are functions of time get their rate from
-   the values in the steps to come.  Those that depend on the particles are not known in advance: they
-   keep the rate of the last step, if a run ended with it, and so do those that do not change any more.
+   Set values and rates at the start of a run.  Variables that are functions of time get their rate
+   from the values in the next steps.  Those that depend on the particles are not known in advance:
+   they keep the rate of the last step, if a run ended with it, and so do those that no longer
+   change.
 ------------------------------------------------------------------------- */
 
 void WallMotion::start()

@@ -45,8 +45,8 @@ namespace SPHDissipation {
     void move_point();                // with the wall
     bool has_variables() const { return any_variable; }
 
-    // the point on the axis in restart files: it belongs to the rotation that the input gives, and
-    // is not for another one
+    // the point on the axis in restart files: it is valid only for the rotation that the input
+    // gives
 
     static constexpr int NRESTART = 9;
     bool rotates() const { return rotation_given; }

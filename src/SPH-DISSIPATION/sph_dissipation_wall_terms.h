@@ -144,11 +144,11 @@ namespace SPHDissipation {
     double gravity[3];
   };
 
-  // Particles of the fluid that boundary particles press on all sides are inside a wall.  A kernel that
-  // sees the nearest particles only, however large the support radius of the fluid, tells: with as
-  // many particle spacings as a fluid has at least.  The near support of a fluid particle at a plane
-  // surface is half full of boundary particles, that of one in the corner of a box 7/8; more only
-  // inside.  A larger one would be as full in a pore as wide as the particle itself.
+  // A fluid particle with boundary particles on all sides is inside a wall.  A kernel with a small
+  // support of a few particle spacings, the least that a fluid has, detects this for any support
+  // radius of the fluid.  The near support of a fluid particle at a plane surface is half full of
+  // boundary particles, that of one in the corner of a box 7/8; more only inside.  A larger one
+  // would be as full in a pore as wide as the particle itself.
 
   constexpr double INSIDE_WALL = 0.9;
 
@@ -340,11 +340,13 @@ namespace SPHDissipation {
     }
   }
 
-  // What a wall particle of volume vol brings into the conduction of heat, sum.weight > 0.  value = temperature at the
-  // surface, behind which that of the fluid goes on as the velocity along it does, or heat per area and time.
+  // Values of a wall particle of volume vol in the conduction of heat, sum.weight > 0.  value =
+  // temperature at the surface, behind which that of the fluid goes on as the velocity along it
+  // does, or heat per area and time.
   // The conductivity is the mean of the fluid around it.
-  // Without either it has the temperature at which it gets no heat.  Heat that flows along the surface passes pairs on
-  // both of its sides and those across it, which are shared by both: so it has one half of its volume.
+  // Without either it has the temperature at which it gets no heat.  Pairs across the surface are
+  // shared by both of its sides, and conduct heat along the surface for both: so a wall particle
+  // has one half of its volume.
 
   SPH_FUNCTION Conductor wall_conductor(WallHeat heat, double value, double vol,
                                         double conductivity, const Surface &surface,
@@ -384,7 +386,8 @@ namespace SPHDissipation {
     return sums.zeroth / sums.second;
   }
 
-  // What particle i of a wall with this acceleration brings into pass 2: the fluid goes on, sum.weight > 0
+  // Values of particle i of a wall with this acceleration in pass 2, extrapolated from the fluid,
+  // sum.weight > 0
 
   SPH_FUNCTION void extend_fluid(const ParticleRows &rows, int i, const WallCondition &condition,
                                  const Surface &surface, const BoundarySum &sum,
