@@ -427,8 +427,9 @@ def plot(out, results, rows):
             axis.plot([w.q for w in r.waves], [w.value / r.requested for w in r.waves], marker, color=f"C{i}", mfc="none", ms=5, label=label)
             axis.plot(0, r.ratio, marker, color=f"C{i}", ms=5)
         axis.axhline(1, color="k", lw=0.8)
-        axis.set_title(title)
+        axis.set_title(title + ", support 4 $\\Delta x$")
         axis.set_xlabel("(wave number times\nsmoothing length)$^2$, $(kh)^2$")
+        axis.set_ylim(0.875, 1.01)       # room for the legend
         axis.legend(loc="lower left")
     axes[0].set_ylabel("viscosity, measured / requested")
     for i, (name, label) in enumerate((("2d hex, support 4", "hexagonal"), ("3d bcc [100], support 4", "bcc"))):
