@@ -66,7 +66,7 @@ def page():
         text += [topic, '"' * len(topic), ""]
         for row in rows:
             name = row["example"]
-            text += [f".. figure:: ../../examples/{name}/{row['picture']}", "   :width: 80%", f"   :alt: {title(name)}", "",
+            text += [f".. figure:: ../../examples/{name}/{row['picture']}", f"   :width: {70 if row['picture'].endswith('.gif') else 100}%", f"   :alt: {title(name)}", "",
                      f"   **{title(name)}**: {row['shows']}.", f"   Dimension {row['dimension']}, {row['particles']} particles, {row['processor time']}.",
                      f"   Styles: {', '.join(f'*{style}*' for style in styles(name))}.", f"   ``./sphd run {name}``", ""]
     return "\n".join(text)

@@ -160,7 +160,7 @@ def plot_profiles(path, runs, references):
     rows = [["u", "u", "u", "v", "v", "v"]] if newtonian else []
     if spinning:
         rows.append(["u3", "u3", "v3", "v3", "w", "w"] if "k3" in runs else ["u3", "u3", "u3", "v3", "v3", "v3"])
-    figure, axes = plt.subplot_mosaic(rows, figsize=(10, 3.7 * len(rows)))
+    figure, axes = plt.subplot_mosaic(rows, figsize=(9.6, 3.7 * len(rows)))
     for suffix, group in (("", newtonian), ("3", spinning)):
         if not group:
             continue
@@ -193,7 +193,7 @@ def plot_profiles(path, runs, references):
 def plot_streamlines(path, runs, references):
     plt = pyplot()
     chosen = [base for base in ("re400", "k3", "re1000") if base in runs] or list(runs)
-    figure, axes = plt.subplots(1, len(chosen), figsize=(3.7 * len(chosen), 3.9), squeeze=False)
+    figure, axes = plt.subplots(1, len(chosen), figsize=(3.2 * len(chosen), 3.5), squeeze=False)
     levels = [-0.115, -0.11, -0.1, -0.085, -0.07, -0.05, -0.03, -0.015, -0.005, 0.0004, 0.0008, 0.0014]
     grid = np.unique(references.psi["x"])
     for axis, base in zip(axes[0], chosen):
@@ -210,10 +210,10 @@ def plot_particles(path, runs, disorder):
     panels = [(runs[base].label, runs[base].particles) for base in sorted(runs, key=["re1000", "k3", "re400", "re100", "k3b"].index)][:2]
     if disorder:
         panels.append(("Re = 1000, $N = 50$, without shifting", *frames(disorder).values()))
-    figure, axes = plt.subplots(1, len(panels), figsize=(4.3 * len(panels), 4.1), squeeze=False)
+    figure, axes = plt.subplots(1, len(panels), figsize=(3.2 * len(panels), 3.2), squeeze=False)
     for axis, (label, particles) in zip(axes[0], panels):
         x, y, vx, vy = (particles[column] for column in ("x", "y", "vx", "vy"))
-        shown = axis.scatter(x, y, c=np.hypot(vx, vy), s=2 * 100**2 / len(x), vmin=0, vmax=0.8, cmap="viridis", lw=0)
+        shown = axis.scatter(x, y, c=np.hypot(vx, vy), s=1.1 * 100**2 / len(x), vmin=0, vmax=0.8, cmap="viridis", lw=0)
         axis.set(xlim=(0, 1), ylim=(0, 1), aspect="equal", xlabel="place $x/L$", title=label)
     axes[0, 0].set_ylabel("height $y/L$")
     figure.colorbar(shown, ax=axes[0], label="speed$\\,/\\,U$", shrink=0.85)

@@ -43,7 +43,7 @@ class Run:
 
 def plot(out, runs):
     plt = pyplot()
-    figure, axes = plt.subplots(1, 3, figsize=(11, 3.4))
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.6))
     for number, run in enumerate(runs):
         color, label = f"C{number}", f"$\\kappa/\\mu$ = {run.kappa:g}"
         axes[0].semilogy(run.t, run.solenoidal, "-", color=color)

@@ -110,15 +110,15 @@ class Roll:
 
 def plot_cavities(path, runs, table):
     plt = pyplot()
-    figure, axes = plt.subplots(2, 3, figsize=(11.5, 7.4))
+    figure, axes = plt.subplots(2, 3, figsize=(9.6, 6.6))
     for axis in axes[0, len(runs):]:
         axis.set_axis_off()
     for axis, (Ra, run) in zip(axes[0], reversed(runs.items())):
         place = run.particles
-        shown = axis.scatter(place["x"], place["y"], c=place["v_temperature"] - 1, s=(170 / run.N) ** 2, cmap="coolwarm", vmin=-0.5, vmax=0.5, lw=0)
+        shown = axis.scatter(place["x"], place["y"], c=place["v_temperature"] - 1, s=(142 / run.N) ** 2, cmap="coolwarm", vmin=-0.5, vmax=0.5, lw=0)
         axis.contour(run.s, run.s, run.psi.T, np.linspace(0, run.psi.min(), 8)[-2:0:-1], colors="k", linewidths=0.7, linestyles="-")
         axis.set(aspect="equal", xlim=(0, 1), ylim=(0, 1), xticks=(), yticks=(), title=f"Ra = {Ra}, {run.N} x {run.N} particles")
-    figure.colorbar(shown, ax=axes[0], label="$(T - T_0)/\\Delta T$", shrink=0.9)
+    figure.colorbar(shown, ax=axes[0], label="temperature $(T - T_0)/\\Delta T$", shrink=0.9)
     for color, (Ra, run) in zip(("C3", "C0", "k"), runs.items()):
         known, label = table[Ra], f"Ra = {Ra}"
         axes[1, 0].plot(run.s, run.v, color=color, lw=1, label=label)
@@ -128,10 +128,16 @@ def plot_cavities(path, runs, table):
         axes[1, 2].plot(run.time, run.hot, color=color, lw=1, label=label)
         axes[1, 2].plot(run.time, run.cold, color=color, lw=1, ls=":")
         axes[1, 2].axhline(known["Nu"], color=color, lw=0.6, ls="--")
-    axes[1, 0].set(xlabel="$x/L$", ylabel="$v L/\\alpha$", title="upwards, at half height; +: published maximum")
-    axes[1, 1].set(xlabel="$y/L$", ylabel="$u L/\\alpha$", title="to the right, at half width")
-    axes[1, 2].set(xlabel="$t$ in $L/\\sqrt{g\\beta\\Delta T L}$", ylabel="Nu", ylim=(0, 7), title="heat in (solid) and out (dotted); dashed: published")
-    return save(figure, path, legends=axes[1])
+    axes[1, 0].set(xlabel="place $x/L$", ylabel="velocity $v L/\\alpha$", title="velocity along y, at half height")
+    axes[1, 1].set(xlabel="height $y/L$", ylabel="velocity $u L/\\alpha$", title="velocity along x, at half width")
+    axes[1, 2].set(xlabel="time $t\\,\\sqrt{g\\beta\\Delta T/L}$", ylabel="Nusselt number of the heat", ylim=(0, 7), title="heat")
+    axes[1, 0].plot([], [], "k+", ms=9, label="published maximum")
+    for style, label in (("-", "in"), (":", "out"), ("--", "published")):
+        axes[1, 2].plot([], [], "0.4", lw=1, ls=style, label=label)
+    axes[1, 0].legend()
+    axes[1, 1].legend()
+    axes[1, 2].legend(ncols=2)
+    return save(figure, path)
 
 
 def plot_onset(path, rolls, k, critical):
@@ -145,12 +151,12 @@ def plot_onset(path, rolls, k, critical):
         axes[0].semilogy(roll.time[late], np.exp(middle + 2 * exact * roll.time[late]), "k--", lw=0.8)
         axes[1].plot(Ra, roll.rate, "o", color=color)
     axes[0].plot([], [], "k--", lw=0.8, label="linear theory")
-    axes[0].set(xlabel="$t\\alpha/H^2$", ylabel="kinetic energy")
+    axes[0].set(xlabel="time $t\\alpha/H^2$", ylabel="kinetic energy (lj units)")
     numbers = np.linspace(min(rolls) - 100, max(rolls) + 100, 41)
     axes[1].plot(numbers, [growth(Ra, 1.0, k) for Ra in numbers], "k--", lw=0.8, label="linear theory")
     axes[1].plot(list(rolls), [roll.rate for roll in rolls.values()], "-", color="0.5", lw=0.8, label=f"particles: 0 at {critical:.0f}")
     axes[1].axhline(0, color="0.7", lw=0.6)
-    axes[1].set(xlabel="Ra", ylabel="growth rate in $\\alpha/H^2$")
+    axes[1].set(xlabel="Rayleigh number Ra", ylabel="growth rate in $\\alpha/H^2$")
     return save(figure, path, legends=axes)
 
 

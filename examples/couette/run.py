@@ -80,7 +80,7 @@ def plot(path, kind, runs, sizes):
     from matplotlib.ticker import LogLocator, NullFormatter
 
     plt = pyplot()
-    figure, axes = plt.subplots(1, 3, figsize=(12, 3.9))
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.9))
     plane = kind == "plane"
     run = runs[kind, sorted(sizes)[-2] if len(sizes) > 1 else sizes[0]]
     place = np.linspace(0, 1, 301) if plane else np.linspace(1, 2, 301)
@@ -96,8 +96,8 @@ def plot(path, kind, runs, sizes):
     for color, name, value, exact in zip(("C0", "C3"), names, (run.first, run.second), (run.exact_first, run.exact_second)):
         axes[1].plot(run.t[late], exact[late] / scale, "-", color=color)
         axes[1].plot(run.t[late], value[late] / scale, "o", color=color, ms=3, mfc="none", label=name)
-    axes[1].set(xlabel="time $t\\,\\nu/\\mathrm{gap}^2$", title="stress on the walls over $\\mu U/\\mathrm{gap}$" if plane
-                else "torque on the cylinders over the steady one", ylim=(-4, 1.5) if plane else (-3, 1.5))
+    axes[1].set(xlabel="time $t\\,\\nu/\\mathrm{gap}^2$", title="wall stress over $\\mu U/\\mathrm{gap}$" if plane
+                else "torque over the steady one", ylim=(-4, 1.5) if plane else (-3, 1.5))
     axes[1].legend()
     for color, marker, time in zip(("C0", "C1", "C2", "C3", "C4"), "os^vD", run.profiles):
         errors = [runs[kind, n].errors[time] for n in sizes]

@@ -77,19 +77,19 @@ def smooth(frame, spacing, box, support=3.0):
 def plot(path, out, runs, n):
     """n: particles per diameter of each run"""
     plt = pyplot()
-    figure = plt.figure(figsize=(13, 3.4 + 3.0 * len(runs)))
-    top, *below = figure.subfigures(1 + len(runs), 1, height_ratios=[3.4] + [3.0] * len(runs))
+    figure = plt.figure(figsize=(9.6, 3.0 + 2.2 * len(runs)))
+    top, *below = figure.subfigures(1 + len(runs), 1, height_ratios=[3.0] + [2.2] * len(runs))
     axes = top.subplots(1, 3)
     for color, (Re, run) in zip(("C0", "C1", "C2"), runs.items()):
         many = max(1, len(run.t) // 200)        # the noise of single particles that pass the surface
         t, drag = (np.convolve(value, np.ones(many) / many, "valid") for value in (run.t, run.drag_t))
-        axes[0].plot(t[t > 0.5], drag[t > 0.5], "-", color=color, label=f"Re = {Re}")
+        axes[0].plot(t[t > 0.5], drag[t > 0.5], "-", color=color, label=f"Re = {Re}" + (", steady, ended early" if Re < 50 else ""))
         axes[2].plot(run.x, run.u, "o-", ms=2.5, color=color, label=f"Re = {Re}")
         if Re > 50:
             axes[1].plot(run.t, run.lift_t, "-", color=color)
-    axes[0].set(xlabel="time $t\\,U/D$", title="drag coefficient; at Re = 20 and 40 steady, and ended early", ylim=(1.0, 3.0))
+    axes[0].set(xlabel="time $t\\,U/D$", title="drag coefficient", ylim=(1.0, 3.0))
     axes[1].set(xlabel="time $t\\,U/D$", title="lift coefficient, Re = 100")
-    axes[2].set(xlabel="distance from the axis, $x/D$", title="mean velocity on the axis over U", xlim=(0.4, 8))
+    axes[2].set(xlabel="distance from the center, $x/D$", title="mean velocity on the axis over U", xlim=(0.4, 8))
     axes[0].legend()
     axes[2].legend()
     for part, (Re, run) in zip(below, runs.items()):

@@ -102,7 +102,7 @@ def plot_drop(path, runs, T, n):
     sizes = sorted(run.n for name, run in runs.items() if name.startswith("kappa_"))
     main, mg, fine = runs[f"kappa_{n}"], runs["mg"], runs[f"kappa_{sizes[-1]}"]
     end = main.t[-1] / T
-    figure = plt.figure(figsize=(10.5, 9.0), constrained_layout=False)
+    figure = plt.figure(figsize=(9.6, 8.8), constrained_layout=False)
     top = figure.add_gridspec(1, 5, left=0.06, right=0.97, top=0.975, bottom=0.725, wspace=0.12, width_ratios=[1, 1, 1, 1, 0.06])
     last = round(4 * fine.t[-1] / T - 1) / 4
     for column, periods in enumerate((0, 0.25, 0.5, last)):
@@ -155,7 +155,7 @@ def plot_drop(path, runs, T, n):
 
 def plot_spin(path, runs, T):
     plt = pyplot()
-    figure, (picture, left, middle, right) = plt.subplots(1, 4, figsize=(12.5, 3.3), gridspec_kw={"width_ratios": [0.95, 1.1, 1, 1]})
+    figure, ((picture, left), (middle, right)) = plt.subplots(2, 2, figsize=(8.6, 7.0))
     cases = {"spin": ("C0", f"$\\kappa$ = {KAPPA:g}"), "spin_mg": ("C1", f"mg, $\\mu$ = {MU:.3f}"), "spin_morris": ("C3", "morris, the same")}
     run = runs["spin"]
     angle = np.linspace(0, 2 * np.pi, 300)

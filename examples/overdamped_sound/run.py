@@ -91,13 +91,14 @@ class Run:
 
 def plot(path, runs):
     plt = pyplot()
-    figure, (left, right, work) = plt.subplots(1, 3, figsize=(12.6, 3.8))
+    figure, (left, right, work) = plt.subplots(1, 3, figsize=(9.6, 3.6))
     for color, run in zip(plt.cm.viridis(np.linspace(0, 0.9, len(RATIOS))), [r for r in runs if r.mode == "rkl2"]):
         left.plot(run.t, run.continuum.amplitude(run.t), "-", color=color, lw=0.8)
         left.plot(run.t[::8], run.amplitude[::8], "o", color=color, ms=3, mfc="none", label=f"{run.ratio}")
     left.set_xlabel("time $t\\,c/\\lambda$")
     left.set_ylabel("amplitude of the density")
-    left.legend(title="$\\kappa/\\mu$", ncol=2)
+    left.set_ylim(-1.05, 1.8)         # room for the legend
+    left.legend(title="$\\kappa/\\mu$", ncol=4, loc="upper center", columnspacing=0.8, handletextpad=0.1)
     ratio = np.logspace(0, 3.1, 400)
     waves = [Wave(r) for r in ratio]
     right.loglog([w.number for w in waves], [w.rate() / K for w in waves], "k-", lw=0.8, label="dispersion relation")
@@ -112,7 +113,7 @@ def plot(path, runs):
         work.loglog([r.stiffness for r in some], [r.work for r in some], f"{mark}-", mfc="none", label=mode)
     g = np.array([min(run.stiffness for run in runs), 1, max(run.stiffness for run in runs)])
     work.loglog(g, np.maximum(1, g / 0.9), "k--", lw=0.8, label="explicit")
-    work.set_xlabel("largest viscous rate times the time step")
+    work.set_xlabel("largest viscous rate times time step")
     work.set_ylabel("force computations per step")
     work.legend()
     return save(figure, path)

@@ -98,7 +98,7 @@ def histogram(path):
 
 def plot(path, found):
     plt = pyplot()
-    figure, axes = plt.subplots(1, 3, figsize=(11.5, 3.4))
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4))
     for axis, (name, title) in zip(axes, (("height", "height of the piston"), ("velocity", "velocity of the piston"), ("heat", "heat of a particle of gas"))):
         for color, (case, (exact, others, histograms)) in zip(("C0", "C1", "C2"), found.items()):
             edges, share = histograms[name]
@@ -106,11 +106,16 @@ def plot(path, found):
             axis.plot(center, np.diff(exact.below(name, edges)) / width, color, lw=1.2)
             axis.plot(center, np.diff(others.below(name, edges)) / width, color, lw=0.8, ls=":")
             axis.plot(center[::2], share.mean(axis=0)[::2] * np.ptp(exact.below(name, edges[[0, -1]])) / width, color + ".", ms=4, label=TITLES[case])
-        axis.set(xlabel=title, ylim=(0, None))
+        axis.set(xlabel=f"{title} (lj units)", ylim=(0, None))
     axes[0].set_ylabel("probability density")
+    axes[0].set_ylim(0, 0.62)       # room for the legends
+    axes[0].plot([], [], "0.3", lw=1.2, label="exact")
+    axes[0].plot([], [], "0.3", lw=0.8, ls=":", label="with the measure of energies")
+    axes[0].legend(handles=axes[0].lines[-2:], loc="upper left")
+    axes[2].set_ylim(0, 0.53)
     axes[0].set_xlim(1, 10)
     axes[2].set_xlim(0, 9)
-    axes[2].legend()
+    axes[2].legend(loc="upper right")
     return save(figure, path)
 
 

@@ -32,7 +32,7 @@ class Run:
 
 def plot(path, runs):
     plt = pyplot()
-    figure, (picture, left, right) = plt.subplots(1, 3, figsize=(11, 3.4))
+    figure, (picture, left, right) = plt.subplots(1, 3, figsize=(9.6, 3.4))
     frame = max(runs["bulk"].frames.values(), key=lambda frame: len(frame["x"]))
     dots = picture.scatter(frame["x"], frame["y"], s=14 * frame["mass"], c=frame["mass"], lw=0)
     figure.colorbar(dots, ax=picture, label="mass of the particle (lj units)", shrink=0.8)

@@ -91,7 +91,7 @@ def plot(path, runs, theory, dim):
         axes = figure.add_subplot(grid[0, 3 * column:3 * column + 3])
         slab = np.abs(frame["z"]) < 0.12
         x, y, vx, vy = (frame[c][slab] for c in ("x", "y", "vx", "vy"))
-        axes.scatter(x, y, s=3, lw=0, c=np.where(frame["type"][slab] == 1, "#d8a040", "#a8c4e0"))
+        axes.scatter(x, y, s=9600 / len(x), lw=0, c=np.where(frame["type"][slab] == 1, "#d8a040", "#a8c4e0"))
         rings = [np.argmin((x - r * np.cos(a)) ** 2 + (y - r * np.sin(a)) ** 2)
                  for r, m in ((0.3, 6), (0.6, 12), (0.9, 18)) for a in 2 * np.pi * np.arange(m) / m]
         axes.quiver(x[rings], y[rings], vx[rings], vy[rings], angles="xy", scale_units="xy", scale=3, width=0.008, zorder=3)

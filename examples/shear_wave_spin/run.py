@@ -37,14 +37,17 @@ def plot(path, found):
         theory = [eigenvalues(one, **values) for one in k]
         for mode, mark in (("slow", "o"), ("fast", "s")):
             points = np.array([(wave, rate) for (s, m, _), (wave, rate, _) in found.items() if (s, m) == (name, mode)])
-            label = f"{mode}, $\\mu_r = {values['mu_r']:g}$, $\\gamma_1 = {values['gamma1']}$, $I = {values['I']}$"
+            label = f"$\\mu_r = {values['mu_r']:g}$, $\\gamma_1 = {values['gamma1']}$, $I = {values['I']}$" if mode == "slow" else None
             left.loglog(k, [one[mode] for one in theory], color, lw=1)
             left.loglog(*points.T, color + mark, mfc="none", ms=5, label=label)
             exact = np.array([eigenvalues(one, **values)[mode] for one in points[:, 0]])
             right.plot(points[:, 0] * SUPPORT / 2, points[:, 1] / exact, color + mark + ("-" if mode == "slow" else "--"),
                        mfc="none", ms=5)
+    for mode, mark in (("slow mode", "ko-"), ("fast mode", "ks--")):
+        right.plot([], [], mark, mfc="none", ms=5, label=mode)
     left.set(xlabel="wave number times spacing, $k\\,\\Delta x$", ylabel="decay rate (lj units)", title="lines: eigenvalues", ylim=(0.002, 30))
-    left.legend(ncols=2, fontsize=6.5)
+    left.legend(loc="upper left")
+    right.legend(loc="lower left")
     right.axhline(1, color="k", lw=0.8)
     right.set(xlabel="wave number times smoothing length, $kh$", ylabel="rate over eigenvalue")
     save(figure, path)

@@ -56,7 +56,7 @@ class Run:
 
 def plot(path, runs):
     plt = pyplot()
-    figure, axes = plt.subplots(1, len(CASES), figsize=(10.5, 3.6))
+    figure, axes = plt.subplots(1, len(CASES), figsize=(9.6, 3.4))
     for axis, title in zip(axes, CASES):
         for mark, color, style in zip("ox", ("C0", "C1"), INPUTS):
             (run,) = (run for run in runs if (run.style, run.title) == (style, title))
@@ -67,7 +67,7 @@ def plot(path, runs):
             some = np.flatnonzero(np.diff(x // np.where(np.abs(x) < 0.06, 0.007, 0.02), prepend=np.nan))
             axis.plot(x[some], run.T[first][some], mark, color=color, ms=4, mfc="none", label=style)
         axis.set_title(title, fontsize=9)
-        axis.set_xlabel("distance from the contact (lj units)")
+        axis.set_xlabel("distance from contact (lj units)")
         axis.set_ylim(0.3, 2.45)
     axes[0].set_ylabel("temperature (lj units)")
     axes[0].legend(loc="lower right")

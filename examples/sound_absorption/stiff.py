@@ -82,6 +82,9 @@ def plot(path, runs):
     axis.set_ylabel("force computations per step of sound")
     axis.legend()
     axis.grid(alpha=0.3, which="both")
+    for side in (axis.xaxis, axis.yaxis):
+        side.set_major_formatter("{x:g}")
+        side.set_minor_formatter("{x:g}")
     return save(figure, path)
 
 

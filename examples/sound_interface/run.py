@@ -65,12 +65,12 @@ def plot(path, packet, uniform, t, sides):
     order = np.argsort(x)
     first.plot(x[order], u[order] / C0, "k-", lw=0.6, label="coarse particles only")
     first.axvline(0.5 * LENGTH, color="C3", lw=0.8, ls="--")
-    first.set(title="a packet before and behind the plane", xlabel="place $x$ (lj units)", ylabel="velocity $u/c_0$", xlim=(0, LENGTH))
+    first.set(title="a packet before and behind the plane", xlabel="place $x$ (lj units)", ylabel="velocity $u/c_0$", xlim=(0, LENGTH), ylim=(-0.0085, 0.005))
     for label, color, (rate, _, mode) in zip(("coarse", "fine"), ("C0", "C1"), sides):
         second.plot(t, mode / C0, color=color, ls="-" if color == "C0" else "--", label=f"{label}: rate {rate:.4f}")
     k = 2 * np.pi / LAMBDA
     second.plot(t, sides[0][2][0] / C0 * np.exp(-0.5 * (KAPPA + MU) * k**2 * t), "k:", lw=1, label="$e^{-\\Gamma t}$")
-    second.set(title="standing wave, each side", xlabel="time (lj units)", ylabel="amplitude of the velocity $/c_0$")
+    second.set(title="standing wave, each side", xlabel="time (lj units)", ylabel="amplitude of the velocity $/c_0$", ylim=(-0.0022, 0.0034))
     save(figure, path, legends=(first, second))
 
 

@@ -147,7 +147,7 @@ def spectrum(z, dt, parts):
 
 def plot(path, results):
     plt = pyplot()
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.5, 3.4))
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(9.6, 3.4))
     for index, kappa in enumerate(results):
         color = f"C{index}"
         # two waves of the same length

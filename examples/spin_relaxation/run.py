@@ -48,7 +48,9 @@ def plot(path, runs):
     right.axhline(1, color="k", lw=0.8)
     left.set(xlabel="time $4\\mu_rt/(\\rho I)$", ylabel="spin $\\Omega(t)/\\Omega(0)$")
     right.set(xlabel="time $4\\mu_rt/(\\rho I)$", ylabel="rate over $4\\mu_r/(\\rho I)$")
+    right.set_ylim(0.979, 1.001)      # room for the legend
     left.legend()
+    right.legend(ncols=2, loc="lower center")
     save(figure, path)
 
 

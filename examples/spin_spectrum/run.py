@@ -93,7 +93,8 @@ def plot(path, time, found, answer, exact):
         line, = axes.plot(time[::3], found[a, b, ::3] / norm, ".", ms=4, label=label)
         axes.plot(time, answer[a, b] / norm, color=line.get_color(), lw=1)
         axes.plot(time, exact[a, b] / norm, color=line.get_color(), lw=0.8, ls=":")
-    axes.set(xlabel="time (lj units)", ylabel="correlation over its thermal value")
+    axes.set(xlabel="time (lj units)", ylabel="correlation over its thermal value",
+             title="points: fluctuations, lines: decay without noise, dotted: exact")
     save(figure, path, legends=[axes])
 
 

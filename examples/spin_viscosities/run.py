@@ -83,7 +83,7 @@ def plot(path, groups):
     plt = pyplot()
     figure, both = plt.subplots(1, 2, figsize=(8.6, 3.6), sharey=True)
     for axes, dim in zip(both, MU_R):
-        axes.axhspan(1 - MERIT, 1 + MERIT, color="0.92", zorder=0)
+        axes.axhspan(1 - MERIT, 1 + MERIT, color="0.92", zorder=0, label=f"within {100 * MERIT:g} %")
         axes.axhline(1, color="k", lw=0.8)
         for (d, mu_r, wave), group in groups.items():
             if d == dim:

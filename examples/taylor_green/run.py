@@ -67,7 +67,7 @@ def fields(path):
 
 def plot(out, runs):
     plt = pyplot()
-    figure, axes = plt.subplots(1, 3, figsize=(11, 3.4))
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.6))
     for re in sorted({run.re for run in runs}):
         t, energy, power = reference.load(re)
         axes[0].plot(t, energy, "k-", lw=3, alpha=0.3, label=f"spectral, Re = {re:g}")
@@ -81,8 +81,8 @@ def plot(out, runs):
     axes[1].plot([], [], ":", color="0.4", label="heat of the particles")
     axes[1].plot([], [], "o", ms=3, color="0.4", label="power of the spectra")
     axes[1].set_ylim(0, None)
-    axes[0].set_ylabel("kinetic energy")
-    axes[1].set_ylabel("loss of energy per time")
+    axes[0].set_ylabel("kinetic energy (lj units)")
+    axes[1].set_ylabel("loss of energy per time (lj units)")
     for axis in axes[:2]:
         axis.set_xlabel("time (lj units)")
         axis.legend()

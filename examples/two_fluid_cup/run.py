@@ -77,7 +77,7 @@ class Run:
 
 def plot(path, runs, n):
     plt = pyplot()
-    figure, axes = plt.subplots(1, 3, figsize=(11.5, 4.0), gridspec_kw={"width_ratios": [1, 1, 1.05]})
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.8), gridspec_kw={"width_ratios": [1, 1, 1.05]})
     for axis, (ratio, etas) in zip(axes, RATIOS.items()):
         for shear, (stress, marker, color) in SHEARS.items():
             swirl = Swirl(stress, *etas, R1, wall=1.0)

@@ -367,7 +367,7 @@ def plot(out, results, rows):
     shown = {name: style for name, style in shown.items() if any(row["set"] == name for row in rows)}
 
     # measured against requested
-    figure, axes = plt.subplots(1, 3, figsize=(11.5, 4.0), gridspec_kw={"width_ratios": [1.15, 1, 1]})
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.8), gridspec_kw={"width_ratios": [1.15, 1, 1]})
     line = np.concatenate([[-1, 0], np.geomspace(0.1, 2000, 50)])
     axes[0].plot(line, line, "k-", lw=0.8, zorder=1)
     # arrangements side by side, so that none hides another
@@ -413,9 +413,9 @@ def plot(out, results, rows):
     keep(figure, "viscosity.png")
 
     # wavelength: points from LAMMPS, lines from the lattice sums
-    figure, axes = plt.subplots(1, 3, figsize=(11.5, 3.9))
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 4.0))
     q = np.linspace(0, 0.31, 60)
-    for axis, (name, title) in zip(axes[:2], (("2d hex, support 4", "2d, hexagonal lattice"), ("3d bcc [100], support 4", "3d, bcc lattice"))):
+    for axis, (name, title) in zip(axes[:2], (("2d hex, support 4", "2d, hexagonal"), ("3d bcc [100], support 4", "3d, bcc"))):
         cases = [("mg", "shear", "mg, shear wave", "o"), ("mg", "sound", "mg, sound", "s"), ("morris", "shear", "morris, shear wave", "^"),
                  ("mg, kappa/mu = 10", "sound", "mg + bulk, $\\kappa = 10\\mu$, sound", "D"),
                  ("mg, kappa/mu = 1000", "sound", "mg + bulk, $\\kappa = 1000\\mu$, sound", "v")]
@@ -428,7 +428,8 @@ def plot(out, results, rows):
             axis.plot(0, r.ratio, marker, color=f"C{i}", ms=5)
         axis.axhline(1, color="k", lw=0.8)
         axis.set_title(title + ", support 4 $\\Delta x$")
-        axis.set_xlabel("(wave number times smoothing length)$^2$, $(kh)^2$")
+        axis.set_xlabel("(wave number times\nsmoothing length)$^2$, $(kh)^2$")
+        axis.set_ylim(0.875, 1.01)       # room for the legend
         axis.legend(loc="lower left")
     axes[0].set_ylabel("viscosity, measured / requested")
     for i, (name, label) in enumerate((("2d hex, support 4", "hexagonal"), ("3d bcc [100], support 4", "bcc"))):
@@ -437,7 +438,7 @@ def plot(out, results, rows):
         axes[2].plot([w.q for w in r.waves], [w.speed for w in r.waves], "os"[i], color=f"C{i}", mfc="none", ms=5, label=f"mg, {label}")
     axes[2].axhline(1, color="k", lw=0.8)
     axes[2].set_title("speed of sound over $c_0$")
-    axes[2].set_xlabel("(wave number times smoothing length)$^2$, $(kh)^2$")
+    axes[2].set_xlabel("(wave number times\nsmoothing length)$^2$, $(kh)^2$")
     axes[2].legend(loc="lower left")
     keep(figure, "wavelength.png")
 
