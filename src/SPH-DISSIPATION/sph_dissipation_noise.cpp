@@ -18,6 +18,7 @@
 #include "error.h"
 #include "force.h"
 #include "input.h"
+#include "math_extra.h"
 #include "neighbor.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
@@ -298,10 +299,11 @@ void NoiseStage::find_masses(int not_fluid)
 }
 
 /* ----------------------------------------------------------------------
-   of a pair on i, without the random force: r = r_ij
+   Force of a pair on i without the random one, and with spins the torques on both: r = r_ij
 ------------------------------------------------------------------------- */
 
-void NoiseStage::find_friction(int i, int j, const double *r, double slope, double *f) const
+void NoiseStage::find_friction(int i, int j, const double *r, double slope, double *f, double *on_i,
+                               double *on_j) const
 {
   const Parameters &par = engine.parameters();
   const int first = atom->type[i] * par.ntypes_1, second = atom->type[j] * par.ntypes_1;
@@ -323,45 +325,66 @@ void NoiseStage::find_friction(int i, int j, const double *r, double slope, doub
       row[j].mobility * coeff[second + atom->type[j]].softness;
   const double vv = (1.0 - share * softness) * slope * a.vol * b.vol *
       ((par.shear == Shear::MG_FR) ? sqrt(rsq) : 1.0);
-  const double approach = (rsq > 0.0) ? (r[0] * u[0] + r[1] * u[1] + r[2] * u[2]) / rsq : 0.0;
+  const double approach = (rsq > 0.0) ? MathExtra::dot3(r, u) / rsq : 0.0;
   for (int d = 0; d < 3; d++)
     f[d] = -vv * ((friction.along - friction.across) * approach * r[d] + friction.across * u[d]);
+  if (!engine.has_spin()) return;
+  double s[3];
+  for (int d = 0; d < 3; d++) s[d] = engine.spin[i].w[d] - engine.spin[j].w[d];
+  const double turn = (rsq > 0.0) ? MathExtra::dot3(r, s) / rsq : 0.0;
+  for (int d = 0; d < 3; d++) {
+    const int e = (d + 1) % 3, g = (d + 2) % 3;
+    const double both = -0.5 * (r[e] * f[g] - r[g] * f[e]);
+    const double diffusion = vv *
+        ((friction.spin_along - friction.spin_across) * turn * r[d] + friction.spin_across * s[d]);
+    on_i[d] = both - diffusion;
+    on_j[d] = both + diffusion;
+  }
 }
 
 /* ----------------------------------------------------------------------
    The pressure of i, random pressures left out, has the part f_i of the force on i by its pair with j, and -f_i of that
-   on j.  The work of the friction of a pair also includes the kicks by the other pairs of both
-   particles.
+   on j.  The work of the friction of a pair also includes the kicks by the other pairs of both particles;
+   PairNoise::given_by_torque() has the torques of the pair itself.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::share_work()
 {
   if (equal_masses) return;
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
-  acceleration.assign(3 * static_cast<std::size_t>(nall + BLOCK), 0.0);
+  const bool spins = engine.has_spin();
+  const int width = spins ? 6 : 3;    // of an acceleration: of the velocity, of the spin
+  acceleration.assign(width * static_cast<std::size_t>(nall), 0.0);
   flow.assign(nall, 0.0);
   engine.for_each(nlocal, [&](int i) {
-    for (int d = 0; d < 3 && row[i].temperature >= 0.0; d++)
-      acceleration[3 * i + d] = force->ftm2v * engine.force[i].f[d] / atom->rmass[i];
+    if (row[i].temperature < 0.0) return;
+    double *const own = &acceleration[width * static_cast<std::size_t>(i)];
+    for (int d = 0; d < 3; d++) own[d] = force->ftm2v * engine.force[i].f[d] / atom->rmass[i];
+    for (int d = 0; d < 3 && spins; d++)
+      own[3 + d] = spin_mobility[i] / update->dt * engine.torque[i].t[d];
   });
-  exchange.forward({{acceleration.data(), 3, 3}});
+  exchange.forward({{acceleration.data(), width, width}});
 
   const LoopData &pairs = engine.pairs();
   const double half = 0.5 * update->dt;
   engine.sum_pairs(flow_sums, flow.data(), nall, [&](int i, int j, bigint entry, double *sum) {
     if (row[i].temperature < 0.0 || row[j].temperature < 0.0) return;
     const Particle &a = engine.particle[i], &b = engine.particle[j];
-    double r[3], by_i = 0.0, by_j = 0.0, f[3];
-    for (int d = 0; d < 3; d++) {
-      r[d] = a.x[d] - b.x[d];
-      by_i += r[d] * acceleration[3 * i + d];
-      by_j += r[d] * acceleration[3 * j + d];
-    }
+    const double *const own = &acceleration[width * static_cast<std::size_t>(i)];
+    const double *const other = &acceleration[width * static_cast<std::size_t>(j)];
+    double r[3], f[3], on_i[3] = {0.0, 0.0, 0.0}, on_j[3] = {0.0, 0.0, 0.0};
+    for (int d = 0; d < 3; d++) r[d] = a.x[d] - b.x[d];
     double heat = half * pairs.slope[entry] * engine.weight(i) * engine.weight(j) *
-        ((a.g - row[i].pressure) * by_j + (b.g - row[j].pressure) * by_i);
-    find_friction(i, j, r, pairs.slope[entry], f);
-    for (int d = 0; d < 3; d++)
-      heat += 0.5 * half * f[d] * (acceleration[3 * i + d] + acceleration[3 * j + d]);
+        ((a.g - row[i].pressure) * MathExtra::dot3(r, other) +
+         (b.g - row[j].pressure) * MathExtra::dot3(r, own));
+    find_friction(i, j, r, pairs.slope[entry], f, on_i, on_j);
+    heat += 0.5 * half * (MathExtra::dot3(f, own) + MathExtra::dot3(f, other));
+    if (spins)
+      heat += 0.5 * half *
+          (MathExtra::dot3(on_i, own + 3) - MathExtra::dot3(on_j, other + 3) -
+           (spin_mobility[i] * MathExtra::dot3(on_i, on_i) -
+            spin_mobility[j] * MathExtra::dot3(on_j, on_j)) /
+               update->dt);
     sum[i] += heat;
     sum[j] -= heat;
   });

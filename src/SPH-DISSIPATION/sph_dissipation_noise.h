@@ -79,7 +79,8 @@ namespace SPHDissipation {
     void check_box() const;
     void set_tags();
     void count_step();
-    void find_friction(int i, int j, const double *r, double slope, double *f) const;
+    void find_friction(int i, int j, const double *r, double slope, double *f, double *on_i,
+                       double *on_j) const;
     void set_temperatures(bool continued, int not_fluid);
     bool set_coeffs(double factor);
     bool is_negative(int i) const;

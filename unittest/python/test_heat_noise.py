@@ -169,6 +169,45 @@ def test_unequal_masses_have_one_temperature(lammps):
         assert abs(one[0] / warm_heavy[0] - 1.0) < 0.03 + 2.0 * one[1]
 
 
+def test_each_partner_gets_half_of_the_heat_of_friction(lammps):
+    """Three micropolar particles of different masses, too cold for noise: at the mean velocities and spins of its kick, the work of each
+    pair is half of it heat of either partner, also what its torques do together with those of the other pairs."""
+    dt, support, mu, mu_r, gamma = 0.02, 3.0, 0.4, 0.5, 0.07
+    masses, inertia = np.array([1.0, 4.0, 2.0]), 0.3
+    places = np.array([[5.0, 0.0], [6.0, 0.1], [5.5, 0.8]])
+    motions = np.array([[0.3, -0.2, 0.9], [-0.4, 0.5, -0.7], [0.1, 0.6, 0.4]])  # velocity and spin
+    lammps.path("three.data").write_text(
+        "three\n\n3 atoms\n3 atom types\n0 20 xlo xhi\n-10 10 ylo yhi\n-0.5 0.5 zlo zhi\n\nAtoms # sph/micropolar\n\n"
+        + "".join(f"{i + 1} {i + 1} {masses[i]} {inertia} 1.0 {places[i, 0]} {places[i, 1]} 0\n" for i in range(3)) + "\nVelocities\n\n"
+        + "".join(f"{i + 1} {motions[i, 0]} {motions[i, 1]} 0 0 0 {motions[i, 2]}\n" for i in range(3)))
+    coeffs = "".join(f"pair_coeff {i} {i} {m} 1e-9 {mu} intrinsic {mu_r} {gamma} {-gamma} {support}\n" for i, m in enumerate(masses, 1))
+    lammps("units lj\ndimension 2\natom_style sph/micropolar\nread_data three.data\nneighbor 1.0 bin\n"
+           f"pair_style sph/micropolar temp energy 1e28 77\n{coeffs}fix FLUID all sph/micropolar\ntimestep {dt}\n"
+           + dump("a.dump", 1, "omegaz tqz") + "run 1\n")
+    frame = lammps.frames("a.dump")[-1]
+    x = frame["x"][:, :2]
+    moments = np.column_stack((masses, masses, inertia * masses))
+    force = np.column_stack((frame["f"][:, :2], frame["tqz"]))
+    acting = np.column_stack((frame["v"][:, :2], frame["omegaz"])) - 0.5 * dt * force / moments
+    mean = acting + 0.5 * dt * force / moments
+    q = np.linalg.norm(x[:, None] - x, axis=2) / support
+    volume = 1.0 / (7.0 / (np.pi * support**2) * (1.0 - q)**4 * (1.0 + 4.0 * q)).sum(axis=1)  # Wendland C2
+    total, heat = np.zeros((3, 3)), np.zeros(3)
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        r = x[i] - x[j]
+        factor = 140.0 / (np.pi * support**4) * (1.0 - q[i, j])**3 * volume[i] * volume[j]
+        slip = acting[i, :2] - acting[j, :2] - 0.5 * (acting[i, 2] + acting[j, 2]) * np.array([-r[1], r[0]])
+        f = -factor * (8.0 * (mu - mu_r) * (r @ slip) * r / (r @ r) + 4.0 * mu_r * slip)
+        both, diffusion = -0.5 * (r[0] * f[1] - r[1] * f[0]), factor * 2.0 * gamma * (acting[i, 2] - acting[j, 2])
+        on_i, on_j = np.append(f, both - diffusion), np.append(-f, both + diffusion)
+        total += np.outer(np.eye(3)[i], on_i) + np.outer(np.eye(3)[j], on_j)
+        heat[[i, j]] -= 0.5 * (on_i @ mean[i] + on_j @ mean[j])
+    assert relative(total - force, force) < 1e-8
+    # what the rate lacks is what a particle pays for its own kick
+    paid = (force * (mean - acting)).sum(axis=1)
+    assert relative(frame["desph"] - paid - heat, heat) < 1e-8
+
+
 def test_particles_without_heat_in_a_continued_run(lammps):
     """At the start they are an error; in a run that goes on, of whatever length, they are warmed."""
     particles = disordered(2, 12, speed=1.0)
