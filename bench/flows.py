@@ -67,7 +67,7 @@ def runs(log):
         processor = seconds * min(float(share[1]) / 100, 1.0) if share else seconds
         neigh = re.search(r"^Neigh +\|[^|]*\| *(\S+)", part, re.M)
         builds = re.search(r"^Neighbor list builds = (\d+)", part, re.M)
-        pairs = re.search(r"^Neighs: +(\S+) ave (\S+) max", part, re.M)
+        pairs = re.search(r"^Neighs: +(\S+) ave +(\S+) max", part, re.M)
         ghosts = re.search(r"^Nghost: +(\S+) ave", part, re.M)
         yield {"seconds": processor, "steps": steps, "atoms": atoms, "speed": atoms * steps / processor,
                "neigh": float(neigh[1]) / seconds if neigh else 0.0, "builds": int(builds[1]) if builds else 0,
