@@ -366,11 +366,20 @@ void Engine::accumulate_heat(std::vector<double> &flow)
 
 void Engine::accumulate_numbers(const NoiseForm &form, const NoiseData &noise)
 {
-  const NoiseLoop loop = loops->noise_sums(form);
+  run_noise(loops->noise_sums(form), noise);
+}
+
+void Engine::accumulate_work(const NoiseForm &form, const NoiseData &noise)
+{
+  run_noise(loops->shared_work(form), noise);
+}
+
+void Engine::run_noise(NoiseLoop loop, const NoiseData &noise)
+{
   const std::size_t nrow = atom->nlocal + atom->nghost + BLOCK;
-  scalar_sums.run(*threads, noise.eta, nrow, [&](int k, double *sum) {
+  scalar_sums.run(*threads, noise.total, nrow, [&](int k, double *sum) {
     NoiseData own = noise;
-    own.eta = sum;
+    own.total = sum;
     loop(part(k), own);
   });
 }

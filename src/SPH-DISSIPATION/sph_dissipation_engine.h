@@ -116,6 +116,7 @@ namespace SPHDissipation {
     Loop (*forces)(Shear, Bulk, Volume);
     Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
+    NoiseLoop (*shared_work)(const NoiseForm &);
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int from, int to, int n, int count,
                              double *numbers);
     HeatLoop (*heat)(bool alike);    // the same conductivity of all particles that conduct
@@ -193,8 +194,10 @@ namespace SPHDissipation {
     // on owned and ghost atoms, and the drag of single particles
     void accumulate_forces(NeighList *, PairTally *);
 
-    // what the noise needs before: adds to noise.eta of owned and ghost atoms, with room for the spare ones
+    // what the noise needs before, or the heat that partners share after pass 2: added to noise.total of owned and ghost
+    // atoms, with room for the spare ones
     void accumulate_numbers(const NoiseForm &, const NoiseData &noise);
+    void accumulate_work(const NoiseForm &, const NoiseData &noise);
 
     // count random numbers of each owned particle and the next ones, n in all, the next number after n + BLOCK of them
     void draw_numbers(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
@@ -306,6 +309,7 @@ namespace SPHDissipation {
     LoopData part(PairSubset &) const;
     double *room_for_numbers(int thread, const LoopData &);
     void run_density(Loop);
+    void run_noise(NoiseLoop, const NoiseData &);
     void run_forces(NeighList *, Loop, bool linear);
   };
 

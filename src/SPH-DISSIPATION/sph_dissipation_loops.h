@@ -367,6 +367,88 @@ namespace SPHDissipation {
       }
     }
 
+    // Heat that i gets from j by the work of the pressure of both, random pressures left out, and of the friction of the
+    // pair at the mean velocities of the kick, see NoiseStage::share_work(); PairNoise::given_by_torque() has the square
+    // of the torques of the pair
+
+    template <class Form> void work_loop(const LoopData &data, const NoiseData &noise)
+    {
+      const Particle *const particle = data.particle;
+      const PairCoeff *const table = data.par->pair.data();
+      const int ntypes_1 = data.par->ntypes_1;
+      const double *const weight = (data.par->volume == Volume::MASS) ? data.weight : nullptr;
+      Coeffs<PairCoeff, Form> coeffs(table[ntypes_1 + 1]);
+      Coeffs<NoiseCoeff, NoiseUses<0, false, NoiseKind::ENERGY>> noise_coeffs(
+          noise.coeff[ntypes_1 + 1]);
+      const double quarter = 0.25 * noise.dt, by_dt = 1.0 / noise.dt;
+
+      for (int ii = 0; ii < data.inum; ii++) {
+        const int i = data.ilist[ii];
+        const NoiseRow &own = noise.row[i];
+        if (own.temperature < 0.0) continue;
+        const Particle pi = particle[i];
+        const Acceleration &mine = noise.acceleration[i];
+        const Vec a_i[3] = {all(mine.v[0]), all(mine.v[1]), all(mine.v[2])};
+        const double own_softness =
+            own.mobility * noise.coeff[data.type[i] * ntypes_1 + data.type[i]].softness;
+        const int n = data.count[ii];
+        const int *const neighbor = data.neighbor + data.first[ii];
+        const double *const slope_of = data.slope + data.first[ii];
+        Vec total = all(0.0);
+
+        for (int k = 0; k < n; k += LANES) {
+          const int *const j = neighbor + k;
+          PairState pair;
+          pair.coeff = coeffs.a;
+          const Vec slope = load(slope_of + k);
+          Vec vol, g, a_j[4], other[4];
+          load_pair(pair, pi, particle, j, slope, vol, g);
+          load_4_columns<WIDTH<Acceleration>>(numbers(noise.acceleration), j, a_j);
+          load_4_columns<WIDTH<NoiseRow>>(numbers(noise.row), j, other);
+          if (!data.par->uniform) {
+            coeffs.load(table, data, i, j, n - k);
+            noise_coeffs.load(noise.coeff, data, i, j, n - k);
+          }
+          const Vec its = larger(other[1], all(0.0));
+          const Vec inverse = 1.0 / (own.temperature + its + TINY);
+          const Vec softness = own_softness + other[2] * noise_coeffs.a[SOFTNESS];
+          pair.vv *= 1.0 - own.temperature * its * inverse * inverse * softness;
+          pair.by_metric = pair.vv / (metric_of<Form::BY_DISTANCE>(dot(pair.r, pair.r)) + TINY);
+          pair.central = all(0.0);
+          Form::add_central(pair);
+          for (int d = 0; d < 3; d++) pair.f[d] = pair.central * pair.r[d];
+          if constexpr (Form::SPINS) {
+            Vec w[4];
+            load_4_columns<WIDTH<Spin>>(numbers(data.spin), j, w);
+            slip_velocity(data.spin[i].w, w, pair.r, pair.u);
+            for (int d = 0; d < 3; d++) pair.s[d] = data.spin[i].w[d] - w[d];
+          }
+          Form::add_vector(pair);
+
+          Vec pressing = slope;
+          if (weight) pressing *= weight[i] * gather(weight, j);
+          Vec heat = 2.0 * pressing *
+                  ((pi.g - own.pressure) * dot(pair.r, a_j) + (g - other[3]) * dot(pair.r, a_i)) +
+              dot(pair.f, a_i) + dot(pair.f, a_j);
+          if constexpr (Form::SPINS) {
+            Vec turn[4];
+            load_4_columns<WIDTH<Acceleration>>(numbers(noise.acceleration) + 4, j, turn);
+            const double by_inertia = by_dt * noise.spin_mobility[i];
+            const Vec its_by_inertia = by_dt * gather(noise.spin_mobility, j);
+            for (int d = 0; d < 3; d++) {
+              const Vec on_i = pair.t[d] - pair.spin[d], on_j = pair.t[d] + pair.spin[d];
+              heat +=
+                  on_i * (mine.w[d] - by_inertia * on_i) - on_j * (turn[d] - its_by_inertia * on_j);
+            }
+          }
+          heat *= quarter * (1.0 - if_positive(-other[1], all(1.0)));    // none with walls
+          total += heat;
+          add_column<1>(noise.total, j, -heat);
+        }
+        noise.total[i] += sum(total);
+      }
+    }
+
     // conduction of heat, after pass 2; ALIKE: particles with a volume have the same conductivity
 
     template <bool ALIKE>
@@ -482,6 +564,15 @@ namespace SPHDissipation {
       return (form.dim == 3) ? eta_loop<false, 3> : eta_loop<false, 2>;
     }
 
+    inline NoiseLoop choose_work_loop(const NoiseForm &form)
+    {
+      NoiseLoop loop = nullptr;
+      with_form(form.shear, [&](auto terms) {
+        loop = work_loop<decltype(terms)>;
+      });
+      return loop;
+    }
+
   }    // namespace LOOPS
 
   const LoopSet LOOPS_SET = {LOOPS_NAME,
@@ -490,6 +581,7 @@ namespace SPHDissipation {
                              LOOPS::choose_force_loop,
                              LOOPS::choose_noisy_force_loop,
                              LOOPS::choose_eta_loop,
+                             LOOPS::choose_work_loop,
                              LOOPS::particle_numbers,
                              LOOPS::choose_heat_loop,
                              LOOPS::take_candidates,

@@ -18,7 +18,6 @@
 #include "error.h"
 #include "force.h"
 #include "input.h"
-#include "math_extra.h"
 #include "neighbor.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
@@ -298,96 +297,29 @@ void NoiseStage::find_masses(int not_fluid)
   equal_masses = (-all[0] == all[1]);
 }
 
-/* ----------------------------------------------------------------------
-   Force of a pair on i without the random one, and with spins the torques on both: r = r_ij
-------------------------------------------------------------------------- */
-
-void NoiseStage::find_friction(int i, int j, const double *r, double slope, double *f, double *on_i,
-                               double *on_j) const
-{
-  const Parameters &par = engine.parameters();
-  const int first = atom->type[i] * par.ntypes_1, second = atom->type[j] * par.ntypes_1;
-  const PairFriction friction = pair_friction(par.shear, par.pair[first + atom->type[j]]);
-  const Particle &a = engine.particle[i], &b = engine.particle[j];
-  double u[3], m[3] = {0.0, 0.0, 0.0};
-  for (int d = 0; d < 3; d++) {
-    u[d] = a.u[d] - b.u[d];
-    if (engine.has_spin()) m[d] = 0.5 * (engine.spin[i].w[d] + engine.spin[j].w[d]);
-  }
-  for (int d = 0; d < 3; d++) {
-    const int e = (d + 1) % 3, g = (d + 2) % 3;
-    u[d] -= m[e] * r[g] - m[g] * r[e];
-  }
-  const double rsq = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-  const double sum = row[i].temperature + row[j].temperature;
-  const double share = (sum > 0.0) ? row[i].temperature * row[j].temperature / (sum * sum) : 0.0;
-  const double softness = row[i].mobility * coeff[first + atom->type[i]].softness +
-      row[j].mobility * coeff[second + atom->type[j]].softness;
-  const double vv = (1.0 - share * softness) * slope * a.vol * b.vol *
-      ((par.shear == Shear::MG_FR) ? sqrt(rsq) : 1.0);
-  const double approach = (rsq > 0.0) ? MathExtra::dot3(r, u) / rsq : 0.0;
-  for (int d = 0; d < 3; d++)
-    f[d] = -vv * ((friction.along - friction.across) * approach * r[d] + friction.across * u[d]);
-  if (!engine.has_spin()) return;
-  double s[3];
-  for (int d = 0; d < 3; d++) s[d] = engine.spin[i].w[d] - engine.spin[j].w[d];
-  const double turn = (rsq > 0.0) ? MathExtra::dot3(r, s) / rsq : 0.0;
-  for (int d = 0; d < 3; d++) {
-    const int e = (d + 1) % 3, g = (d + 2) % 3;
-    const double both = -0.5 * (r[e] * f[g] - r[g] * f[e]);
-    const double diffusion = vv *
-        ((friction.spin_along - friction.spin_across) * turn * r[d] + friction.spin_across * s[d]);
-    on_i[d] = both - diffusion;
-    on_j[d] = both + diffusion;
-  }
-}
-
-/* ----------------------------------------------------------------------
-   The pressure of i, random pressures left out, has the part f_i of the force on i by its pair with j, and -f_i of that
-   on j.  The work of the friction of a pair also includes the kicks by the other pairs of both particles;
-   PairNoise::given_by_torque() has the torques of the pair itself.
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void NoiseStage::share_work()
 {
   if (equal_masses) return;
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   const bool spins = engine.has_spin();
-  const int width = spins ? 6 : 3;    // of an acceleration: of the velocity, of the spin
-  acceleration.assign(width * static_cast<std::size_t>(nall), 0.0);
-  flow.assign(nall, 0.0);
+  acceleration.assign(nall + BLOCK, Acceleration());
+  flow.assign(nall + BLOCK, 0.0);
   engine.for_each(nlocal, [&](int i) {
     if (row[i].temperature < 0.0) return;
-    double *const own = &acceleration[width * static_cast<std::size_t>(i)];
-    for (int d = 0; d < 3; d++) own[d] = force->ftm2v * engine.force[i].f[d] / atom->rmass[i];
+    const double mobility = row[i].mobility / update->dt;
+    for (int d = 0; d < 3; d++) acceleration[i].v[d] = mobility * engine.force[i].f[d];
     for (int d = 0; d < 3 && spins; d++)
-      own[3 + d] = spin_mobility[i] / update->dt * engine.torque[i].t[d];
+      acceleration[i].w[d] = spin_mobility[i] / update->dt * engine.torque[i].t[d];
   });
-  exchange.forward({{acceleration.data(), width, width}});
-
-  const LoopData &pairs = engine.pairs();
-  const double half = 0.5 * update->dt;
-  engine.sum_pairs(flow_sums, flow.data(), nall, [&](int i, int j, bigint entry, double *sum) {
-    if (row[i].temperature < 0.0 || row[j].temperature < 0.0) return;
-    const Particle &a = engine.particle[i], &b = engine.particle[j];
-    const double *const own = &acceleration[width * static_cast<std::size_t>(i)];
-    const double *const other = &acceleration[width * static_cast<std::size_t>(j)];
-    double r[3], f[3], on_i[3] = {0.0, 0.0, 0.0}, on_j[3] = {0.0, 0.0, 0.0};
-    for (int d = 0; d < 3; d++) r[d] = a.x[d] - b.x[d];
-    double heat = half * pairs.slope[entry] * engine.weight(i) * engine.weight(j) *
-        ((a.g - row[i].pressure) * MathExtra::dot3(r, other) +
-         (b.g - row[j].pressure) * MathExtra::dot3(r, own));
-    find_friction(i, j, r, pairs.slope[entry], f, on_i, on_j);
-    heat += 0.5 * half * (MathExtra::dot3(f, own) + MathExtra::dot3(f, other));
-    if (spins)
-      heat += 0.5 * half *
-          (MathExtra::dot3(on_i, own + 3) - MathExtra::dot3(on_j, other + 3) -
-           (spin_mobility[i] * MathExtra::dot3(on_i, on_i) -
-            spin_mobility[j] * MathExtra::dot3(on_j, on_j)) /
-               update->dt);
-    sum[i] += heat;
-    sum[j] -= heat;
-  });
+  Acceleration *const first = acceleration.data();
+  exchange.forward({field(first, first->v, 3)});
+  if (spins) exchange.forward({field(first, first->w, 3)});
+  data.dt = update->dt;
+  data.acceleration = first;
+  data.total = flow.data();
+  engine.accumulate_work(form, data);
   const int n = force->newton_pair ? nall : nlocal;
   engine.for_each(n, [&](int i) {
     atom->desph[i] += flow[i];
@@ -407,7 +339,7 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
   engine.for_each(nall, [&](int i) {
     reach[i] = engine.weight(i) / sqrt(engine.particle[i].vol);
   });
-  data.eta = eta.data();
+  data.total = eta.data();
   data.reach = reach.data();
   data.share = share.data();
   engine.accumulate_numbers(form, data);
@@ -430,11 +362,11 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
 
 double NoiseStage::memory_usage() const
 {
-  return static_cast<double>(row.capacity() * sizeof(NoiseRow)) +
+  return static_cast<double>(row.capacity() * sizeof(NoiseRow) +
+                             acceleration.capacity() * sizeof(Acceleration)) +
       static_cast<double>((spin_mobility.capacity() + tag.capacity() + reach.capacity() +
                            share.capacity() + eta.capacity() + drag.capacity() +
-                           numbers.capacity() + change.capacity() + acceleration.capacity() +
-                           flow.capacity() + drag_force.capacity() + pressure.capacity()) *
-                          sizeof(double)) +
-      flow_sums.memory_usage();
+                           numbers.capacity() + change.capacity() + flow.capacity() +
+                           drag_force.capacity() + pressure.capacity()) *
+                          sizeof(double));
 }

@@ -72,15 +72,13 @@ namespace SPHDissipation {
     std::vector<NoiseRow> row;
     std::vector<double> spin_mobility;
     std::vector<double> tag, reach, share, eta, pressure, drag, drag_force;
-    std::vector<double> numbers, change, acceleration, flow;
-    ThreadSums<double> flow_sums;
+    std::vector<double> numbers, change, flow;
+    std::vector<Acceleration> acceleration;
     bool equal_masses;
 
     void check_box() const;
     void set_tags();
     void count_step();
-    void find_friction(int i, int j, const double *r, double slope, double *f, double *on_i,
-                       double *on_j) const;
     void set_temperatures(bool continued, int not_fluid);
     bool set_coeffs(double factor);
     bool is_negative(int i) const;

@@ -60,6 +60,10 @@ namespace SPHDissipation {
     double pressure;    // random pressure / c^2
   };
 
+  struct Acceleration {
+    double v[4], w[4];    // of the velocity and the spin; the last one of each is not used
+  };
+
   // input and output of the loops, beside the pairs that pass 1 has found; arrays of owned, ghost, and spare particles
 
   struct NoiseData {
@@ -72,7 +76,9 @@ namespace SPHDissipation {
     std::uint64_t seed, step;
     double heat;                // 2 k/dt, of the random flow of heat
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
-    double *eta;                // sums of the numbers of a particle, accumulated
+    double dt;
+    const Acceleration *acceleration;    // of all forces and torques, if work is shared
+    double *total;                       // what a loop sums up for each particle, accumulated
   };
 
   constexpr int MOST_NUMBERS =

@@ -147,9 +147,9 @@ template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseD
       const Vec odd = 0.5 * counter.sign * (forth - back);
       const Vec root = root_of(load(slope_of + k), metric, coeff.a[INVERSE_CENTRAL]);
       total += gather(data.reach, j) * root * (mean + odd);
-      add_column<1>(data.eta, j, data.reach[i] * root * (mean - odd));
+      add_column<1>(data.total, j, data.reach[i] * root * (mean - odd));
     }
-    data.eta[i] += sum(total);
+    data.total[i] += sum(total);
   }
 }
 
@@ -350,7 +350,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   // Heat that i gets from j, on average of the noise: each particle pays for the kinetic energy that the impulses of a
   // step give to it, while of those of a pair each partner should pay half, and of those of a random pressure its
   // particle all.  square = random force of the pair times it and friction; pressing times P/c^2 times r: of pressures P.
-  // NoiseStage::share_work() has the same of friction and of pressures that are not random.
+  // work_loop() has the same of friction and of pressures that are not random.
 
   SPH_INLINE Vec given(Vec square, Vec rsq, Vec pressing) const
   {
