@@ -235,7 +235,7 @@ def test_gas_and_piston(lammps):
     small = "".join(f"variable {name} index {value}\n" for name, value in {"cylinders": 100, "steps": 20000, "out": "a"}.items())
     lammps(small + (folder / "in.piston").read_text(), timeout=300)
     means, errors = piston.blocks(np.loadtxt(lammps.path("a.means.txt"))[:, 1:])
-    exact = piston.Exact(means[3], 3.0, 5.0 / 3.0, 4.0, nodes=24)
+    exact = piston.Exact(means[3], 3.0, 5.0 / 3.0, 4.0, nodes=12)    # the integral to 1e-5
     assert abs(means[3] - 15.0) < 0.015
     for mean, error, value in zip(means, errors, exact.means.values()):
         assert abs(mean - value) < 4.0 * error + 0.003 * value

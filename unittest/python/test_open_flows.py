@@ -68,6 +68,7 @@ def test_it_does_not_with_another_force_or_bulk_viscosity(pipe, variable, value)
     assert lost == 0.0
 
 
+@pytest.mark.long    # test_refine and test_open_life have the account, the fewest rows that fit take half a minute
 def test_particles_that_split_and_merge_in_the_pipe(pipe):
     """Three quarters of the particle-steps at most; the same flow, all mass and all particles accounted for."""
     settings = {"sigma": -1, "n": 22, "aspect": 0.2, "support": 5, "tenths": 0.05}
