@@ -103,7 +103,7 @@ def plot_drop(path, runs, T, n):
     main, mg, fine = runs[f"kappa_{n}"], runs["mg"], runs[f"kappa_{sizes[-1]}"]
     end = main.t[-1] / T
     figure = plt.figure(figsize=(9.6, 8.8), constrained_layout=False)
-    top = figure.add_gridspec(1, 5, left=0.06, right=0.97, top=0.975, bottom=0.725, wspace=0.12, width_ratios=[1, 1, 1, 1, 0.06])
+    top = figure.add_gridspec(1, 5, left=0.06, right=0.925, top=0.975, bottom=0.725, wspace=0.12, width_ratios=[1, 1, 1, 1, 0.06])
     last = round(4 * fine.t[-1] / T - 1) / 4
     for column, periods in enumerate((0, 0.25, 0.5, last)):
         axes = figure.add_subplot(top[0, column])

@@ -94,15 +94,16 @@ def plot(path, straight, oblique, vortices):
             runs = {width: run for (o, width, s), run in straight.items() if o == outlet and s == stream}
             if not runs:
                 continue
-            axis.loglog(*runs[min(runs)].spectrum(), "-", color=color)
+            look = ":s" if outlet == "inside" else "-o"        # by color alone it would be "pressure" for some
+            axis.loglog(*runs[min(runs)].spectrum(), look[0], color=color)
             widths = sorted(runs)
-            axis.loglog([2 * np.pi * w for w in widths], [runs[w].reflection for w in widths], "o", color=color, ms=4, mfc="none",
+            axis.loglog([2 * np.pi * w for w in widths], [runs[w].reflection for w in widths], look[1], color=color, ms=4, mfc="none",
                         label=TITLE[outlet])
-        axis.set(xlabel="wavelength or $2\\pi$ width, spacings", ylim=(3e-3, 30), xlim=(15, 250), xticks=(20, 50, 100, 200),
+        axis.set(xlabel="wavelength or $2\\pi$ width, spacings", ylim=(3e-3, 200), xlim=(15, 250), xticks=(20, 50, 100, 200),
                  ylabel="reflected part of the amplitude", title="fluid at rest" if stream == 0 else f"stream of {stream:g} $c_0$")
         axis.xaxis.set_major_formatter("{x:g}")
         axis.xaxis.set_minor_formatter(NullFormatter())
-    axes[0].legend(loc="upper left")
+    axes[0].legend(loc="upper left", title="marks: pulses; lines: the wavelengths in the narrowest")
     theta = np.linspace(0, 60, 121)
     axes[2].plot(theta, np.tan(np.radians(theta) / 2)**2, "k-", label="$\\tan^2(\\theta/2)$")
     for (outlet, angle, wave, stream), run in oblique.items():
@@ -111,7 +112,8 @@ def plot(path, straight, oblique, vortices):
     axes[2].set(xlabel="angle between the pulse and the outlet's normal, degrees", ylabel="reflected part of the amplitude", ylim=(0, 1.25), title=f"oblique waves of {WAVE} spacings")
     axes[2].legend(loc="upper right")
     for outlet, (t, energy) in vortices.items():
-        axes[3].semilogy(t, energy / energy[0], "-", color=OUTLETS[outlet][0], label=TITLE[outlet])
+        width = {"lagged": 3.5, "characteristic": 2.2}.get(outlet, 1.2)      # those below others
+        axes[3].semilogy(t, energy / energy[0], "--" if outlet == "fixed" else "-", lw=width, color=OUTLETS[outlet][0], label=TITLE[outlet])
     axes[3].set(xlabel="time, core radii over stream", ylabel="kinetic energy over that at the start", title="a vortex is carried out")
     axes[3].legend()
     save(figure, path)

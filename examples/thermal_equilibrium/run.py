@@ -50,12 +50,14 @@ def plot(path, runs, shapes):
     plt = pyplot()
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4))
     rate = RATE * np.array(list(runs))
-    for column, label, mark in ((0, "x", "o"), (1, "y", "s"), (3, "spin", "^"), (12, "between the steps", "kx")):
+    for shift, (column, label, mark) in enumerate(((0, "x", "o"), (1, "y", "s"), (3, "spin", "^"), (12, "between the steps", "kx"))):
         values = np.array([run[0][column] for run in runs.values()])
         errors = np.array([run[1][column] for run in runs.values()])
-        left.errorbar(rate, values, errors, fmt=mark, ms=4, mfc="none", label=label)
+        left.errorbar(rate * 1.05 ** (shift - 1.5), values, errors, fmt=mark, ms=4, mfc="none", label=label)
     left.axhline(1, color="k", lw=0.8)
     left.set(xlabel="largest viscous rate times time step", ylabel="temperature $T/T_0$", xscale="log")
+    left.set_xticks(rate, [f"{one:.2g}" for one in rate])
+    left.set_xticks([], minor=True)
     x = np.linspace(-5, 5, 200)
     right.semilogy(x, np.exp(-0.5 * x**2) / np.sqrt(2 * np.pi), "k", lw=0.8)
     for (name, (center, density, _)), mark in zip(shapes.items(), "os"):
