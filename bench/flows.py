@@ -64,7 +64,7 @@ def runs(log):
         if not steps:
             continue
         share = re.search(r"^([\d.]+)% CPU use", part, re.M)
-        processor = seconds * min(float(share[1]) / 100, 1.0) if share else seconds
+        processor = seconds * min(float(share[1]) / 100, 1.0) if share and float(share[1]) else seconds
         neigh = re.search(r"^Neigh +\|[^|]*\| *(\S+)", part, re.M)
         builds = re.search(r"^Neighbor list builds = (\d+)", part, re.M)
         pairs = re.search(r"^Neighs: +(\S+) ave +(\S+) max", part, re.M)
