@@ -32,6 +32,8 @@ WALLS = {"channel, sph/bulk": ("bulk", "slip no"),
          "channel, sph/micropolar": ("micropolar", "slip no spin zero"),
          "channel, sph/micropolar, spin rate": ("micropolar", "slip no spin rate 1.0")}
 NOISE = "temp 1e-6 4711"
+OWN = "temp energy 60.0 4711"     # temperatures of the particles
+FLUIDS = {"one fluid": "0", "two fluids": "1.0", "two densities": "1.5"}
 MASS = "volume mass"              # which fix sph/refine needs
 REFINE = 10
 
@@ -109,6 +111,23 @@ def compare(ranks, args):
     return faster, cost, max(walls), max(noise), idle_cost
 
 
+def noises(args):
+    """The noise in all its forms, each against the same fluid without it, on one rank."""
+    warm = ("-var", "T", "1e-3")
+    conducts, heat = (*warm, "-var", "heat", "conductivity 3.0"), (*warm, "-var", "heat", "cv 60.0 conductivity 3.0")
+    kinds = {"": (None, ()), "temp T": (NOISE, ()), "temp energy": (OWN, warm), "conductivity": (None, heat),
+             "temp energy, conductivity": (OWN, conducts)}
+    for style in ("bulk", "micropolar"):
+        for fluids, second in FLUIDS.items():
+            seconds = {kind: [] for kind in kinds}
+            for _ in range(args.repeat):
+                for kind, (noise, switches) in kinds.items():
+                    seconds[kind].append(run(style, 1, args, noise=noise, switches=("-var", "second", second, *switches))[0])
+            print(f"\nsph/{style}, {fluids}, {statistics.median(seconds['']) / args.steps * 1e3:.3g} ms per step without noise")
+            for kind in ("temp T", "temp energy", "temp energy, conductivity"):
+                ratio(seconds[kind], seconds["conductivity" if "," in kind else ""], f"time per step with {kind} over that without noise")
+
+
 def ratio(seconds_a, seconds_b, what):
     """Median ratio of runs of one turn, printed with its range."""
     ratios = [a / b for a, b in zip(seconds_a, seconds_b)]
@@ -126,6 +145,7 @@ def main():
     parser.add_argument("--repeat", type=int, default=7, help="runs of each style, in turn")
     parser.add_argument("--simd", default="auto", help="keyword simd of the pair styles: auto, none, avx2 or avx512")
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
+    parser.add_argument("--noise", action="store_true", help="the thermal noise in all its forms, and nothing else")
     parser.add_argument("--check", action="store_true",
                         help=f"fail if sph/bulk is not {FASTER} times as fast as LAMMPS's styles, sph/micropolar "
                              f"costs more than {COST} times as much as sph/bulk, a channel per particle more than "
@@ -133,6 +153,8 @@ def main():
                              f"{NOISE_COST} times as expensive, or an idle fix sph/refine takes more than {IDLE_COST} "
                              "times as long as none (shortest of all runs), on the first number of ranks")
     args = parser.parse_args()
+    if args.noise:
+        return noises(args)
     results = [compare(ranks, args) for ranks in args.ranks]
     faster, cost, walls, noise, idle = results[0]
     if args.check and (faster < FASTER or cost > COST or walls > WALL_COST or noise > NOISE_COST or idle > IDLE_COST):

@@ -375,12 +375,9 @@ namespace SPHDissipation {
     {
       const Particle *const particle = data.particle;
       const PairCoeff *const table = data.par->pair.data();
-      const int ntypes_1 = data.par->ntypes_1;
       const double *const weight = (data.par->volume == Volume::MASS) ? data.weight : nullptr;
-      Coeffs<PairCoeff, Form> coeffs(table[ntypes_1 + 1]);
-      Coeffs<NoiseCoeff, NoiseUses<0, false, NoiseKind::ENERGY>> noise_coeffs(
-          noise.coeff[ntypes_1 + 1]);
-      const double quarter = 0.25 * noise.dt, by_dt = 1.0 / noise.dt;
+      Coeffs<PairCoeff, Form> coeffs(table[data.par->ntypes_1 + 1]);
+      const double quarter = 0.25 * noise.dt;
 
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
@@ -389,8 +386,6 @@ namespace SPHDissipation {
         const Particle pi = particle[i];
         const Acceleration &mine = noise.acceleration[i];
         const Vec a_i[3] = {all(mine.v[0]), all(mine.v[1]), all(mine.v[2])};
-        const double own_softness =
-            own.mobility * noise.coeff[data.type[i] * ntypes_1 + data.type[i]].softness;
         const int n = data.count[ii];
         const int *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
@@ -405,14 +400,10 @@ namespace SPHDissipation {
           load_pair(pair, pi, particle, j, slope, vol, g);
           load_4_columns<WIDTH<Acceleration>>(numbers(noise.acceleration), j, a_j);
           load_4_columns<WIDTH<NoiseRow>>(numbers(noise.row), j, other);
-          if (!data.par->uniform) {
-            coeffs.load(table, data, i, j, n - k);
-            noise_coeffs.load(noise.coeff, data, i, j, n - k);
-          }
+          if (!data.par->uniform) coeffs.load(table, data, i, j, n - k);
           const Vec its = larger(other[1], all(0.0));
           const Vec inverse = 1.0 / (own.temperature + its + TINY);
-          const Vec softness = own_softness + other[2] * noise_coeffs.a[SOFTNESS];
-          pair.vv *= 1.0 - own.temperature * its * inverse * inverse * softness;
+          pair.vv *= 1.0 - own.temperature * its * inverse * inverse * (mine.softness + a_j[3]);
           pair.by_metric = pair.vv / (metric_of<Form::BY_DISTANCE>(dot(pair.r, pair.r)) + TINY);
           pair.central = all(0.0);
           Form::add_central(pair);
@@ -433,12 +424,10 @@ namespace SPHDissipation {
           if constexpr (Form::SPINS) {
             Vec turn[4];
             load_4_columns<WIDTH<Acceleration>>(numbers(noise.acceleration) + 4, j, turn);
-            const double by_inertia = by_dt * noise.spin_mobility[i];
-            const Vec its_by_inertia = by_dt * gather(noise.spin_mobility, j);
             for (int d = 0; d < 3; d++) {
               const Vec on_i = pair.t[d] - pair.spin[d], on_j = pair.t[d] + pair.spin[d];
               heat +=
-                  on_i * (mine.w[d] - by_inertia * on_i) - on_j * (turn[d] - its_by_inertia * on_j);
+                  on_i * (mine.w[d] - mine.by_inertia * on_i) - on_j * (turn[d] - turn[3] * on_j);
             }
           }
           heat *= quarter * (1.0 - if_positive(-other[1], all(1.0)));    // none with walls

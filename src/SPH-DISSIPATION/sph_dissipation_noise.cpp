@@ -304,18 +304,21 @@ void NoiseStage::share_work()
   if (equal_masses) return;
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   const bool spins = engine.has_spin();
+  const int ntypes_1 = atom->ntypes + 1;
   acceleration.assign(nall + BLOCK, Acceleration());
   flow.assign(nall + BLOCK, 0.0);
   engine.for_each(nlocal, [&](int i) {
     if (row[i].temperature < 0.0) return;
+    Acceleration &own = acceleration[i];
     const double mobility = row[i].mobility / update->dt;
-    for (int d = 0; d < 3; d++) acceleration[i].v[d] = mobility * engine.force[i].f[d];
-    for (int d = 0; d < 3 && spins; d++)
-      acceleration[i].w[d] = spin_mobility[i] / update->dt * engine.torque[i].t[d];
+    for (int d = 0; d < 3; d++) own.v[d] = mobility * engine.force[i].f[d];
+    own.softness = row[i].mobility * coeff[atom->type[i] * ntypes_1 + atom->type[i]].softness;
+    if (!spins) return;
+    own.by_inertia = spin_mobility[i] / update->dt;
+    for (int d = 0; d < 3; d++) own.w[d] = own.by_inertia * engine.torque[i].t[d];
   });
   Acceleration *const first = acceleration.data();
-  exchange.forward({field(first, first->v, 3)});
-  if (spins) exchange.forward({field(first, first->w, 3)});
+  exchange.forward({field(first, first->v, spins ? 8 : 4)});
   data.dt = update->dt;
   data.acceleration = first;
   data.total = flow.data();

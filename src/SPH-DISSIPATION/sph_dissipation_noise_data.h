@@ -60,8 +60,13 @@ namespace SPHDissipation {
     double pressure;    // random pressure / c^2
   };
 
+  // of a particle, when the work of its pairs is shared
+
   struct Acceleration {
-    double v[4], w[4];    // of the velocity and the spin; the last one of each is not used
+    double v[3];
+    double softness;      // k/C, 0 of a wall
+    double w[3];          // of the spin
+    double by_inertia;    // 1/J
   };
 
   // input and output of the loops, beside the pairs that pass 1 has found; arrays of owned, ghost, and spare particles
@@ -77,7 +82,7 @@ namespace SPHDissipation {
     double heat;                // 2 k/dt, of the random flow of heat
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
     double dt;
-    const Acceleration *acceleration;    // of all forces and torques, if work is shared
+    const Acceleration *acceleration;    // of all forces and torques, after them
     double *total;                       // what a loop sums up for each particle, accumulated
   };
 
