@@ -134,6 +134,34 @@ def test_runs_continue(lammps):
     assert relative(ends[0]["f"] - ends[1]["f"], ends[1]["f"]) < 1e-9
 
 
+@pytest.mark.parametrize("ranks, style", [(1, "brick"), (2, "tiled")])
+def test_boxes_and_settings_change(lammps, ranks, style):
+    """Between runs the box gets wider, oblique, and open, where some particles are lost, pairs are excluded, the skin changes, and ranks share the particles anew."""
+    particles = disordered(3, (9, 8, 8), jitter=0.3, ntypes=2)
+    particles.write(lammps.path("box.data"))
+    ends = []
+    for lists in ("bin", "nsq"):
+        lammps(header(3) + f"comm_style {style}\nread_data box.data\nneighbor 0.3 {lists}\n" + fluid(3) + INTEGRATE
+               + "change_box all x scale 1.1 remap\nrun 5\nbalance 1.0 " + ("rcb" if style == "tiled" else "shift xyz 5 1.05") + "\nrun 5\n"
+               f"change_box all triclinic\nchange_box all xy final 1.5 remap units box\nneighbor 0.6 {lists}\nrun 5\n"
+               "neigh_modify exclude type 1 2\nrun 5\nneigh_modify exclude none\nchange_box all boundary f f f\nthermo_modify lost ignore\nrun 20\n"
+               + dump("out.dump", 1) + "run 0\n", ranks=ranks)
+        ends.append(lammps.frame("out.dump"))
+    assert len(ends[0]["x"]) == len(ends[1]["x"]) > 500
+    assert relative(ends[0]["x"] - ends[1]["x"], ends[1]["x"]) < 1e-11
+    assert relative(ends[0]["f"] - ends[1]["f"], ends[1]["f"]) < 1e-9
+
+
+def test_bonds(lammps):
+    """Where LAMMPS marks bonded neighbors, it builds the list."""
+    result = lammps(header(2, style="hybrid sph/bulk bond") + "lattice sq 1.0\nregion box block 0 8 0 8 -0.5 0.5\n"
+                    "create_box 1 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 2\ncreate_atoms 1 box\nset group all mass 1.0\n"
+                    "bond_style zero\nbond_coeff 1\ncreate_bonds single/bond 1 5 6\nspecial_bonds lj/coul 1 1 1\n" + fluid(2) + INTEGRATE + "run 1\n", check=False)
+    if "MOLECULE package" in result.error:
+        pytest.skip("no package MOLECULE")
+    assert result.code == 0 and "LAMMPS builds the neighbor list because of an atom style with bonds" in result.log
+
+
 @pytest.mark.parametrize("ranks", [1, 4])
 @pytest.mark.parametrize("lo, hi", [((0.52, -0.83, 0.58), (6.81, 7.79, 7.04)), ((-0.9, -0.28, 0.94), (7.8, 7.38, 7.11)),
                                     ((-8.0, -7.3, -8.0), (0.0, 0.0, 0.0))])
