@@ -104,7 +104,7 @@ def plot(path, runs, n):
             exact = swirl.angular_velocity(swirl.evolve(np.zeros_like(swirl.r), run.t), R1 - SUPPORT / n)
             axis.plot(run.t, exact, "-" if shear == "mg" else "--", color="k", lw=1)
             axis.plot(run.t[::6], run.inside[::6], marker, color=color, ms=3.5, mfc="none")
-            axis.text(run.t[-1], run.omega + (0.05 if shear == "morris" else -0.1 if ratio == "0.2" else 0.04),
+            axis.text(0.98 * run.t[-1], run.omega + (0.05 if shear == "morris" else -0.1 if ratio == "0.2" else 0.04),
                       f"$\\eta_2/\\eta_1 = {ratio}$", ha="right", color=color)
     axis.set(xlim=(0, run.t[-1]), ylim=(0, 1.65), xlabel="time $t\\,\\Omega_0$", title="inner fluid, $\\Omega_\\mathrm{in}(t)/\\Omega_0$")
     save(figure, path)
