@@ -57,7 +57,7 @@ def plot(out, runs):
     axes[2].set_ylabel("spectra at the end, the same")
     for axis, x in zip(axes, ("time (lj units)", "time (lj units)", "wave number")):
         axis.set_xlabel(x)
-        axis.legend()
+    axes[2].legend(loc="lower left")
     return save(figure, out / "turbulence.png")
 
 
