@@ -175,7 +175,7 @@ class Case:
 
 def plot(path, cases):
     plt = pyplot()
-    figure, axes = plt.subplots(1, 3, figsize=(11.5, 3.4))
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.3))
     shown = [case for case in cases if case.gamma > 1.5 and case.heat == 1], [case for case in cases if case.kappa == 1]
     for axis, group in zip(axes, shown):
         for color, case in zip(("C0", "C1", "C2"), sorted(group, key=lambda case: (case.kappa, -case.gamma, case.heat))):
@@ -187,12 +187,12 @@ def plot(path, cases):
             power = np.mean([case.power[n].mean(axis=0) for n in numbers], axis=0)
             exact = np.mean([spectrum(omega, case.exact[n], case.pieces.shape[2]) for n in numbers], axis=0)
             label = f"$\\kappa/\\mu$ = {case.kappa}" if axis is axes[0] else \
-                f"$\\gamma$ = {'5/3' if case.gamma > 1.5 else case.gamma}" + (f", {case.heat} k" if case.heat > 1 else "")
+                f"$\\gamma$ = {'5/3' if case.gamma > 1.5 else case.gamma}" + (f", conductivity x {case.heat}" if case.heat > 1 else "")
             axis.semilogy(bins(omega), bins(power), color + ".", ms=3)
             axis.semilogy(omega, exact, color, lw=1.2, label=label)
-        axis.set(xlim=(0, 0.6), xlabel="frequency $\\omega$ (lj units)")
+        axis.set(xlim=(0, 0.6), xlabel="frequency $\\omega$ (lj units)", ylabel="dynamic structure factor $S(k,\\omega)/S(k)$")
+        axis.set_title("points: fluctuations, lines: exact")
         axis.legend()
-    axes[0].set_ylabel("dynamic structure factor $S(k,\\omega)/S(k)$")
     for color, case in zip(("C0", "C1", "C2"), sorted(shown[0], key=lambda case: case.kappa)):
         for column, mark, line in ((1, "s", "--"), (2, "o", "-")):
             axes[2].plot(case.k**2, case.exact[:, column], color + line, lw=1)
@@ -201,8 +201,8 @@ def plot(path, cases):
                 exact = np.interp(k, case.k, case.exact[:, column]) * factors[1 + column]
                 axes[2].errorbar(k**2, exact, errors[1 + column] * exact, color=color, marker=mark, ms=4, mfc="none", lw=0,
                                  elinewidth=1, label=f"$\\kappa/\\mu$ = {case.kappa}" if column == 2 and band == BANDS[0] else None)
-    axes[2].set(xlim=(0, None), ylim=(0, None), xlabel="$k^2$ (lj units)", ylabel="half width")
-    axes[2].set_title("squares: Rayleigh, circles: Brillouin line")
+    axes[2].set(xlim=(0, None), ylim=(0, None), xlabel="$k^2$ (lj units)", ylabel="half width of a line (lj units)")
+    axes[2].set_title("squares: Rayleigh, circles: Brillouin")
     axes[2].legend()
     return save(figure, path)
 
