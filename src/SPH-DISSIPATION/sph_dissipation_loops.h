@@ -401,9 +401,8 @@ namespace SPHDissipation {
           load_4_columns<WIDTH<Acceleration>>(numbers(noise.acceleration), j, a_j);
           load_4_columns<WIDTH<NoiseRow>>(numbers(noise.row), j, other);
           if (!data.par->uniform) coeffs.load(table, data, i, j, n - k);
-          const Vec its = larger(other[1], all(0.0));
-          const Vec inverse = 1.0 / (own.temperature + its + TINY);
-          pair.vv *= 1.0 - own.temperature * its * inverse * inverse * (mine.softness + a_j[3]);
+          const OwnTemperatures both(all(own.temperature), larger(other[0], all(0.0)));
+          pair.vv *= both.friction(own.softness + other[3]);
           pair.by_metric = pair.vv / (metric_of<Form::BY_DISTANCE>(dot(pair.r, pair.r)) + TINY);
           pair.central = all(0.0);
           Form::add_central(pair);
@@ -419,7 +418,7 @@ namespace SPHDissipation {
           Vec pressing = slope;
           if (weight) pressing *= weight[i] * gather(weight, j);
           Vec heat = 2.0 * pressing *
-                  ((pi.g - own.pressure) * dot(pair.r, a_j) + (g - other[3]) * dot(pair.r, a_i)) +
+                  ((pi.g - own.pressure) * dot(pair.r, a_j) + (g - other[2]) * dot(pair.r, a_i)) +
               dot(pair.f, a_i) + dot(pair.f, a_j);
           if constexpr (Form::SPINS) {
             Vec turn[4];
@@ -427,10 +426,10 @@ namespace SPHDissipation {
             for (int d = 0; d < 3; d++) {
               const Vec on_i = pair.t[d] - pair.spin[d], on_j = pair.t[d] + pair.spin[d];
               heat +=
-                  on_i * (mine.w[d] - mine.by_inertia * on_i) - on_j * (turn[d] - turn[3] * on_j);
+                  on_i * (mine.w[d] - mine.by_inertia * on_i) - on_j * (turn[d] - a_j[3] * on_j);
             }
           }
-          heat *= quarter * (1.0 - if_positive(-other[1], all(1.0)));    // none with walls
+          heat *= quarter * (1.0 - if_positive(-other[0], all(1.0)));    // none with walls
           total += heat;
           add_column<1>(noise.total, j, -heat);
         }

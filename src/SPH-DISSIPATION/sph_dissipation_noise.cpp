@@ -132,7 +132,7 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
   std::fill_n(row.begin() + nall, BLOCK, NoiseRow());
   const int without = engine.team().sum<int>(nall, [&](int i, int &count) {
     const int type = atom->type[i];
-    row[i] = {tag[i], 0.0, 0.0, 0.0};
+    row[i] = NoiseRow();
     if (engine.parameters().type[type].other) return;
     if (atom->mask[i] & not_fluid) {
       const bool passes = engine.parameters().conducts && engine.conductor[i].conductivity > 0.0;
@@ -142,6 +142,7 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
     }
     const double capacity = atom->rmass[i] * engine.parameters().type[type].heat_capacity;
     row[i].mobility = update->dt * force->ftm2v / atom->rmass[i];
+    row[i].softness = force->boltz / capacity;
     if (i >= nlocal) return;
     if (spins && inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / inertia[i];
     const double heat = strains.thermal_energy(i);
@@ -188,8 +189,6 @@ bool NoiseStage::set_coeffs(double factor)
     const TypeParameters &first = par.type[k / par.ntypes_1], &second = par.type[k % par.ntypes_1];
     coeff[k].conductivity =
         HeatChannel::mean(first.keywords.a[CONDUCTIVITY], second.keywords.a[CONDUCTIVITY]);
-    if (second.heat_capacity > 0.0)
-      coeff[k].softness = force->boltz / (update->dt * force->ftm2v * second.heat_capacity);
     if (friction.along > 0.0 || friction.across > 0.0 || friction.spin_along > 0.0 ||
         friction.spin_across > 0.0)
       any = true;
@@ -304,7 +303,6 @@ void NoiseStage::share_work()
   if (equal_masses) return;
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   const bool spins = engine.has_spin();
-  const int ntypes_1 = atom->ntypes + 1;
   acceleration.assign(nall + BLOCK, Acceleration());
   flow.assign(nall + BLOCK, 0.0);
   engine.for_each(nlocal, [&](int i) {
@@ -312,7 +310,6 @@ void NoiseStage::share_work()
     Acceleration &own = acceleration[i];
     const double mobility = row[i].mobility / update->dt;
     for (int d = 0; d < 3; d++) own.v[d] = mobility * engine.force[i].f[d];
-    own.softness = row[i].mobility * coeff[atom->type[i] * ntypes_1 + atom->type[i]].softness;
     if (!spins) return;
     own.by_inertia = spin_mobility[i] / update->dt;
     for (int d = 0; d < 3; d++) own.w[d] = own.by_inertia * engine.torque[i].t[d];

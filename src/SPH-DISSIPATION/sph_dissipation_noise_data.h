@@ -47,26 +47,25 @@ namespace SPHDissipation {
     double spin_across;        // across e
     double inverse_central;    // 1 / what the shear term puts before (u.e)^2, or 0
     double conductivity;       // of heat
-    double softness;           // k/(dt cv) of the second one
   };
 
-  // Of a particle that has a temperature of its own.  One of a wall has minus the temperature of the wall, no mobility,
-  // and 1 or 0 instead of the pressure: whether heat passes its surface.
+  // Of a particle that has a temperature of its own.  One of a wall has minus the temperature of the wall, no mobility and
+  // softness, and 1 or 0 instead of the pressure: whether heat passes its surface.
 
   struct NoiseRow {
-    double tag;    // ID
     double temperature;
     double mobility;    // dt/m
     double pressure;    // random pressure / c^2
+    double softness;    // k/C
   };
 
   // of a particle, when the work of its pairs is shared
 
   struct Acceleration {
     double v[3];
-    double softness;      // k/C, 0 of a wall
-    double w[3];          // of the spin
     double by_inertia;    // 1/J
+    double w[3];          // of the spin
+    double unused;        // rows are loaded by four numbers
   };
 
   // input and output of the loops, beside the pairs that pass 1 has found; arrays of owned, ghost, and spare particles
@@ -86,8 +85,7 @@ namespace SPHDissipation {
     double *total;                       // what a loop sums up for each particle, accumulated
   };
 
-  constexpr int MOST_NUMBERS =
-      15;    // numbers kept for a pair: 8 random ones, 7 of the temperatures
+  constexpr int MOST_NUMBERS = 16;    // kept for a pair: 8 random ones, 8 of the temperatures
 
   // DIRECTED: two numbers along e, one of each partner
   // ENERGY: at the temperatures of the particles, with the energy of motion and heat together constant

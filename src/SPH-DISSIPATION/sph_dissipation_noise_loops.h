@@ -48,10 +48,8 @@ template <int ACROSS, bool SPIN, bool DIRECTED, bool CONDUCTS = false> struct Pa
     return (ACROSS == 3) ? k != ALONG && k != BACK : ACROSS == 2 && k == 2;
   }
 
-  SPH_INLINE PairNumbers(const Words *counter, const PhiloxKeys &keys)
+  SPH_INLINE PairNumbers(const Words *random)
   {
-    Words random[4];
-    philox(counter, keys, random);
     for (int k = 0; k < 4; k++)
       if constexpr (MANY) {
         z[k] = uniform_of_half(masked(random[k], 0xffff));
@@ -80,33 +78,49 @@ struct NoiseStep {
 // Counter of a pair: both IDs, the step.  IDs of more than 32 bits have at most 46; the upper bits of
 // both go to those of the step, beside the 4 which that needs then.
 
-struct PairCounter {
-  Words word[4];
-  Vec sign;    // 1 where i has the lower ID, else -1
+SPH_INLINE void set_counter(Words *word, const NoiseStep &step, double tag_i, Vec tag_j)
+{
+  word[0] = words(smaller(all(tag_i), tag_j));
+  word[1] = words(larger(all(tag_i), tag_j));
+  word[2] = all_words(step.low);
+  word[3] = all_words(step.high);
+  if constexpr (sizeof(tagint) > 4)
+    word[3] = xor3(word[3], product(shifted<32>(word[0]), all_words(1 << 4)),
+                   product(shifted<32>(word[1]), all_words(1 << 18)));
+}
 
-  SPH_INLINE PairCounter(const NoiseStep &step, double tag_i, Vec tag_j)
-  {
-    word[0] = words(smaller(all(tag_i), tag_j));
-    word[1] = words(larger(all(tag_i), tag_j));
-    word[2] = all_words(step.low);
-    word[3] = all_words(step.high);
-    if constexpr (sizeof(tagint) > 4)
-      word[3] = xor3(word[3], product(shifted<32>(word[0]), all_words(1 << 4)),
-                     product(shifted<32>(word[1]), all_words(1 << 18)));
-    sign = if_positive(tag_j - all(tag_i), all(2.0)) - all(1.0);
-  }
-};
+// 1 where i has the lower ID, else -1
+
+SPH_INLINE Vec sign_of(double tag_i, Vec tag_j)
+{
+  return if_positive(tag_j - all(tag_i), all(2.0)) - all(1.0);
+}
 
 // numbers of NoiseCoeff
 
-enum { CENTRAL, TRANSVERSE, SPIN_ALONG, SPIN_ACROSS, INVERSE_CENTRAL, PAIR_CONDUCTION, SOFTNESS };
+enum { CENTRAL, TRANSVERSE, SPIN_ALONG, SPIN_ACROSS, INVERSE_CENTRAL, PAIR_CONDUCTION };
 template <int ACROSS, bool SPIN, NoiseKind KIND> struct NoiseUses {
   static constexpr bool uses(int k)
   {
     if (k == INVERSE_CENTRAL) return KIND == NoiseKind::DIRECTED;
     if (k == PAIR_CONDUCTION) return KIND == NoiseKind::CONDUCTION;
-    if (k == SOFTNESS) return KIND == NoiseKind::ENERGY || KIND == NoiseKind::CONDUCTION;
     return k == CENTRAL || (k == TRANSVERSE && ACROSS > 0) || SPIN;
+  }
+};
+
+// Noise and friction of a pair of particles with temperatures of their own, physics on the theory page
+
+struct OwnTemperatures {
+  Vec inverse, half_mean;
+  SPH_INLINE OwnTemperatures(Vec own, Vec its)
+  {
+    inverse = 1.0 / (own + its + TINY);
+    half_mean = own * its * inverse;
+  }
+  SPH_INLINE Vec mean() const { return half_mean + half_mean; }    // of the inverse temperatures
+  SPH_INLINE Vec friction(Vec softness) const    // factor of it, sum of both
+  {
+    return 1.0 - half_mean * inverse * softness;
   }
 };
 
@@ -139,12 +153,15 @@ template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseD
       const Vec rsq = dx * dx + dy * dy + dz * dz;
       const Vec metric = metric_of<FR>(rsq);
       if (!pairs.par->uniform) coeff.load(data.coeff, pairs, i, j, n - k);
-      const PairCounter counter(step, data.tag[i], gather(data.tag, j));
+      const Vec tag = gather(data.tag, j);
+      Words word[1][4];
+      set_counter(word[0], step, data.tag[i], tag);
+      philox<1>(word, step.pair);
       using Numbers = PairNumbers<ACROSS, false, true>;
-      const Numbers random(counter.word, step.pair);
+      const Numbers random(word[0]);
       const Vec forth = random.z[Numbers::ALONG], back = random.z[Numbers::BACK];
       const Vec mean = 0.5 * (forth + back);
-      const Vec odd = 0.5 * counter.sign * (forth - back);
+      const Vec odd = 0.5 * sign_of(data.tag[i], tag) * (forth - back);
       const Vec root = root_of(load(slope_of + k), metric, coeff.a[INVERSE_CENTRAL]);
       total += gather(data.reach, j) * root * (mean + odd);
       add_column<1>(data.total, j, data.reach[i] * root * (mean - odd));
@@ -161,8 +178,8 @@ struct NoNoise {
   SPH_INLINE void begin(int) {}
 };
 
-// The numbers of all pairs of a particle are made before its pairs are worked off: alone, the long chain of operations
-// of one block overlaps with those of the next ones.
+// The numbers of all pairs of a particle are made before its pairs are worked off, two blocks at once: the long chain of
+// operations of one overlaps with that of the other.
 
 template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   static constexpr bool ON = true, VECTOR = (ACROSS == 3), CENTRAL_ONLY = (ACROSS == 0);
@@ -185,52 +202,18 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   SPH_INLINE void begin(int ii)
   {
     i = pairs.ilist[ii];
-    if constexpr (ENERGY)
-      own_softness = data.coeff[pairs.type[i] * pairs.par->ntypes_1 + pairs.type[i]].softness;
     const int n = pairs.count[ii];
     const int *const neighbor = pairs.neighbor + pairs.first[ii];
     next = pairs.random;
-    for (int k = 0; k < n; k += LANES) {
-      Vec tag;
-      if constexpr (ENERGY) {
-        Vec other[NROW];
-        load_4_columns<WIDTH<NoiseRow>>(numbers(data.row), neighbor + k, other);
-        tag = other[TAG];
-        Vec own = all(data.row[i].temperature), its = other[TEMPERATURE];
-        if constexpr (CONDUCTS) set_wall(own, its, other[PRESSURE]);
-        const Vec inverse = 1.0 / (own + its + TINY);
-        const Vec share = own * its * inverse;
-        keep(2.0 * share);
-        keep(share * inverse);
-        keep(other[MOBILITY]);
-        keep(other[PRESSURE]);
-      } else
-        tag = gather(data.tag, neighbor + k);
-      const PairCounter counter(step, data.tag[i], tag);
-      const Numbers random(counter.word, step.pair);
-      for (int c = 0; c < Numbers::N; c++)
-        if (Numbers::is_used(c))
-          keep(Numbers::is_of_vector(c) ? counter.sign * random.z[c] : random.z[c]);
+    int k = 0;
+    for (; k + LANES < n; k += 2 * LANES) keep_numbers<2>(neighbor + k);
+    if (k < n) keep_numbers<1>(neighbor + k);
+    next_number = pairs.random;
+    if constexpr (ENERGY) {
+      double *const first = next;
+      for (k = 0; k < n; k += LANES) keep_temperatures(neighbor + k);
+      next = first;
     }
-    next = pairs.random;
-  }
-
-  // Friction with a wall has the temperature and the heat of the particle of the fluid alone.  What conducts: 1, or that of
-  // the wall; wall: 1 where j is one, -1 where i is one
-
-  SPH_INLINE void set_wall(Vec &own, Vec &its, Vec passes)
-  {
-    keep(larger(its, -its));
-    if (data.row[i].temperature < 0.0) {
-      keep(all(data.row[i].pressure));
-      keep(all(-1.0));
-      own = its;
-      return;
-    }
-    const Vec wall = if_positive(-its, all(1.0));
-    keep(1.0 - wall + wall * passes);
-    keep(wall);
-    its += wall * (own - its);
   }
 
   // d = r_ij, by_metric = vv/metric, inverse = 1/r^2 if VECTOR
@@ -239,31 +222,24 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
                        Vec by_metric, Vec inverse)
   {
     if (!pairs.par->uniform) coeff.load(data.coeff, pairs, i, j, n);
-    Vec z[Numbers::N], temperature, passes, common;
-    if constexpr (CONDUCTS) {
-      temperature = kept();
-      passes = kept();
-      wall = kept();
-    }
-    if constexpr (ENERGY) {
-      common = kept();
-      Vec share = kept();
-      mobility = kept();
-      pressure = kept();
-      if constexpr (SPIN) spin_mobility = gather(data.spin_mobility, j);
-      if constexpr (CONDUCTS) share *= 1.0 - wall * wall;
-      friction = 1.0 - share * (data.row[i].mobility * own_softness + mobility * coeff.a[SOFTNESS]);
-    }
+    Vec z[Numbers::N];
     for (int c = 0; c < Numbers::N; c++)
-      if (Numbers::is_used(c)) z[c] = kept();
+      if (Numbers::is_used(c)) z[c] = kept(next_number);
     if constexpr (CONDUCTS) {
       const double own = std::fabs(data.row[i].temperature);
-      const Vec conductivity = coeff.a[PAIR_CONDUCTION] * passes;
+      const Vec temperature = kept(next);
+      const Vec conductivity = coeff.a[PAIR_CONDUCTION] * kept(next);
+      wall = kept(next);
       flow = heat_flow(conductivity, vv, own, temperature) +
           z[Numbers::FLOW] *
               square_root(data.heat * heat_noise(conductivity, vv, own, temperature));
     }
     if constexpr (ENERGY) {
+      const Vec common = kept(next);
+      friction = kept(next);
+      mobility = kept(next);
+      pressure = kept(next);
+      if constexpr (SPIN) spin_mobility = kept(next);
       vv *= common;
       by_metric *= common;
     }
@@ -380,20 +356,69 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   const NoiseStep step;
   Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND>> coeff;
   int i;
-  double own_softness;
-  double *next;    // of what begin() has found for the pairs of i
-  enum { TAG, TEMPERATURE, MOBILITY, PRESSURE, NROW };
+  double *next_number, *next;    // of what begin() has kept of the pairs of i: random numbers, and all else
+  enum { TEMPERATURE, MOBILITY, PRESSURE, SOFTNESS };
   Vec mobility, pressure, spin_mobility;    // of j
+
+  // random numbers of N blocks
+
+  template <int N> SPH_INLINE void keep_numbers(const int *j)
+  {
+    Words word[N][4];
+    Vec sign[N];
+    for (int k = 0; k < N; k++) {
+      const Vec tag = gather(data.tag, j + k * LANES);
+      set_counter(word[k], step, data.tag[i], tag);
+      sign[k] = sign_of(data.tag[i], tag);
+    }
+    philox<N>(word, step.pair);
+    for (int k = 0; k < N; k++) {
+      const Numbers random(word[k]);
+      for (int c = 0; c < Numbers::N; c++)
+        if (Numbers::is_used(c))
+          keep(Numbers::is_of_vector(c) ? sign[k] * random.z[c] : random.z[c]);
+    }
+  }
+
+  // Friction with a wall has the temperature and the heat of the particle of the fluid alone.
+
+  SPH_INLINE void keep_temperatures(const int *j)
+  {
+    Vec other[WIDTH<NoiseRow>];
+    load_4_columns<WIDTH<NoiseRow>>(numbers(data.row), j, other);
+    Vec own = all(data.row[i].temperature), its = other[TEMPERATURE], with_wall = all(0.0);
+    if constexpr (CONDUCTS) {
+      keep(larger(its, -its));
+      if (data.row[i].temperature < 0.0) {
+        keep(all(data.row[i].pressure));
+        with_wall = all(-1.0);
+        own = its;
+      } else {
+        with_wall = if_positive(-its, all(1.0));
+        keep(1.0 - with_wall + with_wall * other[PRESSURE]);
+        its += with_wall * (own - its);
+      }
+      keep(with_wall);
+    }
+    const OwnTemperatures both(own, its);
+    keep(both.mean());
+    Vec softness = data.row[i].softness + other[SOFTNESS];
+    if constexpr (CONDUCTS) softness *= 1.0 - with_wall * with_wall;
+    keep(both.friction(softness));
+    keep(other[MOBILITY]);
+    keep(other[PRESSURE]);
+    if constexpr (SPIN) keep(gather(data.spin_mobility, j));
+  }
 
   SPH_INLINE void keep(Vec a)
   {
     store(next, a);
     next += LANES;
   }
-  SPH_INLINE Vec kept()
+  static SPH_INLINE Vec kept(double *&from)
   {
-    next += LANES;
-    return load(next - LANES);
+    from += LANES;
+    return load(from - LANES);
   }
 };
 
@@ -407,10 +432,9 @@ inline void particle_numbers(const NoiseData &data, NoiseChannel channel, int fr
   const PhiloxKeys keys = NoiseStep::keys_of(data, channel);
   for (int k = from; k < to; k += LANES) {
     const Words tag = words(load(data.tag + k));
-    const Words counter[4] = {tag, shifted<32>(tag), all_words(step.low), all_words(step.high)};
-    Words random[4];
-    philox(counter, keys, random);
+    Words counter[1][4] = {{tag, shifted<32>(tag), all_words(step.low), all_words(step.high)}};
+    philox<1>(counter, keys);
     for (int c = 0; c < count; c++)
-      store(numbers + c * static_cast<bigint>(n + BLOCK) + k, uniform(random[c]));
+      store(numbers + c * static_cast<bigint>(n + BLOCK) + k, uniform(counter[0][c]));
   }
 }

@@ -34,21 +34,22 @@ struct PhiloxKeys {
   }
 };
 
-SPH_INLINE void philox(const Words *counter, const PhiloxKeys &keys, Words *random)
+// N counters at once, each of which becomes its random words: their chains of operations overlap
+
+template <int N> SPH_INLINE void philox(Words (*word)[4], const PhiloxKeys &keys)
 {
   const Words multiplier0 = all_words(0xD2511F53), multiplier1 = all_words(0xCD9E8D57);
-  Words c0 = counter[0], c1 = counter[1], c2 = counter[2], c3 = counter[3];
-  for (int round = 0; round < ROUNDS; round++) {
-    const Words p0 = product(multiplier0, c0), p1 = product(multiplier1, c2);
-    c0 = xor3(shifted<32>(p1), c1, all_words(keys.first[round]));
-    c1 = p1;
-    c2 = xor3(shifted<32>(p0), c3, all_words(keys.second[round]));
-    c3 = p0;
-  }
-  random[0] = masked(c0, 0xffffffff);
-  random[1] = masked(c1, 0xffffffff);
-  random[2] = masked(c2, 0xffffffff);
-  random[3] = masked(c3, 0xffffffff);
+  for (int round = 0; round < ROUNDS; round++)
+    for (int k = 0; k < N; k++) {
+      Words *const c = word[k];
+      const Words p0 = product(multiplier0, c[0]), p1 = product(multiplier1, c[2]);
+      c[0] = xor3(shifted<32>(p1), c[1], all_words(keys.first[round]));
+      c[1] = p1;
+      c[2] = xor3(shifted<32>(p0), c[3], all_words(keys.second[round]));
+      c[3] = p0;
+    }
+  for (int k = 0; k < N; k++)
+    for (int c = 0; c < 4; c++) word[k][c] = masked(word[k][c], 0xffffffff);
 }
 
 // The word as a number of the uniform distribution between -sqrt(3) and sqrt(3), whose mean is 0 and

@@ -37,9 +37,9 @@ using namespace LAMMPS_NS::SPHDissipation::one_number;
 
 static std::array<Words, 4> random_words(std::array<Words, 4> counter, Words key0, Words key1)
 {
-  std::array<Words, 4> random;
-  philox(counter.data(), PhiloxKeys(key0, key1), random.data());
-  return random;
+  Words word[2][4] = {{1, 2, 3, 4}, {counter[0], counter[1], counter[2], counter[3]}};
+  philox<2>(word, PhiloxKeys(key0, key1));
+  return {word[1][0], word[1][1], word[1][2], word[1][3]};
 }
 
 // of Random123, file kat_vectors
