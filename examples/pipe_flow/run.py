@@ -27,7 +27,7 @@ WRONG = {
     OTHER_BULK: (1, {"fluid": 10}),
     "characteristic ends": (1, {"condition": "characteristic"}),
     "fixed ends": (1, {"condition": "fixed"}),
-    "velocity inside": (1, {"velocity": "inside"}),
+    "velocity inside": (1, {"velocity": "inside", "tenths": 0.35}),     # later the density at the ends becomes negative
     "velocity inside, fixed ends": (1, {"velocity": "inside", "condition": "fixed"}),
 }
 # particles that split and merge, beside the same without: target volume over the square of the distance of the rows

@@ -28,6 +28,7 @@
 #include "sph_dissipation_integrate.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_stage.h"
+#include "sph_dissipation_rows.h"
 #include "sph_dissipation_shift_terms.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_threads.h"
@@ -106,6 +107,20 @@ struct Particles {
   {
   }
 };
+
+// The heat of the pair style is minus the work of its forces at the velocity in the friction,
+// acting.  Over half a kick they do work at the mean velocity of the kick.  With the difference,
+// returned here before the kick, the sum of kinetic and internal energy is conserved exactly. The
+// same for spins.
+
+double rest_of_heat(const TimeStep &step, const double *v, const double *acting, const double *f,
+                    const double *own, double mass_inv)
+{
+  double power = 0.0;
+  for (int d = 0; d < 3; d++)
+    power += own[d] * (acting[d] - v[d] - 0.5 * step.dtf * mass_inv * f[d]);
+  return 0.5 * step.dtv * power;
+}
 
 }    // namespace
 
@@ -674,21 +689,6 @@ void FixSPHBulk::begin_step()
   if (first_instance && fluid && fluid->pair->compute_flag) fluid->begin_step(dtv);
 }
 
-/* ----------------------------------------------------------------------
-   The heat of the pair style is minus the work of its forces at the velocity in the friction,
-   acting.  Over half a kick they do work at the mean velocity of the kick.  With the difference,
-   returned here before the kick, the sum of kinetic and internal energy is conserved exactly. The
-   same for spins.
-------------------------------------------------------------------------- */
-
-double FixSPHBulk::rest_of_heat(const double *v, const double *acting, const double *f,
-                                const double *own, double mass_inv) const
-{
-  double power = 0.0;
-  for (int d = 0; d < 3; d++) power += own[d] * (acting[d] - v[d] - 0.5 * dtf * mass_inv * f[d]);
-  return 0.5 * dtv * power;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void FixSPHBulk::integrate(Half half)
@@ -702,16 +702,18 @@ void FixSPHBulk::integrate(Half half)
     const Fields &kept = fields();
     const Particles particles(atom, kept);
     const TimeStep step = time_step();
+    const ForceSum *const forces = exact ? fluid->own_forces() : nullptr;
+    const TorqueSum *const torques = exact ? fluid->own_torques() : nullptr;
     for (int i = from; i < to; i++) {
       if (!(atom->mask[i] & groupbit)) continue;
       double rest[2] = {0.0, 0.0};
       if (exact) {
         const double mass = atom->rmass[i];
         rest[0] =
-            rest_of_heat(atom->v[i], atom->vest[i], atom->f[i], fluid->own_force(i), 1.0 / mass);
+            rest_of_heat(step, atom->v[i], atom->vest[i], atom->f[i], forces[i].f, 1.0 / mass);
         if (spins)
           rest[1] =
-              rest_of_heat(atom->omega[i], kept.omegaest[i], atom->torque[i], fluid->own_torque(i),
+              rest_of_heat(step, atom->omega[i], kept.omegaest[i], atom->torque[i], torques[i].t,
                            TimeStep::inverse_inertia(mass, kept.inertia[i]));
       }
       if (half == BEGIN)

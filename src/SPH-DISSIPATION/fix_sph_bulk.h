@@ -107,8 +107,6 @@ class FixSPHBulk : public Fix {
   SPHDissipation::Fields &fields() const;
   int keyword_argument(int iarg, int narg, char **arg);    // # of words of the keyword at arg[iarg]
   void integrate(Half);
-  double rest_of_heat(const double *v, const double *acting, const double *f, const double *own,
-                      double mass_inv) const;
 
   void reset_extrapolation();    // of particles that no such fix integrates
 

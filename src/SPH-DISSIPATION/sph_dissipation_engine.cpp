@@ -317,6 +317,11 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.numneigh = list->numneigh;
   data.firstneigh = list->firstneigh;
   data.type = atom->type;
+  if (!par->uniform) {
+    types.assign(atom->type, atom->type + nall);
+    types.resize(nall + BLOCK, 1);
+    data.type = types.data();
+  }
   data.particle = particle;
   data.spare = nall;
   data.density = density;
@@ -571,7 +576,8 @@ double Engine::memory_usage() const
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double)) +
       (double) conductor.capacity() * sizeof(Conductor) +
-      (double) (energy.capacity() + wall_energy.capacity()) * sizeof(double);
+      (double) (energy.capacity() + wall_energy.capacity()) * sizeof(double) +
+      (double) types.capacity() * sizeof(int);
   for (const auto &numbers : random)
     bytes += static_cast<double>(numbers.capacity() * sizeof(double));
   return bytes + density_sums.memory_usage() + force_sums.memory_usage() +

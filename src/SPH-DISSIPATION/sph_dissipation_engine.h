@@ -283,6 +283,7 @@ namespace SPHDissipation {
     ParticleRows atom_rows;
     Threads one_thread, *threads;
     double *weights;    // reference volumes of atoms
+    std::vector<int> types;    // of owned, ghost, and spare particles, if their coefficients differ
 
     // rows first_row[k] ... first_row[k+1] - 1 of the neighbor list are those of thread k, whose pairs
     // begin with entry first_pair[k]

@@ -111,15 +111,16 @@ namespace SPHDissipation {
   SPH_FUNCTION double elastic_energy(Eos eos, const EosParams &par, double rho)
   {
     if (eos == Eos::IDEAL && par.pb_el == 0.0) return 0.0;
-    const double background = par.pb_el * (1.0 / par.rho0 - 1.0 / rho);
+    const double rest = par.rho0 / rho;
+    const double background = par.pb_el / par.rho0 * (1.0 - rest);
     if (eos == Eos::IDEAL) return background;
-    if (eos == Eos::LINEAR)
-      return par.c_el * par.c_el * (std::log(rho / par.rho0) + par.rho0 / rho - 1.0) + background;
-    const double b = par.rho0 * par.c_el * par.c_el / par.gamma;
     const double x = rho / par.rho0;
-    const double power =
-        (par.gamma == 1.0) ? std::log(x) : (tait_power(x, par.gamma) / x - 1.0) / (par.gamma - 1.0);
-    return b / par.rho0 * power + b * (1.0 / rho - 1.0 / par.rho0) + background;
+    if (eos == Eos::LINEAR)
+      return par.c_el * par.c_el * (std::log(x) + rest - 1.0) + background;
+    const double power = (par.gamma == 1.0)
+        ? std::log(x)
+        : (tait_power(x, par.gamma) * rest - 1.0) / (par.gamma - 1.0);
+    return par.c_el * par.c_el / par.gamma * (power + rest - 1.0) + background;
   }
 
   // pressure of heat q per mass at density rho

@@ -541,14 +541,14 @@ void Fluid::heating(double *heat, double *power) const
 
 /* ---------------------------------------------------------------------- */
 
-const double *Fluid::own_force(int i) const
+const ForceSum *Fluid::own_forces() const
 {
-  return engine->force[i].f;
+  return engine->force;
 }
 
-const double *Fluid::own_torque(int i) const
+const TorqueSum *Fluid::own_torques() const
 {
-  return engine->torque[i].t;
+  return engine->torque;
 }
 
 /* ---------------------------------------------------------------------- */

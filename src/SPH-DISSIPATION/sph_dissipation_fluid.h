@@ -33,6 +33,7 @@ namespace SPHDissipation {
   class Engine;
   class Exchange;
   class FluidModel;
+  struct ForceSum;
   class ForceStage;
   class HeatStage;
   class LimitStage;
@@ -44,6 +45,7 @@ namespace SPHDissipation {
   class RelaxStage;
   class TemperatureStage;
   class Threads;
+  struct TorqueSum;
   class ViscousStage;
 
   // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -132,15 +134,15 @@ namespace SPHDissipation {
     void vibrational_temperatures(double *) const;
     void set_temperature(int groupbit, const std::function<double(int)> &, const std::string &user);
 
-    // of the last forces: see ForceStage::heating(); force and torque on an owned particle, without
+    // of the last forces: see ForceStage::heating(); forces and torques on owned particles, without
     // what other styles add
 
     bool
     has_forces() const;    // on all processors, for the particles that are there now; asked by all
     virtual void heating(double *heat, double *power) const;
     virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank
-    const double *own_force(int i) const;
-    const double *own_torque(int i) const;
+    const ForceSum *own_forces() const;
+    const TorqueSum *own_torques() const;
 
     // Start of a run, from the integrator.  Masses of the particles of a group, times a factor of each
     // type, for which their mean density is rho0; volumes, from the positions alone; then the table of

@@ -147,26 +147,50 @@ namespace SPHDissipation {
       }
     }
 
-    // Coefficients of a block of pairs, N numbers of the row of two types, of which a loop uses some
+    // Coefficients of all types, N numbers of a Row for each two of them
+    // Few types, as many as lanes, have their coefficients with type i in one vector.
+    template <class Row> struct CoeffTable {
+      static constexpr int N = WIDTH<Row>;
+      const Row *const row;
+      const int *const type;
+      const int ntypes_1;
+      const bool few;
+      double of_types[LANES][N][LANES];
+
+      CoeffTable(const Row *row, const LoopData &data) :
+          row(row), type(data.type), ntypes_1(data.par->ntypes_1),
+          few(!data.par->uniform && ntypes_1 <= LANES + 1)
+      {
+        if (!few) return;
+        for (int i = 1; i < ntypes_1; i++)
+          for (int j = 1; j < ntypes_1; j++)
+            for (int k = 0; k < N; k++)
+              of_types[i % LANES][k][j % LANES] = numbers(row + i * ntypes_1 + j)[k];
+      }
+    };
+
+    // those of a block of pairs, of which a loop uses some; at first those of type 1
     template <class Row, class Used> struct Coeffs {
       static constexpr int N = WIDTH<Row>;
       Vec a[N];
-      SPH_INLINE Coeffs(const Row &pair)
+      SPH_INLINE Coeffs(const CoeffTable<Row> &table)
       {
-        for (int k = 0; k < N; k++) a[k] = all(numbers(&pair)[k]);
+        for (int k = 0; k < N; k++) a[k] = all(numbers(table.row + table.ntypes_1 + 1)[k]);
       }
-      SPH_INLINE void load(const Row *table, const LoopData &data, int i, const int *j, int n)
+      SPH_INLINE void load(const CoeffTable<Row> &table, int i, const int *j)
       {
-        const Row *const row = table + data.type[i] * data.par->ntypes_1;
-        double column[N][LANES];
-        for (int l = 0; l < LANES; l++) {
-          const double *const pair =
-              numbers(row + ((l < n) ? data.type[j[l]] : 1));    // a spare one has no type
+        if (table.few) {
+          const Indices types = indices_of(table.type, j);
+          const auto *const of_type = table.of_types[table.type[i] % LANES];
           for (int k = 0; k < N; k++)
-            if (Used::uses(k)) column[k][l] = pair[k];
+            if (Used::uses(k)) a[k] = pick(of_type[k], types);
+          return;
         }
+        int pair[LANES];
+        for (int l = 0; l < LANES; l++) pair[l] = N * table.type[j[l]];
+        const double *const of_type = numbers(table.row + table.type[i] * table.ntypes_1);
         for (int k = 0; k < N; k++)
-          if (Used::uses(k)) a[k] = LOOPS::load(column[k]);
+          if (Used::uses(k)) a[k] = gather(of_type + k, pair);
       }
     };
 
@@ -242,11 +266,12 @@ namespace SPHDissipation {
     void force_loop(LoopData &data)
     {
       const Particle *const particle = data.particle;
-      const PairCoeff *const table = data.par->pair.data();
       const bool uniform = data.par->uniform;
       const double *const weight = (data.par->volume == Volume::MASS) ? data.weight : nullptr;
-      Coeffs<PairCoeff, Form> coeffs(table[data.par->ntypes_1 + 1]);
-      Noise noise(data);
+      const CoeffTable<PairCoeff> table(data.par->pair.data(), data);
+      Coeffs<PairCoeff, Form> coeffs(table);
+      const typename Noise::Table noise_table(data);
+      Noise noise(data, noise_table);
 
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
@@ -281,7 +306,7 @@ namespace SPHDissipation {
           const Vec by_pressure = pair.central;
           Vec given = all(0.0);    // heat, to i by j
 
-          if ((Form::CENTRAL || Form::VECTOR) && !uniform) coeffs.load(table, data, i, j, n - k);
+          if ((Form::CENTRAL || Form::VECTOR) && !uniform) coeffs.load(table, i, j);
           const Vec metric = metric_of<Form::BY_DISTANCE>(rsq);
           Vec inverse = all(0.0);
           pair.by_metric = all(0.0);
@@ -291,7 +316,7 @@ namespace SPHDissipation {
           } else if constexpr (Form::CENTRAL || Noise::ON)
             pair.by_metric = pair.vv / (metric + TINY);
           if constexpr (Noise::ON) {
-            noise.draw(j, n - k, pair.r[0], pair.r[1], pair.r[2], slope, pair.vv, metric,
+            noise.draw(j, pair.r[0], pair.r[1], pair.r[2], slope, pair.vv, metric,
                        pair.by_metric, inverse);
             pair.central += noise.central;
           }
@@ -374,9 +399,9 @@ namespace SPHDissipation {
     template <class Form> void work_loop(const LoopData &data, const NoiseData &noise)
     {
       const Particle *const particle = data.particle;
-      const PairCoeff *const table = data.par->pair.data();
       const double *const weight = (data.par->volume == Volume::MASS) ? data.weight : nullptr;
-      Coeffs<PairCoeff, Form> coeffs(table[data.par->ntypes_1 + 1]);
+      const CoeffTable<PairCoeff> table(data.par->pair.data(), data);
+      Coeffs<PairCoeff, Form> coeffs(table);
       const double quarter = 0.25 * noise.dt;
 
       for (int ii = 0; ii < data.inum; ii++) {
@@ -400,7 +425,7 @@ namespace SPHDissipation {
           load_pair(pair, pi, particle, j, slope, vol, g);
           load_4_columns<WIDTH<Acceleration>>(numbers(noise.acceleration), j, a_j);
           load_4_columns<WIDTH<NoiseRow>>(numbers(noise.row), j, other);
-          if (!data.par->uniform) coeffs.load(table, data, i, j, n - k);
+          if (!data.par->uniform) coeffs.load(table, i, j);
           const OwnTemperatures both(all(own.temperature), larger(other[0], all(0.0)));
           pair.vv *= both.friction(own.softness + other[3]);
           pair.by_metric = pair.vv / (metric_of<Form::BY_DISTANCE>(dot(pair.r, pair.r)) + TINY);

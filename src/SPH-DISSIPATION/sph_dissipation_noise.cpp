@@ -34,7 +34,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
-    Stage(lmp, engine, exchange), clock(clock), form(), data(), equal_masses(false)
+    Stage(lmp, engine, exchange), clock(clock), form(), data()
 {
 }
 
@@ -130,6 +130,11 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
   row.resize(nall + BLOCK);
   if (spins) spin_mobility.assign(nall + BLOCK, 0.0);
   std::fill_n(row.begin() + nall, BLOCK, NoiseRow());
+  const double step = update->dt * force->ftm2v, boltz = force->boltz;
+  std::vector<double> by_capacity(atom->ntypes + 1, 0.0);
+  for (int type = 1; type <= atom->ntypes; type++)
+    if (!engine.parameters().type[type].other)
+      by_capacity[type] = 1.0 / engine.parameters().type[type].heat_capacity;
   const int without = engine.team().sum<int>(nall, [&](int i, int &count) {
     const int type = atom->type[i];
     row[i] = NoiseRow();
@@ -140,14 +145,14 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
       row[i].pressure = passes ? 1.0 : 0.0;
       return;
     }
-    const double capacity = atom->rmass[i] * engine.parameters().type[type].heat_capacity;
-    row[i].mobility = update->dt * force->ftm2v / atom->rmass[i];
-    row[i].softness = force->boltz / capacity;
+    const double mass_inv = 1.0 / atom->rmass[i], capacity_inv = mass_inv * by_capacity[type];
+    row[i].mobility = step * mass_inv;
+    row[i].softness = boltz * capacity_inv;
     if (i >= nlocal) return;
     if (spins && inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / inertia[i];
     const double heat = strains.thermal_energy(i);
     if (!(heat > 0.0)) count++;
-    row[i].temperature = std::max(heat, 0.0) / capacity;
+    row[i].temperature = std::max(heat, 0.0) * capacity_inv;
   });
   data.row = row.data();
   data.spin_mobility = spin_mobility.data();
@@ -293,14 +298,14 @@ void NoiseStage::find_masses(int not_fluid)
     own[1] = std::max(own[1], atom->rmass[i]);
   }
   MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_MAX, world);
-  equal_masses = (-all[0] == all[1]);
+  data.unequal = (-all[0] != all[1]);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void NoiseStage::share_work()
 {
-  if (equal_masses) return;
+  if (!data.unequal) return;
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   const bool spins = engine.has_spin();
   acceleration.assign(nall + BLOCK, Acceleration());

@@ -53,7 +53,7 @@ namespace SPHDissipation {
     // of the kick, and a particle has not of what it pays for its own kick, see the theory page
 
     void share_work();
-    bool shares_work() const { return !equal_masses; }
+    bool shares_work() const { return data.unequal; }
     void find_masses(int not_fluid);    // whether they differ; before run()
 
     // The noise of the relaxing processes of owned particles, for RelaxStage::advance(), after the forces of the last
@@ -74,7 +74,6 @@ namespace SPHDissipation {
     std::vector<double> tag, reach, share, eta, pressure, drag, drag_force;
     std::vector<double> numbers, change, flow;
     std::vector<Acceleration> acceleration;
-    bool equal_masses;
 
     void check_box() const;
     void set_tags();

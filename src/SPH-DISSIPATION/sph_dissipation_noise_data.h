@@ -77,6 +77,7 @@ namespace SPHDissipation {
         share;    // s eta/(D c), of those whose bulk term has a negative coefficient, see NoiseStage
     const NoiseRow *row;            // if ENERGY
     const double *spin_mobility;    // dt/J, if ENERGY with spins
+    bool unequal;                   // the masses of the particles of the fluid differ
     std::uint64_t seed, step;
     double heat;                // 2 k/dt, of the random flow of heat
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData

@@ -48,14 +48,16 @@ template <int ACROSS, bool SPIN, bool DIRECTED, bool CONDUCTS = false> struct Pa
     return (ACROSS == 3) ? k != ALONG && k != BACK : ACROSS == 2 && k == 2;
   }
 
-  SPH_INLINE PairNumbers(const Words *random)
+  // sign: 1 where i has the lower ID, else -1
+  SPH_INLINE PairNumbers(const Words *random, Vec sign)
   {
-    for (int k = 0; k < 4; k++)
-      if constexpr (MANY) {
-        z[k] = uniform_of_half(masked(random[k], 0xffff));
-        z[4 + k] = uniform_of_half(shifted<16>(random[k]));
-      } else
-        z[k] = uniform(random[k]);
+    for (int k = 0; k < N; k++) {
+      const Vec factor = is_of_vector(k) ? sign : all(1.0);
+      if constexpr (MANY)
+        z[k] = uniform_of_half((k < 4) ? random[k] : shifted<16>(random[k - 4]), factor);
+      else
+        z[k] = uniform(random[k], factor);
+    }
   }
 };
 
@@ -135,8 +137,8 @@ SPH_INLINE Vec root_of(Vec slope, Vec metric, Vec inverse_central)
 
 template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseData &data)
 {
-  Coeffs<NoiseCoeff, NoiseUses<0, false, NoiseKind::DIRECTED>> coeff(
-      data.coeff[pairs.par->ntypes_1 + 1]);
+  const CoeffTable<NoiseCoeff> table(data.coeff, pairs);
+  Coeffs<NoiseCoeff, NoiseUses<0, false, NoiseKind::DIRECTED>> coeff(table);
   const NoiseStep step(data);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
@@ -152,16 +154,17 @@ template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseD
       const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
       const Vec rsq = dx * dx + dy * dy + dz * dz;
       const Vec metric = metric_of<FR>(rsq);
-      if (!pairs.par->uniform) coeff.load(data.coeff, pairs, i, j, n - k);
+      if (!pairs.par->uniform) coeff.load(table, i, j);
       const Vec tag = gather(data.tag, j);
       Words word[1][4];
       set_counter(word[0], step, data.tag[i], tag);
       philox<1>(word, step.pair);
       using Numbers = PairNumbers<ACROSS, false, true>;
-      const Numbers random(word[0]);
+      const Vec sign = sign_of(data.tag[i], tag);
+      const Numbers random(word[0], sign);
       const Vec forth = random.z[Numbers::ALONG], back = random.z[Numbers::BACK];
       const Vec mean = 0.5 * (forth + back);
-      const Vec odd = 0.5 * sign_of(data.tag[i], tag) * (forth - back);
+      const Vec odd = 0.5 * sign * (forth - back);
       const Vec root = root_of(load(slope_of + k), metric, coeff.a[INVERSE_CENTRAL]);
       total += gather(data.reach, j) * root * (mean + odd);
       add_column<1>(data.total, j, data.reach[i] * root * (mean - odd));
@@ -174,7 +177,10 @@ template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseD
 
 struct NoNoise {
   static constexpr bool ON = false, VECTOR = false, ENERGY = false, CONDUCTS = false;
-  SPH_INLINE NoNoise(const LoopData &) {}
+  struct Table {
+    SPH_INLINE Table(const LoopData &) {}
+  };
+  SPH_INLINE NoNoise(const LoopData &, const Table &) {}
   SPH_INLINE void begin(int) {}
 };
 
@@ -195,8 +201,11 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   Vec flow;         // heat that i gets from j per time, if CONDUCTS
   Vec wall;         // the same: 1 where j is of a wall, -1 where i is
 
-  SPH_INLINE PairNoise(const LoopData &pairs) :
-      pairs(pairs), data(*pairs.noise), step(data), coeff(data.coeff[pairs.par->ntypes_1 + 1])
+  struct Table : CoeffTable<NoiseCoeff> {
+    Table(const LoopData &pairs) : CoeffTable(pairs.noise->coeff, pairs) {}
+  };
+  SPH_INLINE PairNoise(const LoopData &pairs, const CoeffTable<NoiseCoeff> &table) :
+      pairs(pairs), data(*pairs.noise), step(data), table(table), coeff(table)
   {
   }
   SPH_INLINE void begin(int ii)
@@ -218,10 +227,10 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
 
   // d = r_ij, by_metric = vv/metric, inverse = 1/r^2 if VECTOR
 
-  SPH_INLINE void draw(const int *j, int n, Vec dx, Vec dy, Vec dz, Vec slope, Vec vv, Vec metric,
+  SPH_INLINE void draw(const int *j, Vec dx, Vec dy, Vec dz, Vec slope, Vec vv, Vec metric,
                        Vec by_metric, Vec inverse)
   {
-    if (!pairs.par->uniform) coeff.load(data.coeff, pairs, i, j, n);
+    if (!pairs.par->uniform) coeff.load(table, i, j);
     Vec z[Numbers::N];
     for (int c = 0; c < Numbers::N; c++)
       if (Numbers::is_used(c)) z[c] = kept(next_number);
@@ -237,9 +246,9 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
     if constexpr (ENERGY) {
       const Vec common = kept(next);
       friction = kept(next);
-      mobility = kept(next);
       pressure = kept(next);
       if constexpr (SPIN) spin_mobility = kept(next);
+      mobility = data.unequal ? kept(next) : all(data.row[i].mobility);
       vv *= common;
       by_metric *= common;
     }
@@ -332,8 +341,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   {
     const NoiseRow &own = data.row[i];
     const Vec by_i = own.pressure * pressing, by_j = pressure * pressing;
-    return 0.25 * square * (own.mobility - mobility) +
-        0.5 * rsq * (by_j * by_j * own.mobility - by_i * by_i * mobility);
+    const Vec heat = 0.5 * rsq * (by_j * by_j * own.mobility - by_i * by_i * mobility);
+    return data.unequal ? heat + 0.25 * square * (own.mobility - mobility) : heat;
   }
 
   // the same for the torques on both and the one on j, which is opposite on i
@@ -354,6 +363,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   const LoopData &pairs;
   const NoiseData &data;
   const NoiseStep step;
+  const CoeffTable<NoiseCoeff> &table;
   Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND>> coeff;
   int i;
   double *next_number, *next;    // of what begin() has kept of the pairs of i: random numbers, and all else
@@ -373,10 +383,10 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
     }
     philox<N>(word, step.pair);
     for (int k = 0; k < N; k++) {
-      const Numbers random(word[k]);
+      const Numbers random(word[k], sign[k]);
       for (int c = 0; c < Numbers::N; c++)
         if (Numbers::is_used(c))
-          keep(Numbers::is_of_vector(c) ? sign[k] * random.z[c] : random.z[c]);
+          keep(random.z[c]);
     }
   }
 
@@ -405,9 +415,9 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
     Vec softness = data.row[i].softness + other[SOFTNESS];
     if constexpr (CONDUCTS) softness *= 1.0 - with_wall * with_wall;
     keep(both.friction(softness));
-    keep(other[MOBILITY]);
     keep(other[PRESSURE]);
     if constexpr (SPIN) keep(gather(data.spin_mobility, j));
+    if (data.unequal) keep(other[MOBILITY]);
   }
 
   SPH_INLINE void keep(Vec a)
@@ -435,6 +445,6 @@ inline void particle_numbers(const NoiseData &data, NoiseChannel channel, int fr
     Words counter[1][4] = {{tag, shifted<32>(tag), all_words(step.low), all_words(step.high)}};
     philox<1>(counter, keys);
     for (int c = 0; c < count; c++)
-      store(numbers + c * static_cast<bigint>(n + BLOCK) + k, uniform(counter[0][c]));
+      store(numbers + c * static_cast<bigint>(n + BLOCK) + k, uniform(counter[0][c], all(1.0)));
   }
 }

@@ -332,9 +332,10 @@ namespace SPHDissipation {
       if (!is_fluid(i, not_fluid)) return;
       const EosParams &eos = types[type[i]].eos;
       const double shrinks = time * particle[i].vol * density[i].cdot / density[i].c;
-      double p = pressure(par.eos, eos, rho[i], esph[i] / rmass[i]);
+      const double by_mass = 1.0 / rmass[i];
+      double p = pressure(par.eos, eos, rho[i], esph[i] * by_mass);
       if (par.nprocess) p += strain_pressure[i];
-      esph[i] += shrinks * p / (1.0 - shrinks * thermal_pressure(eos, rho[i], 1.0 / rmass[i]));
+      esph[i] += shrinks * p / (1.0 - shrinks * thermal_pressure(eos, rho[i], by_mass));
     }
 
     // What the conduction of heat reads: the temperature of an owned particle; of owned and ghost particles, with

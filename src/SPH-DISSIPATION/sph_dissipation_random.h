@@ -18,7 +18,7 @@
 
 // Four random words of 32 bits: Philox4x32-10, J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw,
 // Parallel random numbers: as easy as 1, 2, 3, Proc. SC11 (2011).  Only the lower 32 bits of counter
-// and keys count; those above them are garbage during the rounds.
+// and keys count.
 
 constexpr int ROUNDS = 10;
 
@@ -34,7 +34,8 @@ struct PhiloxKeys {
   }
 };
 
-// N counters at once, each of which becomes its random words: their chains of operations overlap
+// N counters at once, each of which becomes its random words, with garbage above their 32 bits: the chains of operations
+// overlap
 
 template <int N> SPH_INLINE void philox(Words (*word)[4], const PhiloxKeys &keys)
 {
@@ -48,26 +49,24 @@ template <int N> SPH_INLINE void philox(Words (*word)[4], const PhiloxKeys &keys
       c[2] = xor3(shifted<32>(p0), c[3], all_words(keys.second[round]));
       c[3] = p0;
     }
-  for (int k = 0; k < N; k++)
-    for (int c = 0; c < 4; c++) word[k][c] = masked(word[k][c], 0xffffffff);
 }
 
-// The word as a number of the uniform distribution between -sqrt(3) and sqrt(3), whose mean is 0 and
+// A word, times a sign, as a number of the uniform distribution between -sqrt(3) and sqrt(3), whose mean is 0 and
 // variance 1.  The balance of noise and friction needs no other moments, B. Duenweg, W. Paul, Int.
 // J. Mod. Phys. C 2, 817 (1991); the velocities, sums of many such numbers, have a normal
 // distribution.
 
-SPH_INLINE Vec uniform(Words word)
+SPH_INLINE Vec uniform(Words word, Vec sign)
 {
   constexpr double SQRT_3 = 1.7320508075688772935, UNIT = 1.0 / 2147483648.0;
-  return middle(word) * all(SQRT_3 * UNIT) - all(SQRT_3);
+  return middle(word, 0xffffffff) * (sign * all(SQRT_3 * UNIT)) - sign * all(SQRT_3);
 }
 
-// The same for a word of 16 bits, with the factor that makes the variance of these few numbers 1, too.
+// The same for the lower 16 bits of a word, with the factor that makes the variance of these few numbers 1, too.
 
-SPH_INLINE Vec uniform_of_half(Words word)
+SPH_INLINE Vec uniform_of_half(Words word, Vec sign)
 {
   constexpr double SQRT_3 = 1.7320508075688772935 * (1.0 + 0.5 / 4294967296.0);
   constexpr double UNIT = 1.0 / 32768.0;
-  return middle(word) * all(SQRT_3 * UNIT) - all(SQRT_3);
+  return middle(word, 0xffff) * (sign * all(SQRT_3 * UNIT)) - sign * all(SQRT_3);
 }

@@ -27,6 +27,8 @@
 //   copy_neighbors()    copy n indices, without the bits that LAMMPS puts into them, and fill up the
 //                       last block by fill, fill + 1, ...
 //   gather(from, i)     from[i[0]] to from[i[LANES-1]]
+//   indices_of(from, i) the whole numbers from[i[0]] to from[i[LANES-1]], for pick()
+//   pick(from, indices) numbers of from, at the indices modulo LANES
 //   sum(a)              of all lanes
 //   store_floats(to, a) in single precision
 //   prefetch(p)         the cache line of p will be read soon
@@ -93,6 +95,17 @@ namespace SPHDissipation {
     {
       return _mm512_setr_pd(from[i[0]], from[i[1]], from[i[2]], from[i[3]], from[i[4]], from[i[5]],
                             from[i[6]], from[i[7]]);
+    }
+    typedef __m512i Indices;
+    SPH_INLINE Indices indices_of(const int *from, const int *i)
+    {
+      return _mm512_cvtepi32_epi64(_mm256_setr_epi32(from[i[0]], from[i[1]], from[i[2]], from[i[3]],
+                                                     from[i[4]], from[i[5]], from[i[6]],
+                                                     from[i[7]]));
+    }
+    SPH_INLINE Vec pick(const double *from, Indices indices)
+    {
+      return _mm512_permutexvar_pd(indices, load(from));
     }
     SPH_INLINE Vec square_root(Vec a)
     {
@@ -275,6 +288,17 @@ namespace SPHDissipation {
     {
       return _mm256_setr_pd(from[i[0]], from[i[1]], from[i[2]], from[i[3]]);
     }
+    typedef __m256i Indices;    // each lane as a pair of 32-bit halves
+    SPH_INLINE Indices indices_of(const int *from, const int *i)
+    {
+      const __m256i two = _mm256_cvtepu32_epi64(_mm_setr_epi32(
+          2 * from[i[0]], 2 * from[i[1]], 2 * from[i[2]], 2 * from[i[3]]));
+      return _mm256_or_si256(two, _mm256_slli_epi64(_mm256_add_epi64(two, _mm256_set1_epi64x(1)), 32));
+    }
+    SPH_INLINE Vec pick(const double *from, Indices indices)
+    {
+      return _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(load(from)), indices));
+    }
     SPH_INLINE Vec square_root(Vec a)
     {
       return _mm256_sqrt_pd(a);
@@ -456,6 +480,15 @@ namespace SPHDissipation {
     SPH_INLINE Vec gather(const double *from, const int *i)
     {
       return from[*i];
+    }
+    typedef int Indices;
+    SPH_INLINE Indices indices_of(const int *, const int *)
+    {
+      return 0;
+    }
+    SPH_INLINE Vec pick(const double *from, Indices)
+    {
+      return *from;
     }
     SPH_INLINE Vec square_root(Vec a)
     {

@@ -34,7 +34,7 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest)
 {
   engine.accumulate_density(list, vest, omegaest);
   exchange.reverse({field(engine.density, &engine.density->c, 2)});
-  send(false, false, 0);
+  send(false, false, 0, 0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -57,14 +57,14 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool a
     rows.set_temperature(i);
     rows.set_conductor(i, not_fluid);
   });
-  send(relaxes, conducts, not_fluid);
+  send(relaxes, conducts, not_fluid, atom->nlocal);
 }
 
 /* ----------------------------------------------------------------------
-   what owned particles have to ghosts; then the densities
+   what owned particles have to ghosts; then the densities of all but the first ones, which have theirs
 ------------------------------------------------------------------------- */
 
-void DensityStage::send(bool with_strain, bool with_temperature, int not_fluid)
+void DensityStage::send(bool with_strain, bool with_temperature, int not_fluid, int first)
 {
   const int energy = engine.parameters().thermal_pressure ? 1 : 0;    // of ghosts, for it
   Conductor *const conductor = engine.conductor.data();
@@ -74,7 +74,6 @@ void DensityStage::send(bool with_strain, bool with_temperature, int not_fluid)
                     field(conductor, with_temperature ? &conductor->temperature : nullptr,
                           with_temperature ? 1 : 0)});
   const ParticleRows &rows = engine.rows();
-  const int first = (with_strain || with_temperature) ? atom->nlocal : 0;    // what is set already
   engine.for_each(atom->nlocal + atom->nghost - first, [&](int k) {
     rows.set_density(first + k);
     if (with_temperature) rows.set_conductor(first + k, not_fluid);

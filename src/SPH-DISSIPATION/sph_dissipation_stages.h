@@ -69,7 +69,7 @@ namespace SPHDissipation {
              int not_fluid);
 
    private:
-    void send(bool with_strain, bool with_temperature, int not_fluid);
+    void send(bool with_strain, bool with_temperature, int not_fluid, int first);
   };
 
   // How negative the coefficient of the bulk term of a particle may be:

@@ -18,8 +18,9 @@
 //   xor3(a, b, c)       a ^ b ^ c
 //   product(a, b)       of the lower 32 bits of each
 //   shifted<N>(a)       to the right by N bits
-//   masked(a, bits)     the bits of a that are set in bits, which is one number
-//   number(a)           as a number, a < 2^52; middle(a): a + 1/2
+//   masked(a, bits, b)  the bits of a that are set in bits, which is one number, ^ b
+//   number(a)           as a number, a < 2^52
+//   middle(a, bits)     the bits of a that are set in bits as a number, + 1/2
 //   pattern(a)          the bits of a number; value(a): the number that has these bits
 //   words(a)            whole numbers 0 <= a < 2^52
 
@@ -47,9 +48,9 @@ namespace SPHDissipation {
     {
       return _mm512_srli_epi64(a, N);
     }
-    SPH_INLINE Words masked(Words a, std::uint64_t bits)
+    SPH_INLINE Words masked(Words a, std::uint64_t bits, Words b)
     {
-      return _mm512_and_si512(a, all_words(bits));
+      return _mm512_ternarylogic_epi64(a, all_words(bits), b, 0x6a);
     }
     SPH_INLINE Words pattern(Vec a)
     {
@@ -80,9 +81,9 @@ namespace SPHDissipation {
     {
       return _mm256_srli_epi64(a, N);
     }
-    SPH_INLINE Words masked(Words a, std::uint64_t bits)
+    SPH_INLINE Words masked(Words a, std::uint64_t bits, Words b)
     {
-      return _mm256_and_si256(a, all_words(bits));
+      return _mm256_and_si256(a, all_words(bits)) ^ b;
     }
     SPH_INLINE Words pattern(Vec a)
     {
@@ -113,9 +114,9 @@ namespace SPHDissipation {
     {
       return a >> N;
     }
-    SPH_INLINE Words masked(Words a, std::uint64_t bits)
+    SPH_INLINE Words masked(Words a, std::uint64_t bits, Words b)
     {
-      return a & bits;
+      return (a & bits) ^ b;
     }
     SPH_INLINE Words pattern(Vec a)
     {
@@ -142,9 +143,9 @@ namespace SPHDissipation {
     {
       return value(a ^ all_words(OFFSET_PATTERN)) - all(OFFSET);
     }
-    SPH_INLINE Vec middle(Words a)
+    SPH_INLINE Vec middle(Words a, std::uint64_t bits)
     {
-      return value(a ^ all_words(OFFSET_PATTERN)) - all(OFFSET - 0.5);
+      return value(masked(a, bits, all_words(OFFSET_PATTERN))) - all(OFFSET - 0.5);
     }
     SPH_INLINE Words words(Vec a)
     {

@@ -39,6 +39,7 @@ static std::array<Words, 4> random_words(std::array<Words, 4> counter, Words key
 {
   Words word[2][4] = {{1, 2, 3, 4}, {counter[0], counter[1], counter[2], counter[3]}};
   philox<2>(word, PhiloxKeys(key0, key1));
+  for (Words &one : word[1]) one &= 0xffffffff;
   return {word[1][0], word[1][1], word[1][2], word[1][3]};
 }
 
@@ -66,13 +67,13 @@ TEST(Random, bits_above_32_do_not_count)
 TEST(Random, uniform_distribution)
 {
   const double edge = std::sqrt(3.0);
-  EXPECT_NEAR(uniform(0), -edge, 1e-9);
-  EXPECT_NEAR(uniform(0xffffffff), edge, 1e-9);
-  EXPECT_GT(uniform(0), -edge);
-  EXPECT_LT(uniform(0xffffffff), edge);
+  EXPECT_NEAR(uniform(0, 1.0), -edge, 1e-9);
+  EXPECT_NEAR(uniform(0xffffffff, 1.0), edge, 1e-9);
+  EXPECT_GT(uniform(0, 1.0), -edge);
+  EXPECT_LT(uniform(0xffffffff, 1.0), edge);
   for (const Words word : {1u, 77u, 0x7fffffffu, 0xfffffffeu}) {
-    EXPECT_NEAR(uniform(word), edge * (2.0 * (word + 0.5) / 4294967296.0 - 1.0), 1e-15);
-    EXPECT_NEAR(uniform(0xffffffff - word), -uniform(word), 1e-15);
+    EXPECT_NEAR(uniform(word, 1.0), edge * (2.0 * (word + 0.5) / 4294967296.0 - 1.0), 1e-15);
+    EXPECT_NEAR(uniform(0xffffffff - word, 1.0), -uniform(word, 1.0), 1e-15);
   }
 }
 
@@ -82,8 +83,9 @@ TEST(Random, uniform_distribution_of_half_a_word)
 {
   double mean = 0.0, square = 0.0;
   for (Words word = 0; word < 65536; word++) {
-    const double z = uniform_of_half(word);
-    EXPECT_NEAR(uniform_of_half(65535 - word), -z, 1e-9);
+    const double z = uniform_of_half(word, 1.0);
+    EXPECT_NEAR(uniform_of_half(65535 - word, 1.0), -z, 1e-9);
+    EXPECT_EQ(uniform_of_half(word, -1.0), -z);
     mean += z / 65536.0;
     square += z * z / 65536.0;
   }
@@ -108,7 +110,7 @@ static std::vector<std::array<double, 4>> many_numbers()
     for (Words low = 1; low <= 1000; low++)
       for (Words neighbor = 1; neighbor <= 100; neighbor++) {
         const auto word = random_words({low, low + neighbor, step, 0}, 4711, 1);
-        numbers.push_back({uniform(word[0]), uniform(word[1]), uniform(word[2]), uniform(word[3])});
+        numbers.push_back({uniform(word[0], 1.0), uniform(word[1], 1.0), uniform(word[2], 1.0), uniform(word[3], 1.0)});
       }
   return numbers;
 }
