@@ -128,7 +128,7 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
   const double *const inertia = Fields::of(atom)->inertia;
   constexpr double SMALLEST = 1.0e-300;    // not 0, for walls have a negative one
   row.resize(nall + BLOCK);
-  if (spins) spin_mobility.assign(nall + BLOCK, 0.0);
+  mobility.assign(nall + BLOCK, 0.0);
   std::fill_n(row.begin() + nall, BLOCK, NoiseRow());
   const double step = update->dt * force->ftm2v, boltz = force->boltz;
   std::vector<double> by_capacity(atom->ntypes + 1, 0.0);
@@ -146,21 +146,17 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
       return;
     }
     const double mass_inv = 1.0 / atom->rmass[i], capacity_inv = mass_inv * by_capacity[type];
-    row[i].mobility = step * mass_inv;
+    mobility[i] = step * mass_inv;
     row[i].softness = boltz * capacity_inv;
     if (i >= nlocal) return;
-    if (spins && inertia[i] > 0.0) spin_mobility[i] = row[i].mobility / inertia[i];
+    if (spins && inertia[i] > 0.0) row[i].spin_mobility = mobility[i] / inertia[i];
     const double heat = strains.thermal_energy(i);
     if (!(heat > 0.0)) count++;
     row[i].temperature = std::max(heat, 0.0) * capacity_inv;
   });
   data.row = row.data();
-  data.spin_mobility = spin_mobility.data();
-  const Field temperatures = field(row.data(), &row.data()->temperature, 1);
-  if (spins)
-    exchange.forward({temperatures, {spin_mobility.data(), 1, 1}});
-  else
-    exchange.forward({temperatures});
+  data.mobility = mobility.data();
+  exchange.forward({field(row.data(), &row.data()->temperature, spins ? 2 : 1)});
 
   if (!update->setupflag || continued) return;
   int without_all;
@@ -313,10 +309,10 @@ void NoiseStage::share_work()
   engine.for_each(nlocal, [&](int i) {
     if (row[i].temperature < 0.0) return;
     Acceleration &own = acceleration[i];
-    const double mobility = row[i].mobility / update->dt;
-    for (int d = 0; d < 3; d++) own.v[d] = mobility * engine.force[i].f[d];
+    const double by_dt = 1.0 / update->dt;
+    for (int d = 0; d < 3; d++) own.v[d] = by_dt * mobility[i] * engine.force[i].f[d];
     if (!spins) return;
-    own.by_inertia = spin_mobility[i] / update->dt;
+    own.by_inertia = by_dt * row[i].spin_mobility;
     for (int d = 0; d < 3; d++) own.w[d] = own.by_inertia * engine.torque[i].t[d];
   });
   Acceleration *const first = acceleration.data();
@@ -369,7 +365,7 @@ double NoiseStage::memory_usage() const
 {
   return static_cast<double>(row.capacity() * sizeof(NoiseRow) +
                              acceleration.capacity() * sizeof(Acceleration)) +
-      static_cast<double>((spin_mobility.capacity() + tag.capacity() + reach.capacity() +
+      static_cast<double>((mobility.capacity() + tag.capacity() + reach.capacity() +
                            share.capacity() + eta.capacity() + drag.capacity() +
                            numbers.capacity() + change.capacity() + flow.capacity() +
                            drag_force.capacity() + pressure.capacity()) *

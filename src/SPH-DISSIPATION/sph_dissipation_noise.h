@@ -70,7 +70,7 @@ namespace SPHDissipation {
     NoiseData data;
     std::vector<NoiseCoeff> coeff;
     std::vector<NoiseRow> row;
-    std::vector<double> spin_mobility;
+    std::vector<double> mobility;
     std::vector<double> tag, reach, share, eta, pressure, drag, drag_force;
     std::vector<double> numbers, change, flow;
     std::vector<Acceleration> acceleration;

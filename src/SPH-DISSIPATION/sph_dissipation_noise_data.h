@@ -54,9 +54,9 @@ namespace SPHDissipation {
 
   struct NoiseRow {
     double temperature;
-    double mobility;    // dt/m
-    double pressure;    // random pressure / c^2
-    double softness;    // k/C
+    double spin_mobility;    // dt/J
+    double pressure;         // random pressure / c^2
+    double softness;         // k/C
   };
 
   // of a particle, when the work of its pairs is shared
@@ -76,7 +76,7 @@ namespace SPHDissipation {
     const double *
         share;    // s eta/(D c), of those whose bulk term has a negative coefficient, see NoiseStage
     const NoiseRow *row;            // if ENERGY
-    const double *spin_mobility;    // dt/J, if ENERGY with spins
+    const double *mobility;         // dt/m, 0 of walls, if ENERGY
     bool unequal;                   // the masses of the particles of the fluid differ
     std::uint64_t seed, step;
     double heat;                // 2 k/dt, of the random flow of heat

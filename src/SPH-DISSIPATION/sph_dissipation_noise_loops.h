@@ -248,7 +248,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
       friction = kept(next);
       pressure = kept(next);
       if constexpr (SPIN) spin_mobility = kept(next);
-      mobility = data.unequal ? kept(next) : all(data.row[i].mobility);
+      mobility = data.unequal ? kept(next) : all(data.mobility[i]);
       vv *= common;
       by_metric *= common;
     }
@@ -341,8 +341,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   {
     const NoiseRow &own = data.row[i];
     const Vec by_i = own.pressure * pressing, by_j = pressure * pressing;
-    const Vec heat = 0.5 * rsq * (by_j * by_j * own.mobility - by_i * by_i * mobility);
-    return data.unequal ? heat + 0.25 * square * (own.mobility - mobility) : heat;
+    const Vec heat = 0.5 * rsq * (by_j * by_j * data.mobility[i] - by_i * by_i * mobility);
+    return data.unequal ? heat + 0.25 * square * (data.mobility[i] - mobility) : heat;
   }
 
   // the same for the torques on both and the one on j, which is opposite on i
@@ -355,7 +355,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
       square_i += torque_i * torque_i;
       square_j += torque_j * torque_j;
     }
-    return 0.25 * (square_i * data.spin_mobility[i] - square_j * spin_mobility);
+    return 0.25 * (square_i * data.row[i].spin_mobility - square_j * spin_mobility);
   }
 
  private:
@@ -367,7 +367,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND>> coeff;
   int i;
   double *next_number, *next;    // of what begin() has kept of the pairs of i: random numbers, and all else
-  enum { TEMPERATURE, MOBILITY, PRESSURE, SOFTNESS };
+  enum { TEMPERATURE, SPIN_MOBILITY, PRESSURE, SOFTNESS };
   Vec mobility, pressure, spin_mobility;    // of j
 
   // random numbers of N blocks
@@ -376,6 +376,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   {
     Words word[N][4];
     Vec sign[N];
+    if constexpr (ENERGY)
+      for (int l = 0; l < N * LANES; l++) prefetch(data.row + j[l]);
     for (int k = 0; k < N; k++) {
       const Vec tag = gather(data.tag, j + k * LANES);
       set_counter(word[k], step, data.tag[i], tag);
@@ -416,8 +418,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
     if constexpr (CONDUCTS) softness *= 1.0 - with_wall * with_wall;
     keep(both.friction(softness));
     keep(other[PRESSURE]);
-    if constexpr (SPIN) keep(gather(data.spin_mobility, j));
-    if (data.unequal) keep(other[MOBILITY]);
+    if constexpr (SPIN) keep(other[SPIN_MOBILITY]);
+    if (data.unequal) keep(gather(data.mobility, j));
   }
 
   SPH_INLINE void keep(Vec a)
