@@ -376,8 +376,6 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   {
     Words word[N][4];
     Vec sign[N];
-    if constexpr (ENERGY)
-      for (int l = 0; l < N * LANES; l++) prefetch(data.row + j[l]);
     for (int k = 0; k < N; k++) {
       const Vec tag = gather(data.tag, j + k * LANES);
       set_counter(word[k], step, data.tag[i], tag);
