@@ -425,6 +425,11 @@ namespace SPHDissipation {
           load_pair(pair, pi, particle, j, slope, vol, g);
           load_4_columns<WIDTH<Acceleration>>(numbers(noise.acceleration), j, a_j);
           load_4_columns<WIDTH<NoiseRow>>(numbers(noise.row), j, other);
+          for (int l = 0; l < LANES; l++) {
+            prefetch(particle + j[l + AHEAD]);
+            prefetch(noise.acceleration + j[l + AHEAD]);
+            prefetch(noise.row + j[l + AHEAD]);
+          }
           if (!data.par->uniform) coeffs.load(table, i, j);
           const OwnTemperatures both(all(own.temperature), larger(other[0], all(0.0)));
           pair.vv *= both.friction(own.softness + other[3]);
