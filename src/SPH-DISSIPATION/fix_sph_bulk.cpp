@@ -712,9 +712,8 @@ void FixSPHBulk::integrate(Half half)
         rest[0] =
             rest_of_heat(step, atom->v[i], atom->vest[i], atom->f[i], forces[i].f, 1.0 / mass);
         if (spins)
-          rest[1] =
-              rest_of_heat(step, atom->omega[i], kept.omegaest[i], atom->torque[i], torques[i].t,
-                           TimeStep::inverse_inertia(mass, kept.inertia[i]));
+          rest[1] = rest_of_heat(step, atom->omega[i], kept.omegaest[i], atom->torque[i],
+                                 torques[i].t, TimeStep::inverse_inertia(mass, kept.inertia[i]));
       }
       if (half == BEGIN)
         step.begin(particles, i);

@@ -282,7 +282,7 @@ namespace SPHDissipation {
     LoopData data;
     ParticleRows atom_rows;
     Threads one_thread, *threads;
-    double *weights;    // reference volumes of atoms
+    double *weights;           // reference volumes of atoms
     std::vector<int> types;    // of owned, ghost, and spare particles, if their coefficients differ
 
     // rows first_row[k] ... first_row[k+1] - 1 of the neighbor list are those of thread k, whose pairs

@@ -115,8 +115,7 @@ namespace SPHDissipation {
     const double background = par.pb_el / par.rho0 * (1.0 - rest);
     if (eos == Eos::IDEAL) return background;
     const double x = rho / par.rho0;
-    if (eos == Eos::LINEAR)
-      return par.c_el * par.c_el * (std::log(x) + rest - 1.0) + background;
+    if (eos == Eos::LINEAR) return par.c_el * par.c_el * (std::log(x) + rest - 1.0) + background;
     const double power = (par.gamma == 1.0)
         ? std::log(x)
         : (tait_power(x, par.gamma) * rest - 1.0) / (par.gamma - 1.0);

@@ -316,8 +316,8 @@ namespace SPHDissipation {
           } else if constexpr (Form::CENTRAL || Noise::ON)
             pair.by_metric = pair.vv / (metric + TINY);
           if constexpr (Noise::ON) {
-            noise.draw(j, pair.r[0], pair.r[1], pair.r[2], slope, pair.vv, metric,
-                       pair.by_metric, inverse);
+            noise.draw(j, pair.r[0], pair.r[1], pair.r[2], slope, pair.vv, metric, pair.by_metric,
+                       inverse);
             pair.central += noise.central;
           }
           const Vec vv_slope = pair.vv;

@@ -75,9 +75,9 @@ namespace SPHDissipation {
     const double *reach;    // c sqrt(V), if DIRECTED
     const double *
         share;    // s eta/(D c), of those whose bulk term has a negative coefficient, see NoiseStage
-    const NoiseRow *row;            // if ENERGY
-    const double *mobility;         // dt/m, 0 of walls, if ENERGY
-    bool unequal;                   // the masses of the particles of the fluid differ
+    const NoiseRow *row;       // if ENERGY
+    const double *mobility;    // dt/m, 0 of walls, if ENERGY
+    bool unequal;              // the masses of the particles of the fluid differ
     std::uint64_t seed, step;
     double heat;                // 2 k/dt, of the random flow of heat
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData

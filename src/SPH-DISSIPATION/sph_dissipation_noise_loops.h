@@ -120,7 +120,7 @@ struct OwnTemperatures {
     half_mean = own * its * inverse;
   }
   SPH_INLINE Vec mean() const { return half_mean + half_mean; }    // of the inverse temperatures
-  SPH_INLINE Vec friction(Vec softness) const    // factor of it, sum of both
+  SPH_INLINE Vec friction(Vec softness) const                      // factor of it, sum of both
   {
     return 1.0 - half_mean * inverse * softness;
   }
@@ -366,7 +366,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   const CoeffTable<NoiseCoeff> &table;
   Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND>> coeff;
   int i;
-  double *next_number, *next;    // of what begin() has kept of the pairs of i: random numbers, and all else
+  double *next_number,
+      *next;    // of what begin() has kept of the pairs of i: random numbers, and all else
   enum { TEMPERATURE, SPIN_MOBILITY, PRESSURE, SOFTNESS };
   Vec mobility, pressure, spin_mobility;    // of j
 
@@ -385,8 +386,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
     for (int k = 0; k < N; k++) {
       const Numbers random(word[k], sign[k]);
       for (int c = 0; c < Numbers::N; c++)
-        if (Numbers::is_used(c))
-          keep(random.z[c]);
+        if (Numbers::is_used(c)) keep(random.z[c]);
     }
   }
 

@@ -291,9 +291,10 @@ namespace SPHDissipation {
     typedef __m256i Indices;    // each lane as a pair of 32-bit halves
     SPH_INLINE Indices indices_of(const int *from, const int *i)
     {
-      const __m256i two = _mm256_cvtepu32_epi64(_mm_setr_epi32(
-          2 * from[i[0]], 2 * from[i[1]], 2 * from[i[2]], 2 * from[i[3]]));
-      return _mm256_or_si256(two, _mm256_slli_epi64(_mm256_add_epi64(two, _mm256_set1_epi64x(1)), 32));
+      const __m256i two = _mm256_cvtepu32_epi64(
+          _mm_setr_epi32(2 * from[i[0]], 2 * from[i[1]], 2 * from[i[2]], 2 * from[i[3]]));
+      return _mm256_or_si256(two,
+                             _mm256_slli_epi64(_mm256_add_epi64(two, _mm256_set1_epi64x(1)), 32));
     }
     SPH_INLINE Vec pick(const double *from, Indices indices)
     {
