@@ -110,7 +110,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct NoiseUses {
   }
 };
 
-// Noise and friction of a pair of particles with temperatures of their own, physics on the theory page
+// A pair of particles with temperatures of their own: the noise has twice T_i T_j/(T_i + T_j), the friction the factor
+// 1 - T_i T_j/(T_i + T_j)^2 (k/C_i + k/C_j), see the theory page
 
 struct OwnTemperatures {
   Vec inverse, half_mean;
@@ -119,8 +120,8 @@ struct OwnTemperatures {
     inverse = 1.0 / (own + its + TINY);
     half_mean = own * its * inverse;
   }
-  SPH_INLINE Vec mean() const { return half_mean + half_mean; }    // of the inverse temperatures
-  SPH_INLINE Vec friction(Vec softness) const                      // factor of it, sum of both
+  SPH_INLINE Vec of_noise() const { return half_mean + half_mean; }
+  SPH_INLINE Vec friction(Vec softness) const    // sum of both k/C
   {
     return 1.0 - half_mean * inverse * softness;
   }
@@ -366,8 +367,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   const CoeffTable<NoiseCoeff> &table;
   Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND>> coeff;
   int i;
-  double *next_number,
-      *next;    // of what begin() has kept of the pairs of i: random numbers, and all else
+  double *next_number, *next;    // kept by begin() for the pairs of i: random numbers, all else
   enum { TEMPERATURE, SPIN_MOBILITY, PRESSURE, SOFTNESS };
   Vec mobility, pressure, spin_mobility;    // of j
 
@@ -411,7 +411,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
       keep(with_wall);
     }
     const OwnTemperatures both(own, its);
-    keep(both.mean());
+    keep(both.of_noise());
     Vec softness = data.row[i].softness + other[SOFTNESS];
     if constexpr (CONDUCTS) softness *= 1.0 - with_wall * with_wall;
     keep(both.friction(softness));

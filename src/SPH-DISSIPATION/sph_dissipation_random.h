@@ -18,8 +18,7 @@
 
 // Four random words of 32 bits: Philox4x32-7, J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw,
 // Parallel random numbers: as easy as 1, 2, 3, Proc. SC11 (2011): the fewest rounds that pass all tests
-// of BigCrush.  Only the lower 32 bits of counter
-// and keys count.
+// of BigCrush.  Only the lower 32 bits of counter and keys count.
 
 constexpr int ROUNDS = 7;
 
