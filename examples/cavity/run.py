@@ -240,7 +240,7 @@ def main():
     jobs = {names[key]: values for key, values in variables.items()}
     disorder = "re1000.noshift"         # for the figure of the particles only
     if not (args.quick or args.cases or args.size):
-        jobs[disorder] = {"N": 50, **CASES["re1000"][2], "shift": 0, "end": 20, "mean": 5}
+        jobs[disorder] = {"N": 50, **CASES["re1000"][2], "c0": 7, "shift": 0, "end": 20, "mean": 5}
     example.run(jobs)
     references = References()
     runs = {key: Run(example.out, *key, variables[key], references) for key in keys}
