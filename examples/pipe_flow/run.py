@@ -89,7 +89,7 @@ class Run:
         for t, frame in self.frames.items():
             u = self.exact.u(frame["x"], frame["y"], t)
             found.append([np.linalg.norm(frame["vx"] - u), np.linalg.norm(frame["vy"])] / np.linalg.norm(u))
-        return np.array(found)[1:].max(axis=0)
+        return np.array(found)[1:].max(axis=0) if len(found) > 1 else (np.nan, np.nan)
 
 
 def draw_fields(path, runs):
