@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from helpers import INTEGRATE, disordered, dump, fluid, header, relative
+from helpers import INTEGRATE, SUPPORT, disordered, dump, fluid, header, relative
 
 INSTRUCTION_SETS = {"none": set(), "avx2": {"avx2", "fma"},
                     "avx512": {"avx2", "fma", "avx512f", "avx512dq", "avx512vl"}}    # and what the processor needs
@@ -51,6 +51,26 @@ def test_instruction_sets_agree(lammps, kernel, options):
     for name in available(lammps)[1:]:
         for field, value in fields(lammps, particles, f"kernel {kernel} {options} simd {name}").items():
             assert relative(value - expected[field], expected[field]) < BOUND, (name, field)
+
+
+@pytest.mark.parametrize("noise", ["", "temp 0.1 4711", "temp energy 30.0 4711"])
+@pytest.mark.parametrize("ntypes", [2, 4, 5, 8, 9])
+def test_coefficients_of_several_types(lammps, ntypes, noise):
+    """As many as a vector has places, or fewer, or more."""
+    disordered(3, (6, 6, 7)).write(lammps.path("box.data"))
+    coeff = "".join(f"pair_coeff {t} {t} 1.0 10.0 {0.1 * t} {0.3 * t} {SUPPORT[3]}\n" for t in range(1, ntypes + 1))
+
+    def forces(name):
+        lammps(header(3) + f"read_data box.data extra/atom/types {ntypes - 1}\nvariable t atom 1+id%{ntypes}\n"
+               + "set group all type v_t\nset group all sph/e 90.0\n"
+               + fluid(3, f"{noise} shear espanol simd {name}", coeff=coeff) + INTEGRATE + dump("out.dump") + "run 1\n")
+        frame = lammps.frame("out.dump")
+        return {field: frame[field] for field in ("f", "desph")}
+
+    expected = forces("none")
+    for name in available(lammps)[1:]:
+        for field, value in forces(name).items():
+            assert relative(value - expected[field], expected[field]) < 10 * BOUND, (name, field)
 
 
 @pytest.mark.parametrize("support", [0.9, 1.1, 1.3, 1.5, 1.7, 1.9])
