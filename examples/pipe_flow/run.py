@@ -115,7 +115,13 @@ def draw_fields(path, runs):
 
 def draw_decay(path, runs, wrong):
     """As figure 5 of the paper, with what goes wrong beside it."""
+    def shown(error):
+        """Up to the first value that lies outside of the axis."""
+        outside = np.nonzero(np.abs(error) > most)[0]
+        return np.where(np.arange(len(error)) > outside[0], np.nan, error) if len(outside) else error
+
     plt = pyplot()
+    most = 0.25
     figure, axes = plt.subplots(2, 2, figsize=(9.6, 7.4))
     axes = axes.ravel()
     for color, (sigma, run) in zip(("C0", "C1", "C2", "C3"), runs.items()):
@@ -129,13 +135,13 @@ def draw_decay(path, runs, wrong):
     axes[0].legend(title="lines: particles, dash-dotted: exact")
     for number, (what, run) in enumerate(wrong.items()):
         look = {"color": ("C4", "C5", "C6")[number % 3], "ls": "--" if number < 3 else ":"}
-        axes[2].plot(run.at, run.u / run.exact.center(run.at) - 1, label=what, **look)
-        axes[3].plot(run.time, run.energy / run.exact.kinetic(run.time) - 1, **look)
+        axes[2].plot(run.at, shown(run.u / run.exact.center(run.at) - 1), label=what, **look)
+        axes[3].plot(run.time, shown(run.energy / run.exact.kinetic(run.time) - 1), **look)
     axes[0].set(title="velocity at the centre over $U_0$")
     axes[1].set(title="kinetic energy over $\\rho_0 U_0^2 L^2$")
-    axes[2].set(ylim=(-0.2, 0.2), title="velocity at the centre, relative error")
-    axes[3].set(ylim=(-0.2, 0.2), title="kinetic energy, relative error")
-    axes[2].legend(title=f"for $\\sigma = {next(iter(wrong.values())).sigma}$ with")
+    axes[2].set(ylim=(-most, most), title="velocity at the centre, relative error")
+    axes[3].set(ylim=(-most, most), title="kinetic energy, relative error")
+    axes[2].legend(ncols=2, loc="upper center", fontsize="small", title=f"for $\\sigma = {next(iter(wrong.values())).sigma}$ with")
     for axis in axes:
         axis.set_xlabel("time $t U_0/L$")
     save(figure, path)
