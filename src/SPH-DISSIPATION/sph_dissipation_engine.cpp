@@ -317,7 +317,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.numneigh = list->numneigh;
   data.firstneigh = list->firstneigh;
   data.type = atom->type;
-  if (!par->uniform) {
+  if (!par->uniform) {    // spare particles have a type, too
     types.assign(atom->type, atom->type + nall);
     types.resize(nall + BLOCK, 1);
     data.type = types.data();
@@ -513,8 +513,7 @@ void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum 
   part.force = force_out;
   part.torque = torque_out;
   part.divergence = divergence_out;
-  if (noisy_loop) part.random = room_for_numbers(0, part);
-  (noisy_loop ? noisy_loop : force_loop)(part);
+  force_loop(part);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -148,7 +148,7 @@ namespace SPHDissipation {
     }
 
     // Coefficients of all types, N numbers of a Row for each two of them
-    // Few types, as many as lanes, have their coefficients with type i in one vector.
+    // Those of type i with all others are in one vector each if there are at most as many types as lanes.
     template <class Row> struct CoeffTable {
       static constexpr int N = WIDTH<Row>;
       const Row *const row;
@@ -169,7 +169,7 @@ namespace SPHDissipation {
       }
     };
 
-    // those of a block of pairs, of which a loop uses some; at first those of type 1
+    // Coefficients of a block of pairs, of which a loop uses some; before load() those of type 1
     template <class Row, class Used> struct Coeffs {
       static constexpr int N = WIDTH<Row>;
       Vec a[N];
@@ -366,9 +366,11 @@ namespace SPHDissipation {
             }
             given += noise.given(square, rsq, pressing);
             if constexpr (Noise::CONDUCTS) {
-              Vec half = heat - work;    // a wall gives its one to the fluid
+              // A wall gives its half to the fluid.  The heat given so far means nothing for a wall: a factor of zero
+              // removes it without loss of digits, however large it is.
+              Vec half = heat - work;
               if constexpr (Form::SPINS) half += pair.heat[VORTEX] + pair.heat[DIFFUSION];
-              given += noise.flow + noise.wall * (half - noise.wall * given);
+              given = (1.0 - noise.wall * noise.wall) * given + noise.flow + noise.wall * half;
             }
             heat -= work - given;
             heat_j -= work + given;
@@ -431,8 +433,9 @@ namespace SPHDissipation {
             prefetch(noise.row + j[l + AHEAD]);
           }
           if (!data.par->uniform) coeffs.load(table, i, j);
-          const OwnTemperatures both(all(own.temperature), larger(other[0], all(0.0)));
-          pair.vv *= both.friction(own.softness + other[3]);
+          const OwnTemperatures both(all(own.temperature),
+                                     larger(other[NoiseRow::TEMPERATURE], all(0.0)));
+          pair.vv *= both.friction(own.softness + other[NoiseRow::SOFTNESS]);
           pair.by_metric = pair.vv / (metric_of<Form::BY_DISTANCE>(dot(pair.r, pair.r)) + TINY);
           pair.central = all(0.0);
           Form::add_central(pair);
@@ -448,7 +451,8 @@ namespace SPHDissipation {
           Vec pressing = slope;
           if (weight) pressing *= weight[i] * gather(weight, j);
           Vec heat = 2.0 * pressing *
-                  ((pi.g - own.pressure) * dot(pair.r, a_j) + (g - other[2]) * dot(pair.r, a_i)) +
+                  ((pi.g - own.pressure) * dot(pair.r, a_j) +
+                   (g - other[NoiseRow::PRESSURE]) * dot(pair.r, a_i)) +
               dot(pair.f, a_i) + dot(pair.f, a_j);
           if constexpr (Form::SPINS) {
             Vec turn[4];
@@ -459,7 +463,8 @@ namespace SPHDissipation {
                   on_i * (mine.w[d] - mine.by_inertia * on_i) - on_j * (turn[d] - a_j[3] * on_j);
             }
           }
-          heat *= quarter * (1.0 - if_positive(-other[0], all(1.0)));    // none with walls
+          heat *= quarter *
+              (1.0 - if_positive(-other[NoiseRow::TEMPERATURE], all(1.0)));    // none with walls
           total += heat;
           add_column<1>(noise.total, j, -heat);
         }

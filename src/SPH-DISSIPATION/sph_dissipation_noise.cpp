@@ -306,17 +306,17 @@ void NoiseStage::share_work()
   const bool spins = engine.has_spin();
   acceleration.assign(nall + BLOCK, Acceleration());
   flow.assign(nall + BLOCK, 0.0);
+  const double by_dt = 1.0 / update->dt;
   engine.for_each(nlocal, [&](int i) {
     if (row[i].temperature < 0.0) return;
     Acceleration &own = acceleration[i];
-    const double by_dt = 1.0 / update->dt;
     for (int d = 0; d < 3; d++) own.v[d] = by_dt * mobility[i] * engine.force[i].f[d];
     if (!spins) return;
     own.by_inertia = by_dt * row[i].spin_mobility;
     for (int d = 0; d < 3; d++) own.w[d] = own.by_inertia * engine.torque[i].t[d];
   });
   Acceleration *const first = acceleration.data();
-  exchange.forward({field(first, first->v, spins ? 8 : 4)});
+  exchange.forward({field(first, first->v, spins ? 7 : 3)});
   data.dt = update->dt;
   data.acceleration = first;
   data.total = flow.data();

@@ -54,9 +54,10 @@ namespace SPHDissipation {
 
   struct NoiseRow {
     double temperature;
-    double spin_mobility;    // dt/J
-    double pressure;         // random pressure / c^2
-    double softness;         // k/C
+    double spin_mobility;                                       // dt/J
+    double pressure;                                            // random pressure / c^2
+    double softness;                                            // k/C
+    enum { TEMPERATURE, SPIN_MOBILITY, PRESSURE, SOFTNESS };    // numbers of a row
   };
 
   // of a particle, when the work of its pairs is shared

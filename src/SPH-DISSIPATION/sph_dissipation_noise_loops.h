@@ -77,8 +77,8 @@ struct NoiseStep {
   }
 };
 
-// Counter of a pair: both IDs, the step.  IDs of more than 32 bits have at most 46; the upper bits of
-// both go to those of the step, beside the 4 which that needs then.
+// Counter of a pair: both IDs, the step.  Of IDs of more than 32 bits the lower 46 count; the upper bits
+// of both go to those of the step, beside the 4 which that needs then.
 
 SPH_INLINE void set_counter(Words *word, const NoiseStep &step, double tag_i, Vec tag_j)
 {
@@ -368,7 +368,6 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND>> coeff;
   int i;
   double *next_number, *next;    // kept by begin() for the pairs of i: random numbers, all else
-  enum { TEMPERATURE, SPIN_MOBILITY, PRESSURE, SOFTNESS };
   Vec mobility, pressure, spin_mobility;    // of j
 
   // random numbers of N blocks
@@ -396,7 +395,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   {
     Vec other[WIDTH<NoiseRow>];
     load_4_columns<WIDTH<NoiseRow>>(numbers(data.row), j, other);
-    Vec own = all(data.row[i].temperature), its = other[TEMPERATURE], with_wall = all(0.0);
+    Vec own = all(data.row[i].temperature), its = other[NoiseRow::TEMPERATURE],
+        with_wall = all(0.0);
     if constexpr (CONDUCTS) {
       keep(larger(its, -its));
       if (data.row[i].temperature < 0.0) {
@@ -405,18 +405,18 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
         own = its;
       } else {
         with_wall = if_positive(-its, all(1.0));
-        keep(1.0 - with_wall + with_wall * other[PRESSURE]);
+        keep(1.0 - with_wall + with_wall * other[NoiseRow::PRESSURE]);
         its += with_wall * (own - its);
       }
       keep(with_wall);
     }
     const OwnTemperatures both(own, its);
     keep(both.of_noise());
-    Vec softness = data.row[i].softness + other[SOFTNESS];
+    Vec softness = data.row[i].softness + other[NoiseRow::SOFTNESS];
     if constexpr (CONDUCTS) softness *= 1.0 - with_wall * with_wall;
     keep(both.friction(softness));
-    keep(other[PRESSURE]);
-    if constexpr (SPIN) keep(other[SPIN_MOBILITY]);
+    keep(other[NoiseRow::PRESSURE]);
+    if constexpr (SPIN) keep(other[NoiseRow::SPIN_MOBILITY]);
     if (data.unequal) keep(gather(data.mobility, j));
   }
 

@@ -126,9 +126,7 @@ namespace SPHDissipation {
           if (a != 0.0) inviscid = false;
         }
     for (int i = 1; i < ntypes_1 && own_temperatures; i++)    // of which the noise has coefficients
-      if (type[i].heat_capacity != type[1].heat_capacity ||
-          type[i].keywords.a[CONDUCTIVITY] != type[1].keywords.a[CONDUCTIVITY])
-        uniform = false;
+      if (type[i].keywords.a[CONDUCTIVITY] != type[1].keywords.a[CONDUCTIVITY]) uniform = false;
   }
 
   inline void Parameters::set_heat()

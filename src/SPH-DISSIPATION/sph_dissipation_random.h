@@ -17,8 +17,8 @@
 // guard and without a namespace of its own, as sph_dissipation_kernel_shapes.h.
 
 // Four random words of 32 bits: Philox4x32-7, J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw,
-// Parallel random numbers: as easy as 1, 2, 3, Proc. SC11 (2011): the fewest rounds that pass all tests
-// of BigCrush.  Only the lower 32 bits of counter and keys count.
+// Parallel random numbers: as easy as 1, 2, 3, Proc. SC11 (2011).  7 are the fewest rounds that pass all
+// tests of BigCrush.  Only the lower 32 bits of counter and keys count.
 
 constexpr int ROUNDS = 7;
 

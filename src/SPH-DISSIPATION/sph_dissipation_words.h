@@ -19,7 +19,6 @@
 //   product(a, b)       of the lower 32 bits of each
 //   shifted<N>(a)       to the right by N bits
 //   masked(a, bits, b)  the bits of a that are set in bits, which is one number, ^ b
-//   number(a)           as a number, a < 2^52
 //   middle(a, bits)     the bits of a that are set in bits as a number, + 1/2
 //   pattern(a)          the bits of a number; value(a): the number that has these bits
 //   words(a)            whole numbers 0 <= a < 2^52
@@ -139,10 +138,6 @@ namespace SPHDissipation {
     constexpr std::uint64_t OFFSET_PATTERN = 0x4330000000000000;
     constexpr double OFFSET = 4503599627370496.0;
 
-    SPH_INLINE Vec number(Words a)
-    {
-      return value(a ^ all_words(OFFSET_PATTERN)) - all(OFFSET);
-    }
     SPH_INLINE Vec middle(Words a, std::uint64_t bits)
     {
       return value(masked(a, bits, all_words(OFFSET_PATTERN))) - all(OFFSET - 0.5);
