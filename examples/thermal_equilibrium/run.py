@@ -22,13 +22,18 @@ SMALL, STEPS = 32, 10000
 TEMPERATURE = 0.003    # of all particles at RATE dt <= 0.1 and this size
 # columns of the temperature file: x, y, z, spin of all, of light, of heavy particles; between the steps
 NAMES = {1: "x", 2: "y", 4: "spin", 5: "light, x", 6: "light, y", 9: "heavy, x", 10: "heavy, y"}
+ALIKE = ((1, 2), (4,), (5, 6, 9, 10))       # as many degrees of freedom, hence the same standard error
 
 
 def temperatures(path):
-    """Means over the run, and their standard errors from its pieces."""
+    """Means over the run, and their standard errors from its pieces, of which there are few: columns alike share theirs."""
     data = np.loadtxt(path)
     data = data[data[:, 0] >= data[0, 0]]
-    return data[:, 1:].mean(axis=0), data[:, 1:].std(axis=0, ddof=1) / np.sqrt(len(data))
+    variance = data[:, 1:].var(axis=0, ddof=1) / len(data)
+    for columns in ALIKE:
+        same = [column - 1 for column in columns]
+        variance[same] = variance[same].mean()
+    return data[:, 1:].mean(axis=0), np.sqrt(variance)
 
 
 def histogram(path):

@@ -14,6 +14,7 @@
 #include "sph_dissipation_noise.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
@@ -72,14 +73,19 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
 }
 
 /* ----------------------------------------------------------------------
-   the random numbers continue if reset_timestep goes back; rerun repeats them
+   The random numbers continue if reset_timestep goes back: the forces of a setup have those of the last step, others
+   those of the next one.  rerun repeats them.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::count_step()
 {
   if (input->command && strcmp(input->command, "rerun") == 0) return;
-  if (update->ntimestep < clock.step) clock.offset += clock.step - update->ntimestep;
-  clock.step = update->ntimestep;
+  const bigint now = update->ntimestep;
+  if (update->setupflag) {
+    if (now < clock.step) clock.offset += clock.step - now;
+  } else if (now < clock.step || (now == clock.step && now == update->firststep + 1))
+    clock.offset += clock.step + 1 - now;
+  clock.step = now;
 }
 
 /* ----------------------------------------------------------------------
@@ -158,14 +164,28 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
   data.mobility = mobility.data();
   exchange.forward({field(row.data(), &row.data()->temperature, spins ? 2 : 1)});
 
-  if (!update->setupflag || continued) return;
-  int without_all;
-  MPI_Allreduce(&without, &without_all, 1, MPI_INT, MPI_SUM, world);
-  if (without_all)
+  if (!update->setupflag) return;
+  int own[2] = {without, 0}, all[2];
+  for (int i = 0; i < nlocal; i++)
+    if (row[i].softness > 1.0) own[1]++;
+  MPI_Allreduce(own, all, 2, MPI_INT, MPI_SUM, world);
+  if (all[0] && !continued)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style with temp energy: {} particles have no heat, an internal energy that "
                "does not exceed their elastic energy; use set ... sph/e",
-               without_all);
+               all[0]);
+  if (comm->me != 0) return;
+  if (all[0])
+    error->warning(FLERR,
+                   "Pair style with temp energy: {} particles have no heat, and no noise until "
+                   "friction or conduction warms them",
+                   all[0]);
+  if (all[1] && !continued)
+    error->warning(FLERR,
+                   "Pair style with temp energy: {} particles have a heat capacity, mass times cv, "
+                   "below Boltzmann's constant, for which their friction may be negative; use a "
+                   "larger cv",
+                   all[1]);
 }
 
 /* ----------------------------------------------------------------------
@@ -263,7 +283,7 @@ void NoiseStage::draw_for_strain()
   const int nlocal = atom->nlocal, n = nlocal + BLOCK;
   constexpr int AT_ONCE = 4;    // numbers of a counter
   const StrainRows strains = engine.strains();
-  data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
+  data.step = static_cast<std::uint64_t>(clock.step + 1 + clock.offset);
   numbers.resize(AT_ONCE * static_cast<std::size_t>(n));
   change.assign(par.nprocess * static_cast<std::size_t>(nlocal), 0.0);
   for (int first = 0; first < par.nprocess; first += AT_ONCE) {

@@ -119,8 +119,10 @@ def test_random_numbers_go_on_after_reset_timestep(lammps):
     lammps(deck() + "run 4\nreset_timestep 0\nrun 2\nreset_timestep 0\nrun 2\nwrite_restart eight.restart\nrun 2\n"
            + dump("parts.dump") + "run 0\n")
     lammps("read_restart eight.restart\n" + rest + "reset_timestep 1\nrun 2\n" + dump("read.dump") + "run 0\n", ranks=2)
+    lammps(deck() + "thermo_style custom step\nrun 4\nreset_timestep 0\nrun 2 pre no\nreset_timestep 1\nrun 1 pre no\nreset_timestep 1\nrun 1 pre no\n"
+           "reset_timestep 0\nrun 2\n" + dump("pre.dump") + "run 0\n")
     whole = lammps.frame("whole.dump")
-    for name in ("parts.dump", "read.dump"):
+    for name in ("parts.dump", "read.dump", "pre.dump"):
         for field in "xvf":
             assert relative(lammps.frame(name)[field] - whole[field], whole[field]) < 1e-11, (name, field)
 

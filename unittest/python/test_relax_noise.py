@@ -77,6 +77,13 @@ def test_same_noise_after_a_restart(lammps, ranks):
         same(one, other)
 
 
+def test_noise_goes_on_after_reset_timestep(lammps):
+    particles = disordered(2, 12, spread=0.04)
+    for name, runs in (("whole.dump", "run 8\n"), ("parts.dump", "run 4\nreset_timestep 0\nrun 2 pre no\nreset_timestep 1\nrun 2\n")):
+        lammps(noisy(lammps, particles) + "thermo_style custom step\n" + runs + dump(name, 1, columns(2)) + "run 0\n")
+    same(lammps.frame("whole.dump"), lammps.frame("parts.dump"), bound=1e-11)
+
+
 def test_other_seeds_and_steps_have_other_noise(lammps):
     particles = disordered(2, 30, spread=0.04)
     found = []
