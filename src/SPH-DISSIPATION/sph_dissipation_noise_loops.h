@@ -406,7 +406,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
       } else {
         with_wall = if_positive(-its, all(1.0));
         keep(1.0 - with_wall + with_wall * other[NoiseRow::PRESSURE]);
-        its += with_wall * (own - its);
+        its = (1.0 - with_wall) * its + with_wall * own;
       }
       keep(with_wall);
     }

@@ -325,9 +325,9 @@ namespace SPHDissipation {
       const double even = std::pow(volume, 1.0 / dim);
       const Eigen3 principal = eigen(near);
       int least = 0;
-      double product = 1.0;
+      double mean = 1.0;    // geometric, of the roots: the product may leave the range of numbers
       for (int d = 0; d < dim; d++) {
-        product *= principal.value[d];
+        mean *= std::pow(std::max(principal.value[d], 0.0), 1.0 / dim);
         if (principal.value[d] < (1.0 - EQUAL) * principal.value[least]) least = d;
       }
       for (int d = 0; d < 3; d++) axis[d] = principal.axis[least][d];
@@ -335,10 +335,9 @@ namespace SPHDissipation {
       // all neighbors on a line, or none: no spacing across is known
 
       constexpr double MOST = 2.0;
-      const double relative = std::pow(std::max(product, 0.0), 1.0 / dim);
       ratio = MOST;
       if (principal.value[least] > 0.0)
-        ratio = std::min(std::pow(relative / principal.value[least], 0.125), MOST);
+        ratio = std::min(std::pow(mean / principal.value[least], 0.125), MOST);
       return ratio * even;
     }
 

@@ -273,18 +273,21 @@ TEST(SplitHeat, of_a_rod)
 TEST(SplitArrangement, widest_axis)
 {
   for (const int dim : {2, 3}) {
-    for (const double stretch : {1.0, 1.5, 2.0}) {
-      Arrangement neighbors;
-      double axis[3], ratio;
-      for (int i = -3; i <= 3; i++)
-        for (int j = -3; j <= 3; j++)
-          for (int k = (dim == 3 ? -3 : 0); k <= (dim == 3 ? 3 : 0); k++) {
-            const double r[3] = {1.0 * i, stretch * j, 1.0 * k};
-            neighbors.add(r);
-          }
-      const double spacing = neighbors.widest(dim, stretch, axis, ratio);
-      EXPECT_NEAR(std::fabs(axis[stretch > 1.0 ? 1 : 0]), 1.0, 1e-9);
-      EXPECT_NEAR(spacing, stretch, 0.15 * stretch);
+    for (const double unit : {1.0, 1e-15, 1e15}) {
+      for (const double stretch : {1.0, 1.5, 2.0}) {
+        Arrangement neighbors;
+        double axis[3], ratio;
+        for (int i = -3; i <= 3; i++)
+          for (int j = -3; j <= 3; j++)
+            for (int k = (dim == 3 ? -3 : 0); k <= (dim == 3 ? 3 : 0); k++) {
+              const double r[3] = {unit * i, unit * stretch * j, unit * k};
+              neighbors.add(r);
+            }
+        const double spacing =
+            neighbors.widest(dim, stretch * std::pow(unit, dim), axis, ratio) / unit;
+        EXPECT_NEAR(std::fabs(axis[stretch > 1.0 ? 1 : 0]), 1.0, 1e-9);
+        EXPECT_NEAR(spacing, stretch, 0.15 * stretch);
+      }
     }
     double axis[3], ratio;
     EXPECT_GT(Arrangement().widest(dim, 1.0, axis, ratio), 0.0);

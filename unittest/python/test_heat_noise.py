@@ -337,20 +337,22 @@ def test_energy_between_walls(lammps, style):
     assert thermo[-1]["f_LOW[8]"][-1] > 5.0
 
 
-def test_walls_in_small_units(lammps):
-    """Lengths times a power of two, all else so that the flow is the same: the same digits."""
+def test_walls_in_other_units(lammps):
+    """Lengths and speeds times powers of two, all else so that the flow is the same: the same digits."""
     found = []
-    for s in (1.0, 2.0**-20):
-        found.append(lammps(
+    for s, v in ((1.0, 1.0), (2.0**-20, 1.0), (1.0, 2.0**-20), (2.0**10, 2.0**20)):
+        lines = lammps(
             f"units lj\natom_style sph/bulk\nneighbor {0.3 * s} bin\nlattice sc {s**-3}\nregion box block 0 6 -3 8 0 6\ncreate_box 1 box\n"
             "create_atoms 1 box\nvariable m atom 1.0+0.25*(id%3)\nset group all mass v_m\nregion low block INF INF INF -0.25 INF INF\n"
             "region high block INF INF 4.75 INF INF INF\ngroup low region low\ngroup high region high\ngroup fluid subtract all low high\n"
-            f"velocity fluid create 1.0 87 loop all\npair_style sph/bulk temp energy 20.0 4711\npair_coeff * * {s**-3} 15.0 {0.5 / s**2} "
-            f"{1.5 / s**2} {2.5 * s} pb {200.0 * s**-3} conductivity {60.0 / s**2}\nfix FLUID fluid sph/bulk temperature 1.0\n"
-            f"fix LOW low sph/wall heat temp 3.0\nfix HIGH high sph/wall\ntimestep {0.004 * s}\ncompute T fluid sph/temp\nthermo 40\n"
-            "thermo_style custom step f_LOW[8] c_T c_T[5]\nthermo_modify norm no format float %.17g\nrun 40\n").thermo()[0])
-    for name in ("f_LOW[8]", "c_T", "c_T[5]"):
-        assert found[1][name][-1] == pytest.approx(found[0][name][-1], rel=1e-12)
+            f"velocity fluid create {v**2} 87 loop all\npair_style sph/bulk temp energy 20.0 4711\npair_coeff * * {s**-3} {15.0 * v} "
+            f"{0.5 * v / s**2} {1.5 * v / s**2} {2.5 * s} pb {200.0 * v**2 / s**3} conductivity {60.0 * v / s**2}\n"
+            f"fix FLUID fluid sph/bulk temperature {v**2}\nfix LOW low sph/wall heat temp {3.0 * v**2}\nfix HIGH high sph/wall\n"
+            f"timestep {0.004 * s / v}\ncompute T fluid sph/temp\nthermo 40\nthermo_style custom step f_LOW[8] c_T c_T[5]\n"
+            "thermo_modify norm no format float %.17g\nrun 40\n").thermo()[0]
+        found.append(np.array([lines[name][-1] for name in ("f_LOW[8]", "c_T", "c_T[5]")]) / v**2)
+    for other in found[1:]:
+        assert other == pytest.approx(found[0], rel=1e-12)
 
 
 def test_energies_of_walls_in_full_arrays(lammps):
