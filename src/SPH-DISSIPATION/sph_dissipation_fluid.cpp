@@ -241,6 +241,7 @@ bigint Fluid::compute(PairTally *tally)
 {
   if (neighbor->ago == 0) check_masses(lmp, style, *model);
   if (own_list && search->update(pair->list)) timer->stamp(Timer::NEIGH);
+  if (model->choice.thermal) noise->count_step();
   if (model->choice.own_temperatures && (neighbor->ago == 0 || update->setupflag))
     noise->find_masses(boundary->bits());
 

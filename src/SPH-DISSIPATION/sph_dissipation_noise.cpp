@@ -59,7 +59,6 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   const double factor =
       2.0 * force->boltz * (energy ? 1.0 : engine.parameters().temperature) / update->dt;
   data.seed = static_cast<std::uint64_t>(engine.parameters().seed);
-  count_step();
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
 
   set_tags();

@@ -42,6 +42,10 @@ namespace SPHDissipation {
    public:
     NoiseStage(class LAMMPS *, Engine &, Exchange &, NoiseClock &);
 
+    // Before the first of a step, which may compute forces more than once: the numbers are those of the next step
+
+    void count_step();
+
     // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and has it add the rest.
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure
     // of their own; continued = the first forces of a run are to be the last ones of the run before
@@ -77,7 +81,6 @@ namespace SPHDissipation {
 
     void check_box() const;
     void set_tags();
-    void count_step();
     void set_temperatures(bool continued, int not_fluid);
     bool set_coeffs(double factor);
     bool is_negative(int i) const;

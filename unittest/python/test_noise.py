@@ -111,15 +111,17 @@ def test_a_restarted_run_continues_with_the_same_numbers(lammps, style):
                 assert relative(one[field] - other[field], one[field]) < 1e-12, (one.step, field)
 
 
-def test_random_numbers_go_on_after_reset_timestep(lammps):
-    """As in one run without it; the offset is in restart files.  rerun and other steps have the numbers of the step."""
+@pytest.mark.parametrize("viscous", ["", " viscous implicit"])
+def test_random_numbers_go_on_after_reset_timestep(lammps, viscous):
+    """As in one run without it; the offset is in restart files.  The implicit step computes forces twice."""
     make_box(lammps)
-    rest = "fix FLUID all sph/bulk\ntimestep 0.002\n"
-    lammps(deck() + "run 10\n" + dump("whole.dump") + "run 0\n")
-    lammps(deck() + "run 4\nreset_timestep 0\nrun 2\nreset_timestep 0\nrun 2\nwrite_restart eight.restart\nrun 2\n"
+    rest = f"fix FLUID all sph/bulk{viscous}\ntimestep 0.002\n"
+    box = deck().replace("fix FLUID all sph/bulk\ntimestep 0.002\n", rest)
+    lammps(box + "run 10\n" + dump("whole.dump") + "run 0\n")
+    lammps(box + "run 4\nreset_timestep 0\nrun 2\nreset_timestep 0\nrun 2\nwrite_restart eight.restart\nrun 2\n"
            + dump("parts.dump") + "run 0\n")
     lammps("read_restart eight.restart\n" + rest + "reset_timestep 1\nrun 2\n" + dump("read.dump") + "run 0\n", ranks=2)
-    lammps(deck() + "thermo_style custom step\nrun 4\nreset_timestep 0\nrun 2 pre no\nreset_timestep 1\nrun 1 pre no\nreset_timestep 1\nrun 1 pre no\n"
+    lammps(box + "thermo_style custom step\nrun 4\nreset_timestep 0\nrun 2 pre no\nreset_timestep 1\nrun 1 pre no\nreset_timestep 1\nrun 1 pre no\n"
            "reset_timestep 0\nrun 2\n" + dump("pre.dump") + "run 0\n")
     whole = lammps.frame("whole.dump")
     for name in ("parts.dump", "read.dump", "pre.dump"):
