@@ -16,9 +16,20 @@ def pyplot():
 
 
 def save(figure, path, legends=()):
-    """Write a figure and forget it; legends: axes that get one. Returns the path."""
+    """Write a figure and forget it; legends: axes that get one. Returns the path. A PNG has 256 colors, a quarter of the bytes."""
     for axes in legends:
         axes.legend()
     figure.savefig(path)
     pyplot().close(figure)
+    if Path(path).suffix == ".png":
+        reduce_colors(path)
     return path
+
+
+def reduce_colors(path):
+    """Replace an opaque PNG by one with the 256 colors that are nearest to its own."""
+    from PIL import Image
+
+    with Image.open(path) as picture:
+        colors = picture.convert("RGB")
+    colors.quantize(256, method=Image.Quantize.MAXCOVERAGE, kmeans=4, dither=Image.Dither.NONE).save(path, optimize=True)

@@ -209,7 +209,7 @@ namespace SPHDissipation {
     void accumulate_heat(std::vector<double> &flow);
 
     // forces, torques, heat and divergence of those pairs alone, and their conduction, added to arrays with room for the
-    // spare particles; after pass 2
+    // spare particles; after pass 2; without noise
     void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *, double *divergence);
     void accumulate_heat(PairSubset &, double *flow) const;
 

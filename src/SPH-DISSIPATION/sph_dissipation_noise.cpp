@@ -164,10 +164,10 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
   exchange.forward({field(row.data(), &row.data()->temperature, spins ? 2 : 1)});
 
   if (!update->setupflag) return;
-  int own[2] = {without, 0}, all[2];
+  bigint own[2] = {without, 0}, all[2];
   for (int i = 0; i < nlocal; i++)
     if (row[i].softness > 1.0) own[1]++;
-  MPI_Allreduce(own, all, 2, MPI_INT, MPI_SUM, world);
+  MPI_Allreduce(own, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all[0] && !continued)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style with temp energy: {} particles have no heat, an internal energy that "
@@ -180,11 +180,12 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
                    "friction or conduction warms them",
                    all[0]);
   if (all[1] && !continued)
-    error->warning(FLERR,
-                   "Pair style with temp energy: {} particles have a heat capacity, mass times cv, "
-                   "below Boltzmann's constant, for which their friction may be negative; use a "
-                   "larger cv",
-                   all[1]);
+    error->warning(
+        FLERR,
+        "Pair style with temp energy: {} particles have a heat capacity, mass times cv, "
+        "below Boltzmann's constant, with which most of their heats are near zero; use a "
+        "larger cv",
+        all[1]);
 }
 
 /* ----------------------------------------------------------------------

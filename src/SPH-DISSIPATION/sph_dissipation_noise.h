@@ -42,7 +42,7 @@ namespace SPHDissipation {
    public:
     NoiseStage(class LAMMPS *, Engine &, Exchange &, NoiseClock &);
 
-    // Before the first of a step, which may compute forces more than once: the numbers are those of the next step
+    // Once in each step, before run(), which a step may call more than once: sets the step of its random numbers
 
     void count_step();
 

@@ -60,6 +60,13 @@ def test_keywords(lammps, inlet, message):
     refused(lammps, message, inlet=inlet, before=variables)
 
 
+@pytest.mark.parametrize("eos, keywords, pressure", [("tait", "gamma 7.0", -0.15), ("tait", "gamma 7.0 pb 0.5", 0.35), ("ideal", "pb 0.5", 0.4)])
+def test_pressure_that_no_density_has(lammps, eos, keywords, pressure):
+    energy = " energy 2.5" if eos == "ideal" else ""
+    refused(lammps, "would have density", inlet=f"{INLET} pressure {pressure}{energy}", outlet=f"pressure 1.0{energy}", ranks=(2,),
+            options=f"eos {eos}", coeff=f"1.0 1.0 0.1 0.2 {{R}} {keywords}")
+
+
 def test_variable_that_becomes_nan_in_the_run(lammps):
     refused(lammps, "variable late is -?nan at step 51", inlet="velocity v_late 0 0",
             before="variable late equal 0.1+0.0*exp(1000.0*(step>50))\n", run="run 100\n")
