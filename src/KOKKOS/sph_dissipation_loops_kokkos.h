@@ -137,6 +137,8 @@ namespace SPHDissipation {
         pair.approach = dot(pair.r, pair.u);
         pair.vv = volumes_slope(rsq, pi.vol, pj.vol, slope);
         for (int c = 0; c < NCHANNEL; c++) pair.heat[c] = 0.0;
+        if constexpr (Form::SPINS)
+          for (int d = 0; d < 3; d++) pair.t[d] = pair.spin[d] = 0.0;
 
         pair.central = pressing_term(pi.g, pj.g, slope) * weight_i * data.weight[j * data.each];
         if constexpr (Form::CENTRAL)

@@ -703,7 +703,6 @@ void FixSPHBulk::integrate(Half half)
     const Particles particles(atom, kept);
     const TimeStep step = time_step();
     const ForceSum *const forces = exact ? fluid->own_forces() : nullptr;
-    const TorqueSum *const torques = exact ? fluid->own_torques() : nullptr;
     for (int i = from; i < to; i++) {
       if (!(atom->mask[i] & groupbit)) continue;
       double rest[2] = {0.0, 0.0};
@@ -712,8 +711,9 @@ void FixSPHBulk::integrate(Half half)
         rest[0] =
             rest_of_heat(step, atom->v[i], atom->vest[i], atom->f[i], forces[i].f, 1.0 / mass);
         if (spins)
-          rest[1] = rest_of_heat(step, atom->omega[i], kept.omegaest[i], atom->torque[i],
-                                 torques[i].t, TimeStep::inverse_inertia(mass, kept.inertia[i]));
+          rest[1] =
+              rest_of_heat(step, atom->omega[i], kept.omegaest[i], atom->torque[i],
+                           fluid->own_torque(i), TimeStep::inverse_inertia(mass, kept.inertia[i]));
       }
       if (half == BEGIN)
         step.begin(particles, i);

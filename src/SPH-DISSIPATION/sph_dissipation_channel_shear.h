@@ -18,7 +18,7 @@
 #ifdef CHANNEL_TERMS
 
 // -a F V_i V_j/metric (u.r) r with the metric r^2, P2 (41), P3 (12), or r, P1 (15)
-template <bool BY_R> struct AlongR : PairTerm<ALONG_R> {
+template <bool BY_R> struct AlongR : PairTerm<SHEAR, ALONG_R> {
   static constexpr bool CENTRAL = true, BY_DISTANCE = BY_R;
   template <class Pair> static SPH_INLINE void add_central(Pair &pair)
   {
@@ -29,7 +29,7 @@ template <bool BY_R> struct AlongR : PairTerm<ALONG_R> {
 };
 
 // -a F V_i V_j u
-struct AlongU : PairTerm<ALONG_U> {
+struct AlongU : PairTerm<SHEAR, ALONG_U> {
   static constexpr bool VECTOR = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
   {

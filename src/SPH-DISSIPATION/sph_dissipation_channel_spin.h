@@ -17,15 +17,15 @@
 #ifdef CHANNEL_TERMS
 
 // torque F V_i V_j [xi1 (s.e) e + xi2 s] on j, opposite on i, with s = w_i - w_j; P3 (18)
-struct SpinDiffusion : PairTerm<XI1, XI2> {
+struct SpinDiffusion : PairTerm<DIFFUSION, XI1, XI2> {
   static constexpr bool VECTOR = true, SPINS = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
   {
     const auto along = dot(pair.r, pair.s);
     const auto drag1 = pair.coeff[XI1] * pair.by_metric * along;
     const auto drag2 = pair.coeff[XI2] * pair.vv;
-    for (int d = 0; d < 3; d++) pair.spin[d] = drag1 * pair.r[d] + drag2 * pair.s[d];
-    pair.heat[DIFFUSION] = 0.5 * (drag1 * along + drag2 * dot(pair.s, pair.s));
+    for (int d = 0; d < 3; d++) pair.spin[d] += drag1 * pair.r[d] + drag2 * pair.s[d];
+    pair.heat[DIFFUSION] += 0.5 * (drag1 * along + drag2 * dot(pair.s, pair.s));
   }
 };
 

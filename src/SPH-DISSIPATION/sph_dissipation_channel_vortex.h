@@ -18,7 +18,7 @@
 #ifdef CHANNEL_TERMS
 
 // -a F V_i V_j u* and half of its torque for each particle, the same on both: 1/2 a F V_i V_j r x u*, P3 (18)
-struct Slip : PairTerm<ZETA2> {
+struct Slip : PairTerm<VORTEX, ZETA2> {
   static constexpr bool VECTOR = true, SPINS = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
   {
@@ -26,10 +26,10 @@ struct Slip : PairTerm<ZETA2> {
     const auto half = 0.5 * drag;
     const auto *const r = pair.r, *const u = pair.u;
     for (int d = 0; d < 3; d++) pair.f[d] -= drag * u[d];
-    pair.t[0] = half * (r[1] * u[2] - r[2] * u[1]);
-    pair.t[1] = half * (r[2] * u[0] - r[0] * u[2]);
-    pair.t[2] = half * (r[0] * u[1] - r[1] * u[0]);
-    pair.heat[VORTEX] = half * dot(u, u);
+    pair.t[0] += half * (r[1] * u[2] - r[2] * u[1]);
+    pair.t[1] += half * (r[2] * u[0] - r[0] * u[2]);
+    pair.t[2] += half * (r[0] * u[1] - r[1] * u[0]);
+    pair.heat[VORTEX] += half * dot(u, u);
   }
 };
 

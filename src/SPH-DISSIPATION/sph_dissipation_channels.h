@@ -48,6 +48,20 @@ template <Shear SHEAR, class... Term> struct Form {
   static constexpr bool VECTOR = (Term::VECTOR || ...);
   static constexpr bool BY_DISTANCE = (Term::BY_DISTANCE || ...);
   static constexpr bool SPINS = (Term::SPINS || ...);
+  // has heat of this channel; the last one of terms with spins
+  static constexpr bool heats(int channel) { return ((channel == Term::CHANNEL) || ...); }
+  static constexpr int channels()
+  {
+    int bits = 0;
+    ((bits |= 1 << Term::CHANNEL), ...);
+    return bits;
+  }
+  static constexpr int of_spins()
+  {
+    int last = 0;
+    ((Term::SPINS ? void(last = Term::CHANNEL) : void()), ...);
+    return last;
+  }
   static constexpr bool uses(int coefficient)
   {
     return ((coefficient >= Term::FIRST && coefficient <= Term::LAST) || ...);
@@ -173,6 +187,21 @@ namespace SPHDissipation {
   // on the difference of the spins, along e and across it.  The noise is its root.
   struct PairFriction {
     double along, across, spin_along, spin_across;
+  };
+
+  // Columns of a row of sums over pairs: torque, if there are spins, then the heat of each of the channels with these bits
+  // but the first
+  struct ChannelColumns {
+    bool spins;
+    int bits;
+    constexpr bool heats(int channel) const { return channel > 0 && (bits >> channel & 1); }
+    constexpr int heat(int channel) const
+    {
+      int column = spins ? 3 : 0;
+      for (int c = 1; c < channel; c++) column += heats(c) ? 1 : 0;
+      return column;
+    }
+    constexpr int width() const { return heat(NCHANNEL); }
   };
 
   enum class Shear;

@@ -32,12 +32,12 @@ using namespace SPHDissipation;
 static const Parameters NO_PARAMETERS;    // of an engine before its setup()
 
 Engine::Engine(LAMMPS *lmp) :
-    Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), torque(nullptr),
-    zeta_term(nullptr), strain_pressure(nullptr), divergence(nullptr), spin(nullptr),
-    loops(&loops_plain), par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr),
-    force_loop(nullptr), noisy_loop(nullptr), drag_noise(nullptr), data(), atom_rows(),
-    threads(&one_thread), weights(nullptr), not_fluid(0), nlocal_forces(-1), nghost_forces(-1),
-    nmax(0), nmax_weights(0), imax(0), pair_max(0)
+    Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
+    strain_pressure(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
+    par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
+    noisy_loop(nullptr), drag_noise(nullptr), data(), atom_rows(), threads(&one_thread),
+    weights(nullptr), not_fluid(0), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0),
+    imax(0), pair_max(0)
 {
   choose_loops("auto");
 }
@@ -50,7 +50,6 @@ Engine::~Engine()
   memory->sfree(density);
   memory->sfree(force);
   memory->sfree(spin);
-  memory->sfree(torque);
   memory->sfree(zeta_term);
   memory->sfree(strain_pressure);
   memory->sfree(divergence);
@@ -91,8 +90,9 @@ void Engine::setup(const Parameters &parameters)
   par = &parameters;
   density_loop = loops->density(par->kernel, par->volume);
   rate_loop = loops->rates(par->volume);
-  force_loop = loops->forces((par->inviscid && !par->spins()) ? Shear::NONE : par->shear, par->bulk,
-                             par->volume);
+  const Shear shear = (par->inviscid && !par->spins()) ? Shear::NONE : par->shear;
+  force_loop = loops->forces(shear, par->bulk, par->volume);
+  side.columns = {par->spins(), loops->channels(shear)};
   noisy_loop = nullptr;
   drag_noise = nullptr;
   data.par = par;
@@ -121,9 +121,7 @@ void Engine::grow_atoms()
   force = (ForceSum *) memory->smalloc(nrow * sizeof(ForceSum), "sph:force");
   if (has_spin()) {
     memory->sfree(spin);
-    memory->sfree(torque);
     spin = (Spin *) memory->smalloc(nrow * sizeof(Spin), "sph:spin");
-    torque = (TorqueSum *) memory->smalloc(nrow * sizeof(TorqueSum), "sph:torque");
   }
   memory->sfree(strain_pressure);
   strain_pressure = (double *) memory->smalloc(nrow * sizeof(double), "sph:strain_pressure");
@@ -445,13 +443,15 @@ void Engine::run_forces(NeighList *list, Loop loop, bool linear)
   data.random = nullptr;
   force_sums.begin(*threads);
   scalar_sums.begin(*threads);
-  torque_sums.begin(*threads);
+  side_sums.begin(*threads);
+  side.resize((std::size_t) nmax + BLOCK);
+  const int width = side.columns.width();
   random.resize(threads->size());
 
   auto work = [&](int k, LoopData own) {
     own.force = force_sums.zeroed(k, force, nrow);
     if (by_volume) own.divergence = scalar_sums.zeroed(k, divergence, nrow);
-    if (has_spin()) own.torque = torque_sums.zeroed(k, torque, nrow);
+    if (width) own.side = side_sums.zeroed(k, side.rows.data(), nrow * width);
     if (noisy) own.random = room_for_numbers(k, own);
     loop(own);
   };
@@ -463,7 +463,7 @@ void Engine::run_forces(NeighList *list, Loop loop, bool linear)
     });
     force_sums.add_up(*threads, force, nall);
     if (by_volume) scalar_sums.add_up(*threads, divergence, nall);
-    if (has_spin()) torque_sums.add_up(*threads, torque, nall);
+    if (width) side_sums.add_up(*threads, side.rows.data(), nall * width);
   }
   if (!par->drag) return;
   for_each(atom->nlocal, [&](int i) {
@@ -506,12 +506,12 @@ void Engine::accumulate_heat(PairSubset &some, double *flow) const
   loops->heat(par->conducts_alike)(part(some), conductor.data(), flow);
 }
 
-void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, TorqueSum *torque_out,
+void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, ChannelSums &side_out,
                                double *divergence_out)
 {
   LoopData part = this->part(some);
   part.force = force_out;
-  part.torque = torque_out;
+  part.side = side_out.rows.data();
   part.divergence = divergence_out;
   force_loop(part);
 }
@@ -570,7 +570,7 @@ double PairSubset::memory_usage() const
 double Engine::memory_usage() const
 {
   double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double);
-  if (has_spin()) per_atom += sizeof(Spin) + sizeof(TorqueSum);
+  if (has_spin()) per_atom += sizeof(Spin);
   double bytes = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double)) +
@@ -579,6 +579,6 @@ double Engine::memory_usage() const
       (double) types.capacity() * sizeof(int);
   for (const auto &numbers : random)
     bytes += static_cast<double>(numbers.capacity() * sizeof(double));
-  return bytes + density_sums.memory_usage() + force_sums.memory_usage() +
-      torque_sums.memory_usage() + scalar_sums.memory_usage();
+  return bytes + side.memory_usage() + density_sums.memory_usage() + force_sums.memory_usage() +
+      side_sums.memory_usage() + scalar_sums.memory_usage();
 }

@@ -15,9 +15,12 @@
 #define LMP_SPH_DISSIPATION_ENGINE_H
 
 #include "pointers.h"
+#include "sph_dissipation_exchange.h"
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_threads.h"
 
+#include <algorithm>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -71,7 +74,7 @@ namespace SPHDissipation {
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
     DensitySum *density;         // owned and ghost, accumulated by pass 1
     ForceSum *force;             // owned and ghost, accumulated by pass 2
-    TorqueSum *torque;           // owned and ghost, accumulated by pass 2 (micropolar)
+    double *side;                // rows of ChannelSums, owned and ghost, accumulated by pass 2
 
     const Parameters *par;
 
@@ -114,6 +117,7 @@ namespace SPHDissipation {
     Loop (*density)(Kernel, Volume);
     Loop (*rates)(Volume);
     Loop (*forces)(Shear, Bulk, Volume);
+    int (*channels)(Shear);    // bits of the channels that its terms heat
     Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
     NoiseLoop (*shared_work)(const NoiseForm &);
@@ -130,6 +134,32 @@ namespace SPHDissipation {
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
+
+  // Torque (micropolar), and heat, energy per time, of the channels of the terms of pairs, one row for each particle.  The
+  // heat of the first channel goes with the force, see ForceSum.
+
+  struct ChannelSums {
+    ChannelColumns columns = {false, 0};
+    std::vector<double> rows;
+
+    void resize(std::size_t n) { rows.resize(n * columns.width()); }
+    double *torque(int i) { return &rows[(std::size_t) i * columns.width()]; }
+    const double *torque(int i) const { return &rows[(std::size_t) i * columns.width()]; }
+    // by channel, added to heat[]; of all channels
+    void add_heat(int i, double *heat) const
+    {
+      for (int c = 1; c < NCHANNEL; c++)
+        if (columns.heats(c)) heat[c] += torque(i)[columns.heat(c)];
+    }
+    double heat(int i) const
+    {
+      double channel[NCHANNEL] = {};
+      if (columns.width()) add_heat(i, channel);
+      return std::accumulate(channel, channel + NCHANNEL, 0.0);
+    }
+    void clear(int i) { std::fill_n(rows.begin() + i * columns.width(), columns.width(), 0.0); }
+    double memory_usage() const { return static_cast<double>(rows.capacity() * sizeof(double)); }
+  };
 
   // Some of the pairs that pass 1 has found, in the form that pass 2 works off: begin(); for each
   // row add_row(), add() its pairs, end_row()
@@ -210,7 +240,7 @@ namespace SPHDissipation {
 
     // forces, torques, heat and divergence of those pairs alone, and their conduction, added to arrays with room for the
     // spare particles; after pass 2; without noise
-    void accumulate_forces(PairSubset &, ForceSum *, TorqueSum *, double *divergence);
+    void accumulate_forces(PairSubset &, ForceSum *, ChannelSums &, double *divergence);
     void accumulate_heat(PairSubset &, double *flow) const;
 
     // drag of an owned particle, added to its force and, by channel, to its heat, energy per time; linear, and in a
@@ -262,7 +292,11 @@ namespace SPHDissipation {
     Particle *particle;
     DensitySum *density;
     ForceSum *force;
-    TorqueSum *torque;          // micropolar only
+    ChannelSums side;
+    Field torques()    // micropolar only
+    {
+      return {side.torque(0), (std::size_t) side.columns.width(), 3};
+    }
     double *zeta_term;          // zeta cdot/c, set by the caller on owned and ghost atoms
     double *strain_pressure;    // of relaxing processes, as zeta_term; set if there are any
     std::vector<Conductor> conductor;    // the same, if any type conducts heat
@@ -294,8 +328,8 @@ namespace SPHDissipation {
         random;    // numbers of the pairs of one particle, of each thread
     ThreadSums<DensitySum> density_sums;
     ThreadSums<ForceSum> force_sums;
-    ThreadSums<TorqueSum> torque_sums;
-    ThreadSums<double> scalar_sums;    // of all that is one number
+    ThreadSums<double> side_sums;
+    ThreadSums<double> scalar_sums;    // of all else that is one number
 
     int not_fluid;
     int nlocal_forces, nghost_forces;    // # of atoms that force[] is of

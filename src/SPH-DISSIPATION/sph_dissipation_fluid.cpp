@@ -547,9 +547,9 @@ const ForceSum *Fluid::own_forces() const
   return engine->force;
 }
 
-const TorqueSum *Fluid::own_torques() const
+const double *Fluid::own_torque(int i) const
 {
-  return engine->torque;
+  return engine->side.torque(i);
 }
 
 /* ---------------------------------------------------------------------- */

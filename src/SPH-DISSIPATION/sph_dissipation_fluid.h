@@ -45,7 +45,6 @@ namespace SPHDissipation {
   class RelaxStage;
   class TemperatureStage;
   class Threads;
-  struct TorqueSum;
   class ViscousStage;
 
   // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -142,7 +141,7 @@ namespace SPHDissipation {
     virtual void heating(double *heat, double *power) const;
     virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank
     const ForceSum *own_forces() const;
-    const TorqueSum *own_torques() const;
+    const double *own_torque(int i) const;
 
     // Start of a run, from the integrator.  Masses of the particles of a group, times a factor of each
     // type, for which their mean density is rho0; volumes, from the positions alone; then the table of

@@ -213,6 +213,7 @@ namespace SPHDissipation {
 
     // positions and velocities of a block of pairs; volume and g of the neighbors
 
+    template <class Form>
     SPH_INLINE void load_pair(PairState &pair, const Particle &pi, const Particle *particle,
                               const int *j, Vec slope, Vec &vol, Vec &g)
     {
@@ -227,8 +228,47 @@ namespace SPHDissipation {
       g = pj[7];
       pair.vv = volumes_slope(dot(pair.r, pair.r), pi.vol, vol, slope);
       pair.approach = dot(pair.r, pair.u);
-      pair.heat[SHEAR] = all(0.0);
+      pair.heat[0] = all(0.0);
+      for (int c = 1; c < NCHANNEL; c++)
+        if (Form::heats(c)) pair.heat[c] = all(0.0);
+      if constexpr (Form::SPINS)
+        for (int d = 0; d < 3; d++) pair.t[d] = pair.spin[d] = all(0.0);
     }
+
+    // torque, and heat of all channels but the first: to the neighbors and to the totals of the particle, in the columns
+    // of ChannelSums
+
+    template <class Form> struct SideSums {
+      static constexpr ChannelColumns COLUMNS = {Form::SPINS, Form::channels()};
+      static constexpr int N = COLUMNS.width();
+      Vec total[N + 1];
+
+      SPH_INLINE SideSums()
+      {
+        for (int k = 0; k < N; k++) total[k] = all(0.0);
+      }
+      SPH_INLINE void add(double *row, const int *j, const PairState &pair)
+      {
+        Vec on_j[N + 1];
+        if constexpr (Form::SPINS)
+          for (int d = 0; d < 3; d++) {
+            on_j[d] = pair.t[d] + pair.spin[d];
+            total[d] += pair.t[d] - pair.spin[d];
+          }
+        for (int c = 1; c < NCHANNEL; c++)
+          if (Form::heats(c)) {
+            on_j[COLUMNS.heat(c)] = pair.heat[c];
+            total[COLUMNS.heat(c)] += pair.heat[c];
+          }
+        constexpr int FOURS = N / 4 * 4;
+        for (int k = 0; k < FOURS; k += 4) add_4_columns<N>(row + k, j, on_j + k);
+        for (int k = FOURS; k < N; k++) add_column<N>(row + k, j, on_j[k]);
+      }
+      SPH_INLINE void add_total(double *row, int i) const
+      {
+        for (int k = 0; k < N; k++) row[i * N + k] += sum(total[k]);
+      }
+    };
 
     template <class Form> SPH_INLINE void fetch_ahead(const LoopData &data, const int *j)
     {
@@ -237,23 +277,9 @@ namespace SPHDissipation {
         if constexpr (Form::SPINS) {    // without, the force is in the cache anyway
           prefetch(data.spin + j[l + AHEAD]);
           prefetch(data.force + j[l + AHEAD]);
-          prefetch(data.torque + j[l + AHEAD]);
+          prefetch(data.side + SideSums<Form>::N * j[l + AHEAD]);
         }
       }
-    }
-
-    // torques and their heat to the neighbors and to the totals of the particle
-
-    SPH_INLINE void add_torques(const LoopData &data, const int *j, const PairState &pair,
-                                Vec *total_t, Vec &total_spin)
-    {
-      const Vec *const t = pair.t, *const spin = pair.spin;
-      const Vec on_j[4] = {t[0] + spin[0], t[1] + spin[1], t[2] + spin[2], pair.heat[VORTEX]};
-      add_4_columns<WIDTH<TorqueSum>>(numbers(data.torque), j, on_j);
-      add_column<WIDTH<TorqueSum>>(numbers(data.torque) + 4, j, pair.heat[DIFFUSION]);
-      for (int d = 0; d < 3; d++) total_t[d] += t[d] - spin[d];
-      total_t[3] += pair.heat[VORTEX];
-      total_spin += pair.heat[DIFFUSION];
     }
 
     // pass 2: forces and torques of the pressure and of the channels, and their heat, half to each partner
@@ -283,8 +309,8 @@ namespace SPHDissipation {
         const int *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
         Vec total_f[4] = {all(0.0), all(0.0), all(0.0), all(0.0)};
-        Vec total_t[4] = {all(0.0), all(0.0), all(0.0), all(0.0)};
-        Vec total_spin = all(0.0), total_flux = all(0.0);
+        Vec total_flux = all(0.0);
+        SideSums<Form> side;
 
         for (int k = 0; k < n; k += LANES) {
           const int *const j = neighbor + k;
@@ -292,7 +318,7 @@ namespace SPHDissipation {
           pair.coeff = coeffs.a;
           const Vec slope = load(slope_of + k);
           Vec vol, g;
-          load_pair(pair, pi, particle, j, slope, vol, g);
+          load_pair<Form>(pair, pi, particle, j, slope, vol, g);
           fetch_ahead<Form>(data, j);
           const Vec rsq = dot(pair.r, pair.r);
 
@@ -344,12 +370,13 @@ namespace SPHDissipation {
 
           if constexpr (Form::SPINS) {
             if constexpr (Noise::ENERGY)
-              pair.heat[DIFFUSION] -= 0.5 * noise.spin_power(pair.s[0], pair.s[1], pair.s[2]);
+              pair.heat[Form::of_spins()] -=
+                  0.5 * noise.spin_power(pair.s[0], pair.s[1], pair.s[2]);
             if constexpr (Noise::ON) noise.add_torque(pair.t, pair.spin);
             if constexpr (Noise::ENERGY) given = noise.given_by_torque(pair.t, pair.spin);
-            add_torques(data, j, pair, total_t, total_spin);
           }
-          Vec heat = pair.heat[SHEAR];
+          if constexpr (side.N > 0) side.add(data.side, j, pair);
+          Vec heat = pair.heat[0];
           for (int d = 0; d < 3; d++) total_f[d] += pair.f[d];
           Vec heat_j = heat;
           if constexpr (Noise::ENERGY) {
@@ -369,7 +396,8 @@ namespace SPHDissipation {
               // A wall gives its half to the fluid.  The heat given so far means nothing for a wall: a factor of zero
               // removes it without loss of digits, however large it is.
               Vec half = heat - work;
-              if constexpr (Form::SPINS) half += pair.heat[VORTEX] + pair.heat[DIFFUSION];
+              for (int c = 1; c < NCHANNEL; c++)
+                if (Form::heats(c)) half += pair.heat[c];
               given = (1.0 - noise.wall * noise.wall) * given + noise.flow + noise.wall * half;
             }
             heat -= work - given;
@@ -384,12 +412,7 @@ namespace SPHDissipation {
         ForceSum &fi = data.force[i];
         for (int d = 0; d < 3; d++) fi.f[d] += sum(total_f[d]);
         fi.heat += sum(total_f[3]);
-        if constexpr (Form::SPINS) {
-          TorqueSum &ti = data.torque[i];
-          for (int d = 0; d < 3; d++) ti.t[d] += sum(total_t[d]);
-          ti.heat[0] += sum(total_t[3]);
-          ti.heat[1] += sum(total_spin);
-        }
+        if constexpr (side.N > 0) side.add_total(data.side, i);
         if constexpr (VOLUME) data.divergence[i] -= sum(total_flux);
       }
     }
@@ -424,7 +447,7 @@ namespace SPHDissipation {
           pair.coeff = coeffs.a;
           const Vec slope = load(slope_of + k);
           Vec vol, g, a_j[4], other[4];
-          load_pair(pair, pi, particle, j, slope, vol, g);
+          load_pair<Form>(pair, pi, particle, j, slope, vol, g);
           load_4_columns<WIDTH<Acceleration>>(numbers(noise.acceleration), j, a_j);
           load_4_columns<WIDTH<NoiseRow>>(numbers(noise.row), j, other);
           for (int l = 0; l < LANES; l++) {
@@ -554,6 +577,15 @@ namespace SPHDissipation {
       return loop;
     }
 
+    inline int channels_of(Shear shear)
+    {
+      int bits = 0;
+      with_form(shear, [&](auto form) {
+        bits = form.channels();
+      });
+      return bits;
+    }
+
     // with noise: forms that only act along e, and all in one dimension, have no numbers across; there is no noise for
     // the bulk form volume
 
@@ -602,6 +634,7 @@ namespace SPHDissipation {
                              LOOPS::choose_density_loop,
                              LOOPS::choose_rate_loop,
                              LOOPS::choose_force_loop,
+                             LOOPS::channels_of,
                              LOOPS::choose_noisy_force_loop,
                              LOOPS::choose_eta_loop,
                              LOOPS::choose_work_loop,

@@ -333,7 +333,7 @@ void NoiseStage::share_work()
     for (int d = 0; d < 3; d++) own.v[d] = by_dt * mobility[i] * engine.force[i].f[d];
     if (!spins) return;
     own.by_inertia = by_dt * row[i].spin_mobility;
-    for (int d = 0; d < 3; d++) own.w[d] = own.by_inertia * engine.torque[i].t[d];
+    for (int d = 0; d < 3; d++) own.w[d] = own.by_inertia * engine.side.torque(i)[d];
   });
   Acceleration *const first = acceleration.data();
   exchange.forward({field(first, first->v, spins ? 7 : 3)});

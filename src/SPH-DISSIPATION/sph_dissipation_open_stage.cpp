@@ -29,7 +29,7 @@ static constexpr double NEITHER = -1.0;
 
 /* ---------------------------------------------------------------------- */
 
-void OpenImpact::add(const Particle &particle, const ForceSum &sum)
+void OpenImpact::add(const Particle &particle, const ForceSum &sum, double heat)
 {
   double moment[3];
   MathExtra::cross3(particle.x, sum.f, moment);
@@ -38,16 +38,15 @@ void OpenImpact::add(const Particle &particle, const ForceSum &sum)
     torque[d] += moment[d];
     power += sum.f[d] * particle.u[d];
   }
-  power += sum.heat;
+  power += sum.heat + heat;
 }
 
-void OpenImpact::add(const Spin &spin, const TorqueSum &sum)
+void OpenImpact::add(const Spin &spin, const double *couple)
 {
   for (int d = 0; d < 3; d++) {
-    torque[d] += sum.t[d];
-    power += sum.t[d] * spin.w[d];
+    torque[d] += couple[d];
+    power += couple[d] * spin.w[d];
   }
-  for (const double heat : sum.heat) power += heat;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -230,8 +229,9 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   const std::size_t nrow = (std::size_t) atom->nlocal + atom->nghost + BLOCK;
   forces.resize(std::max(forces.size(), nrow));
   divergence.resize(forces.size());
-  if (engine.has_spin()) torques.resize(forces.size());
-  engine.accumulate_forces(pairs, forces.data(), torques.data(), divergence.data());
+  side.columns = engine.side.columns;
+  side.resize(forces.size());
+  engine.accumulate_forces(pairs, forces.data(), side, divergence.data());
   if (conducts) {
     flow.resize(nrow);
     engine.accumulate_heat(pairs, flow.data());
@@ -239,14 +239,14 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
 
   pairs.visit([&](int i) {
     if (i < mine && zone_of[i] == 0.0) {
-      total.add(particle[i], forces[i]);
-      if (engine.has_spin()) total.add(engine.spin[i], torques[i]);
+      total.add(particle[i], forces[i], side.heat(i));
+      if (engine.has_spin()) total.add(engine.spin[i], side.torque(i));
       if (conducts) total.power += flow[i];
     }
     forces[i] = ForceSum();
     divergence[i] = 0.0;
     if (conducts) flow[i] = 0.0;
-    if (engine.has_spin()) torques[i] = TorqueSum();
+    side.clear(i);
   });
   return total;
 }
@@ -260,6 +260,6 @@ double OpenStage::memory_usage() const
   return bytes +
       static_cast<double>(zone_of.capacity() * sizeof(double) +
                           forces.capacity() * sizeof(ForceSum) +
-                          torques.capacity() * sizeof(TorqueSum) +
-                          (divergence.capacity() + flow.capacity()) * sizeof(double));
+                          (divergence.capacity() + flow.capacity()) * sizeof(double)) +
+      side.memory_usage();
 }

@@ -29,8 +29,8 @@ namespace SPHDissipation {
     double power;                  // work and heat
 
     // what acts on a particle of the fluid
-    void add(const Particle &, const ForceSum &);
-    void add(const Spin &, const TorqueSum &);
+    void add(const Particle &, const ForceSum &, double heat);    // of all other channels
+    void add(const Spin &, const double *couple);
   };
 
   class OpenStage;
@@ -104,7 +104,7 @@ namespace SPHDissipation {
 
     // of these pairs; all zero but within impact(), which works in proportion to the pairs
     std::vector<ForceSum> forces;
-    std::vector<TorqueSum> torques;
+    ChannelSums side;
     std::vector<double> divergence, flow;
 
     void set_zones();

@@ -78,14 +78,16 @@ struct PairState {
 
   Vec central;           // force on i along r, times 1/r
   Vec f[3];              // force on i
-  Vec t[3];              // torque on both
-  Vec spin[3];           // torque on j, opposite on i
+  Vec t[3];              // torque on both, with spins
+  Vec spin[3];           // torque on j, opposite on i, with spins
   Vec heat[NCHANNEL];    // half of the heat, by channel
 };
 
-// Term of a channel, with the coefficients FIRST to LAST.  First come the terms along r, then all others.
+// Term of a channel, with the coefficients FIRST to LAST.  First come the terms along r, then all others.  They add to
+// force, torques, and the heat of their channel, which begin with zero (central: with the pressure).
 
-template <int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTerm {
+template <Channel OF, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTerm {
+  static constexpr Channel CHANNEL = OF;
   static constexpr int FIRST = FIRST_COEFF, LAST = LAST_COEFF;
   static constexpr bool CENTRAL = false, VECTOR = false;    // has add_central(), add_vector()
   static constexpr bool BY_DISTANCE = false;                // its metric is r

@@ -39,7 +39,7 @@ namespace SPHDissipation {
     double c, cdot;
   };
 
-  // force and heat of the shear term: what pass 2 accumulates
+  // force, and heat of the first channel: what pass 2 accumulates
 
   struct alignas(16) ForceSum {
     double f[3];
@@ -51,13 +51,6 @@ namespace SPHDissipation {
   struct alignas(16) Spin {
     double w[3];
     double unused;    // rows are read by fours
-  };
-
-  // torque, and heat of the channels from VORTEX to DIFFUSION: what pass 2 accumulates
-
-  struct TorqueSum {
-    double t[3];
-    double heat[DIFFUSION - VORTEX + 1];
   };
 
 }    // namespace SPHDissipation

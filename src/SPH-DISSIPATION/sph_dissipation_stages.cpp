@@ -348,12 +348,11 @@ void ForceStage::run(NeighList *list, PairTally *tally)
       for (const double heat : channel) desph[i] += heat;
     });
 
-  if (!engine.has_spin()) return;
-  double **torque = atom->torque;
+  if (engine.side.columns.width() == 0) return;
+  double **const torque = engine.has_spin() ? atom->torque : nullptr;
   engine.for_each(n, [&](int i) {
-    const TorqueSum &total = engine.torque[i];
-    for (int d = 0; d < 3; d++) torque[i][d] += total.t[d];
-    for (const double heat : total.heat) desph[i] += heat;
+    for (int d = 0; torque && d < 3; d++) torque[i][d] += engine.side.torque(i)[d];
+    desph[i] += engine.side.heat(i);
   });
 }
 
@@ -363,7 +362,7 @@ void ForceStage::collect()
 {
   const Field f = field(engine.force, engine.force->f, 3);
   if (engine.has_spin())
-    exchange.reverse({f, field(engine.torque, engine.torque->t, 3)});
+    exchange.reverse({f, engine.torques()});
   else
     exchange.reverse({f});
 }
@@ -399,9 +398,7 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
     if (heat) heat[i] = 0.0;
     if (atom->mask[i] & not_fluid) continue;
     double channel[NCHANNEL] = {engine.force[i].heat, bulk_heat(i)};
-    if (engine.has_spin()) {
-      std::copy(engine.torque[i].heat, std::end(engine.torque[i].heat), channel + VORTEX);
-    }
+    engine.side.add_heat(i, channel);
     if (i < atom->nlocal) {
       add_drag_heat(i, channel);
       channel[RELAXATION] = strains.heat(i);

@@ -108,7 +108,7 @@ void ViscousStage::carry_torque(int i, const double *inertia, double **spins)
 {
   if (!is_unknown(i)) return;
   carry(update->dt * TimeStep::inverse_inertia(atom->rmass[i], inertia[i]), atom->torque[i],
-        engine.torque[i].t, atom->omega[i], 1.0, spins[i], &ahead_spin[3 * i]);
+        engine.side.torque(i), atom->omega[i], 1.0, spins[i], &ahead_spin[3 * i]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -373,13 +373,13 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
   engine.accumulate_friction(list);
   const Field f = field(engine.force, engine.force->f, 3);
   if (omegaest)
-    exchange.reverse({f, field(engine.torque, engine.torque->t, 3)});
+    exchange.reverse({f, engine.torques()});
   else
     exchange.reverse({f});
   for_unknown([&](int i, std::size_t row) {
     for (int d = 0; d < 3; d++) {
       out[row + d] = -engine.force[i].f[d];
-      if (omegaest) out[row + 3 + d] = -engine.torque[i].t[d];
+      if (omegaest) out[row + 3 + d] = -engine.side.torque(i)[d];
     }
   });
 }
