@@ -74,9 +74,11 @@ namespace SPHDissipation {
       const PairCoeff *const coeff = &data.coeff[data.type[i] * data.par.ntypes_1];
       double sum = 0.0;
       for_neighbors(data, i, [&](int j, const double *, double rsq) {
-        const double slope = data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
-        sum += bound_of_pair(data.par.shear, coeff[data.type[j * data.typed]], slope, rsq, vol_i,
-                             weight_i, data.particle[j].vol, data.weight[j * data.each])
+        const double r = Kokkos::sqrt(rsq);
+        const double slope = data.par.slope_norm * K::slope(r / data.par.support);
+        const double weight = central_weight(data.par.shear, coeff[data.type[j * data.typed]], r);
+        sum += bound_of_pair(weight, slope, rsq, vol_i, weight_i, data.particle[j].vol,
+                             data.weight[j * data.each])
                    .i;
       });
       bound[i] = sum;

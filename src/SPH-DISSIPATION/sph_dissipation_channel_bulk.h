@@ -59,12 +59,11 @@ namespace SPHDissipation {
   struct PairBound {
     double i, j;
   };
-  SPH_FUNCTION PairBound bound_of_pair(Shear shear, const PairCoeff &coeff, double slope,
-                                       double rsq, double vol_i, double weight_i, double vol_j,
-                                       double weight_j)
+  SPH_FUNCTION PairBound bound_of_pair(double central_weight, double slope, double rsq,
+                                       double vol_i, double weight_i, double vol_j, double weight_j)
   {
     if (rsq == 0.0) return {0.0, 0.0};
-    const double pair = slope * rsq / central_weight(shear, coeff, sqrt(rsq));
+    const double pair = slope * rsq / central_weight;
     const double ratio = vol_i * weight_j / (vol_j * weight_i);
     return {ratio * ratio * vol_j * pair, vol_i * pair / (ratio * ratio)};
   }

@@ -127,13 +127,6 @@ namespace SPHDissipation {
     return (shear_rate(Shear::MG) * mg + shear_rate(Shear::MORRIS) * morris) / (inertia * hsq);
   }
 
-  // prefactor of (u.e)^2 in the dissipation of a pair at distance r, in units of F V_i V_j, of all channels
-  SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
-  {
-    return (shear == Shear::MG_FR) ? coeff.a[ALONG_R] * r
-                                   : coeff.a[ALONG_R] + coeff.a[ALONG_U] + coeff.a[ZETA2];
-  }
-
   struct ShearChannel : BaseChannel {
     static constexpr const char *NAME = "shear";
 
@@ -149,7 +142,7 @@ namespace SPHDissipation {
       if (fluid.shear != Shear::MORRIS) coeff.a[ALONG_R] += drag;
       if (fluid.shear == Shear::MORRIS || fluid.shear == Shear::ESPANOL) coeff.a[ALONG_U] += drag;
     }
-    static void add_friction(const PairCoeff &coeff, PairFriction &friction)
+    SPH_FUNCTION static void add_friction(const PairCoeff &coeff, PairFriction &friction)
     {
       friction.along += coeff.a[ALONG_R] + coeff.a[ALONG_U];
       friction.across += coeff.a[ALONG_U];

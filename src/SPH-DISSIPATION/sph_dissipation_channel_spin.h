@@ -48,7 +48,7 @@ namespace SPHDissipation {
       if (fluid.dim == 3) coeff.a[XI1] += 5.0 * (gamma1 + gamma2);
       coeff.a[XI2] += gamma1 - gamma2;
     }
-    static void add_friction(const PairCoeff &coeff, PairFriction &friction)
+    SPH_FUNCTION static void add_friction(const PairCoeff &coeff, PairFriction &friction)
     {
       friction.spin_along += coeff.a[XI1] + coeff.a[XI2];
       friction.spin_across += coeff.a[XI2];

@@ -52,7 +52,7 @@ namespace SPHDissipation {
     {
       coeff.a[ZETA2] += 4.0 * fluid.viscosity[MU_R];
     }
-    static void add_friction(const PairCoeff &coeff, PairFriction &friction)
+    SPH_FUNCTION static void add_friction(const PairCoeff &coeff, PairFriction &friction)
     {
       friction.along += coeff.a[ZETA2];
       friction.across += coeff.a[ZETA2];

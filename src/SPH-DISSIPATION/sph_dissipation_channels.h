@@ -242,7 +242,7 @@ namespace SPHDissipation {
     static bool in_use(const TypeCoeffs &) { return true; }
     // what it puts into the coefficients of a pair; the same as a tensor, for the noise
     static void add_coefficients(const PairFluid &, PairCoeff &) {}
-    static void add_friction(const PairCoeff &, PairFriction &) {}
+    SPH_FUNCTION static void add_friction(const PairCoeff &, PairFriction &) {}
     // call add(name, value) for each column of coefficients in the table of the log
     template <class Add> static void add_columns(const PairFluid &, const PairCoeff &, Add &&) {}
     // bulk viscosity that it brings with it
@@ -282,6 +282,13 @@ namespace SPHDissipation {
     {
       ((One::SPINS && !spins ? void() : function(One())), ...);
     }
+    // friction of a pair as a tensor
+    SPH_FUNCTION static PairFriction friction(bool spins, const PairCoeff &coeff)
+    {
+      PairFriction sum = {};
+      ((One::SPINS && !spins ? void() : One::add_friction(coeff, sum)), ...);
+      return sum;
+    }
     // sum of the coefficients of drag
     SPH_FUNCTION static double drag(const TypeCoeffs &type) { return (One::drag(type).b + ...); }
 
@@ -316,13 +323,11 @@ namespace SPHDissipation {
     });
     return coeff;
   }
-  inline PairFriction pair_friction(Shear shear, const PairCoeff &coeff)
+  // prefactor of (u.e)^2 in the dissipation of a pair at distance r, in units of F V_i V_j
+  SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
   {
-    PairFriction friction = {};
-    Channels::visit(shear == Shear::MICROPOLAR, [&](auto channel) {
-      channel.add_friction(coeff, friction);
-    });
-    return friction;
+    const double along = Channels::friction(shear == Shear::MICROPOLAR, coeff).along;
+    return (shear == Shear::MG_FR) ? along * r : along;
   }
 
   // bulk viscosity of the pair terms; P1 (66)

@@ -117,9 +117,10 @@ void LimitStage::run()
       const double del = particle[i].x[d] - particle[j].x[d];
       rsq += del * del;
     }
-    const PairBound pair =
-        bound_of_pair(par.shear, par.pair[type[i] * par.ntypes_1 + type[j]], pairs.slope[entry],
-                      rsq, particle[i].vol, engine.weight(i), particle[j].vol, engine.weight(j));
+    const double weight =
+        central_weight(par.shear, par.pair[type[i] * par.ntypes_1 + type[j]], sqrt(rsq));
+    const PairBound pair = bound_of_pair(weight, pairs.slope[entry], rsq, particle[i].vol,
+                                         engine.weight(i), particle[j].vol, engine.weight(j));
     sum[i] += pair.i;
     sum[j] += pair.j;
   });
