@@ -207,7 +207,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::heating(double *heat, 
     const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
     for (int i = 0; i < atom->nlocal; i++) {
       if (atom->mask[i] & not_fluid()) continue;
-      const double one = (relaxes && k == RELAXATION) ? strains.heat(i) : from(i);
+      const double one = (relaxes && k == Channels::place<RelaxChannel>()) ? strains.heat(i)
+                                                                           : from(i);
       power[k] += one;
       if (heat) heat[i] += one;
     }

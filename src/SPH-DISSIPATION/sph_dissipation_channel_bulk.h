@@ -12,9 +12,13 @@
 ------------------------------------------------------------------------- */
 
 // Bulk viscosity: a term of each particle in the rate of its volume, which acts through its pressure.
-// Included by sph_dissipation_channels.h, which has the notation.
+// Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
-#ifdef CHANNEL_TERMS
+#ifdef CHANNEL_CLASS
+// clang-format off
+ChannelClass(BulkChannel)
+// clang-format on
+#elif defined(CHANNEL_TERMS)
 
 // F V_i V_j (zeta_i cdot_i/c_i + zeta_j cdot_j/c_j) r of the form volume, P1 (64)
 template <class Real> SPH_INLINE Real volume_term(double zeta_term_i, Real zeta_term_j, Real vv)

@@ -17,9 +17,13 @@
 // plane between two materials is the same from both sides, P. W. Cleary, J. J. Monaghan, J. Comput. Phys. 148,
 // 227 (1999).  No pair changes the sum of the heats, and each one raises the entropy, by
 // 2 k_ij F V_i V_j (T_i - T_j)^2/(T_i T_j) per time.
-// Included by sph_dissipation_channels.h, which has the notation.
+// Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
-#ifdef CHANNEL_TERMS
+#ifdef CHANNEL_CLASS
+// clang-format off
+ChannelClass(HeatChannel)
+// clang-format on
+#elif defined(CHANNEL_TERMS)
 
 // mean of the conductivities of two particles, 0 if one of them has none
 template <class Real> SPH_INLINE Real mean_conductivity(double a, Real b)

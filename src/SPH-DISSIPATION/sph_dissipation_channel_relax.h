@@ -30,9 +30,14 @@
 //   tau_r/tau_v [(1 - e^-a) (T - T_v) + w (dt - tau_r (1 - e^-a))].
 // For sound it is the spring of tau = tau_r and rho g tau = p tau_v R cvib/(cv + cvib)^2, R = (gamma - 1) cv.
 // K. F. Herzfeld, T. A. Litovitz, Absorption and Dispersion of Ultrasonic Waves (1959).
-// Included by sph_dissipation_channels.h, which has the notation.
+// Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
-#ifndef CHANNEL_TERMS
+#ifdef CHANNEL_CLASS
+// clang-format off
+ChannelClass(RelaxChannel)
+ChannelClass(VibrationChannel)
+// clang-format on
+#elif !defined(CHANNEL_TERMS)
 
 #ifndef LMP_SPH_DISSIPATION_CHANNEL_RELAX_H
 #define LMP_SPH_DISSIPATION_CHANNEL_RELAX_H
@@ -111,7 +116,7 @@ namespace SPHDissipation {
   struct VibrationChannel : BaseChannel {
     static constexpr const char *NAME = "vibration";
     static constexpr bool ELASTIC = true;
-    static constexpr bool OF_MOTION = false;    // its heat is of enum RELAXATION
+    static constexpr bool OF_MOTION = false;    // its heat is that of RelaxChannel
 
     static bool in_use(const TypeCoeffs &type) { return type.a[VIBRATION] > 0.0; }
 

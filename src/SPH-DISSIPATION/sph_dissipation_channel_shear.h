@@ -13,29 +13,33 @@
 
 // Shear viscosity: drag between the velocities of two particles.  The forms of the shear force are sums of
 // two terms, one along e and one along u, with the coefficients that shear_factor() gives.
-// Included by sph_dissipation_channels.h, which has the notation.
+// Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
-#ifdef CHANNEL_TERMS
+#ifdef CHANNEL_CLASS
+// clang-format off
+ChannelClass(ShearChannel)
+// clang-format on
+#elif defined(CHANNEL_TERMS)
 
 // -a F V_i V_j/metric (u.r) r with the metric r^2, P2 (41), P3 (12), or r, P1 (15)
-template <bool BY_R> struct AlongR : PairTerm<SHEAR, ALONG_R> {
+template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ALONG_R> {
   static constexpr bool CENTRAL = true, BY_DISTANCE = BY_R;
   template <class Pair> static SPH_INLINE void add_central(Pair &pair)
   {
     const auto drag = pair.coeff[ALONG_R] * pair.by_metric * pair.approach;
     pair.central -= drag;
-    pair.heat[SHEAR] += 0.5 * drag * pair.approach;
+    pair.heat[CHANNEL] += 0.5 * drag * pair.approach;
   }
 };
 
 // -a F V_i V_j u
-struct AlongU : PairTerm<SHEAR, ALONG_U> {
+struct AlongU : PairTerm<ShearChannel, ALONG_U> {
   static constexpr bool VECTOR = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
   {
     const auto drag = pair.coeff[ALONG_U] * pair.vv;
     for (int d = 0; d < 3; d++) pair.f[d] -= drag * pair.u[d];
-    pair.heat[SHEAR] += 0.5 * drag * dot(pair.u, pair.u);
+    pair.heat[CHANNEL] += 0.5 * drag * dot(pair.u, pair.u);
   }
 };
 

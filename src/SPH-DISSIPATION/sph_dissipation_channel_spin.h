@@ -12,12 +12,16 @@
 ------------------------------------------------------------------------- */
 
 // Spin viscosities gamma1, gamma2 of a micropolar fluid: diffusion of the spin between particles.
-// Included by sph_dissipation_channels.h, which has the notation.
+// Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
-#ifdef CHANNEL_TERMS
+#ifdef CHANNEL_CLASS
+// clang-format off
+ChannelClass(SpinChannel)
+// clang-format on
+#elif defined(CHANNEL_TERMS)
 
 // torque F V_i V_j [xi1 (s.e) e + xi2 s] on j, opposite on i, with s = w_i - w_j; P3 (18)
-struct SpinDiffusion : PairTerm<DIFFUSION, XI1, XI2> {
+struct SpinDiffusion : PairTerm<SpinChannel, XI1, XI2> {
   static constexpr bool VECTOR = true, SPINS = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
   {
@@ -25,7 +29,7 @@ struct SpinDiffusion : PairTerm<DIFFUSION, XI1, XI2> {
     const auto drag1 = pair.coeff[XI1] * pair.by_metric * along;
     const auto drag2 = pair.coeff[XI2] * pair.vv;
     for (int d = 0; d < 3; d++) pair.spin[d] += drag1 * pair.r[d] + drag2 * pair.s[d];
-    pair.heat[DIFFUSION] += 0.5 * (drag1 * along + drag2 * dot(pair.s, pair.s));
+    pair.heat[CHANNEL] += 0.5 * (drag1 * along + drag2 * dot(pair.s, pair.s));
   }
 };
 

@@ -13,12 +13,16 @@
 
 // Vortex viscosity mu_r of a micropolar fluid: drag along the velocity of slip at the point of contact,
 // which couples spin and flow.
-// Included by sph_dissipation_channels.h, which has the notation.
+// Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
-#ifdef CHANNEL_TERMS
+#ifdef CHANNEL_CLASS
+// clang-format off
+ChannelClass(VortexChannel)
+// clang-format on
+#elif defined(CHANNEL_TERMS)
 
 // -a F V_i V_j u* and half of its torque for each particle, the same on both: 1/2 a F V_i V_j r x u*, P3 (18)
-struct Slip : PairTerm<VORTEX, ZETA2> {
+struct Slip : PairTerm<VortexChannel, ZETA2> {
   static constexpr bool VECTOR = true, SPINS = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
   {
@@ -29,7 +33,7 @@ struct Slip : PairTerm<VORTEX, ZETA2> {
     pair.t[0] += half * (r[1] * u[2] - r[2] * u[1]);
     pair.t[1] += half * (r[2] * u[0] - r[0] * u[2]);
     pair.t[2] += half * (r[0] * u[1] - r[1] * u[0]);
-    pair.heat[VORTEX] += half * dot(u, u);
+    pair.heat[CHANNEL] += half * dot(u, u);
   }
 };
 

@@ -29,17 +29,13 @@
 // P3 = Souto-Iglesias, Bonet Avalos, Antuono, Colagrossi, SPHERIC 2022; Phys. Rev. E 104, 015315
 //      (2021)
 //
-// This header and those of the channels have two parts, as the headers of LAMMPS's styles.  With
-// CHANNEL_TERMS: the terms of a pair, for the loops, which include it in more than one namespace.
-// Without: all else.  No LAMMPS include.
+// The headers of the channels have parts, as the headers of LAMMPS's styles.  With CHANNEL_CLASS: their place in the
+// list.  With CHANNEL_TERMS: the terms of a pair, for the loops, which include them in more than one namespace.  Without:
+// all else.  No LAMMPS include.
 
 #ifdef CHANNEL_TERMS
 
-#include "sph_dissipation_channel_bulk.h"
-#include "sph_dissipation_channel_heat.h"
-#include "sph_dissipation_channel_shear.h"
-#include "sph_dissipation_channel_spin.h"
-#include "sph_dissipation_channel_vortex.h"
+#include "sph_dissipation_channel_list.h"
 
 // the terms that the loops of each form of the shear force have
 template <Shear SHEAR, class... Term> struct Form {
@@ -104,20 +100,10 @@ template <class Function> void with_form(Shear shear, Function &&function)
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-
-  // where the fluid turns motion into heat: order of compute sph/dissipation
-  enum Channel {
-    SHEAR,
-    BULK,
-    VORTEX,
-    DIFFUSION,
-    DRAG,
-    RELAXATION,
-    NCHANNEL
-  };    // diffusion of the spin
 
   // viscosities of the pairs of types, in the order of pair_coeff
   enum Viscosity { MU, MU_R, GAMMA1, GAMMA2, NVISCOSITY };
@@ -189,21 +175,6 @@ namespace SPHDissipation {
     double along, across, spin_along, spin_across;
   };
 
-  // Columns of a row of sums over pairs: torque, if there are spins, then the heat of each of the channels with these bits
-  // but the first
-  struct ChannelColumns {
-    bool spins;
-    int bits;
-    constexpr bool heats(int channel) const { return channel > 0 && (bits >> channel & 1); }
-    constexpr int heat(int channel) const
-    {
-      int column = spins ? 3 : 0;
-      for (int c = 1; c < channel; c++) column += heats(c) ? 1 : 0;
-      return column;
-    }
-    constexpr int width() const { return heat(NCHANNEL); }
-  };
-
   enum class Shear;
 
   // what the coefficients of a pair of types follow from
@@ -236,7 +207,7 @@ namespace SPHDissipation {
     static constexpr bool SPINS = false;    // it needs particles that spin
     // it stores energy: it has no rate of its own, but belongs to the sound
     static constexpr bool ELASTIC = false;
-    // it turns motion into heat: it is in enum Channel
+    // it turns motion into heat, which compute sph/dissipation gives out
     static constexpr bool OF_MOTION = true;
     // the table leaves it out if no type, of these largest coefficients, has it
     static bool in_use(const TypeCoeffs &) { return true; }
@@ -261,23 +232,25 @@ namespace SPHDissipation {
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS
 
-// clang-format off
-#include "sph_dissipation_channel_shear.h"
-#include "sph_dissipation_channel_bulk.h"
-#include "sph_dissipation_channel_vortex.h"
-#include "sph_dissipation_channel_spin.h"
-#include "sph_dissipation_channel_drag.h"
-#include "sph_dissipation_channel_relax.h"
-#include "sph_dissipation_channel_heat.h"
-// clang-format on
+#include "sph_dissipation_channel_list.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // The list of the channels, in the order of enum Channel, then all others.  Each of them has a NAME, of its time step in the
-  // table of the log, and the members of BaseChannel; its terms, in the other part of its header, derive
-  // from PairTerm.
-  template <class... One> struct ChannelList {
+  // The list of the channels.  Each of them has a NAME, of its time step in the table of the log, and the members of
+  // BaseChannel; its terms, in the other part of its header, derive from PairTerm.
+  template <class Base, class... One> struct ChannelList {
+    // those that turn motion into heat: how many there are, and the place of a channel among them
+    static constexpr int NUMBER = ((One::OF_MOTION ? 1 : 0) + ...);
+    template <class Channel> static constexpr int place()
+    {
+      int before = 0;
+      bool found = false;
+      ((found = found || std::is_same<One, Channel>::value,
+        before += (One::OF_MOTION && !found) ? 1 : 0),
+       ...);
+      return before;
+    }
     template <class Function> static void visit(bool spins, Function &&function)
     {
       ((One::SPINS && !spins ? void() : function(One())), ...);
@@ -312,8 +285,33 @@ namespace SPHDissipation {
       }
     }
   };
-  using Channels = ChannelList<ShearChannel, BulkChannel, VortexChannel, SpinChannel, DragChannel,
-                               RelaxChannel, HeatChannel, VibrationChannel>;
+
+  // clang-format off
+#define CHANNEL_CLASS
+#define ChannelClass(One) , One
+  using Channels = ChannelList<BaseChannel
+#include "sph_dissipation_channel_list.h"
+                               >;
+#undef ChannelClass
+#undef CHANNEL_CLASS
+  // clang-format on
+
+  constexpr int NCHANNEL = Channels::NUMBER;    // of those that turn motion into heat
+
+  // Columns of a row of sums over pairs: torque, if there are spins, then the heat of each of the channels with these bits
+  // but the first
+  struct ChannelColumns {
+    bool spins;
+    int bits;
+    constexpr bool heats(int channel) const { return channel > 0 && (bits >> channel & 1); }
+    constexpr int heat(int channel) const
+    {
+      int column = spins ? 3 : 0;
+      for (int c = 1; c < channel; c++) column += heats(c) ? 1 : 0;
+      return column;
+    }
+    constexpr int width() const { return heat(NCHANNEL); }
+  };
 
   inline PairCoeff pair_coefficients(const PairFluid &fluid)
   {

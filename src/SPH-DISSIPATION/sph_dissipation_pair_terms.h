@@ -86,8 +86,8 @@ struct PairState {
 // Term of a channel, with the coefficients FIRST to LAST.  First come the terms along r, then all others.  They add to
 // force, torques, and the heat of their channel, which begin with zero (central: with the pressure).
 
-template <Channel OF, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTerm {
-  static constexpr Channel CHANNEL = OF;
+template <class Of, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTerm {
+  static constexpr int CHANNEL = Channels::place<Of>();
   static constexpr int FIRST = FIRST_COEFF, LAST = LAST_COEFF;
   static constexpr bool CENTRAL = false, VECTOR = false;    // has add_central(), add_vector()
   static constexpr bool BY_DISTANCE = false;                // its metric is r

@@ -398,11 +398,12 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
   for (int i = 0; i < n; i++) {
     if (heat) heat[i] = 0.0;
     if (atom->mask[i] & not_fluid) continue;
-    double channel[NCHANNEL] = {engine.force[i].heat, bulk_heat(i)};
+    double channel[NCHANNEL] = {engine.force[i].heat};
+    channel[Channels::place<BulkChannel>()] = bulk_heat(i);
     engine.side.add_heat(i, channel);
     if (i < atom->nlocal) {
       add_drag_heat(i, channel);
-      channel[RELAXATION] = strains.heat(i);
+      channel[Channels::place<RelaxChannel>()] = strains.heat(i);
     }
     for (int k = 0; k < NCHANNEL; k++) {
       if (heat) heat[i] += channel[k];
