@@ -36,8 +36,7 @@ namespace SPHDissipation {
     {
       return {type.a[DRAG_B], {type.a[DRAG_UX], type.a[DRAG_UY], type.a[DRAG_UZ]}};
     }
-    template <class Add>
-    static void add_columns(const PairFluid &fluid, const PairCoeff &, Add &&add)
+    template <class Add> static void add_columns(const PairFluid &fluid, const double *, Add &&add)
     {
       add("drag", fluid.type.a[DRAG_B]);
     }
@@ -47,7 +46,7 @@ namespace SPHDissipation {
       if (dim == 2 && type.a[DRAG_UZ] != 0.0) return "drag must have a stream of Uz = 0 in 2d";
       return nullptr;
     }
-    static double rate(const PairFluid &fluid, const PairCoeff &, const PairInertia &inertia)
+    static double rate(const PairFluid &fluid, const double *, const PairInertia &inertia)
     {
       return fluid.type.a[DRAG_B] / inertia.rho;
     }

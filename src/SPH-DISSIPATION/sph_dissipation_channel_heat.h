@@ -74,8 +74,7 @@ namespace SPHDissipation {
       return (a > 0.0 && b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
     }
 
-    template <class Add>
-    static void add_columns(const PairFluid &fluid, const PairCoeff &, Add &&add)
+    template <class Add> static void add_columns(const PairFluid &fluid, const double *, Add &&add)
     {
       add("conductivity", fluid.conductivity);
     }
@@ -90,7 +89,7 @@ namespace SPHDissipation {
       return nullptr;
     }
     // of the form morris, with k/(rho cv) instead of mu/rho
-    static double rate(const PairFluid &fluid, const PairCoeff &, const PairInertia &inertia)
+    static double rate(const PairFluid &fluid, const double *, const PairInertia &inertia)
     {
       if (fluid.conductivity == 0.0) return 0.0;
       return shear_rate(Shear::MORRIS) * fluid.conductivity /

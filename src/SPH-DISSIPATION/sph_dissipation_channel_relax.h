@@ -93,8 +93,7 @@ namespace SPHDissipation {
       return sum;
     }
 
-    template <class Add>
-    static void add_columns(const PairFluid &fluid, const PairCoeff &, Add &&add)
+    template <class Add> static void add_columns(const PairFluid &fluid, const double *, Add &&add)
     {
       double sum = 0.0;
       for (int k = 0; k < MOST_PROCESSES; k++) sum += fluid.type.a[RELAX + 2 * k];
@@ -135,8 +134,7 @@ namespace SPHDissipation {
       return {cvib, 1.0 / tau_v, share * part, share * tau * (a - part)};
     }
 
-    template <class Add>
-    static void add_columns(const PairFluid &fluid, const PairCoeff &, Add &&add)
+    template <class Add> static void add_columns(const PairFluid &fluid, const double *, Add &&add)
     {
       add("cvib", fluid.type.a[VIBRATION]);
     }

@@ -22,22 +22,22 @@ ChannelClass(ShearChannel)
 #elif defined(CHANNEL_TERMS)
 
 // -a F V_i V_j/metric (u.r) r with the metric r^2, P2 (41), P3 (12), or r, P1 (15)
-template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ALONG_R> {
+template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_R> {
   static constexpr bool CENTRAL = true, BY_DISTANCE = BY_R;
   template <class Pair> static SPH_INLINE void add_central(Pair &pair)
   {
-    const auto drag = pair.coeff[ALONG_R] * pair.by_metric * pair.approach;
+    const auto drag = pair.coeff[FIRST] * pair.by_metric * pair.approach;
     pair.central -= drag;
     pair.heat[CHANNEL] += 0.5 * drag * pair.approach;
   }
 };
 
 // -a F V_i V_j u
-struct AlongU : PairTerm<ShearChannel, ALONG_U> {
+struct AlongU : PairTerm<ShearChannel, ShearChannel::ALONG_U> {
   static constexpr bool VECTOR = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
   {
-    const auto drag = pair.coeff[ALONG_U] * pair.vv;
+    const auto drag = pair.coeff[FIRST] * pair.vv;
     for (int d = 0; d < 3; d++) pair.f[d] -= drag * pair.u[d];
     pair.heat[CHANNEL] += 0.5 * drag * dot(pair.u, pair.u);
   }
@@ -131,33 +131,40 @@ namespace SPHDissipation {
     return (shear_rate(Shear::MG) * mg + shear_rate(Shear::MORRIS) * morris) / (inertia * hsq);
   }
 
+  // zeta2 of a micropolar fluid, whose zeta1 is along_r: mu = zeta1/(2(n+2)) + zeta2/4, mu_r = zeta2/4; P3 (29)-(32) with
+  // the bulk term
+  inline double slip_coefficient(const PairFluid &fluid)
+  {
+    return 4.0 * fluid.viscosity[MU_R];
+  }
+
   struct ShearChannel : BaseChannel {
     static constexpr const char *NAME = "shear";
+    enum { ALONG_R, ALONG_U, NPAIR };
 
-    // micropolar: mu = zeta1/(2(n+2)) + zeta2/4, mu_r = zeta2/4; P3 (29)-(32) with the bulk term
-    static void add_coefficients(const PairFluid &fluid, PairCoeff &coeff)
+    static void set_coefficients(const PairFluid &fluid, double *own)
     {
       const double mu = fluid.viscosity[MU];
       if (fluid.shear == Shear::MICROPOLAR) {
-        coeff.a[ALONG_R] += 2.0 * (fluid.dim + 2) * (mu - fluid.viscosity[MU_R]);
+        own[ALONG_R] = 2.0 * (fluid.dim + 2) * (mu - fluid.viscosity[MU_R]);
         return;
       }
       const double drag = shear_factor(fluid.shear, fluid.dim, fluid.mean_radius) * mu;
-      if (fluid.shear != Shear::MORRIS) coeff.a[ALONG_R] += drag;
-      if (fluid.shear == Shear::MORRIS || fluid.shear == Shear::ESPANOL) coeff.a[ALONG_U] += drag;
+      if (fluid.shear != Shear::MORRIS) own[ALONG_R] = drag;
+      if (fluid.shear == Shear::MORRIS || fluid.shear == Shear::ESPANOL) own[ALONG_U] = drag;
     }
-    SPH_FUNCTION static void add_friction(const PairCoeff &coeff, PairFriction &friction)
+    SPH_FUNCTION static void add_friction(const double *own, PairFriction &friction)
     {
-      friction.along += coeff.a[ALONG_R] + coeff.a[ALONG_U];
-      friction.across += coeff.a[ALONG_U];
+      friction.along += own[ALONG_R] + own[ALONG_U];
+      friction.across += own[ALONG_U];
     }
     template <class Add>
-    static void add_columns(const PairFluid &fluid, const PairCoeff &coeff, Add &&add)
+    static void add_columns(const PairFluid &fluid, const double *own, Add &&add)
     {
       if (fluid.shear == Shear::MICROPOLAR)
-        add("zeta1", coeff.a[ALONG_R]);
+        add("zeta1", own[ALONG_R]);
       else
-        add("shear_coeff", std::max(coeff.a[ALONG_R], coeff.a[ALONG_U]));
+        add("shear_coeff", std::max(own[ALONG_R], own[ALONG_U]));
     }
     static double intrinsic_kappa(const PairFluid &fluid)
     {
@@ -167,10 +174,11 @@ namespace SPHDissipation {
     {
       return (fluid.viscosity[MU] >= 0.0) ? nullptr : "mu must be >= 0";
     }
-    static double rate(const PairFluid &fluid, const PairCoeff &coeff, const PairInertia &inertia)
+    static double rate(const PairFluid &fluid, const double *own, const PairInertia &inertia)
     {
       if (fluid.shear == Shear::MICROPOLAR)
-        return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho, coeff.a[ALONG_R], coeff.a[ZETA2]);
+        return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho, own[ALONG_R],
+                             slip_coefficient(fluid));
       return shear_rate(fluid.shear) * fluid.viscosity[MU] / inertia.rho / inertia.hsq;
     }
   };

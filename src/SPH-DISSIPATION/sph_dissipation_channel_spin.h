@@ -21,13 +21,13 @@ ChannelClass(SpinChannel)
 #elif defined(CHANNEL_TERMS)
 
 // torque F V_i V_j [xi1 (s.e) e + xi2 s] on j, opposite on i, with s = w_i - w_j; P3 (18)
-struct SpinDiffusion : PairTerm<SpinChannel, XI1, XI2> {
+struct SpinDiffusion : PairTerm<SpinChannel, SpinChannel::XI1, SpinChannel::XI2> {
   static constexpr bool VECTOR = true, SPINS = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
   {
     const auto along = dot(pair.r, pair.s);
-    const auto drag1 = pair.coeff[XI1] * pair.by_metric * along;
-    const auto drag2 = pair.coeff[XI2] * pair.vv;
+    const auto drag1 = pair.coeff[FIRST] * pair.by_metric * along;
+    const auto drag2 = pair.coeff[LAST] * pair.vv;
     for (int d = 0; d < 3; d++) pair.spin[d] += drag1 * pair.r[d] + drag2 * pair.s[d];
     pair.heat[CHANNEL] += 0.5 * (drag1 * along + drag2 * dot(pair.s, pair.s));
   }
@@ -44,24 +44,24 @@ namespace SPHDissipation {
   struct SpinChannel : BaseChannel {
     static constexpr const char *NAME = "spin";
     static constexpr bool SPINS = true;
+    enum { XI1, XI2, NPAIR };
 
     // inverse of gamma1 = xi1/10 + xi2/2, gamma2 = xi1/10 - xi2/2 (n = 3), gamma1 = -gamma2 = xi2/2 (n = 2)
-    static void add_coefficients(const PairFluid &fluid, PairCoeff &coeff)
+    static void set_coefficients(const PairFluid &fluid, double *own)
     {
       const double gamma1 = fluid.viscosity[GAMMA1], gamma2 = fluid.viscosity[GAMMA2];
-      if (fluid.dim == 3) coeff.a[XI1] += 5.0 * (gamma1 + gamma2);
-      coeff.a[XI2] += gamma1 - gamma2;
+      if (fluid.dim == 3) own[XI1] = 5.0 * (gamma1 + gamma2);
+      own[XI2] = gamma1 - gamma2;
     }
-    SPH_FUNCTION static void add_friction(const PairCoeff &coeff, PairFriction &friction)
+    SPH_FUNCTION static void add_friction(const double *own, PairFriction &friction)
     {
-      friction.spin_along += coeff.a[XI1] + coeff.a[XI2];
-      friction.spin_across += coeff.a[XI2];
+      friction.spin_along += own[XI1] + own[XI2];
+      friction.spin_across += own[XI2];
     }
-    template <class Add>
-    static void add_columns(const PairFluid &, const PairCoeff &coeff, Add &&add)
+    template <class Add> static void add_columns(const PairFluid &, const double *own, Add &&add)
     {
-      add("xi1", coeff.a[XI1]);
-      add("xi2", coeff.a[XI2]);
+      add("xi1", own[XI1]);
+      add("xi2", own[XI2]);
     }
 
     // xi1 + xi2 >= 0, too; one spin viscosity in two dimensions
@@ -74,9 +74,9 @@ namespace SPHDissipation {
       if (!(flat || 6.0 * gamma1 + 4.0 * gamma2 >= 0.0)) return "6 gamma1 + 4 gamma2 must be >= 0";
       return nullptr;
     }
-    static double rate(const PairFluid &fluid, const PairCoeff &coeff, const PairInertia &inertia)
+    static double rate(const PairFluid &fluid, const double *own, const PairInertia &inertia)
     {
-      return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho_inertia, coeff.a[XI1], coeff.a[XI2]);
+      return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho_inertia, own[XI1], own[XI2]);
     }
   };
 

@@ -22,11 +22,11 @@ ChannelClass(VortexChannel)
 #elif defined(CHANNEL_TERMS)
 
 // -a F V_i V_j u* and half of its torque for each particle, the same on both: 1/2 a F V_i V_j r x u*, P3 (18)
-struct Slip : PairTerm<VortexChannel, ZETA2> {
+struct Slip : PairTerm<VortexChannel, VortexChannel::ZETA2> {
   static constexpr bool VECTOR = true, SPINS = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
   {
-    const auto drag = pair.coeff[ZETA2] * pair.vv;
+    const auto drag = pair.coeff[FIRST] * pair.vv;
     const auto half = 0.5 * drag;
     const auto *const r = pair.r, *const u = pair.u;
     for (int d = 0; d < 3; d++) pair.f[d] -= drag * u[d];
@@ -51,20 +51,20 @@ namespace SPHDissipation {
   struct VortexChannel : BaseChannel {
     static constexpr const char *NAME = "vortex";
     static constexpr bool SPINS = true;
+    enum { ZETA2, NPAIR };
 
-    static void add_coefficients(const PairFluid &fluid, PairCoeff &coeff)    // P3 (29)-(32)
+    static void set_coefficients(const PairFluid &fluid, double *own)
     {
-      coeff.a[ZETA2] += 4.0 * fluid.viscosity[MU_R];
+      own[ZETA2] = slip_coefficient(fluid);
     }
-    SPH_FUNCTION static void add_friction(const PairCoeff &coeff, PairFriction &friction)
+    SPH_FUNCTION static void add_friction(const double *own, PairFriction &friction)
     {
-      friction.along += coeff.a[ZETA2];
-      friction.across += coeff.a[ZETA2];
+      friction.along += own[ZETA2];
+      friction.across += own[ZETA2];
     }
-    template <class Add>
-    static void add_columns(const PairFluid &, const PairCoeff &coeff, Add &&add)
+    template <class Add> static void add_columns(const PairFluid &, const double *own, Add &&add)
     {
-      add("zeta2", coeff.a[ZETA2]);
+      add("zeta2", own[ZETA2]);
     }
     static double intrinsic_kappa(const PairFluid &fluid)    // lambda = mu - mu_r
     {
@@ -78,9 +78,9 @@ namespace SPHDissipation {
         return "mu_r must be <= mu (1 + 2/n)";
       return nullptr;
     }
-    static double rate(const PairFluid &, const PairCoeff &coeff, const PairInertia &inertia)
+    static double rate(const PairFluid &, const double *own, const PairInertia &inertia)
     {
-      return VORTEX_RATE * coeff.a[ZETA2] / inertia.rho_inertia;
+      return VORTEX_RATE * own[ZETA2] / inertia.rho_inertia;
     }
   };
 

@@ -113,15 +113,6 @@ namespace SPHDissipation {
     return spins ? NVISCOSITY : MU_R;
   }
 
-  // Coefficients of the pair terms of two types:
-  //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
-  //   tau_i = 1/2 sum_j F V_i V_j zeta2 r x u* - sum_j F V_i V_j [xi1 (e.dOmega) e + xi2 dOmega]
-  // with F r instead of F before along_r for mg/fr
-  enum Coefficient { ALONG_R, ALONG_U, ZETA2, XI1, XI2, NCOEFF };
-  struct PairCoeff {
-    double a[NCOEFF];
-  };
-
   // Coefficients of single types, by keyword of pair_coeff, each with its values one after another: once, or
   // in groups of which there may be fewer.  The keyword with no name ends the list, as in the one of the names by
   // which another command may vary a coefficient.
@@ -179,21 +170,21 @@ namespace SPHDissipation {
 
   // what the coefficients of a pair of types follow from
   struct PairFluid {
-    Shear shear;
-    int dim;               // of the kernel
-    double mean_radius;    // integral of r W
-    double viscosity[NVISCOSITY];
-    double zeta;             // coefficient of the bulk term, mean of the types
-    TypeCoeffs type;         // the larger ones of both types
-    double conductivity;     // mean of the types
-    double heat_capacity;    // per mass, the smaller one of both types
+    Shear shear = Shear(0);
+    int dim = 0;                 // of the kernel
+    double mean_radius = 0.0;    // integral of r W
+    double viscosity[NVISCOSITY] = {};
+    double zeta = 0.0;             // coefficient of the bulk term, mean of the types
+    TypeCoeffs type;               // the larger ones of both types
+    double conductivity = 0.0;     // mean of the types
+    double heat_capacity = 0.0;    // per mass, the smaller one of both types
   };
 
   // inertia of the motion that a channel damps, for its fastest rate
   struct PairInertia {
-    double hsq;    // square of the smoothing length for stability, see stability_length_squared()
-    double rho;    // of velocities
-    double rho_inertia;    // of spins
+    double hsq = 0.0;    // of the smoothing length for stability, see stability_length_squared()
+    double rho = 0.0;    // of velocities
+    double rho_inertia = 0.0;    // of spins
   };
 
   // drag of a single particle against a stream, force -b V (u - stream)
@@ -211,11 +202,13 @@ namespace SPHDissipation {
     static constexpr bool OF_MOTION = true;
     // the table leaves it out if no type, of these largest coefficients, has it
     static bool in_use(const TypeCoeffs &) { return true; }
-    // what it puts into the coefficients of a pair; the same as a tensor, for the noise
-    static void add_coefficients(const PairFluid &, PairCoeff &) {}
-    SPH_FUNCTION static void add_friction(const PairCoeff &, PairFriction &) {}
+    // Number of the coefficients of its terms for a pair of types; what they are, and the same as a tensor, for the
+    // noise.  own = these coefficients, here and below
+    enum { NPAIR };
+    static void set_coefficients(const PairFluid &, double *) {}
+    SPH_FUNCTION static void add_friction(const double *, PairFriction &) {}
     // call add(name, value) for each column of coefficients in the table of the log
-    template <class Add> static void add_columns(const PairFluid &, const PairCoeff &, Add &&) {}
+    template <class Add> static void add_columns(const PairFluid &, const double *, Add &&) {}
     // bulk viscosity that it brings with it
     static double intrinsic_kappa(const PairFluid &) { return 0.0; }
     // the inequality that the viscosities of a pair, or the coefficients of a type in a box of this dimension,
@@ -223,7 +216,7 @@ namespace SPHDissipation {
     static const char *inadmissible(const PairFluid &) { return nullptr; }
     static const char *inadmissible_type(const TypeCoeffs &, int) { return nullptr; }
     // rate of its fastest mode, 1/time
-    static double rate(const PairFluid &, const PairCoeff &, const PairInertia &) { return 0.0; }
+    static double rate(const PairFluid &, const double *, const PairInertia &) { return 0.0; }
 
     // of single particles: force, heat, and noise follow from it
     SPH_FUNCTION static Drag drag(const TypeCoeffs &) { return {}; }
@@ -255,11 +248,21 @@ namespace SPHDissipation {
     {
       ((One::SPINS && !spins ? void() : function(One())), ...);
     }
-    // friction of a pair as a tensor
-    SPH_FUNCTION static PairFriction friction(bool spins, const PairCoeff &coeff)
+    // coefficients of the terms of a pair of types: how many there are, and the first one of a channel
+    static constexpr int NPAIR = (One::NPAIR + ...);
+    template <class Channel> static constexpr int first()
+    {
+      int before = 0;
+      bool found = false;
+      ((found = found || std::is_same<One, Channel>::value, before += found ? 0 : One::NPAIR), ...);
+      return before;
+    }
+
+    // friction of a pair of types with these coefficients as a tensor
+    SPH_FUNCTION static PairFriction friction(bool spins, const double *coeff)
     {
       PairFriction sum = {};
-      ((One::SPINS && !spins ? void() : One::add_friction(coeff, sum)), ...);
+      ((One::SPINS && !spins ? void() : One::add_friction(coeff + first<One>(), sum)), ...);
       return sum;
     }
     // sum of the coefficients of drag
@@ -298,6 +301,18 @@ namespace SPHDissipation {
 
   constexpr int NCHANNEL = Channels::NUMBER;    // of those that turn motion into heat
 
+  // Coefficients of the terms of two types, one channel after the other:
+  //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
+  //   tau_i = 1/2 sum_j F V_i V_j zeta2 r x u* - sum_j F V_i V_j [xi1 (e.dOmega) e + xi2 dOmega]
+  // with F r instead of F before along_r for mg/fr
+  struct PairCoeff {
+    double a[Channels::NPAIR];
+
+    // those of a channel
+    template <class Channel> const double *of() const { return a + Channels::first<Channel>(); }
+    template <class Channel> double *of() { return a + Channels::first<Channel>(); }
+  };
+
   // Columns of a row of sums over pairs: torque, if there are spins, then the heat of each of the channels with these bits
   // but the first
   struct ChannelColumns {
@@ -317,14 +332,14 @@ namespace SPHDissipation {
   {
     PairCoeff coeff = {};
     Channels::visit(fluid.shear == Shear::MICROPOLAR, [&](auto channel) {
-      channel.add_coefficients(fluid, coeff);
+      channel.set_coefficients(fluid, coeff.of<decltype(channel)>());
     });
     return coeff;
   }
   // prefactor of (u.e)^2 in the dissipation of a pair at distance r, in units of F V_i V_j
   SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
   {
-    const double along = Channels::friction(shear == Shear::MICROPOLAR, coeff).along;
+    const double along = Channels::friction(shear == Shear::MICROPOLAR, coeff.a).along;
     return (shear == Shear::MG_FR) ? along * r : along;
   }
 

@@ -726,7 +726,11 @@ CoeffTable Fluid::coeff_table()
       const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
       if (a.other || b.other) continue;
       const double rho = std::min(a.eos.rho0 / thinness[i], b.eos.rho0 / thinness[j]);
-      table.add_row(i, j, model->pair_fluid(i, j), {hsq, rho, rho * inertia},
+      PairInertia damped;
+      damped.hsq = hsq;
+      damped.rho = rho;
+      damped.rho_inertia = rho * inertia;
+      table.add_row(i, j, model->pair_fluid(i, j), damped,
                     std::min(sound_step(i, speed[i]), sound_step(j, speed[j])));
     }
   return table;

@@ -93,15 +93,14 @@ void FluidModel::mix(int i)
 
 PairFluid FluidModel::pair_fluid(int i, int j) const
 {
-  PairFluid fluid = {
-      choice.shear,
-      par.dim,
-      kernel_mean_radius(par.kernel, par.dim, par.support),
-      {},
-      0.5 * (par.type[i].zeta + par.type[j].zeta),
-      {},
-      HeatChannel::mean(coeffs[i].keywords.a[CONDUCTIVITY], coeffs[j].keywords.a[CONDUCTIVITY]),
-      std::min(heat_capacity(i), heat_capacity(j))};
+  PairFluid fluid;
+  fluid.shear = choice.shear;
+  fluid.dim = par.dim;
+  fluid.mean_radius = kernel_mean_radius(par.kernel, par.dim, par.support);
+  fluid.zeta = 0.5 * (par.type[i].zeta + par.type[j].zeta);
+  fluid.conductivity =
+      HeatChannel::mean(coeffs[i].keywords.a[CONDUCTIVITY], coeffs[j].keywords.a[CONDUCTIVITY]);
+  fluid.heat_capacity = std::min(heat_capacity(i), heat_capacity(j));
   for (int k = 0; k < NTYPECOEFF; k++)
     fluid.type.a[k] = std::max(par.type[i].keywords.a[k], par.type[j].keywords.a[k]);
   for (int k = 0; k < nviscosity(); k++) fluid.viscosity[k] = viscosity(k, i, j);

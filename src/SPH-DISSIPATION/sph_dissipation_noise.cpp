@@ -199,7 +199,7 @@ bool NoiseStage::set_coeffs(double factor)
   bool any = false;
   coeff.assign(par.pair.size(), NoiseCoeff());
   for (std::size_t k = 0; k < par.pair.size(); k++) {
-    PairFriction friction = Channels::friction(par.spins(), par.pair[k]);
+    PairFriction friction = Channels::friction(par.spins(), par.pair[k].a);
     friction.along = std::max(friction.along, 0.0);
     friction.spin_along = std::max(friction.spin_along, 0.0);
     coeff[k].central = sqrt(share * factor * friction.along);

@@ -68,7 +68,7 @@ SPH_INLINE void slip_velocity(const double *w_i, const Real *w_j, const Real *r,
 // what the terms of the channels read of a pair, and what they add to
 
 struct PairState {
-  const Vec *coeff;    // of its types, by enum Coefficient
+  const Vec *coeff;    // of its types, in the order of PairCoeff
   Vec r[3];
   Vec u[3];         // in add_vector(), with spins, the velocity of slip
   Vec s[3];         // difference of the spins
@@ -83,12 +83,13 @@ struct PairState {
   Vec heat[NCHANNEL];    // half of the heat, by channel
 };
 
-// Term of a channel, with the coefficients FIRST to LAST.  First come the terms along r, then all others.  They add to
+// Term of a channel, with some of its coefficients, in pair.coeff FIRST to LAST.  First come the terms along r, then all others.  They add to
 // force, torques, and the heat of their channel, which begin with zero (central: with the pressure).
 
 template <class Of, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTerm {
   static constexpr int CHANNEL = Channels::place<Of>();
-  static constexpr int FIRST = FIRST_COEFF, LAST = LAST_COEFF;
+  static constexpr int FIRST = Channels::first<Of>() + FIRST_COEFF;
+  static constexpr int LAST = Channels::first<Of>() + LAST_COEFF;
   static constexpr bool CENTRAL = false, VECTOR = false;    // has add_central(), add_vector()
   static constexpr bool BY_DISTANCE = false;                // its metric is r
   static constexpr bool SPINS = false;

@@ -120,7 +120,7 @@ namespace SPHDissipation {
     uniform = inviscid = true;
     for (int i = 1; i < ntypes_1; i++)
       for (int j = 1; j < ntypes_1; j++)
-        for (int k = 0; k < NCOEFF; k++) {
+        for (int k = 0; k < Channels::NPAIR; k++) {
           const double a = pair[i * ntypes_1 + j].a[k];
           if (a != pair[ntypes_1 + 1].a[k]) uniform = false;
           if (a != 0.0) inviscid = false;

@@ -95,11 +95,12 @@ void CoeffTable::add_row(int i, int j, const PairFluid &fluid, const PairInertia
   values.emplace_back("zeta", fluid.zeta);
   Channels::visit(spins, [&](auto channel) {
     if (!channel.in_use(largest)) return;
-    channel.add_columns(fluid, coeff, [&](const char *name, double value) {
+    const double *const own = coeff.of<decltype(channel)>();
+    channel.add_columns(fluid, own, [&](const char *name, double value) {
       values.emplace_back(name, value);
     });
     if (channel.ELASTIC) return;
-    numbers.push_back(SPHDissipation::viscous_step(channel.rate(fluid, coeff, inertia)));
+    numbers.push_back(SPHDissipation::viscous_step(channel.rate(fluid, own, inertia)));
     (channel.OF_MOTION ? of_motion : of_heat).push_back(numbers.back());
     steps.emplace_back(channel.NAME, numbers.back());
   });

@@ -153,27 +153,41 @@ TEST(Coeffs, admissible_range)
 
 // largest stable time step of one channel alone
 
-template <class Channel>
-static double step_of(const PairFluid &fluid, const PairCoeff &coeff, const PairInertia &inertia)
+static PairInertia inertia_of(double hsq, double rho_inertia)
 {
-  return viscous_step(Channel::rate(fluid, coeff, inertia));
+  PairInertia inertia;
+  inertia.hsq = hsq;
+  inertia.rho = 1.0;
+  inertia.rho_inertia = rho_inertia;
+  return inertia;
+}
+
+static PairFluid fluid_of(Shear shear, int dim)
+{
+  PairFluid fluid;
+  fluid.shear = shear;
+  fluid.dim = dim;
+  fluid.mean_radius = 1.0;
+  return fluid;
 }
 
 static double shear_step(Shear shear, double hsq, double nu)
 {
-  return step_of<ShearChannel>({shear, 2, 1.0, {nu}, 0.0}, {}, {hsq, 1.0, 1.0});
+  PairFluid fluid = fluid_of(shear, 2);
+  fluid.viscosity[MU] = nu;
+  return viscous_step(ShearChannel::rate(fluid, nullptr, inertia_of(hsq, 1.0)));
 }
 
 static double bulk_step(double hsq, double zeta_over_rho)
 {
-  return step_of<BulkChannel>({Shear::MG, 2, 1.0, {}, zeta_over_rho}, {}, {hsq, 1.0, 1.0});
+  PairFluid fluid = fluid_of(Shear::MG, 2);
+  fluid.zeta = zeta_over_rho;
+  return viscous_step(BulkChannel::rate(fluid, nullptr, inertia_of(hsq, 1.0)));
 }
 
 static double vortex_step(double rho_inertia, double zeta2)
 {
-  PairCoeff coeff = {};
-  coeff.a[ZETA2] = zeta2;
-  return step_of<VortexChannel>({}, coeff, {1.0, 1.0, rho_inertia});
+  return viscous_step(VortexChannel::rate(PairFluid(), &zeta2, inertia_of(1.0, rho_inertia)));
 }
 
 static double micropolar_step(int n, double hsq, double inertia, double along_r, double along_u)
@@ -262,12 +276,17 @@ static std::array<double, 2> products_of_spin(DenseReference::Model model,
     model.spins = {fluid};
     const DenseReference::Matrix R = DenseReference::System(model, box, particles).micropolar().R;
     const int nspin = static_cast<int>(particles.spin.size());
-    const PairCoeff coeff = pair_coefficients(
-        {Shear::MICROPOLAR, n, 1.0,
-         {1.0, double(fluid.mu_r), double(fluid.gamma1), double(fluid.gamma2)}, 0.0});
+    PairFluid pair = fluid_of(Shear::MICROPOLAR, n);
+    pair.viscosity[MU] = 1.0;
+    pair.viscosity[MU_R] = double(fluid.mu_r);
+    pair.viscosity[GAMMA1] = double(fluid.gamma1);
+    pair.viscosity[GAMMA2] = double(fluid.gamma2);
+    const PairCoeff coeff = pair_coefficients(pair);
+    const double *const diffusive = coeff.of<SpinChannel>();
     products[diffusion] = largest_rate(R.bottomRightCorner(nspin, nspin)) *
-        (diffusion ? micropolar_step(n, hsq, 1.0, coeff.a[XI1], coeff.a[XI2])
-                   : vortex_step(1.0, coeff.a[ZETA2]));
+        (diffusion ? micropolar_step(n, hsq, 1.0, diffusive[SpinChannel::XI1],
+                                     diffusive[SpinChannel::XI2])
+                   : vortex_step(1.0, *coeff.of<VortexChannel>()));
   }
   return products;
 }
