@@ -76,6 +76,7 @@ void AtomVecSPHBulkKokkos::process_args(int narg, char **arg)
   add_processes(narg, arg);
   for (int k = 0; k < nprocess; k++)
     add_own_field(RHO_RELAXED_MASK, k_rho_relaxed[k], rho_relaxed[k], {EXCHANGE});
+  if (nprocess) add_own_field(RHO_RELAXED_MASK, k_tvib, tvib, {EXCHANGE});
   for (const auto occasion : {COMM, BORDER, EXCHANGE}) datamask_bonus |= sent_mask(occasion);
   setup_fields();
 }

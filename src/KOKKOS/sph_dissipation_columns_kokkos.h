@@ -18,6 +18,7 @@
 // the package's own fields, which the pack and unpack functions of AtomVecKokkos do not know.
 
 #include "kokkos_type.h"
+#include "sph_dissipation_channels.h"
 #include "sph_dissipation_exchange.h"
 
 namespace LAMMPS_NS {
@@ -26,7 +27,8 @@ namespace SPHDissipation {
   // number c of particle i is at base[c][i * stride[c]]
 
   struct ColumnsKokkos {
-    static constexpr int MOST = 16;
+    // those of an exchange: esph, vest, desph_before, inertia, omegaest, states
+    static constexpr int MOST = 1 + 3 + 1 + 1 + 3 + MOST_PROCESSES + 1;
     int n = 0;
     double *base[MOST];
     int stride[MOST];

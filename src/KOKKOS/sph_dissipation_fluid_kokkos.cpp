@@ -244,13 +244,13 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_strain()
   atomKK->sync(pair->execution_space, HEAT);
   set_strains();
   const ParticleRows rows = *data;
-  const int bits = not_fluid(), nprocess = engine->parameters().nprocess;
+  const int bits = not_fluid();
   Kokkos::parallel_for(
       "sph:strain", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
         if (rows.is_fluid(i, bits))
           rows.strains.advance(i, nullptr, 0);
         else
-          rows.strains.forget(i, nprocess);
+          rows.strains.forget(i);
       });
   atomKK->modified(pair->execution_space, RHO_RELAXED_MASK);
 }
@@ -272,7 +272,9 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_strains()
                    model->choice.eos,
                    avec.k_esph.template view<DeviceType>().data(),
                    avec.k_desph.template view<DeviceType>().data(),
-                   {}};
+                   {},
+                   avec.k_tvib.template view<DeviceType>().data(),
+                   avec.nprocess};
   for (int k = 0; k < avec.nprocess; k++)
     data->strains.relaxed[k] = avec.k_rho_relaxed[k].template view<DeviceType>().data();
 }

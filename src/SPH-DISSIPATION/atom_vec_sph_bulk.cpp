@@ -115,6 +115,24 @@ void AtomVecSPHBulk::add_processes(int narg, char **arg)
       list->push_back(name);
     fields_data_atom.insert(fields_data_atom.end() - 1, name);
   }
+  add_array("tvib", &tvib);
+  for (auto *list : {&fields_copy, &fields_exchange, &fields_restart, &fields_create})
+    list->push_back("tvib");
+}
+
+/* ----------------------------------------------------------------------
+   in data files, the temperature of the vibrations stands in the place of the last relaxed density, which a type with
+   vibrations does not have
+------------------------------------------------------------------------- */
+
+void AtomVecSPHBulk::pack_data_pre(int ilocal)
+{
+  if (nprocess && tvib[ilocal] > 0.0) rho_relaxed[nprocess - 1][ilocal] = tvib[ilocal];
+}
+
+void AtomVecSPHBulk::pack_data_post(int ilocal)
+{
+  if (nprocess && tvib[ilocal] > 0.0) rho_relaxed[nprocess - 1][ilocal] = 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -235,6 +253,7 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
                rmass[ilocal]);
   unpack_restart_init(ilocal);
   desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
+  if (nprocess) tvib[ilocal] = -1.0;
   if (!has_spins) return;
   if (!(inertia[ilocal] >= 0.0))
     error->one(FLERR, "Invalid inertia {} in Atoms section of data file: must be >= 0",

@@ -40,6 +40,8 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
   void grow_pointers() override;
   void force_clear(int, size_t) override;
   void data_atom_post(int) override;
+  void pack_data_pre(int) override;
+  void pack_data_post(int) override;
   void unpack_restart_init(int) override;
   int property_atom(const std::string &) override;
   void pack_property_atom(int, double *, int, int) override;

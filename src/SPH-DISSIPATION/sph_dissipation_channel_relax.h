@@ -119,12 +119,6 @@ namespace SPHDissipation {
 
     static bool in_use(const TypeCoeffs &type) { return type.a[VIBRATION] > 0.0; }
 
-    // number of the state among those of the processes of a type; MOST_PROCESSES without vibrations
-    static int state(const TypeCoeffs &type)
-    {
-      return in_use(type) ? RelaxChannel::count(type) : MOST_PROCESSES;
-    }
-
     // of a type of the heat capacity cv per mass without vibrations, in a time step dt
     static Vibration process(const TypeCoeffs &type, double cv, double dt)
     {

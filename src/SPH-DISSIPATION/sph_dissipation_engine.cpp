@@ -233,9 +233,12 @@ void Engine::set_rows()
 
 StrainRows Engine::strains() const
 {
-  StrainRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho, atom->drho,
-                     par->eos,         atom->esph, atom->desph, {}};
-  if (par->nprocess) std::copy_n(Fields::of(atom)->rho_relaxed, par->nprocess, rows.relaxed);
+  StrainRows rows = {par->type.data(), atom->type,  atom->rmass, atom->rho, atom->drho, par->eos,
+                     atom->esph,       atom->desph, {},          nullptr,   0};
+  const Fields *const fields = Fields::of(atom);
+  std::copy_n(fields->rho_relaxed, fields->nprocess, rows.relaxed);
+  rows.tvib = fields->tvib;
+  rows.room = fields->nprocess;
   if (!wall_energy.empty() && static_cast<int>(wall_energy.size()) >= atom->nlocal)
     rows.by_walls = wall_energy.data();
   return rows;

@@ -46,15 +46,18 @@ namespace SPHDissipation {
     double **omegaest;    // spin at the end of the step, extrapolated; nullptr without spins
 
     // relaxed density of each process that there is room for, mass/length^n, see RelaxChannel; of a new particle
-    // 0, or minus the factor by which it differs from the density that the next forces find.  After those of the
-    // strains of its type, the temperature of the vibrations; of a new particle 0
+    // 0, or minus the factor by which it differs from the density that the next forces find
     int nprocess;
     double *rho_relaxed[MOST_PROCESSES];
+
+    // temperature of the vibrations, see VibrationChannel; of a new particle 0; of one from a data file negative: the
+    // relaxed density that its type does not have is this temperature.  nullptr without room
+    double *tvib;
 
    protected:
     explicit Fields(bool spins) :
         has_spins(spins), desph_before(nullptr), inertia(nullptr), omegaest(nullptr), nprocess(0),
-        rho_relaxed()
+        rho_relaxed(), tvib(nullptr)
     {
     }
     ~Fields() = default;

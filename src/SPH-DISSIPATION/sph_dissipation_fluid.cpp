@@ -327,13 +327,13 @@ bool Fluid::at_rest() const
 void Fluid::begin_run(double dt)
 {
   set_step(dt);
-  std::vector<int> states(atom->ntypes + 1,
-                          0);    // that their types have, of the kind of the last run
-  for (int i = 1; i <= atom->ntypes; i++) {
-    states[i] = std::min(engine->parameters().type[i].nprocess, model->coeffs[i].states);
-    model->coeffs[i].states = MOST_PROCESSES;
-  }
-  relaxation->keep(states);
+  if (!Fields::of(atom)->nprocess) return;
+  const bigint others = relaxation->keep();
+  if (others && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style {}: {} particles have states of processes that their type does not "
+                   "have, which are lost; those of its own begin anew",
+                   style, others);
 }
 
 void Fluid::begin_step(double dt)

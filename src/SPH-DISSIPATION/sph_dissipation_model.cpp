@@ -31,8 +31,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 TypeCoeff::TypeCoeff() :
-    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0), other(0),
-    states(MOST_PROCESSES)
+    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0), other(0)
 {
 }
 
@@ -347,11 +346,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
                "Pair_coeff {}, not mu = {} kappa = {}", violated, arg[4], arg[5]);
 
   int count = 0;
-  const int state = VibrationChannel::state(one.keywords);
   for (int i = std::max(ilo, jlo); i <= std::min(ihi, jhi); i++) {
-    const int before = VibrationChannel::state(coeffs[i].keywords);
-    const bool other_kinds = setflag[i][i] && before != state;
-    one.states = std::min(coeffs[i].states, other_kinds ? std::min(before, state) : MOST_PROCESSES);
     coeffs[i] = one;
     setflag[i][i] = 1;
     count++;

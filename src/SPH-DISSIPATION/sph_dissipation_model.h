@@ -38,7 +38,6 @@ namespace SPHDissipation {
     double cv;        // heat capacity per mass; 0: that of the pair style
     int intrinsic;    // 1: kappa is what the shear term gives
     int other;        // 1: its particles belong to another style of pair_style hybrid
-    int states;    // of the processes, so many first ones are of the same kind as in the last run
   };
 
   // The fluids as the commands of a pair style describe them: the choices of pair_style, the

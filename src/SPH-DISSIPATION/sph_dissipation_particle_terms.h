@@ -52,7 +52,7 @@ namespace SPHDissipation {
 
   // The relaxing processes and the heat of owned particles, on the host or on a device, with their densities and
   // internal energies, and the rates of these; energies are those of the last forces.  The state of a process is the
-  // relaxed density of a strain, or the temperature T_v of the vibrations.  See RelaxChannel and Eos.
+  // relaxed density of a strain, that of the vibrations their temperature T_v.  See RelaxChannel and Eos.
 
   struct StrainRows {
     const TypeParameters *types;    // by type, from 1
@@ -60,7 +60,9 @@ namespace SPHDissipation {
     const double *rmass, *rho, *drho;
     Eos eos;
     const double *esph, *desph;
-    double *relaxed[MOST_PROCESSES];
+    double *relaxed[MOST_PROCESSES];    // of which there is room for so many
+    double *tvib;
+    int room;
     const double *by_walls =
         nullptr;    // energy that the walls hold of each particle; nullptr: none
 
@@ -83,7 +85,7 @@ namespace SPHDissipation {
       const TypeParameters &par = types[type[i]];
       return par.nprocess > par.nstrain;
     }
-    SPH_FUNCTION double &vibration(int i) const { return relaxed[types[type[i]].nstrain][i]; }
+    SPH_FUNCTION double &vibration(int i) const { return tvib[i]; }
     SPH_FUNCTION double vibrational_energy(int i) const
     {
       if (!vibrates(i)) return 0.0;
@@ -96,7 +98,9 @@ namespace SPHDissipation {
     SPH_FUNCTION void begin(int i) const
     {
       begin_strains(i);
-      if (!vibrates(i) || vibration(i) > 0.0) return;
+      if (!vibrates(i)) return;
+      if (vibration(i) < 0.0) keep(i);
+      if (vibration(i) > 0.0) return;
       const TypeParameters &par = types[type[i]];
       vibration(i) = 0.0;
       const double heat = thermal_energy(i);
@@ -106,7 +110,9 @@ namespace SPHDissipation {
     SPH_FUNCTION void begin(int i, double temperature) const
     {
       begin_strains(i);
-      if (vibrates(i) && !(vibration(i) > 0.0)) vibration(i) = temperature;
+      if (!vibrates(i)) return;
+      if (vibration(i) < 0.0) keep(i);
+      if (!(vibration(i) > 0.0)) vibration(i) = temperature;
     }
     SPH_FUNCTION void begin_strains(int i) const
     {
@@ -133,11 +139,39 @@ namespace SPHDissipation {
       for (int k = 0; k < types[type[i]].nstrain; k++) relaxed[k][i] = rho[i];
     }
 
+    // A particle keeps the states that its type has, and takes the temperature of its vibrations from where a data file
+    // has it: the last relaxed density, or the first one that its type does not have.  Returns whether it had others
+
+    SPH_FUNCTION bool keep(int i) const
+    {
+      const int nstrain = types[type[i]].nstrain;
+      const bool from_file = tvib[i] < 0.0;
+      if (from_file) {
+        tvib[i] = 0.0;
+        if (vibrates(i)) {
+          const double last = relaxed[room - 1][i];
+          tvib[i] = (last > 0.0) ? last : relaxed[nstrain][i];
+          if (tvib[i] < 0.0) tvib[i] = 0.0;
+        }
+      }
+      bool others = false;
+      for (int k = nstrain; k < room; k++) {
+        others = others || (relaxed[k][i] != 0.0 && !(from_file && vibrates(i)));
+        relaxed[k][i] = 0.0;
+      }
+      if (!vibrates(i)) {
+        others = others || tvib[i] > 0.0;
+        tvib[i] = 0.0;
+      }
+      return others;
+    }
+
     // particles that are not fluid have no state
 
-    SPH_FUNCTION void forget(int i, int nprocess) const
+    SPH_FUNCTION void forget(int i) const
     {
-      for (int k = 0; k < nprocess; k++) relaxed[k][i] = 0.0;
+      for (int k = 0; k < room; k++) relaxed[k][i] = 0.0;
+      tvib[i] = 0.0;
     }
 
     // one time step later: ln rho_r grows by (1 - e^-a) x, and by change[k * each] for process k, nullptr: by nothing

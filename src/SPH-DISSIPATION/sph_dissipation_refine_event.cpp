@@ -42,7 +42,7 @@ static constexpr double NEXT = 1.6;         // distance of neighbors that split 
 
 RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
     Pointers(lmp), items(lmp, fix), highest(0), balance(balance), pairs(lmp, items),
-    residual(lmp, items, pairs), support(0.0), smallest(0.0), fields(nullptr), parameters(nullptr)
+    residual(lmp, items, pairs), support(0.0), smallest(0.0), fields(nullptr)
 {
 }
 
@@ -51,7 +51,6 @@ RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
 void RefineEvent::init(const Fluid &fluid, double smallest_share)
 {
   support = fluid.support_radius();
-  parameters = &fluid.model->parameters();
   smallest = smallest_share;
   fields = Fields::of(atom);
   residual.init(RESIDUAL_RADIUS * support);
@@ -82,22 +81,6 @@ void RefineEvent::set(int i, RefineState state, double volume, double most, doub
   targets[i] = target;
 }
 
-/* ----------------------------------------------------------------------
-   of a relaxing process: the strain at the density at the end of the step, or the temperature of the vibrations
-------------------------------------------------------------------------- */
-
-bool RefineEvent::is_strain(int i, int process) const
-{
-  return process < parameters->type[atom->type[i]].nstrain;
-}
-
-double RefineEvent::relaxing(int i, int process) const
-{
-  if (!is_strain(i, process)) return fields->rho_relaxed[process][i];
-  return StrainRows::strain_at(atom->rho[i] + update->dt * atom->drho[i],
-                               fields->rho_relaxed[process][i]);
-}
-
 /* ---------------------------------------------------------------------- */
 
 Lump RefineEvent::lump(int i) const
@@ -106,7 +89,10 @@ Lump RefineEvent::lump(int i) const
   one.mass = atom->rmass[i];
   one.energy = atom->esph[i];
   one.energy_rate = fields->desph_before[i];
-  for (int k = 0; k < fields->nprocess; k++) one.relaxing[k] = relaxing(i, k);
+  const double rho = atom->rho[i] + update->dt * atom->drho[i];    // at the end of the step
+  for (int k = 0; k < fields->nprocess; k++)
+    one.relaxing[k] = StrainRows::strain_at(rho, fields->rho_relaxed[k][i]);
+  if (fields->nprocess) one.relaxing[MOST_PROCESSES] = fields->tvib[i];
   std::copy_n(atom->x[i], 3, one.x);
   std::copy_n(atom->v[i], 3, one.u);
   std::copy_n(atom->vest[i], 3, one.u_end);
@@ -142,8 +128,8 @@ void RefineEvent::set_relaxing(int i, const Lump &one)
 {
   for (int k = 0; k < fields->nprocess; k++)
     if (fields->rho_relaxed[k][i] != 0.0)    // its type has this process
-      fields->rho_relaxed[k][i] = is_strain(i, k) ? StrainRows::state_of(one.relaxing[k])
-                                                  : one.relaxing[k];
+      fields->rho_relaxed[k][i] = StrainRows::state_of(one.relaxing[k]);
+  if (fields->nprocess) fields->tvib[i] = one.relaxing[MOST_PROCESSES];
 }
 
 /* ----------------------------------------------------------------------

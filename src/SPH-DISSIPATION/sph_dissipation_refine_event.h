@@ -61,7 +61,6 @@ namespace SPHDissipation {
     double support;
     double smallest;    // volume of a daughter over the target
     Fields *fields;
-    const Parameters *parameters;    // of the fluid
 
     struct Split {
       int i;
@@ -77,8 +76,6 @@ namespace SPHDissipation {
     std::vector<Split> splits;
     std::vector<Merge> merges;
 
-    bool is_strain(int i, int process) const;
-    double relaxing(int i, int process) const;
     Lump lump(int i) const;
     void set_lump(int i, const Lump &);
     void set_relaxing(int i, const Lump &);

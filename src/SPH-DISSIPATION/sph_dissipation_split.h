@@ -56,7 +56,8 @@ namespace SPHDissipation {
     double inertia = 0.0;    // per mass
     double energy = 0.0;     // internal, and its rate
     double energy_rate = 0.0;
-    double relaxing[MOST_PROCESSES] = {};    // strains, and temperature of the vibrations
+    double relaxing[MOST_PROCESSES + 1] =
+        {};    // strains; the last one, temperature of the vibrations
     double x[3] = {};
     double u[3] = {}, spin[3] = {};
     double u_end[3] = {}, spin_end[3] = {};
@@ -178,7 +179,7 @@ namespace SPHDissipation {
       whole.energy_rate += parts[k].energy_rate;
     }
     for (int k = 0; k < n; k++)
-      for (int l = 0; l < MOST_PROCESSES; l++)
+      for (int l = 0; l <= MOST_PROCESSES; l++)
         whole.relaxing[l] += parts[k].mass / whole.mass * parts[k].relaxing[l];
 
     // relative to one of the parts, for the sake of round-off

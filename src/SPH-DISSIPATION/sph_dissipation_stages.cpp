@@ -195,7 +195,7 @@ void RelaxStage::advance(int not_fluid, const double *change) const
   const int nlocal = atom->nlocal;
   engine.for_each(nlocal, [&](int i) {
     if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid))
-      strains.forget(i, par.nprocess);
+      strains.forget(i);
     else
       strains.advance(i, change ? change + i : nullptr, nlocal);
   });
@@ -203,12 +203,14 @@ void RelaxStage::advance(int not_fluid, const double *change) const
 
 /* ---------------------------------------------------------------------- */
 
-void RelaxStage::keep(const std::vector<int> &states) const
+bigint RelaxStage::keep() const
 {
-  const Fields *const fields = Fields::of(atom);
-  for (int k = 0; k < fields->nprocess; k++)
-    for (int i = 0; i < atom->nlocal; i++)
-      if (k >= states[atom->type[i]]) fields->rho_relaxed[k][i] = 0.0;
+  const StrainRows strains = engine.strains();
+  bigint mine = 0, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (strains.keep(i)) mine++;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
 }
 
 /* ---------------------------------------------------------------------- */

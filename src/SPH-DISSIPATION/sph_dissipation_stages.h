@@ -124,8 +124,8 @@ namespace SPHDissipation {
 
     void advance(int not_fluid, const double *change) const;
 
-    // owned particles keep, by type, so many states only
-    void keep(const std::vector<int> &states) const;
+    // owned particles keep the states that their types have; returns how many particles, of all processors, had others
+    bigint keep() const;
 
     // energy of the strains and vibrations of owned particles of these groups, not_fluid as above
 
