@@ -127,12 +127,55 @@ void AtomVecSPHBulk::add_processes(int narg, char **arg)
 
 void AtomVecSPHBulk::pack_data_pre(int ilocal)
 {
-  if (nprocess && tvib[ilocal] > 0.0) rho_relaxed[nprocess - 1][ilocal] = tvib[ilocal];
+  if (!nprocess) return;
+  if (tvib[ilocal] > 0.0) rho_relaxed[nprocess - 1][ilocal] = tvib[ilocal];
+  check_data_line(ilocal);
 }
 
 void AtomVecSPHBulk::pack_data_post(int ilocal)
 {
   if (nprocess && tvib[ilocal] > 0.0) rho_relaxed[nprocess - 1][ilocal] = 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   read_data drops what a line has beyond its buffer.  The fields are those of style hybrid, if there is one
+------------------------------------------------------------------------- */
+
+void AtomVecSPHBulk::check_data_line(int ilocal) const
+{
+  constexpr std::size_t OTHERS = 100;    // with fewer characters of states a line is short enough
+  constexpr std::size_t INTEGER = 12;
+
+  std::size_t length = 0;
+  for (int k = 0; k < nprocess; k++)
+    length += fmt::formatted_size(" {:.16}", rho_relaxed[k][ilocal]);
+  if (length < OTHERS) return;
+
+  imageint *const image = &atom->image[ilocal];
+  length =
+      fmt::formatted_size("{} {} {} {} {}", atom->tag ? atom->tag[ilocal] : 0, atom->type[ilocal],
+                          (*image & IMGMASK) - IMGMAX, (*image >> IMGBITS & IMGMASK) - IMGMAX,
+                          (*image >> IMG2BITS) - IMGMAX);
+  for (const auto &name : atom->avec->fields_data_atom) {
+    if (name == "id" || name == "type") continue;
+    const auto field =
+        std::find_if(atom->peratom.begin(), atom->peratom.end(), [&](const auto &one) {
+          return one.name == name;
+        });
+    if (field == atom->peratom.end()) continue;
+    if (field->datatype != Atom::DOUBLE)
+      length += INTEGER * std::max(field->cols, 1);
+    else if (field->cols == 0)
+      length += fmt::formatted_size(" {:.16}", (*(double **) field->address)[ilocal]);
+    else
+      for (int d = 0; d < field->cols; d++)
+        length += fmt::formatted_size(" {}", (*(double ***) field->address)[ilocal][d]);
+  }
+  if (length > MOST_OF_DATA_LINE)
+    error->one(FLERR,
+               "Cannot write a data file: the line of atom {} has {} characters, and read_data "
+               "takes {}, which is too few for {} relaxing processes; use write_restart",
+               atom->tag ? atom->tag[ilocal] : 0, length, MOST_OF_DATA_LINE, nprocess);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -65,6 +65,7 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
 
  private:
   void add_spins();
+  void check_data_line(int) const;
   std::vector<double> temperatures(bool of_vibrations) const;    // of owned particles
 
   struct OwnArray {

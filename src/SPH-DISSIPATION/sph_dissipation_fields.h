@@ -21,6 +21,9 @@ class Atom;
 
 namespace SPHDissipation {
 
+  // characters of a line of a data file that read_data takes
+  constexpr std::size_t MOST_OF_DATA_LINE = 254;
+
   // What the fluid keeps of a particle beyond class Atom, per atom.  The atom style derives from
   // this class and keeps the pointers up to date; class Atom owns the arrays, as custom properties
   // of the same names.

@@ -138,6 +138,7 @@ namespace SPHDissipation {
     void set_temperature(char **words, bool energy);
     int place(const char *) const;
     std::string type_line(int) const;
+    void put_line(FILE *, const std::string &line, const std::string &what) const;
   };
 
 }    // namespace SPHDissipation

@@ -16,6 +16,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "sph_dissipation_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -210,7 +211,8 @@ void FluidModel::read_coeffs(FILE *fp, int **setflag)
 
 void FluidModel::write_data(FILE *fp) const
 {
-  for (int i = 1; i <= atom->ntypes; i++) utils::print(fp, "{} {}\n", i, type_line(i));
+  for (int i = 1; i <= atom->ntypes; i++)
+    put_line(fp, fmt::format("{} {}", i, type_line(i)), style + " coefficients");
 }
 
 /* ----------------------------------------------------------------------
@@ -220,28 +222,46 @@ void FluidModel::write_data(FILE *fp) const
 void FluidModel::write_data_all(FILE *fp) const
 {
   for (int i = 1; i <= atom->ntypes; i++) {
-    utils::print(fp, "{} {} {}\n", i, i, type_line(i));
+    put_line(fp, fmt::format("{} {} {}", i, i, type_line(i)), style + " coefficients");
     for (int j = i + 1; j <= atom->ntypes; j++) {
-      utils::print(fp, "{} {}", i, j);
+      std::string line = fmt::format("{} {}", i, j);
       for (int k = 0; k < nviscosity(); k++)
-        utils::print(fp, " {} {:.17g}", VISCOSITY_NAMES[k], viscosity(k, i, j));
-      utils::print(fp, "\n");
+        line +=
+            fmt::format(" {} {}", VISCOSITY_NAMES[k],
+                        viscosity_set[k][i][j] ? fmt::format("{}", viscosity(k, i, j)) : "mean");
+      put_line(fp, line, style + " coefficients");
     }
   }
 }
 
 /* ----------------------------------------------------------------------
-   arguments of pair_coeff I I
+   a line of a data file, of which read_data would drop what exceeds its buffer
+------------------------------------------------------------------------- */
+
+void FluidModel::put_line(FILE *fp, const std::string &line, const std::string &what) const
+{
+  if (line.size() > MOST_OF_DATA_LINE)
+    error->one(FLERR,
+               "Cannot write a data file: a line of {} has {} characters, and read_data takes {}; "
+               "use write_restart: {}",
+               what, line.size(), MOST_OF_DATA_LINE, line);
+  utils::print(fp, "{}\n", line);
+}
+
+/* ----------------------------------------------------------------------
+   arguments of pair_coeff I I: numbers with as many digits as give them back, keywords that are not the default
 ------------------------------------------------------------------------- */
 
 std::string FluidModel::type_line(int i) const
 {
   const TypeCoeff &c = coeffs[i];
-  std::string line = fmt::format("{:.17g} {:.17g} {:.17g} {}", c.eos.rho0, c.eos.c0, c.viscosity[0],
-                                 c.intrinsic ? "intrinsic" : fmt::format("{:.17g}", c.kappa));
-  for (int k = 1; k < nviscosity(); k++) line += fmt::format(" {:.17g}", c.viscosity[k]);
-  line += fmt::format(" {:.17g} pb {:.17g}", c.rc, c.eos.pb);
-  if (c.cv > 0.0) line += fmt::format(" cv {:.17g}", c.cv);
+  std::string line = fmt::format("{} {} {} {}", c.eos.rho0, c.eos.c0, c.viscosity[0],
+                                 c.intrinsic ? "intrinsic" : fmt::format("{}", c.kappa));
+  for (int k = 1; k < nviscosity(); k++) line += fmt::format(" {}", c.viscosity[k]);
+  line += fmt::format(" {}", c.rc);
+  if (c.gamma > 0.0) line += fmt::format(" gamma {}", c.gamma);
+  if (c.eos.pb != 0.0) line += fmt::format(" pb {}", c.eos.pb);
+  if (c.cv > 0.0) line += fmt::format(" cv {}", c.cv);
   for (const auto *one = TYPE_KEYWORDS; one->name; one++) {
     const double *const a = c.keywords.a + one->first;
     if (std::all_of(a, a + one->count, [](double value) {
@@ -251,8 +271,7 @@ std::string FluidModel::type_line(int i) const
     int count = one->count;
     while (one->group && a[count - 1] == 0.0) count--;
     line += fmt::format(" {}", one->name);
-    for (int k = 0; k < count; k++) line += fmt::format(" {:.17g}", a[k]);
+    for (int k = 0; k < count; k++) line += fmt::format(" {}", a[k]);
   }
-  if (c.gamma > 0.0) line += fmt::format(" gamma {:.17g}", c.gamma);
   return line;
 }

@@ -252,6 +252,69 @@ def test_heat_capacity_stays_with_its_type(lammps):
         assert lammps.path(f"{name}.data").read_text().count("cv 20") == 2
 
 
+READ = 254  # characters of a line that read_data takes
+
+
+def number(random):
+    """One with as many digits as there are."""
+    return repr(float(random.uniform(0.1, 0.9) * 10.0 ** -random.integers(4, 6)))
+
+
+@pytest.mark.parametrize("style, eos", [("sph/bulk", "tait"), ("sph/bulk", "ideal"), ("sph/micropolar", "linear")])
+def test_data_file_has_all_keywords(lammps, style, eos):
+    """Each keyword at its maximum comes back bit for bit, or write_data says that the line is too long; nothing is cut."""
+    random = np.random.default_rng(7)
+    box = "region box block 0 6 0 6 -0.5 0.5\ncreate_box 2 box\ncreate_atoms 1 single 1 1 0\nset group all mass 1.0 sph/e 1.0\n"
+    fix = f"fix 1 all {style}\n"
+    found = {"back": 0, "refused": 0}
+    for count in (0, 1, 4, 8):
+        for digits in ("few", "many"):
+            n = (lambda: number(random)) if digits == "many" else (lambda: repr(round(float(random.uniform(0.1, 0.9)), 2)))
+            spins = "0.0 0.0 0.0 " if style == "sph/micropolar" else ""
+            words = f"1.1 10.3 {n()} {n()} {spins}3.3 gamma {'1.6' if eos == 'ideal' else '4.1'} pb {n()} cv {n()} drag {n()} {n()} {n()} 0 conductivity {n()}"
+            words += f" gruneisen 1e-3 {n()}" if eos != "ideal" else f" vibration {n()} {n()}" if count < 8 else ""
+            words += "".join(f" relax {n()} {n()}" for _ in range(count))
+            first = header(2, style=f"{style} relax 8")
+            pair = f"pair_style {style} eos {eos}\n"
+            text = first + box + pair + f"pair_coeff * * {words}\npair_coeff 1 2 mu {n()}\n" + fix
+            for pairs in ("ii", "ij"):
+                result = lammps(text + f"write_data out.data pair {pairs}\n", check=False)
+                if result.code:
+                    assert "read_data takes 254; use write_restart" in result.error and digits == "many"
+                    found["refused"] += 1
+                    continue
+                assert max(map(len, lammps.path("out.data").read_text().splitlines())) <= READ
+                lammps(first + pair + f"read_data out.data\n" + fix + f"write_data again.data pair {pairs}\n")
+                sections = [lammps.path(f"{name}.data").read_text().split("Coeffs")[1] for name in ("out", "again")]
+                assert sections[0] == sections[1]
+                given = sorted(float(word) for word in words.split() if re.match(r"[-\d.]", word) and float(word) != 0.0)
+                line = sections[0].splitlines()[2].split()[1 if pairs == "ii" else 2:]
+                kept = sorted(float(word) for word in line if re.match(r"[-\d.]", word) and float(word) != 0.0)
+                assert kept == given, line
+                found["back"] += 1
+    assert found["back"] >= 8 and found["refused"] > 2
+
+
+@pytest.mark.parametrize("hybrid", [False, True])
+def test_data_file_has_all_states(lammps, hybrid):
+    """The states of eight processes come back, or write_data says that a line is too long."""
+    sub = "hybrid sph/bulk relax 8 charge" if hybrid else "sph/bulk relax 8"
+    first = header(2, style=sub)
+    pair = "pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0 " + " ".join(f"relax {k}.0 {k}.5" for k in range(1, 9)) + "\n"
+    names = [f"d_rho_relaxed{k}" for k in range(1, 9)]
+    place = "region box block 0 4 0 4 -0.5 0.5\ncreate_box 1 box\ncreate_atoms 1 single {0} 0.2 0\ncreate_atoms 1 single {0} 3.1 0\n"
+    for state, x in (("1.25", "0.5"), ("1.0023456789012345", "0.5"), ("1.234567890123456e-105", "0.1234567890123456")):
+        lines = f"set group all mass {state} sph/e {state}\n" + "".join(f"set group all {name} {state}\n" for name in names)
+        result = lammps(first + place.format(x) + ("mass * 1.0\n" if hybrid else "") + pair + lines + "fix 1 all sph/bulk\nwrite_data out.data nocoeff\n", check=False)
+        if "e" in state and result.code:
+            assert re.search(r"the line of atom \d has \d+ characters, and read_data takes 254, .* 8 relaxing processes", result.error)
+            continue
+        lammps(first + "read_data out.data\n" + pair + f"write_dump all custom back.dump id {' '.join(names)} modify format float %.17g\n")
+        back = lammps.frame("back.dump")
+        assert all(np.abs(back[name] / float(state) - 1.0).max() < 5e-16 for name in names)
+    assert result.code
+
+
 # ---------------------------------------------------------------------------------------------
 # damaged restart files
 

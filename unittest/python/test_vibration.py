@@ -376,7 +376,7 @@ def test_restart_and_data_file(lammps, ranks):
     whole, parts = lammps.frames("whole.dump"), lammps.frames("parts.dump")
     assert (whole[0]["c_T[2]"] == parts[0]["c_T[2]"]).all()
     same(whole[1], parts[1], 1e-12)
-    assert re.search(rf"cv 2.5 .*conductivity 0.5 vibration {CVIB:.17g} {0.02:.17g}", lammps.path("state.data").read_text())
+    assert re.search(rf"cv 2.5 .*conductivity 0.5 vibration {CVIB} 0.02", lammps.path("state.data").read_text())
     lammps(room(2) + "pair_style sph/bulk eos ideal\nread_data state.data\nfix FLUID all sph/bulk\n" + BOTH + dump("data.dump", 1, COLUMNS) + "run 0\n")
     assert relative(lammps.frame("data.dump")["c_T[2]"] - whole[0]["c_T[2]"], whole[0]["c_T[2]"]) < 1e-14
 
