@@ -67,8 +67,8 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
     temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false), dim(0),
-    support(0.0), stale(false), own_list(false), set_up(false), announced(false), changed(false),
-    warned_step(0.0), noise_step(0.0)
+    support(0.0), stale(false), own_list(false), set_up(false), announced(false), touched(false),
+    changed(false), warned_step(0.0), noise_step(0.0)
 {
 }
 
@@ -89,7 +89,7 @@ void Fluid::settings(int narg, char **arg)
                "Pair_style {} simd {}: not in this processor, or not in this executable of LAMMPS",
                style, model->simd);
   announced = set_up = false;
-  changed = true;
+  touched = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -101,7 +101,7 @@ void Fluid::coeff(int narg, char **arg)
   model->adopt();    // what others have set comes first
   model->coeff(narg, arg, pair->setflag);
   announced = set_up = false;
-  changed = true;
+  touched = true;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -215,7 +215,7 @@ void Fluid::derive_coeffs()
   stale = false;
   if (model->adopt()) {
     announced = false;
-    changed = true;
+    touched = true;
   }
   viscous->forget_rates();
   temperature->forget_rates();
@@ -240,6 +240,12 @@ void Fluid::adopt()
 bigint Fluid::compute(PairTally *tally)
 {
   if (neighbor->ago == 0) check_masses(lmp, style, *model);
+  if (touched) {
+    const std::uint64_t hash = model->hash();
+    changed = changed || hash != model->hash_of_forces;
+    model->hash_of_forces = hash;
+    touched = false;
+  }
   if (own_list && search->update(pair->list)) timer->stamp(Timer::NEIGH);
   if (model->choice.thermal) noise->count_step();
   if (model->choice.own_temperatures && (neighbor->ago == 0 || update->setupflag))

@@ -211,6 +211,7 @@ namespace SPHDissipation {
    private:
     bool set_up;           // since pair_style and pair_coeff
     bool announced;        // the table of coefficients is up to date
+    bool touched;          // by a command, which may have given the same coefficients
     bool changed;          // other coefficients, or motions of walls, than those of the last forces
     double warned_step;    // the time step that the last warning was about
     double noise_step;     // the time step that was announced with the noise

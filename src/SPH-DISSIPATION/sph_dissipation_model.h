@@ -18,6 +18,7 @@
 #include "sph_dissipation_noise_data.h"
 #include "sph_dissipation_parameters.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -96,6 +97,10 @@ namespace SPHDissipation {
     bool has_temperatures() const;           // any type has a heat capacity
     bool conducts() const;                   // any type conducts heat
     bool is_mixed(int i, int j) const { return !viscosity_set[0][i][j]; }
+
+    // number that differs where settings or coefficients do, and that of the last forces, 0 before
+    std::uint64_t hash() const;
+    std::uint64_t hash_of_forces;
 
     Settings choice;
     NoiseClock clock;

@@ -20,6 +20,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -27,7 +29,7 @@ using namespace SPHDissipation;
 // first number of the settings in a restart file; the settings of older versions begin with one
 // below 10.  A new one for every change of what is stored, which a coefficient of a channel is, too.
 
-static constexpr int FORMAT = 1004 + (NTYPECOEFF << 16);
+static constexpr int FORMAT = 1005 + (NTYPECOEFF << 16);
 
 /* ----------------------------------------------------------------------
    numbers to and from a restart file; proc 0 reads and checks, all get them
@@ -108,6 +110,8 @@ void FluidModel::write_settings(FILE *fp) const
   put(fp, choice.seed);
   put(fp, static_cast<double>(clock.step));
   put(fp, static_cast<double>(clock.offset));
+  put(fp, static_cast<int>(hash_of_forces));
+  put(fp, static_cast<int>(hash_of_forces >> 32));
 }
 
 /* ----------------------------------------------------------------------
@@ -141,6 +145,44 @@ void FluidModel::read_settings(FILE *fp)
   choice.seed = read.integer("seed", 0, MAXSMALLINT);
   clock.step = static_cast<bigint>(read.number("step of the noise"));
   clock.offset = static_cast<bigint>(read.number("offset of the noise"));
+  constexpr int LOWEST = std::numeric_limits<int>::min(), HIGHEST = std::numeric_limits<int>::max();
+  hash_of_forces = static_cast<std::uint32_t>(read.integer("hash", LOWEST, HIGHEST));
+  hash_of_forces |= static_cast<std::uint64_t>(read.integer("hash", LOWEST, HIGHEST)) << 32;
+}
+
+/* ----------------------------------------------------------------------
+   FNV-1a of the bits of all numbers
+------------------------------------------------------------------------- */
+
+std::uint64_t FluidModel::hash() const
+{
+  std::uint64_t sum = 14695981039346656037ull;
+  auto add = [&](double value) {
+    std::uint64_t bits;
+    value += 0.0;    // -0 is 0
+    memcpy(&bits, &value, sizeof(bits));
+    for (int k = 0; k < 8; k++) sum = (sum ^ (bits >> 8 * k & 255)) * 1099511628211ull;
+  };
+  for (const int value :
+       {static_cast<int>(choice.kernel), static_cast<int>(choice.eos),
+        static_cast<int>(choice.shear), static_cast<int>(choice.bulk), choice.dim,
+        static_cast<int>(choice.limit), static_cast<int>(choice.volume),
+        static_cast<int>(choice.thermal), static_cast<int>(choice.own_temperatures), choice.seed})
+    add(value);
+  add(choice.temperature);
+  add(choice.heat_capacity);
+  for (int i = 1; i <= atom->ntypes; i++) {
+    const TypeCoeff &type = coeffs[i];
+    add(type.other);
+    if (type.other) continue;
+    for (const double value : {type.eos.rho0, type.eos.c0, type.eos.pb, type.gamma, type.cv,
+                               type.intrinsic ? -1.0 : type.kappa, type.rc})
+      add(value);
+    for (int k = 0; k < NTYPECOEFF; k++) add(type.keywords.a[k]);
+    for (int j = 1; j <= i; j++)
+      for (int k = 0; k < nviscosity(); k++) add(viscosity(k, i, j));
+  }
+  return sum;
 }
 
 /* ----------------------------------------------------------------------

@@ -203,22 +203,38 @@ def test_many_short_runs_are_of_second_order(lammps):
 
 @pytest.mark.parametrize("name", SCHEMES)
 def test_runs_go_on(lammps, name):
-    """Without setup, as a second run, and from a restart file, with new neighbor lists in between."""
+    """Without setup, as a second run, and from a restart file, with new neighbor lists in between; equal coefficients that a
+    command gives again are no change."""
     particles = disordered(2, 12, spread=0.04)
     micro.write(particles, lammps.path("box.data"), inertia=0.05)
     forces = "variable w atom sin(2*PI*y/12)\nfix B all addforce v_w 0 0\nfix T all sph/torque 0 0 v_w\nneighbor 0.1 bin\n"
-    start = (header(2, style=MICRO) + "read_data box.data\n" + micro.fluid(2, mu=5.0, kappa=50.0, mu_r=2.0, gamma1=0.5))
+    model = micro.fluid(2, mu=5.0, kappa=50.0, mu_r=2.0, gamma1=0.5)
+    start = header(2, style=MICRO) + "read_data box.data\n" + model
     fixes = integrate(SCHEMES[name] + ("" if name == "rkl2" else " tolerance 1e-13"), MICRO) + forces + "timestep 0.02\n"
     v = {}
-    for key, text in (("one", "run 12\n"), ("no setup", "run 5\nrun 7 pre no\n"), ("two", "run 5\nrun 7\n"),
+    for key, text in (("one", "run 12\n"), ("no setup", "run 5\nrun 7 pre no\n"), ("two", "run 5\nrun 7\n"), ("again", f"run 5\n{model}run 7\n"),
                       ("file", "run 5\nwrite_restart half.restart\n")):
         lammps(start + fixes + text + micro.dump("out.dump") + "run 0\n")
         v[key] = np.column_stack([lammps.frame("out.dump")["v"], micro.omega_of(lammps.frame("out.dump"))])
-    lammps(f"read_restart half.restart\n{fixes}run 7\n{micro.dump('out.dump')}run 0\n", ranks=2)
-    again = np.column_stack([lammps.frame("out.dump")["v"], micro.omega_of(lammps.frame("out.dump"))])
+    for words in ("", model):
+        lammps(f"read_restart half.restart\n{words}{fixes}run 7\n{micro.dump('out.dump')}run 0\n", ranks=2)
+        again = np.column_stack([lammps.frame("out.dump")["v"], micro.omega_of(lammps.frame("out.dump"))])
+        assert relative(again - v["one"], v["one"]) < 1e-11
     assert relative(v["no setup"] - v["one"], v["one"]) < 1e-13
     assert relative(v["two"] - v["one"], v["one"]) < 1e-11
-    assert relative(again - v["one"], v["one"]) < 1e-11
+    assert relative(v["again"] - v["one"], v["one"]) < 1e-11
+
+
+def test_hybrid_goes_on_with_the_same_coefficients(lammps):
+    """After a restart file, which pair_style hybrid leaves without coefficients."""
+    disordered(2, 12, spread=0.04).write(lammps.path("box.data"))
+    style = "pair_style hybrid/overlay zero 3.0 sph/bulk temp 0.01 4711\n"
+    coeffs = "pair_coeff * * sph/bulk 1.0 10.0 5.0 50.0 3.0\npair_coeff * * zero\n"
+    fixes = "fix 1 all sph/bulk viscous implicit tolerance 1e-13\ntimestep 0.02\n"
+    lammps(header(2) + "read_data box.data\n" + style + coeffs + fixes + "run 5\nwrite_restart half.restart\nrun 7\n" + dump("out.dump") + "run 0\n")
+    whole = lammps.frame("out.dump")["v"]
+    lammps(f"read_restart half.restart\n{coeffs}{fixes}run 7\n{dump('out.dump')}run 0\n")
+    assert relative(lammps.frame("out.dump")["v"] - whole, whole) < 1e-11
 
 
 # ---- conservation ------------------------------------------------------------------------------------------------
