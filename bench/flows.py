@@ -22,7 +22,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from run import HERE, ratio
+from run import HERE, parsed, ratio
 
 EXAMPLES = HERE.parent / "examples"
 PERIODIC = HERE / "in.bench"
@@ -200,7 +200,7 @@ def main():
                         help="seconds per particle and per ghost (default: those of README.md)")
     parser.add_argument("--latency", type=float, default=2e-6, help="of a message, seconds")
     parser.add_argument("--bandwidth", type=float, default=1.6e9, help="bytes per second of each rank")
-    args = parser.parse_args()
+    args = parsed(parser)
     args.peers = args.peers or args.lmp
     args.repeat = args.repeat or (3 if args.quick else 7)
     if args.messages:

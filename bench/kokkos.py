@@ -96,7 +96,7 @@ def main():
     what.add_argument("--check", action="store_true",
                       help=f"fail if sph/bulk/kk on one thread is not {FASTER} times as fast as LAMMPS's CPU styles, or "
                            f"on two threads not {THREADS} times as fast as on one, between walls and with noise as well")
-    args = parser.parse_args()
+    args = bench.parsed(parser)
     args.simd = "auto"
     (scaling if args.scaling else gpu if args.gpu else compare)(args)
 

@@ -13,6 +13,8 @@ the runs of one turn.
 import argparse
 import os
 import re
+import shutil
+import signal
 import statistics
 import subprocess
 import sys
@@ -136,6 +138,23 @@ def ratio(seconds_a, seconds_b, what):
     return median
 
 
+def parsed(parser):
+    """Arguments of a benchmark. With SPHD_PARSE_ONLY, nothing but a look at them, before LAMMPS is built."""
+    args = parser.parse_args()
+    for name in ("n", "steps", "repeat", "ranks"):
+        number = getattr(args, name, None)
+        if number is not None and min(number if isinstance(number, list) else [number]) < 1:
+            parser.error(f"--{name} must be at least 1")
+    if os.environ.get("SPHD_PARSE_ONLY"):
+        sys.exit()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))    # subprocess.run ends its LAMMPS
+    if not shutil.which(args.lmp):
+        parser.error(f"no LAMMPS executable {args.lmp}; name one by --lmp")
+    if getattr(args, "ranks", 1) not in (1, [1]) and not shutil.which(args.mpiexec):
+        parser.error(f"no {args.mpiexec}, which starts MPI programs; name one by --mpiexec")
+    return args
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--lmp", default=os.environ.get("SPHD_LMP", str(HERE.parent / "build" / "lmp")))
@@ -152,7 +171,7 @@ def main():
                              f"{WALL_COST} times as much as the periodic box, thermal noise makes a style more than "
                              f"{NOISE_COST} times as expensive, or an idle fix sph/refine takes more than {IDLE_COST} "
                              "times as long as none (shortest of all runs), on the first number of ranks")
-    args = parser.parse_args()
+    args = parsed(parser)
     if args.noise:
         return noises(args)
     results = [compare(ranks, args) for ranks in args.ranks]

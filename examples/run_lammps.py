@@ -4,13 +4,16 @@ results.txt; a copy beside the README is what the numbers of the README are comp
 
 import argparse
 import csv
+import fcntl
 import os
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 import time
-from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, CancelledError, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -19,6 +22,7 @@ from sph_dissipation import averages, exponents, fluids, frames, progress, pyplo
 
 TABLE = Path(__file__).with_name("examples.csv")    # what each example shows, takes, and has for a picture
 PATIENCE = 30      # seconds without a word, at most
+SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 
 
 def table():
@@ -37,10 +41,17 @@ def csv_rows(path, header):
 
 
 class Kept:
-    """Standard output that goes to a file as well."""
+    """Standard output that goes to a file as well, which is locked."""
 
     def __init__(self, path):
-        self.file = open(path, "w", encoding="utf-8", buffering=1)
+        self.file = open(path, "a", encoding="utf-8", buffering=1)
+        try:
+            fcntl.flock(self.file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise SystemExit(f"another run writes into {path.parent}: wait for it, or name another folder by --out") from None
+        except OSError:
+            pass    # a file system without locks
+        self.file.truncate(0)
 
     def write(self, text):
         sys.__stdout__.write(text)
@@ -62,6 +73,7 @@ class Example:
         self.folder, self.name = folder, folder.name
         self.begin = time.monotonic()
         self.missed = []
+        self.processes, self.ended, self.lock = set(), False, threading.Lock()
         self.parser = argparse.ArgumentParser(prog=f"./sphd run {self.name}" if Path(sys.argv[0]).stem == "run" else None,
                                               description=description)
         self.parser.add_argument("--quick", action="store_true", help="a small version, for tests")
@@ -74,16 +86,35 @@ class Example:
         self.parser.add_argument("--check", action="store_true", help="exit with 1 if a figure of merit is missed")
 
     def arguments(self):
+        """With SPHD_PARSE_ONLY, nothing but a look at the arguments, before LAMMPS is built."""
         self.args = self.parser.parse_args()
+        parse_only = bool(os.environ.get("SPHD_PARSE_ONLY"))
         if self.args.np < 1:
             self.parser.error("--np must be at least 1")
+        self.mpi = shlex.split(os.environ.get("SPHD_MPIEXEC", "")) or ([] if parse_only else ["mpiexec"])
+        if self.args.np > 1 and self.mpi and not shutil.which(self.mpi[0]):
+            self.parser.error(f"no {self.mpi[0]}, which starts MPI programs; name one by SPHD_MPIEXEC")
         self.out = self.args.out.resolve()
-        self.out.mkdir(parents=True, exist_ok=True)
+        if self.out.exists() and not self.out.is_dir():
+            self.parser.error(f"--out: {self.out} is not a folder")
+        if self.args.no_run and not any(self.out.glob("*.log")):
+            self.parser.error(f"--no-run: no results in {self.out}; run the example without it")
+        if parse_only:
+            sys.exit()
+        path = os.environ.get("SPHD_LMP") or str(self.folder.parent.parent / "build" / "lmp")
+        self.lmp = shutil.which(path)
+        if not self.lmp and not self.args.no_run:
+            raise SystemExit(f"{self.name}: no LAMMPS executable {path}; set SPHD_LMP or run ./sphd run {self.name}")
         script = Path(sys.argv[0]).stem
+        try:
+            self.out.mkdir(parents=True, exist_ok=True)
+            self.kept = Kept(self.out / ("results.txt" if script == "run" else f"results_{script}.txt"))
+        except OSError as error:
+            self.parser.error(f"--out: {error}")
         row = table().get(self.name, {})
         if script == "run" and not self.args.quick and row.get("processor time"):
             tell(f"{self.name}: processor time of all runs: {row['processor time']}")
-        sys.stdout = Kept(self.out / ("results.txt" if script == "run" else f"results_{script}.txt"))
+        sys.stdout = self.kept
         return self.args
 
     def run(self, jobs, inputs=None):
@@ -91,20 +122,19 @@ class Example:
         inputs: {name: path} of those that have an input of their own
         """
         if self.args.no_run:
+            missing = [name for name in jobs if not (self.out / f"{name}.log").exists()]
+            if missing:
+                raise SystemExit(f"{self.name}: no results of {missing[0]} in {self.out}; run the example without --no-run")
             return
-        path = os.environ.get("SPHD_LMP") or str(self.folder.parent.parent / "build" / "lmp")
-        lmp = shutil.which(path)
-        if lmp is None:
-            raise SystemExit(f"{self.name}: no LAMMPS executable {path}; set SPHD_LMP or run ./sphd run {self.name}")
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
         ranks = self.args.np
         workers = max(1, min(len(jobs), cores // ranks))
-        tell(f"{len(jobs)} runs of {lmp} on {ranks} MPI rank(s) each, {workers} at a time")
-        report = Report(self.out, len(jobs), workers)
-        with ThreadPoolExecutor(workers) as pool:
-            waiting = {pool.submit(self._run, os.path.abspath(lmp), name, variables, ranks, cores, (inputs or {}).get(name), report)
-                       for name, variables in jobs.items()}
+        tell(f"{len(jobs)} runs of {self.lmp} on {ranks} MPI rank(s) each, {workers} at a time")
+        report, self.ended = Report(self.out, len(jobs), workers), False
+        with self._signals(), ThreadPoolExecutor(workers) as pool:
             try:
+                waiting = {pool.submit(self._run, os.path.abspath(self.lmp), name, variables, ranks, cores, (inputs or {}).get(name), report)
+                           for name, variables in jobs.items()}
                 while waiting:
                     finished, waiting = wait(waiting, PATIENCE, FIRST_COMPLETED)
                     for name, seconds in sorted((job.result() for job in finished), key=lambda one: list(jobs).index(one[0])):
@@ -112,24 +142,60 @@ class Example:
                     if not finished:
                         report.running()
             finally:
-                for job in waiting:
-                    job.cancel()
+                self._end()
+
+    @contextmanager
+    def _signals(self):
+        """A signal that ends this program ends its runs of LAMMPS, too."""
+        def stop(number, _):
+            for one in before:
+                signal.signal(one, signal.SIG_DFL)    # the next one at once
+            tell(f"{self.name}: {signal.Signals(number).name} ends all runs")
+            raise SystemExit(128 + number)
+
+        before = {number: signal.getsignal(number) for number in SIGNALS}
+        before = {number: handler for number, handler in before.items() if handler != signal.SIG_IGN}    # nohup
+        for number in before:
+            signal.signal(number, stop)
+        try:
+            yield
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
+
+    def _end(self):
+        """No run starts from now on, and those under way end."""
+        with self.lock:
+            self.ended = True
+        processes = list(self.processes)
+        for process in processes:
+            process.terminate()
+        for process in processes:
+            try:
+                process.wait(5)
+            except subprocess.TimeoutExpired:
+                process.kill()
 
     def _run(self, lmp, name, variables, ranks, cores, path, report):
         """Name and seconds of a run that has ended well."""
         begin = report.began[name] = time.monotonic()
-        mpi = shlex.split(os.environ.get("SPHD_MPIEXEC") or "mpiexec") + ["-n", str(ranks)] if ranks > 1 else []
+        mpi = [*self.mpi, "-n", str(ranks)] if ranks > 1 else []
         words = [word for key, value in {**variables, "out": name}.items() for word in ("-var", key, str(value))]
         command = [*mpi, lmp, "-in", str(path or self.folder / f"in.{self.name}"), "-screen", "none",
                    "-log", f"{name}.log", *self.args.switches, *words]
-        # LAMMPS writes its error messages to the log as well; a launcher has only stderr
-        done = subprocess.run(command, env=environment(ranks, cores), text=True, cwd=self.out,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        if done.returncode != 0:
+        # LAMMPS writes its error messages to the log as well; a launcher has only stderr. The process holds the lock of the folder, too.
+        with self.lock:
+            if self.ended:
+                raise CancelledError
+            process = subprocess.Popen(command, env=environment(ranks, cores), text=True, cwd=self.out, stdin=subprocess.DEVNULL,
+                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, pass_fds=[self.kept.file.fileno()])
+            self.processes.add(process)
+        output = process.communicate()[0]
+        self.processes.discard(process)
+        if process.returncode != 0:
             log = self.out / f"{name}.log"
-            tail = log.read_text().splitlines()[-15:] if log.exists() else []
-            raise SystemExit("\n".join([f"{self.name}: LAMMPS failed ({done.returncode}) for {name}:",
-                                        done.stdout.strip(), *tail]))
+            tail = log.read_text(errors="replace").splitlines()[-15:] if log.exists() else []
+            raise SystemExit("\n".join([f"{self.name}: LAMMPS failed ({process.returncode}) for {name}:", output.strip(), *tail]))
         return name, time.monotonic() - begin
 
     def merit(self, what, value, lower, upper):

@@ -8,6 +8,8 @@ Each is the input of the example with one more dump, in a coarse version.
 """
 import argparse
 import re
+import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -107,6 +109,12 @@ def main():
     parser.add_argument("--lmp", default=str(ROOT / "build" / "lmp"), help="(%(default)s)")
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "animations", help="folder for dumps and logs (%(default)s)")
     args = parser.parse_args()
+    unknown = [name for name in args.names if name not in FLOWS]
+    if unknown:
+        parser.error(f"no animation of {unknown[0]}; there are: {' '.join(FLOWS)}")
+    if not shutil.which(args.lmp):
+        parser.error(f"no LAMMPS executable {args.lmp}; name one by --lmp, or run ./sphd build")
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))    # subprocess.run ends its LAMMPS
     args.out.mkdir(parents=True, exist_ok=True)
     for name in args.names or FLOWS:
         panels, script, shown, (group, every), *look = FLOWS[name]

@@ -73,7 +73,7 @@ def gas(columns):
 
 
 def humid_air(humidity, temperature=293.15, pressure=101325.0):
-    """Columns of gases.sph of air with a relative humidity in percent, K, Pa.
+    """Columns of gases.sph of air with a relative humidity in percent, K, Pa. ValueError where the formulas do not hold.
 
     ISO 9613-1:1993 (H. E. Bass et al., J. Acoust. Soc. Am. 97, 680 (1995)): the vapor pressure, the relaxation
     frequencies 1/(2 pi tau), and what each process adds to the absorption, alpha = A f^2/(fr + f^2/fr).  For a weak process
@@ -82,8 +82,16 @@ def humid_air(humidity, temperature=293.15, pressure=101325.0):
     mu, k: Sutherland's formula, F. M. White, Viscous Fluid Flow (2006), of dry air; a vapor pressure of two percent changes them
     by less than one.  kappa: 0.6 mu, M. Greenspan, J. Acoust. Soc. Am. 31, 155 (1959).
     """
+    if not 0 <= humidity <= 100:
+        raise ValueError(f"a humidity of 0 to 100 percent, not {humidity:g}")
+    if not 253 <= temperature <= 323.15:
+        raise ValueError(f"ISO 9613-1 holds from 253 to 323 K, not at {temperature:g}")
+    if not 0 < pressure <= 2e5:
+        raise ValueError(f"ISO 9613-1 holds up to 200e3 Pa, not at {pressure:g}")
     t, p = temperature / 293.15, pressure / 101325
     vapor = humidity / p * 10 ** (-6.8346 * (273.16 / temperature) ** 1.261 + 4.6151)    # molar percentage
+    if vapor > 100:
+        raise ValueError(f"there is no air of this humidity at {temperature:g} K and {pressure:g} Pa, at which water boils")
     frequencies = (p * (24 + 4.04e4 * vapor * (0.02 + vapor) / (0.391 + vapor)),       # O2, N2
                    p / math.sqrt(t) * (9 + 280 * vapor * math.exp(-4.170 * (t ** (-1 / 3) - 1))))
     strengths = (0.01275 * math.exp(-2239.1 / temperature) * t**-2.5, 0.1068 * math.exp(-3352 / temperature) * t**-2.5)
@@ -113,8 +121,9 @@ def rows(path):
         if words[:1] == ["columns"]:
             columns = words[1:]
         elif words:
-            found[words[0]] = ({column: None if word == "-" else float(word) for column, word in zip(columns[1:], words[1:], strict=True)},
-                               comment)
+            if len(words) != len(columns):
+                raise ValueError(f"{path}: {words[0]} has {len(words)} columns, not {len(columns)}")
+            found[words[0]] = ({column: None if word == "-" else float(word) for column, word in zip(columns[1:], words[1:])}, comment)
     return found
 
 
@@ -131,25 +140,31 @@ def read(path):
 
 
 def find(name):
-    """Fluid of this name: of gases.sph, of fluids.sph, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]; KeyError with all names"""
+    """Fluid of this name: of gases.sph, of fluids.sph, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]; KeyError with all names, ValueError
+    if there is no such air"""
     known = {**read(POTENTIALS / "fluids.sph"), **read(POTENTIALS / "gases.sph")}
     if name in known:
         return known[name]
-    try:
-        return gas(air_of(name))
-    except ValueError:
-        raise KeyError(" ".join(known)) from None
+    if not name.startswith("air/"):
+        raise KeyError(" ".join(known))
+    return gas(air_of(name))
 
 
 def air_of(name):
     """columns of air/HUMIDITY[/TEMPERATURE[/PRESSURE]]; ValueError if it is no such name"""
     word, *numbers = name.split("/")
-    numbers = [float(number) for number in numbers]
-    if word != "air" or not 1 <= len(numbers) <= 3 or not (0 <= numbers[0] <= 100 and all(0 < number < math.inf for number in numbers[1:])):
-        raise ValueError(name)
+    try:
+        numbers = [float(number) for number in numbers]
+    except ValueError:
+        numbers = []
+    if word != "air" or not 1 <= len(numbers) <= 3:
+        raise ValueError("air/HUMIDITY[/TEMPERATURE[/PRESSURE]] in percent, K, Pa")
     return humid_air(*numbers)
 
 
 if __name__ == "__main__":
     for argument in sys.argv[1:]:
-        print(" ".join([argument, *(f"{value:.6g}" for value in air_of(argument).values())]))
+        try:
+            print(" ".join([argument, *(f"{value:.6g}" for value in air_of(argument).values())]))
+        except ValueError as error:
+            raise SystemExit(f"fluids: no fluid {argument}: {error}") from None

@@ -85,6 +85,9 @@ class Plan:
         self.set_sound_speed()
 
         name, constant, per_cell, edges = LATTICE[self.dim]
+        nearest = constant * (1.0 if self.dim == 2 else math.sqrt(3) / 2)
+        if args.support <= nearest:
+            raise SystemExit(f"plan: --support {args.support:g} reaches no neighbor of this lattice, the nearest are at {nearest:.3g}; take 4 or more")
         self.cells = [max(round(args.particles / (constant * edge)), 1) for edge in edges]    # whole ones; exactly one wave along x
         self.dx = args.length / (constant * self.cells[0] * edges[0] if self.wave else args.particles)
         self.rc = args.support * self.dx
@@ -108,6 +111,8 @@ class Plan:
                 self.real = fluids.find(args.fluid)
             except KeyError as known:
                 raise SystemExit(f"plan: no fluid {args.fluid} in gases.sph and fluids.sph, which have: {known.args[0]}") from None
+            except ValueError as error:
+                raise SystemExit(f"plan: no fluid {args.fluid}: {error}") from None
             self.c_fluid = self.real.c
         else:
             self.real = fluids.Fluid(args.rho, None, args.mu, args.kappa)
@@ -308,7 +313,8 @@ def measured_time(plan, lmp):
     loop = re.search(r"^Loop time of (\S+) on", done.stdout, re.MULTILINE)
     share = re.search(r"([\d.]+)% CPU use", done.stdout)    # others may use the machine, too
     if done.returncode or not loop or not share:
-        raise SystemExit(f"plan: {lmp} does not run this input:\n{done.stdout[-1000:]}")
+        errors = re.findall(r"^ERROR.*", done.stdout, re.MULTILINE)
+        raise SystemExit(f"plan: {lmp} does not run this input: " + (errors[0] if errors else f"\n{done.stdout[-1000:]}"))
     return float(loop[1]) * min(float(share[1]) / 100, 1.0) / steps / small.number
 
 
@@ -377,7 +383,14 @@ def arguments(argv):
 
 
 def main(argv=None):
-    plan = Plan(arguments(argv))
+    args = arguments(argv)
+    try:
+        plan = Plan(args)
+        numbers = plan.input()
+    except (ArithmeticError, ValueError):
+        numbers = "nan"
+    if re.search(r"\b(inf|nan)\b", numbers):
+        raise SystemExit("plan: numbers as large or small as these are beyond what a computer calculates with; take other units")
     time = "run time            not measured, there is no LAMMPS at build/lmp; ./sphd build makes it"
     if plan.args.lmp.exists() and not (plan.args.lmp.is_file() and os.access(plan.args.lmp, os.X_OK)):
         raise SystemExit(f"plan: {plan.args.lmp} is no program that can be run")

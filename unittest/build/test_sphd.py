@@ -1,6 +1,7 @@
 """What ./sphd installs and configures on a machine that has nothing, or all, or no administrator: apt-get, dpkg-query, compiler,
 and CMake are stand-ins here."""
 
+import fcntl
 import os
 import re
 import shutil
@@ -48,7 +49,8 @@ def machine(tmp_path):
     clone.mkdir()
     for name in ("sphd", "VERSION"):
         shutil.copy(ROOT / name, clone)
-    (clone / "examples").symlink_to(ROOT / "examples")
+    for name in ("examples", "bench"):
+        (clone / name).symlink_to(ROOT / name)
 
     def sphd(*args, **variables):
         environment = {name: value for name, value in os.environ.items()
@@ -99,6 +101,40 @@ def test_wrong_use_is_an_error_before_anything_is_installed(machine, args, varia
     assert status == 1
     assert message in output
     assert not installed and not options
+
+
+@pytest.mark.parametrize("args", [["run", "sound_pulse", "--nonsense"], ["run", "shock", "--np", "0"], ["run", "cavity", "--cases", "none"],
+                                  ["bench", "nonsense"], ["bench", "--flows", "--nonsense"], ["bench", "--kokkos", "--scaling", "--gpu"],
+                                  ["bench", "--repeat", "0"], ["run", "shock", "--no-run", "--out", "/dev/null"]])
+def test_wrong_arguments_of_a_script(machine, args):
+    """... are an error before anything is built."""
+    status, output, _, options = machine(*args)
+    assert status == 2 and re.search(r"^\S.*: error: ", output, re.MULTILINE) and "configuring" not in output and not options, output
+
+
+def test_modules_of_the_working_folder(machine, tmp_path, monkeypatch):
+    """A file numpy.py there is no numpy."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "absent.py").touch()
+    find = (ROOT / "sphd").read_text()
+    code = re.search(r"^has_modules\(\) \{\n(.*?)^\}", find, re.MULTILINE | re.DOTALL)[0]
+    for module, status in [("json", 0), ("absent", 1)]:
+        assert subprocess.run(["bash", "-c", f"{code}\nhas_modules python3 {module}"], check=False).returncode == status
+
+
+def test_lammps_is_obtained_once(tmp_path):
+    """Two clones that build at once share the folder: the second waits for the first, and takes its tree."""
+    folder = tmp_path / "lammps"
+    folder.mkdir()
+    with open(folder / "lock", "w") as lock:
+        fcntl.lockf(lock, fcntl.LOCK_EX)
+        cmake = subprocess.Popen(["cmake", "-D", "SPH_DISSIPATION_LAMMPS=26", "-D", f"SPH_DISSIPATION_CACHE={tmp_path}", "-P",
+                                  str(ROOT / "cmake" / "ObtainLAMMPS.cmake")], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                 env={name: value for name, value in os.environ.items() if name != "LAMMPS_SOURCE_DIR"})
+        assert "another build obtains it: waiting" in cmake.stdout.readline()
+        (folder / "4Jul2026" / "src").mkdir(parents=True)
+        (folder / "4Jul2026" / "src" / "version.h").touch()
+    assert cmake.communicate(timeout=30)[0] == f"{folder / '4Jul2026'}\n"
 
 
 def test_what_is_there_from_elsewhere_is_not_installed(machine, tmp_path):

@@ -1,5 +1,6 @@
 """The inputs that ./sphd plan prints run, and its time steps are those of the pair style's table."""
 
+import os
 import re
 import subprocess
 from pathlib import Path
@@ -142,7 +143,14 @@ def test_proposal():
     ("--fluid water --length 1", "give --length and --velocity, or"), ("--fluid water --length 1 --wavelength 1", "give --length and --velocity, or"),
     ("--fluid water --frequency 1 --wavelength 1", "or --frequency"), ("--fluid He --wavelength 1 --relax", "--relax is for a gas"),
     ("--rho 1 --mu 1 --wavelength 1", "needs its speed"), ("--fluid air/101 --wavelength 1", "no fluid air/101"),
-    ("--fluid air/50/0 --wavelength 1", "no fluid air/50/0"), (BOX, "give --fluid"), (f"--fluid mud {BOX}", "no fluid mud"), (f"--fluid water --mu 1 {BOX}", "give --fluid"),
+    ("--fluid air/50/0 --wavelength 1", "no fluid air/50/0"), ("--fluid air/50/20 --frequency 1e3", "no fluid air/50/20: ISO 9613-1 holds from 253 to 323 K"),
+    ("--fluid air/50/1e308 --frequency 1e3", "253 to 323 K"), ("--fluid air/50/293/1e308 --wavelength 1", "up to 200e3 Pa"),
+    ("--fluid air/50/293/1e-300 --wavelength 1", "water boils"), ("--fluid air/wet --wavelength 1", "no fluid air/wet: air/HUMIDITY["),
+    ("--fluid water --length 1e-300 --velocity 1e-300", "beyond what a computer"), ("--fluid water --length 1e300 --velocity 1e-300", "beyond what a computer"),
+    ("--fluid CO2 --frequency 1e-300", "beyond what a computer"), ("--rho 1 --mu 1e-320 --kappa 0 --length 1e-10 --velocity 1", "beyond what a computer"),
+    ("--rho 1e-300 --mu 1e300 --length 1 --velocity 1", "beyond what a computer"),
+    (f"--rho 1 --mu 1 {BOX} --support 1.07", "reaches no neighbor of this lattice, the nearest are at 1.07"),
+    (f"--rho 1 --mu 1 {BOX} --dim 3 --support 1.09", "reaches no neighbor of this lattice, the nearest are at 1.09"), (BOX, "give --fluid"), (f"--fluid mud {BOX}", "no fluid mud"), (f"--fluid water --mu 1 {BOX}", "give --fluid"),
     (f"--rho 1 {BOX}", "--mu is missing"), (f"--rho 1 --mu 1 {BOX} --c real", "for --fluid"), (f"--rho 0 --mu 1 {BOX}", "must be > 0"),
     (f"--rho 1 --mu 1 {BOX} --support 7", "two support radii"), (f"--rho 1 --mu 1 {BOX} --dim 3 --shear morris", "give --kappa"),
     (f"--rho 1 --mu 1 {BOX} --fraction 2", "--fraction"), (f"{WATER} --units lj", "leave --units out"),
@@ -150,7 +158,16 @@ def test_proposal():
     (f"{WATER} --lmp {ROOT}/README.md", "no program that can be run")])
 def test_errors(case, message):
     done = printed(case)
-    assert done.returncode != 0 and message in done.stderr
+    assert done.returncode != 0 and message in done.stderr and "Traceback" not in done.stderr
+
+
+def test_modules_of_the_working_folder(tmp_path):
+    """... are not run."""
+    for name in ("sph_dissipation.py", "argparse.py", "re.py"):
+        (tmp_path / name).write_text("raise SystemExit('of the working folder')\n")
+    done = subprocess.run([str(ROOT / "sphd"), "plan", *CASES[0].split(), "--lmp", "none"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          env={**os.environ, "PYTHONPATH": ""}, check=False)
+    assert done.returncode == 0 and "pair_style" in done.stdout, done.stderr
 
 
 def test_page():

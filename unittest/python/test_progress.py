@@ -1,9 +1,18 @@
-"""What ./sphd run says of the runs of an example while they go on."""
+"""What ./sphd run says of the runs of an example while they go on, what ends them, and what it says of wrong arguments."""
 
+import os
 import re
+import signal
+import subprocess
 import sys
+import time
+from pathlib import Path
+
+import pytest
 
 import run_lammps
+
+ROOT = Path(__file__).resolve().parents[2]
 
 LOG = """variable steps index 300
 run 0
@@ -75,5 +84,111 @@ def test_a_run_that_fails_ends_the_others(tmp_path, monkeypatch, capfd):
 
 
 def test_figures_of_an_earlier_run(tmp_path, monkeypatch):
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / "bad.log").touch()
     found = example(tmp_path, monkeypatch, "spin_relaxation", "--no-run")
     found.run({"bad": {}})
+    with pytest.raises(SystemExit, match="no results of other in"):
+        found.run({"bad": {}, "other": {}})
+
+
+def test_an_error_ends_the_other_runs(tmp_path, monkeypatch):
+    """... at once: they may take hours."""
+    found = example(tmp_path, monkeypatch, "spin_relaxation", "--quick")
+    monkeypatch.setattr(run_lammps.os, "sched_getaffinity", lambda _: {0, 1})
+    (tmp_path / "lmp").write_text(LMP.replace("sleep 1.2", "exec sleep 60").replace("bad*) ", "bad*) sleep 0.5; "))
+    begin = time.monotonic()
+    with pytest.raises(SystemExit, match="LAMMPS failed \\(1\\) for bad"):
+        found.run({"slow": {}, "bad": {}})
+    assert time.monotonic() - begin < 20
+
+
+SCRIPT = """import sys
+sys.path.insert(0, {folder!r})
+import run_lammps
+from pathlib import Path
+example = run_lammps.Example(Path({here!r}), "An example.")
+example.arguments()
+example.run({{"slow": {{}}, "slow2": {{}}}})
+"""
+
+
+@pytest.fixture
+def script(tmp_path):
+    """Starts a run.py whose LAMMPS sleeps for a minute, and writes its process id."""
+    (tmp_path / "run.py").write_text(SCRIPT.format(folder=str(ROOT / "examples"), here=str(tmp_path)))
+    (tmp_path / "lmp").write_text("#!/bin/sh\necho $$ >>pids\nexec sleep 60\n")
+    (tmp_path / "lmp").chmod(0o755)
+
+    def start(*arguments, **variables):
+        return subprocess.Popen([sys.executable, str(tmp_path / "run.py"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                env={**os.environ, "SPHD_LMP": str(tmp_path / "lmp"), **variables})
+
+    return start
+
+
+def running(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def ids(folder):
+    """of the sleeping processes, once there is one"""
+    for _ in range(300):
+        if (folder / "pids").exists() and (folder / "pids").read_text().endswith("\n"):
+            break
+        time.sleep(0.1)
+    return [int(word) for word in (folder / "pids").read_text().split()]
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+def test_signals(tmp_path, script, number):
+    """What ends run.py ends its LAMMPS."""
+    process = script()
+    ids(tmp_path / "results")
+    process.send_signal(number)
+    output = process.communicate(timeout=30)[0]
+    assert process.returncode == 128 + number and f"{number.name} ends all runs" in output and "Traceback" not in output, output
+    assert not any(running(pid) for pid in ids(tmp_path / "results"))
+
+
+def test_one_run_per_folder(tmp_path, script):
+    """A folder is locked as long as a run or its LAMMPS writes into it; what the first one has written stays."""
+    first = script()
+    pids = ids(tmp_path / "results")
+    kept = tmp_path / "results" / "results.txt"
+    kept.write_text("a table\n")
+    second = script()
+    output = second.communicate(timeout=30)[0]
+    assert second.returncode == 1 and output == f"another run writes into {kept.parent}: wait for it, or name another folder by --out\n"
+    first.kill()
+    first.communicate(timeout=30)
+    third = script()
+    assert "another run writes into" in third.communicate(timeout=30)[0] and kept.read_text() == "a table\n"
+    pids = ids(tmp_path / "results")
+    for pid in pids:
+        os.kill(pid, signal.SIGKILL)
+    time.sleep(0.3)
+    fourth = script()
+    time.sleep(1)
+    fourth.terminate()
+    assert "SIGTERM ends all runs" in fourth.communicate(timeout=30)[0]
+
+
+def test_wrong_arguments(tmp_path, script):
+    """One line, at once."""
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "file").touch()
+    for arguments, variables, message in [(["--no-run", "--out", str(tmp_path / "empty")], {}, "--no-run: no results in"),
+                                          (["--no-run", "--out", str(tmp_path / "none")], {}, "--no-run: no results in"),
+                                          (["--out", str(tmp_path / "file")], {}, "is not a folder"),
+                                          (["--out", str(tmp_path / "file" / "below")], {}, "--out: "),
+                                          (["--np", "2"], {"SPHD_MPIEXEC": "no-such"}, "no no-such, which starts MPI programs"),
+                                          ([], {"SPHD_LMP": "no-such"}, "no LAMMPS executable no-such")]:
+        process = script(*arguments, **variables)
+        output = process.communicate(timeout=30)[0]
+        assert process.returncode in (1, 2) and message in output.splitlines()[-1] and "Traceback" not in output, output
+    assert not (tmp_path / "none").exists() and not list((tmp_path / "empty").iterdir())
