@@ -50,7 +50,7 @@ static constexpr double AVERAGING = 100.0;    // default time, support radii ove
 // in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves.
 // Files without a format begin with the size.
 
-static constexpr int FORMAT = 1003;
+static constexpr int FORMAT = 1004;
 enum {
   SIZE = 1,
   BALANCE,
@@ -160,7 +160,7 @@ FixSPHOpen::~FixSPHOpen()
 
 int FixSPHOpen::setmask()
 {
-  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE;
+  return PRE_EXCHANGE | PRE_NEIGHBOR | INITIAL_INTEGRATE | POST_INTEGRATE | FINAL_INTEGRATE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -222,16 +222,27 @@ void FixSPHOpen::init()
 }
 
 /* ----------------------------------------------------------------------
-   Set the times of averages and of the memory of waves, at each step: fix adapt may change the speed of
-   sound.
+   Set the times of averages and of the memory of waves, at each step: heat and fix adapt change the speed
+   of sound.  Where heat has a pressure, the slowest sound of now is that of the particles of zone and fluid
+   near the plane, else that of the types.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_times()
 {
   const double support = fluid->support_radius();
-  double slowest = 1.0e300;
+  constexpr double NONE = 1.0e300;
+  double slowest = NONE;
   for (int type = 1; type <= atom->ntypes; type++)
     if (fluid->has_type(type)) slowest = std::min(slowest, fluid->model->coeffs[type].eos.c0);
+  if (fluid->model->parameters().thermal_pressure) {
+    double mine = NONE;
+    for (const int i : members) {
+      const double sound = condition->sound_at_rest(i, atom->mask[i] & groupbit);
+      if (sound > 0.0) mine = std::min(mine, sound);
+    }
+    MPI_Allreduce(&mine, &slowest, 1, MPI_DOUBLE, MPI_MIN, world);
+    if (slowest == NONE) return;
+  }
   const double crossing = support / slowest;
   const double averaging = condition->averaging_time;
   samples->set_times(averaging > 0.0 ? averaging : AVERAGING * crossing,
@@ -250,11 +261,13 @@ bool FixSPHOpen::zone_near(const double *x, double reach) const
 }
 
 /* ----------------------------------------------------------------------
-   Set the velocities of the zone, unless the run continues another one, or a restart file.
+   Set the velocities of the zone, unless the run continues another one, or a restart file.  A command
+   that moves particles between processors before the first run leaves the zone new.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup_pre_exchange()
 {
+  if (update->whichflag == 0 && rows->are_new()) return;
   set_up = true;
   states.clear();
   condition->is_new = rows->are_new();
@@ -275,16 +288,6 @@ void FixSPHOpen::setup_pre_exchange()
 }
 
 /* ----------------------------------------------------------------------
-   Find the particles of the zone and the fluid near it: number and order of the particles stay the same
-   from one neighbor list to the next, ...
-------------------------------------------------------------------------- */
-
-void FixSPHOpen::setup_pre_force(int /*vflag*/)
-{
-  find_members();
-}
-
-/* ----------------------------------------------------------------------
    the internal energies of the zone follow the forces, which may be computed several times in a step
 ------------------------------------------------------------------------- */
 
@@ -299,7 +302,10 @@ void FixSPHOpen::keep_states()
   condition->is_new = false;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Find the particles of the zone and the fluid near it before each neighbor list, and so before all forces
+   of a setup: number and order of the particles stay the same from one list to the next, ...
+------------------------------------------------------------------------- */
 
 void FixSPHOpen::find_members()
 {
@@ -308,13 +314,6 @@ void FixSPHOpen::find_members()
   for (int i = 0; i < atom->nlocal; i++)
     if ((atom->mask[i] & groupbit) || ((atom->mask[i] & fluidbit) && zone_near(atom->x[i], reach)))
       members.push_back(i);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixSPHOpen::pre_force(int /*vflag*/)
-{
-  if (neighbor->ago == 0) find_members();
 }
 
 /* ----------------------------------------------------------------------

@@ -54,11 +54,11 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;
-  void setup_pre_force(int) override;
+  void setup_pre_neighbor() override { find_members(); }
   void setup(int) override;
   void initial_integrate(int) override;
   void post_integrate() override;
-  void pre_force(int) override;
+  void pre_neighbor() override { find_members(); }
   void pre_exchange() override;
   void final_integrate() override;
   double compute_vector(int) override;

@@ -250,18 +250,16 @@ void FixSPHRefine::evaluate_target()
 }
 
 /* ----------------------------------------------------------------------
-   Set the number of steps from one event of a particle to the next, with the time step of now.
+   Return the number of steps from one event of a particle to the next, with the time step and the speed
+   of sound of now.
 ------------------------------------------------------------------------- */
 
-void FixSPHRefine::find_waiting()
+double FixSPHRefine::waiting(int i) const
 {
   constexpr double ROUNDOFF = 1.0e-6;
-  waiting.assign(atom->ntypes + 1, 0.0);
-  for (int type = 1; type <= atom->ntypes; type++)
-    if (fluid->has_type(type)) {
-      const double crossing = fluid->support_radius() / fluid->model->coeffs[type].eos.c0;
-      waiting[type] = ceil((wait < 0.0 ? crossing : wait) / update->dt - ROUNDOFF);
-    }
+  const double rho0 = fluid->model->coeffs[atom->type[i]].eos.rho0;
+  const double time = (wait < 0.0) ? fluid->support_radius() / fluid->sound(i, rho0) : wait;
+  return ceil(time / update->dt - ROUNDOFF);
 }
 
 /* ----------------------------------------------------------------------
@@ -304,7 +302,7 @@ bool FixSPHRefine::is_fluid(int i) const
 bool FixSPHRefine::may_change(int i) const
 {
   const double since = static_cast<double>(update->ntimestep) - past[i][STEP];
-  return since < 0.0 || since >= waiting[atom->type[i]];
+  return since < 0.0 || since >= waiting(i);
 }
 
 /* ----------------------------------------------------------------------
@@ -342,7 +340,6 @@ void FixSPHRefine::post_integrate()
 
   evaluate_target();
   not_fluid = fluid->not_fluid();
-  find_waiting();
   bigint nfluid;
   if (!wanted(nfluid)) return;
 

@@ -76,7 +76,6 @@ class FixSPHRefine : public Fix {
   double wait;                        // time between two events of a particle; < 0: R/c0
   double fraction;                    // of the particles, that may have an event at once
   double **past;                      // last event of each particle
-  std::vector<double> waiting;        // steps, by type, of the last check
   int not_fluid;                      // bits of the groups of walls and open zones
   bigint last_step;                   // that this fix has seen
   bigint event_step;                  // of the last events
@@ -91,7 +90,7 @@ class FixSPHRefine : public Fix {
   double target_volume(double value) const;
   void check_target(double value, tagint tag) const;
   void evaluate_target();
-  void find_waiting();
+  double waiting(int i) const;
   bool is_fluid(int i) const;
   bool may_change(int i) const;
   void count_anew(bigint step);

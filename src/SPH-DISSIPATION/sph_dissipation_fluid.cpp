@@ -686,32 +686,29 @@ CoeffTable Fluid::coeff_table()
   const double inertia = smallest_inertia();
   const int n = atom->ntypes;
   const Eos eos = model->choice.eos;
-  const StrainRows strains = engine->strains();
-  std::vector<double> mine(2 * (n + 1), 0.0), all(2 * (n + 1));
-  double *const speed = all.data(), *const thinness = speed + n + 1;    // rho0/rho
+  enum { SPEED, SOUND, MOTION, THINNESS, NMOST };    // u + c, c, u, rho0/rho
+  std::vector<double> mine(NMOST * (n + 1), 0.0), all(NMOST * (n + 1));
+  const auto most = [n](std::vector<double> &of, int what, int type) -> double & {
+    return of[what * (n + 1) + type];
+  };
 
-  // in the place of type 0, which does not exist: the largest speed
+  // in the place of type 0, which does not exist: of all types
 
-  double &fastest = mine[0];
+  double &fastest = most(mine, MOTION, 0);
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
     const TypeCoeff &coeff = model->coeffs[type];
     if (coeff.other) continue;
-    const double rho = atom->rho[i];
-    const bool cold =
-        is_boundary(i) && eos != Eos::IDEAL && coeff.eos.gruneisen > 0.0;    // no heat
-    const double energy = atom->esph[i] - strains.vibrational_energy(i);     // of fast sound
-    const double sound = cold ? coeff.eos.c0
-                              : sound_speed(eos, coeff.eos, rho, energy / atom->rmass[i]);
-    const double v = MathExtra::len3(atom->v[i]);
+    const double rho = atom->rho[i], c = sound(i, rho), v = MathExtra::len3(atom->v[i]);
     fastest = std::max(fastest, v);
-    mine[type] = std::max(mine[type], sound + v);
-    if (!is_boundary(i)) mine[n + 1 + type] = std::max(mine[n + 1 + type], coeff.eos.rho0 / rho);
+    const double values[NMOST] = {c + v, c, v, is_boundary(i) ? 0.0 : coeff.eos.rho0 / rho};
+    for (int k = 0; k < NMOST; k++) most(mine, k, type) = std::max(most(mine, k, type), values[k]);
   }
-  MPI_Allreduce(mine.data(), all.data(), 2 * (n + 1), MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(mine.data(), all.data(), NMOST * (n + 1), MPI_DOUBLE, MPI_MAX, world);
   for (int i = 1; i <= n; i++) {
-    if (speed[i] == 0.0 && eos != Eos::IDEAL) speed[i] = model->coeffs[i].eos.c0;
-    if (thinness[i] == 0.0) thinness[i] = 1.0;
+    if (most(all, SPEED, i) == 0.0 && eos != Eos::IDEAL)
+      most(all, SPEED, i) = most(all, SOUND, i) = model->coeffs[i].eos.c0;
+    if (most(all, THINNESS, i) == 0.0) most(all, THINNESS, i) = 1.0;
   }
 
   const double h = stability_length(), hsq = h * h;
@@ -719,27 +716,45 @@ CoeffTable Fluid::coeff_table()
   for (const TypeParameters &type : model->parameters().type)
     for (int k = 0; k < NTYPECOEFF && !type.other; k++)
       largest.a[k] = std::max(largest.a[k], std::fabs(type.keywords.a[k]));
-  CoeffTable table(largest, all[0]);
-  auto sound_step = [&](int type, double fastest) {
+  CoeffTable table(largest, most(all, MOTION, 0));
+  const auto sound_step = [&](int type) {
     const TypeCoeff &one = model->coeffs[type];
-    return acoustic_step(h, fastest, [&](double dt) {
+    const double speed = most(all, SPEED, type), c = most(all, SOUND, type);
+    return acoustic_step(h, speed, [&](double dt) {
       const double more = RelaxChannel::stiffness(one.keywords, one.eos.rho0, dt);
-      return sqrt(one.eos.c0 * one.eos.c0 + more) - one.eos.c0;
+      return (more > 0.0) ? most(all, MOTION, type) + sqrt(c * c + more) - speed : 0.0;
     });
   };
   for (int i = 1; i <= n; i++)
     for (int j = i; j <= n; j++) {
       const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
       if (a.other || b.other) continue;
-      const double rho = std::min(a.eos.rho0 / thinness[i], b.eos.rho0 / thinness[j]);
+      const double rho =
+          std::min(a.eos.rho0 / most(all, THINNESS, i), b.eos.rho0 / most(all, THINNESS, j));
       PairInertia damped;
       damped.hsq = hsq;
       damped.rho = rho;
       damped.rho_inertia = rho * inertia;
-      table.add_row(i, j, model->pair_fluid(i, j), damped,
-                    std::min(sound_step(i, speed[i]), sound_step(j, speed[j])));
+      table.add_row(i, j, model->pair_fluid(i, j), damped, std::min(sound_step(i), sound_step(j)));
     }
   return table;
+}
+
+/* ----------------------------------------------------------------------
+   with the heat that it has now; of fast sound, in which vibrations stay as they are.  Walls of a liquid
+   have no heat.
+------------------------------------------------------------------------- */
+
+double Fluid::sound(int i, double rho) const
+{
+  const Eos eos = model->choice.eos;
+  const EosParams &par = model->coeffs[atom->type[i]].eos;
+  if (is_boundary(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
+  const StrainRows strains = engine->strains();
+  const double held = strains.energy(i) + strains.vibrational_energy(i);
+  const double q = (atom->esph[i] - held) / atom->rmass[i] -
+      SPHDissipation::elastic_energy(eos, par, atom->rho[i]);
+  return sound_speed(eos, par, rho, SPHDissipation::elastic_energy(eos, par, rho) + q);
 }
 
 /* ----------------------------------------------------------------------

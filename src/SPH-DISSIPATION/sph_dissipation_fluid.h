@@ -162,11 +162,12 @@ namespace SPHDissipation {
 
     // particles and types
 
-    int not_fluid() const;                   // bits of the groups of all boundaries and open zones
-    bool is_boundary(int i) const;           // owned or ghost particle
-    bool has_type(int type) const;           // its particles are of this fluid
-    int dimension() const { return dim; }    // of the kernel
-    Threads &team() const;                   // that share its work
+    int not_fluid() const;                    // bits of the groups of all boundaries and open zones
+    bool is_boundary(int i) const;            // owned or ghost particle
+    bool has_type(int type) const;            // its particles are of this fluid
+    double sound(int i, double rho) const;    // speed of an owned particle that had this density
+    int dimension() const { return dim; }     // of the kernel
+    Threads &team() const;                    // that share its work
     double support_radius() const { return support; }
 
     // of the fluid as it is now: largest stable time steps; time in which a particle falls by the length

@@ -259,6 +259,14 @@ double OpenCondition::sound(int i, double rho, double q) const
 
 /* ---------------------------------------------------------------------- */
 
+double OpenCondition::sound_at_rest(int i, bool of_zone) const
+{
+  const double q = (of_zone && is_new) ? heat(i) : own_state(i, of_zone ? ZONE : FLUID).q;
+  return sound_speed(fluid->choice.eos, eos(i), eos(i).rho0, q);
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool OpenCondition::enters(int i) const
 {
   return MathExtra::dot3(atom->v[i], plane.normal) > 0.0;
@@ -393,7 +401,7 @@ OpenCondition::Reference OpenCondition::reference(int i, Side side) const
    the particle since it left the fluid.
 ------------------------------------------------------------------------- */
 
-double OpenCondition::wave(const Reference &ref) const
+OpenWave OpenCondition::wave(const Reference &ref) const
 {
   double lag = 0.0;
   if (kind == LAGGED)
@@ -434,7 +442,7 @@ void OpenCondition::velocity(int i, double *u) const
   }
 
   const Reference ref = reference(i, ZONE);
-  double leaving = wave(ref);
+  double leaving = wave(ref).j;
   if (given_velocity() && !given_state()) leaving = changes(ref, leaving);
   double now = ref.out;
   if (leaving != 0.0)
@@ -455,21 +463,24 @@ OpenState OpenCondition::state(int i) const
     OpenSample inside;
     if (given_state() || !samples.now(ref.spot, ref.height, order, inside))
       return {ref.p, ref.rho, ref.q};
-    if (ref.at_heat) return {inside.p, density_at(form, par, inside.p, ref.q), ref.q};
-    return at_pressure(i, ref, inside.p);
+    if (ref.at_heat)
+      return {inside.p, density_at(form, par, inside.p - inside.strain, ref.q), ref.q};
+    return at_pressure(i, ref, inside.p, inside.strain);
   }
-  double leaving = wave(ref);
-  if (!(given_velocity() && given_state())) leaving = changes(ref, leaving);
-  return at_pressure(i, ref, ref.p + wave_pressure(leaving));
+  const OpenWave all = wave(ref);
+  const bool given = given_velocity() && given_state();
+  const double leaving = given ? all.j : changes(ref, all.j);
+  return at_pressure(i, ref, ref.p + wave_pressure(leaving), all.strain);
 }
 
 /* ----------------------------------------------------------------------
-   Return the state at another pressure and the same entropy.
+   Return the state at another pressure and the same entropy.  Its density is that of the fluid, in which
+   this part of the pressure is of relaxing processes.
 ------------------------------------------------------------------------- */
 
-OpenState OpenCondition::at_pressure(int i, const Reference &ref, double p) const
+OpenState OpenCondition::at_pressure(int i, const Reference &ref, double p, double strain) const
 {
-  const double rho = density_at_entropy(fluid->choice.eos, eos(i), p, ref.q, ref.rho);
+  const double rho = density_at_entropy(fluid->choice.eos, eos(i), p - strain, ref.q, ref.rho);
   return {p, rho, heat_at(eos(i), ref.q, ref.rho, rho)};
 }
 
@@ -488,7 +499,7 @@ OpenSample OpenCondition::sample(int i, const Particle &particle, double more) c
     const double dp = (given_state() || ref.known) ? p - ref.p : 0.0;
     wave = outgoing_wave(ref.rho * ref.c, du, dp);
   }
-  return {wave, p, {particle.u[0], particle.u[1], particle.u[2]}};
+  return {wave, more, p, {particle.u[0], particle.u[1], particle.u[2]}};
 }
 
 /* ---------------------------------------------------------------------- */

@@ -97,6 +97,7 @@ namespace SPHDissipation {
     double prescribed_density(int i) const { return reference(i, ZONE).rho; }    // without waves
     double heat(int i) const;                              // per mass, without waves
     double temperature(int i, const OpenState &) const;    // with which it conducts heat
+    double sound_at_rest(int i, bool of_zone) const;       // at the density rho0; also of the fluid
 
     OpenState at_density(int i, const OpenState &, double rho) const;    // and the same entropy
     void keep(int i, const OpenState &) const;    // the particle has this state
@@ -145,8 +146,8 @@ namespace SPHDissipation {
     bool gets_heat(int i, Side) const;
     OpenState own_state(int i, Side) const;
     Reference reference(int i, Side) const;
-    OpenState at_pressure(int i, const Reference &, double p) const;
-    double wave(const Reference &) const;
+    OpenState at_pressure(int i, const Reference &, double p, double strain) const;
+    OpenWave wave(const Reference &) const;
     double changes(const Reference &, double wave) const;
   };
 

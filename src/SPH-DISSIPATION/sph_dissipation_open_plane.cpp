@@ -363,7 +363,7 @@ void OpenSamples::finish(double time, const double *all)
 
   const double part = history.empty() ? 1.0
                                       : 1.0 - exp((history.back().time - time) / averaging_time);
-  history.push_back({time, std::vector<double>(nodes.size(), 0.0)});
+  history.push_back({time, std::vector<double>(NWAVE * nodes.size(), 0.0)});
   for (std::size_t n = 0; n < nodes.size(); n++) {
     Node &node = nodes[n];
     node.weight = sums[n].weight;
@@ -372,7 +372,7 @@ void OpenSamples::finish(double time, const double *all)
     const double share = (node.known > 0.0) ? part : 1.0;    // averages begin with the first value
     for (int v = 0; v < NVALUE; v++) node.mean[v] += share * (node.value[v] - node.mean[v]);
     node.known = 1.0;
-    history.back().wave[n] = node.value[0];
+    std::copy_n(node.value, NWAVE, &history.back().wave[NWAVE * n]);
   }
   while (history.size() > 2 && history[1].time <= time - memory) history.pop_front();
 }
@@ -450,9 +450,9 @@ bool OpenSamples::average(const Spot &spot, OpenSample &result) const
    Interpolate the wave between two times, or return that of the first or of the last one.
 ------------------------------------------------------------------------- */
 
-double OpenSamples::wave(const Spot &spot, double time) const
+OpenWave OpenSamples::wave(const Spot &spot, double time) const
 {
-  if (history.empty()) return 0.0;
+  if (history.empty()) return {0.0, 0.0};
   const auto after =
       std::lower_bound(history.begin(), history.end(), time, [](const Past &past, double t) {
         return past.time < t;
@@ -461,9 +461,10 @@ double OpenSamples::wave(const Spot &spot, double time) const
   const Past &a = (after == history.end() || after == history.begin()) ? b : *(after - 1);
   const double part = (b.time > a.time) ? (time - a.time) / (b.time - a.time) : 0.0;
 
-  double value;
-  interpolate(spot, 1, &value, [&](int n, int) {
-    return a.wave[n] + part * (b.wave[n] - a.wave[n]);
+  OpenWave value;
+  interpolate(spot, NWAVE, reinterpret_cast<double *>(&value), [&](int n, int k) {
+    const int one = NWAVE * n + k;
+    return a.wave[one] + part * (b.wave[one] - a.wave[one]);
   });
   return value;
 }
@@ -502,7 +503,8 @@ void OpenSamples::mean_at_plane(double *p, double *u) const
 double OpenSamples::memory_usage() const
 {
   return static_cast<double>(
-      nodes.size() * (2 * sizeof(Sums) + 2 * sizeof(Node) + history.size() * sizeof(double)));
+      nodes.size() *
+      (2 * sizeof(Sums) + 2 * sizeof(Node) + history.size() * NWAVE * sizeof(double)));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -531,7 +533,7 @@ bool OpenSamples::unpack(const std::vector<double> &state)
   const std::size_t n = nodes.size();
   if (state.size() < 2 || static_cast<std::size_t>(state[0]) != n) return false;
   const auto npast = static_cast<std::size_t>(state[1]);
-  if (state.size() != 2 + 2 * n * WIDTH + npast * (1 + n)) return false;
+  if (state.size() != 2 + 2 * n * WIDTH + npast * (1 + NWAVE * n)) return false;
   const double *buf = state.data() + 2;
   for (auto *const all : {&nodes, &before})
     for (Node &node : *all) {
@@ -539,7 +541,7 @@ bool OpenSamples::unpack(const std::vector<double> &state)
       buf += WIDTH;
     }
   history.clear();
-  for (std::size_t k = 0; k < npast; k++, buf += n + 1)
-    history.push_back({buf[0], std::vector<double>(buf + 1, buf + 1 + n)});
+  for (std::size_t k = 0; k < npast; k++, buf += 1 + NWAVE * n)
+    history.push_back({buf[0], std::vector<double>(buf + 1, buf + 1 + NWAVE * n)});
   return true;
 }

@@ -117,10 +117,16 @@ namespace SPHDissipation {
 
   // What is measured of the fluid
 
+  struct OpenWave {
+    double j;         // rho c u' + p', see sph_dissipation_characteristics.h
+    double strain;    // pressure of relaxing processes
+  };
+
   struct OpenSample {
-    double wave;    // J = rho c u' + p', see sph_dissipation_characteristics.h
-    double p;       // pressure
-    double u[3];    // velocity
+    double wave;      // J
+    double strain;    // part of p
+    double p;         // pressure
+    double u[3];      // velocity
   };
 
   // Measures the fluid at the nodes of the plane: linear fits to the fluid within a radius, weighted with
@@ -148,7 +154,7 @@ namespace SPHDissipation {
 
     bool now(const Spot &, double height, int order, OpenSample &) const;    // order 1: with slope
     bool average(const Spot &, OpenSample &) const;                          // over time
-    double wave(const Spot &, double time) const;                            // J at a time before
+    OpenWave wave(const Spot &, double time) const;                          // at a time before
     double distance(const Spot &) const;    // from the plane to the middle of what is measured
 
     void mean_at_plane(double *p, double *u) const;    // of all nodes, now
@@ -162,6 +168,7 @@ namespace SPHDissipation {
 
    private:
     static constexpr int NVALUE = sizeof(OpenSample) / sizeof(double);
+    static constexpr int NWAVE = sizeof(OpenWave) / sizeof(double);    // the first values
 
     // weighted sums of a node over the fluid; l = place along the plane from there, d = height
 
@@ -180,7 +187,7 @@ namespace SPHDissipation {
 
     struct Past {
       double time;
-      std::vector<double> wave;    // of the nodes
+      std::vector<double> wave;    // of the nodes, NWAVE each
     };
 
     const OpenPlane &plane;

@@ -134,7 +134,7 @@ void OpenRows::init(double support_in, int fluid_bit)
   fluidbit = fluid_bit;
   unknown_end = true;
   interrupt_ids();
-  unknown_sides = (spacing == 0.0 || half_width == 0.0);
+  if (half_width == 0.0) unknown_sides = true;
   if (unknown_sides) find_rows();
   if (given_spacing > 0.0) spacing = given_spacing;
   if (!by_distance() && spacing == 0.0)
@@ -232,7 +232,7 @@ void OpenRows::find_rows()
   }
   MPI_Allreduce(nearest, all, 2, MPI_DOUBLE, MPI_MIN, world);
   const bool in_order = all[0] < FAR;
-  if (in_order) spacing = all[0];
+  spacing = in_order ? all[0] : 0.0;
   half_width = 0.5 * ((in_order && all[1] < FAR) ? all[1] : all_size);
 }
 
@@ -456,8 +456,8 @@ void OpenRows::pack(double *buf) const
 {
   tagint all;
   MPI_Allreduce(&highest, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  buf[0] = spacing;
-  buf[1] = half_width;
+  buf[0] = unknown_sides ? 0.0 : spacing;
+  buf[1] = unknown_sides ? 0.0 : half_width;
   buf[2] = static_cast<double>(all);
 }
 
@@ -465,5 +465,6 @@ void OpenRows::unpack(const double *buf)
 {
   spacing = buf[0];
   half_width = buf[1];
+  unknown_sides = (half_width == 0.0);
   highest = static_cast<tagint>(buf[2]);
 }

@@ -74,7 +74,7 @@ namespace SPHDissipation {
     void set_distance(Distance f) { distance = std::move(f); }
     bool by_distance() const { return static_cast<bool>(distance); }
 
-    // Measure distance and width of the rows if they are not known.  The zone is new then, until renew().
+    // Measure distance and width of the rows of a zone that is new: until the first renew().
     void init(double support, int fluid_bit);
     bool are_new() const { return unknown_sides; }
     double width() const { return 2.0 * half_width; }    // of a row

@@ -239,6 +239,55 @@ def test_restart(lammps, ranks, after):
         assert relative(parts[key] - whole[key], whole[key]) < 1e-10, key
 
 
+BEFORE = {"write_restart": "write_restart state.restart\n", "write_data": "write_data out.data\n", "balance": "balance 1.0 shift x 5 1.0\n",
+          "run 0": "run 0\n", "run 0 twice": "run 0\nrun 0\n", "all": "write_restart a.restart\nwrite_data out.data\nrun 0\nwrite_restart b.restart\n",
+          "read": "write_restart state.restart\n", "run 0, read": "run 0\nwrite_restart state.restart\n"}
+
+
+def both_ends(lammps, walls, implicit, before=""):
+    """Input of a stream between ends of two temperatures, neither of them that of the fluid."""
+    channel = Channel(length=10, width=8, box="walls" if walls else "straight")
+    return channel.text(lammps, f"velocity {channel.vector(U)} temperature 1.2", "pressure 0.0 temperature 1.1", velocity=stream, timestep=0.02,
+                        coeff="1.0 3.0 0.1 0.2 {R} cv 2.0 conductivity 0.4 gruneisen 0.4 1.0", before=before,
+                        integrate="density rho0 temperature 1.0" + implicit * " viscous implicit tolerance 1e-13")
+
+
+@pytest.mark.parametrize("walls", [False, True])
+@pytest.mark.parametrize("implicit", [False, True])
+@pytest.mark.parametrize("before", BEFORE)
+def test_zone_is_new_until_the_first_forces(lammps, before, implicit, walls):
+    """What prepares the particles before the first run leaves the temperatures to it."""
+    text = both_ends(lammps, walls, implicit)
+    lammps(text + TEMPERATURE + dump("once.dump", 20, "c_T") + "run 20\n", ranks=2)
+    if "read" in before:
+        lammps(text + BEFORE[before], ranks=2)
+        text = "read_restart state.restart\n" + re.sub(r"(?m)^(read_data|group|pair_|dimension|boundary|newton|units|atom_style).*\n", "", text)
+        before = ""
+    lammps(text + TEMPERATURE + BEFORE.get(before, "") + dump("again.dump", 20, "c_T") + "run 20\n", ranks=2)
+    once, again = lammps.frame("once.dump"), lammps.frame("again.dump")
+    assert np.array_equal(once["id"], again["id"])
+    out = once["x"][:, 0] > 14.0
+    assert np.abs(once["c_T"][out & (once["c_T"] > 0)] / 1.1 - 1.0).max() < 0.01
+    for key in ("x", "v", "c_T"):
+        assert relative(again[key] - once[key], once[key]) < 1e-10, key
+
+
+@pytest.mark.parametrize("fault, words", [("set group in mass 3.0", "the masses of the zone"), ("region R block INF 0 2 3 INF INF\ndelete_atoms region R", "rows of the zone"),
+                                          ("", "have no heat")])
+@pytest.mark.parametrize("before", ["", "write_restart", "write_data", "balance", "run 0", "all", "read"])
+def test_warnings_of_a_new_zone_come_once(lammps, fault, words, before):
+    """With the first run, after whatever prepares the particles."""
+    text = both_ends(lammps, False, False) + fault + "\n"
+    if not fault:
+        text = re.sub(r" temperature \S+$", "", text, flags=re.MULTILINE)
+    runs = [lammps(text + BEFORE.get(before, "") + "run 5\n" * (before != "read") + "run 5\n" * (before == ""))]
+    if before == "read":
+        runs.append(lammps("read_restart state.restart\n" + re.sub(r"(?m)^(read_data|group|pair_|dimension|boundary|newton|units|atom_style).*\n", "", text).replace(fault, "")
+                           + "run 5\n"))
+    found = [line for result in runs for line in result.warnings if words in line]
+    assert len(found) == (2 if words == "have no heat" else 1), found
+
+
 @pytest.mark.parametrize("eos", ["tait", "ideal"])
 def test_ranks_and_newton(lammps, eos):
     frames = []
@@ -270,6 +319,34 @@ def test_entropy_of_what_leaves(lammps, eos):
         entropy = max(entropy, np.abs(frame["c_T"][zone] * frame["c_RHO"][zone] ** -exponent / T - 1.0).max())
     print(eos, change, entropy)
     assert change > 0.02 and entropy < 1e-4
+
+
+def test_gas_does_not_depend_on_c0(lammps):
+    """The default average and the memory of waves are those of the speed of sound in the gas."""
+    frames = []
+    for c0 in (0.01, 1.0, 1000.0):
+        channel = Channel(length=16, width=7)
+        lammps(channel.text(lammps, f"velocity {U} 0 0 temperature 0.15", f"pressure {pressure('ideal', 0.15)}", velocity=agitated, timestep=0.2,
+                            options="eos ideal", coeff=COEFF["ideal"].replace("1.0 1.0", f"1.0 {c0}", 1), integrate="density rho0 temperature 0.15")
+               + TEMPERATURE + dump("out.dump", 400, "c_T") + "run 400\n", ranks=2)
+        frames.append(lammps.frame("out.dump"))
+    for other in frames[1:]:
+        for key in ("x", "v", "c_T"):
+            assert np.array_equal(other[key], frames[0][key]), key
+
+
+def test_default_average_of_a_hot_liquid(lammps):
+    """The liquid of other c0 and T0 that is the same at this temperature."""
+    frames = []
+    cc = 1.0 + GAMMA * (GAMMA + 1) * CV * (0.15 - T0)
+    for c0, zero, pb in ((1.0, T0, PB), (np.sqrt(cc), 0.15, PB + GAMMA * CV * (0.15 - T0))):
+        channel = Channel(length=16, width=7)
+        lammps(channel.text(lammps, f"velocity {U} 0 0 temperature 0.15", f"pressure {pressure('linear', 0.15)}", velocity=agitated, timestep=0.2,
+                            coeff=f"1.0 {c0!r} 0.05 0.1 {{R}} pb {pb} cv {CV} gruneisen {GAMMA} {zero}", integrate="density rho0 temperature 0.15")
+               + TEMPERATURE + dump("out.dump", 200, "c_T") + "run 200\n", ranks=2)
+        frames.append(lammps.frame("out.dump"))
+    for key in ("x", "v", "c_T"):
+        assert relative(frames[1][key] - frames[0][key], frames[0][key]) < 1e-10, key
 
 
 # ---------------------------------------------------------------------------------------------

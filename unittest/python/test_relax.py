@@ -364,6 +364,19 @@ def test_stable_at_the_acoustic_step(lammps, dim, tau, steps):
     assert energy[-20:].mean() < energy[:20].mean()
 
 
+@pytest.mark.parametrize("tau", [1e-6, 0.1, 10.0])
+def test_acoustic_step_of_a_gas_does_not_depend_on_c0(lammps, tau):
+    """It is that of a stiffness beside the speed of sound in the gas."""
+    T, kr, steps = 2.0, 0.7, []
+    particles = disordered(2, 10, jitter=0.0, speed=0.02, spread=0.0)
+    for c0 in (0.01, 1.2, 1000.0):
+        model = fluid(2, "eos ideal shear none", mu=0.0, kappa=0.0, c0=c0, keywords=f"gamma 1.4 cv 2.5 relax {kr} {tau!r}")
+        steps.append(acoustic(lammps(start(lammps, particles, model, timestep=1e-6, integrator=f"temperature {T}") + "run 0\n").log))
+    expected = largest_step(np.sqrt(3.5 / 14.0) * SUPPORT[2], np.sqrt(1.4 * 0.4 * 2.5 * T), [(kr, tau)], 0.0)
+    print(steps, expected)
+    assert np.ptp(steps) == 0.0 and 0.9 * expected < steps[0] < expected
+
+
 # ---- force and heat of each particle -----------------------------------------------------------------------------
 
 TYPES = {1: [(30.0, 0.02), (5.0, 0.5)], 2: [(8.0, 0.1)], 3: []}
