@@ -80,8 +80,8 @@ static const char cite_open[] =
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), fluid(nullptr), integrator(nullptr), fields(nullptr), fluidbit(0),
-    radius(0.0), area(0.0), is_new(false), supersonic(false), gap(false), set_up(false),
-    totals_known(false), totals(NVECTOR)
+    radius(0.0), area(0.0), my_longest(0.0), longest(0.0), is_new(false), supersonic(false),
+    gap(false), set_up(false), totals_known(false), totals(NVECTOR)
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -222,31 +222,40 @@ void FixSPHOpen::init()
 }
 
 /* ----------------------------------------------------------------------
-   Set the times of averages and of the memory of waves, at each step: heat and fix adapt change the speed
-   of sound.  Where heat has a pressure, the slowest sound of now is that of the particles of zone and fluid
-   near the plane, else that of the types.
+   Set the times of averages and of the memory of waves: heat and fix adapt change the speed of sound, whose
+   mean and, with new neighbor lists, least value near the plane they follow.  crossings = what
+   measure_sound() has found, summed over all processors.
 ------------------------------------------------------------------------- */
 
-void FixSPHOpen::set_times()
+void FixSPHOpen::set_times(const double *crossings)
 {
-  const double support = fluid->support_radius();
-  constexpr double NONE = 1.0e300;
-  double slowest = NONE;
-  for (int type = 1; type <= atom->ntypes; type++)
-    if (fluid->has_type(type)) slowest = std::min(slowest, fluid->model->coeffs[type].eos.c0);
-  if (fluid->model->parameters().thermal_pressure) {
-    double mine = NONE;
-    for (const int i : members) {
-      const double sound = condition->sound_at_rest(i, atom->mask[i] & groupbit);
-      if (sound > 0.0) mine = std::min(mine, sound);
-    }
-    MPI_Allreduce(&mine, &slowest, 1, MPI_DOUBLE, MPI_MIN, world);
-    if (slowest == NONE) return;
+  if (!(crossings[0] > 0.0)) return;
+  if (neighbor->ago == 0 || longest == 0.0)
+    MPI_Allreduce(&my_longest, &longest, 1, MPI_DOUBLE, MPI_MAX, world);
+  const double given = condition->averaging_time;
+  samples->set_times(given > 0.0 ? given : AVERAGING * crossings[1] / crossings[0],
+                     10.0 * (plane->length / fluid->support_radius() + 1.0) * longest);
+}
+
+/* ----------------------------------------------------------------------
+   Append number and sum of the times in which sound crosses a support radius, of particles of zone and fluid near
+   the plane.
+------------------------------------------------------------------------- */
+
+void FixSPHOpen::measure_sound(std::vector<double> &mine)
+{
+  double number = 0.0, sum = 0.0;
+  my_longest = 0.0;
+  for (const int i : members) {
+    const double sound = condition->sound_at_rest(i, atom->mask[i] & groupbit);
+    if (!(sound > 0.0)) continue;
+    const double crossing = fluid->support_radius() / sound;
+    number += 1.0;
+    sum += crossing;
+    my_longest = std::max(my_longest, crossing);
   }
-  const double crossing = support / slowest;
-  const double averaging = condition->averaging_time;
-  samples->set_times(averaging > 0.0 ? averaging : AVERAGING * crossing,
-                     10.0 * (plane->length / support + 1.0) * crossing);
+  mine.push_back(number);
+  mine.push_back(sum);
 }
 
 /* ----------------------------------------------------------------------
@@ -492,7 +501,8 @@ void FixSPHOpen::set_impact(const OpenImpact &impact)
 
 void FixSPHOpen::set_states(OpenStage &stage, const double *all)
 {
-  samples->finish(condition->clock, all + 1);
+  set_times(all + 1);
+  samples->finish(condition->clock, all + 3);
   warn(all[0]);
   if (is_new) {
     check_density();
@@ -527,7 +537,6 @@ void FixSPHOpen::check_density() const
 
 void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
 {
-  set_times();
   std::vector<int> near;
   for (const int i : members) {
     if (!(atom->mask[i] & fluidbit)) continue;
@@ -549,6 +558,7 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
   for (const int i : near)
     if (neighbor->ago == 0 && condition->is_supersonic(i, stage.particle(i))) fast += 1.0;
   mine.push_back(fast);
+  measure_sound(mine);
   samples->append(mine);
 }
 

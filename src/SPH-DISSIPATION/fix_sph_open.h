@@ -85,12 +85,13 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   SPHDissipation::Fields *fields;
   std::string fluid_name;    // of its group
   int fluidbit;
-  double radius;               // of the fluid that is measured at the plane
-  double area;                 // of the cross section of a row; 0: rows have a spacing
-  std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
-  bool is_new;                 // no forces have been computed with this zone
-  bool supersonic, gap;        // has been warned of
-  bool set_up;                 // since it was defined
+  double radius;                 // of the fluid that is measured at the plane
+  double area;                   // of the cross section of a row; 0: rows have a spacing
+  double my_longest, longest;    // time in which sound crosses a support radius near the plane
+  std::vector<int> members;      // owned particles of the zone, and fluid that may come to it
+  bool is_new;                   // no forces have been computed with this zone
+  bool supersonic, gap;          // has been warned of
+  bool set_up;                   // since it was defined
   bool totals_known;
   std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
@@ -101,7 +102,8 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::vector<double> sums;
 
   int keyword_argument(int, int, char **);
-  void set_times();
+  void set_times(const double *crossings);
+  void measure_sound(std::vector<double> &);
   void find_members();
   bool has_lost_members() const;
   void warn_of_other_plane();

@@ -272,6 +272,20 @@ def test_zone_is_new_until_the_first_forces(lammps, before, implicit, walls):
         assert relative(again[key] - once[key], once[key]) < 1e-10, key
 
 
+@pytest.mark.parametrize("implicit", [False, True])
+def test_zone_with_spins_is_new_until_the_first_forces(lammps, implicit):
+    """Their moments of inertia need densities before the first forces."""
+    channel, frames = Channel(length=10, width=8), []
+    for before in ("", "write_restart state.restart\n"):
+        text = channel.text(lammps, f"velocity {channel.vector(U)} temperature 1.2", "pressure 0.0 temperature 1.1", velocity=stream, timestep=0.02, style="sph/micropolar",
+                            coeff="1.0 3.0 0.1 0.2 0.05 0.05 -0.05 {R} cv 2.0 conductivity 0.4 gruneisen 0.4 1.0", spin=0.1,
+                            integrate="inertia 0.1 0.01 density rho0 temperature 1.0" + implicit * " viscous implicit tolerance 1e-13")
+        lammps(text + TEMPERATURE + before + dump("out.dump", 20, "c_T") + "run 20\n", ranks=2)
+        frames.append(lammps.frame("out.dump"))
+    for key in ("x", "v", "c_T"):
+        assert relative(frames[1][key] - frames[0][key], frames[0][key]) < 1e-10, key
+
+
 @pytest.mark.parametrize("fault, words", [("set group in mass 3.0", "the masses of the zone"), ("region R block INF 0 2 3 INF INF\ndelete_atoms region R", "rows of the zone"),
                                           ("", "have no heat")])
 @pytest.mark.parametrize("before", ["", "write_restart", "write_data", "balance", "run 0", "all", "read"])

@@ -152,12 +152,12 @@ def test_restart(lammps, before, after, steps):
     assert whole["f_in[1]"][-1] > whole["f_in[1]"][0] > 0
 
 
-@pytest.mark.parametrize("form, word", [(96.0, "an older"), (-1002.0, "an older"), (-1004.0, "a newer")])
+@pytest.mark.parametrize("form, word", [(96.0, "an older"), (-1003.0, "an older"), (-1005.0, "a newer")])
 def test_restart_file_of_another_version(lammps, form, word):
     channel = Channel(kind="hex", length=20)
     lammps(unsteady(lammps, channel) + "write_restart state.restart\n")
     data = lammps.path("state.restart").read_bytes()
-    head = struct.pack("<d", -1003.0)
+    head = struct.pack("<d", -1004.0)
     assert data.count(head) == 2
     lammps.path("state.restart").write_bytes(data.replace(head, struct.pack("<d", form)))
     result = lammps("read_restart state.restart\n" + after_read(channel), ranks=2, check=False)
