@@ -207,6 +207,26 @@ void Fluid::find_own_types()
 }
 
 /* ----------------------------------------------------------------------
+   two types of this fluid whose pairs hybrid gives to other styles only
+------------------------------------------------------------------------- */
+
+void Fluid::check_all_interact()
+{
+  auto *const hybrid = dynamic_cast<PairHybrid *>(force->pair);
+  if (!hybrid || comm->me != 0) return;
+  std::string name = style;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i + 1; j <= atom->ntypes; j++)
+      if (has_type(i) && has_type(j) && !hybrid->check_ijtype(i, j, &name[0])) {
+        error->warning(FLERR,
+                       "Pair style {}: particles of types {} and {} do not interact, since "
+                       "pair_coeff gives these types to other styles only; use pair_coeff {} {} {}",
+                       style, i, j, i, j, style);
+        return;
+      }
+}
+
+/* ----------------------------------------------------------------------
    viscosities of unlike types and coefficients of the bulk term
 ------------------------------------------------------------------------- */
 
@@ -231,7 +251,7 @@ void Fluid::adopt()
 {
   if (!stale) return;
   derive_coeffs();
-  if (!update->setupflag && update->whichflag == 1 && modify->get_fix_by_style("^sph/dt").empty())
+  if (!update->setupflag && update->whichflag == 1 && !step_follows())
     check_time_step(coeff_table());
 }
 
@@ -240,6 +260,7 @@ void Fluid::adopt()
 bigint Fluid::compute(PairTally *tally)
 {
   if (neighbor->ago == 0) check_masses(lmp, style, *model);
+  if (update->setupflag) check_numbers(lmp, style, *model);
   if (own_list && search->update(pair->list)) timer->stamp(Timer::NEIGH);
   if (model->choice.thermal) noise->count_step();
   if (model->choice.own_temperatures && (neighbor->ago == 0 || update->setupflag))
@@ -604,6 +625,7 @@ void Fluid::report()
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", style, model->summary(dim, support),
                      engine->instruction_set(), table.text(update->dt) + skin_text(table),
                      state.table());
+    check_all_interact();
     check_sizes(lmp, style, *model, not_fluid());
     check_relaxation(lmp, style, *model);
     state.warn(style, shift->wanted);
@@ -611,7 +633,7 @@ void Fluid::report()
   announced = true;
   if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
 
-  check_time_step(table);
+  if (!step_follows()) check_time_step(table);
   check_energies(lmp, style, *model, engine->strains(), not_fluid());
   check_neighbors(lmp, style, *model, *engine, not_fluid(), dim, support);
 }
@@ -654,6 +676,15 @@ void Fluid::announce_noise(double rate)
         style, rate * update->dt, ACCURATE_NOISE);
 }
 
+/* ----------------------------------------------------------------------
+   the fix that sets the time step checks it, with the limits from which it follows
+------------------------------------------------------------------------- */
+
+bool Fluid::step_follows() const
+{
+  return !modify->get_fix_by_style("^sph/dt").empty();
+}
+
 /* ---------------------------------------------------------------------- */
 
 void Fluid::check_time_step(const CoeffTable &table)
@@ -694,7 +725,8 @@ CoeffTable Fluid::coeff_table()
     const double rho = atom->rho[i];
     const bool cold =
         is_boundary(i) && eos != Eos::IDEAL && coeff.eos.gruneisen > 0.0;    // no heat
-    const double energy = atom->esph[i] - strains.vibrational_energy(i);     // of fast sound
+    const double energy =
+        atom->esph[i] - strains.energy(i) - strains.vibrational_energy(i);    // of fast sound
     const double sound = cold ? coeff.eos.c0
                               : sound_speed(eos, coeff.eos, rho, energy / atom->rmass[i]);
     const double v = MathExtra::len3(atom->v[i]);
