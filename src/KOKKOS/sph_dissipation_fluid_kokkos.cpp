@@ -293,7 +293,10 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
     return nbeyond;
   }
 
-  if (neighbor->ago == 0) atomKK->sync(Host, RMASS_MASK | TAG_MASK | TYPE_MASK);
+  if (update->setupflag)
+    atomKK->sync(Host, ALL_MASK);
+  else if (neighbor->ago == 0)
+    atomKK->sync(Host, RMASS_MASK | TAG_MASK | TYPE_MASK);
   const bigint nbeyond = Fluid::compute(tally);
   atomKK->modified(pair->execution_space, FLUID_MODIFIED);
 

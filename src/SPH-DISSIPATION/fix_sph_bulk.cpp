@@ -73,6 +73,10 @@ static const char cite_rkl2[] =
     " doi =     {10.1016/j.jcp.2013.08.021},\n"
     "}\n\n";
 
+// first number of the data in a restart file, with a minus
+
+static constexpr int FORMAT = 1001;
+
 // the style of which another one, with the suffix of an accelerator package of LAMMPS, is a variant
 
 static std::string without_suffix(const std::string &style)
@@ -456,8 +460,8 @@ FixSPHBulk::Motion FixSPHBulk::find_motion() const
         !(atom->mask[i] & (integrated_groups | fluid->not_fluid()));
     const bool moves = driven || (atom->mask[i] & groupbit);
     if (!moves && !wall) continue;
-    std::uint64_t number =
-        (atom->tag_enable ? atom->tag[i] : 0) * (atom->ntypes + 1) + atom->type[i];
+    const std::uint64_t tag = atom->tag_enable ? atom->tag[i] : 0;
+    std::uint64_t number = tag * (atom->ntypes + 1) + atom->type[i];
     double place[3];
     domain->unmap(atom->x[i], atom->image[i], place);
     for (double &x : place) x = std::floor(x * fine + 0.5);
@@ -855,8 +859,8 @@ void FixSPHBulk::write_restart(FILE *fp)
 {
   const Motion motion = restart_motion();
   if (comm->me != 0) return;
-  std::vector<double> state;
-  if (spins) state = {static_cast<double>(inertia_done), factor, offset};
+  std::vector<double> state = {-FORMAT};
+  if (spins) state.insert(state.end(), {static_cast<double>(inertia_done), factor, offset});
   for (const bigint number : {bigint(density_done), motion.known, motion.sum[0], motion.sum[1]})
     state.push_back(static_cast<double>(number));
   state.push_back(motion.dt);
@@ -873,6 +877,7 @@ void FixSPHBulk::write_restart(FILE *fp)
 void FixSPHBulk::restart(char *buf)
 {
   const auto *state = reinterpret_cast<double *>(buf);
+  check_format(lmp, this, *state++, FORMAT);
   if (spins) {
     inertia_done = state[0] != 0.0 && state[1] == factor && state[2] == offset;
     state += 3;

@@ -119,7 +119,7 @@ void FixSPHDt::setup_pre_force(int /*vflag*/)
   for (const auto &integrator : integrators) integrator->set_inertia();
 
   limits[FORCE] = UNLIMITED_STEP;
-  reset_step(allowed_step());
+  reset_step(allowed_step(fluid->coeff_table()));
 }
 
 /* ----------------------------------------------------------------------
@@ -131,8 +131,10 @@ void FixSPHDt::setup(int /*vflag*/)
 {
   set_up = true;
   limits[FORCE] = part_of(part[FORCE], fluid->fall_time());
-  const double step = allowed_step();
+  const CoeffTable table = fluid->coeff_table();
+  const double step = allowed_step(table);
   reset_step(fluid->viscous->active() ? std::min(step, update->dt) : step);
+  fluid->check_time_step(table);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -141,7 +143,7 @@ void FixSPHDt::end_of_step()
 {
   check_set_up(lmp, this, set_up);
   limits[FORCE] = part_of(part[FORCE], fluid->fall_time());
-  reset_step(std::min(allowed_step(), GROWTH * update->dt));
+  reset_step(std::min(allowed_step(fluid->coeff_table()), GROWTH * update->dt));
 }
 
 /* ----------------------------------------------------------------------
@@ -149,9 +151,8 @@ void FixSPHDt::end_of_step()
    it is asked for.  Without any limit the time step stays
 ------------------------------------------------------------------------- */
 
-double FixSPHDt::allowed_step()
+double FixSPHDt::allowed_step(const CoeffTable &table)
 {
-  const SPHDissipation::CoeffTable table = fluid->coeff_table();
   limits[ACOUSTIC] = part_of(part[ACOUSTIC] / SPHDissipation::ACOUSTIC, table.acoustic_step());
   const bool limited = given[VISCOUS] || !fluid->viscous->active();
   limits[VISCOUS] = limited ? part_of(part[VISCOUS], table.dissipative_step()) : UNLIMITED_STEP;

@@ -24,8 +24,9 @@ FixStyle(sph/dt,FixSPHDt);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class CoeffTable;
   class Fluid;
-}
+}    // namespace SPHDissipation
 
 // Adapts the time step to the limits of sound, viscosity, and forces.
 
@@ -49,7 +50,7 @@ class FixSPHDt : public Fix {
   double limits[NLIMIT];       // time steps; the last ones
   bool set_up;                 // since it was defined
 
-  double allowed_step();
+  double allowed_step(const SPHDissipation::CoeffTable &);
   void reset_step(double);
 };
 

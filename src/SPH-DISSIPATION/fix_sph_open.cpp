@@ -648,9 +648,7 @@ void FixSPHOpen::write_restart(FILE *fp)
 void FixSPHOpen::restart(char *buf)
 {
   const auto *const state = reinterpret_cast<double *>(buf);
-  if (state[0] != -FORMAT)
-    error->all(FLERR, "Fix {} {}: the restart file was written by {} version of this fix", style,
-               id, (state[0] < -FORMAT) ? "a newer" : "an older");
+  check_format(lmp, this, state[0], FORMAT);
   balance->restart(state + BALANCE);
   condition->clock = state[CLOCK];
   if (plane->is_at(state + PLANE)) {

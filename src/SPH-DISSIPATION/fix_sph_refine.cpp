@@ -532,9 +532,7 @@ void FixSPHRefine::write_restart(FILE *fp)
 void FixSPHRefine::restart(char *buf)
 {
   const auto *state = reinterpret_cast<double *>(buf);
-  if (state[0] != -FORMAT)
-    error->all(FLERR, "Fix {} {}: the restart file was written by {} version of this fix", style,
-               id, (state[0] < -FORMAT) ? "a newer" : "an older");
+  check_format(lmp, this, state[0], FORMAT);
   balance->restart(state + BALANCE);
   event->highest = static_cast<tagint>(state[HIGHEST]);
 }

@@ -44,6 +44,11 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
 
+// in restart files: -format, motion, heat given
+
+static constexpr int FORMAT = 1001;
+enum { MOTION = 1, HEAT = MOTION + WallMotion::NRESTART, NSTATE };
+
 static const char cite_wall[] =
     "fix sph/wall command: https://doi.org/10.1016/j.jcp.2012.05.005\n\n"
     "@Article{Adami2012,\n"
@@ -526,23 +531,23 @@ void FixSPHWall::from_point(int i, const WallVelocity &now, double *r) const
 
 void FixSPHWall::write_restart(FILE *fp)
 {
-  constexpr int N = WallMotion::NRESTART;
-  double buf[N + 1];
-  MPI_Reduce(&heat_given, buf + N, 1, MPI_DOUBLE, MPI_SUM, 0, world);
+  double state[NSTATE] = {-FORMAT};
+  MPI_Reduce(&heat_given, state + HEAT, 1, MPI_DOUBLE, MPI_SUM, 0, world);
   if (comm->me != 0) return;
-  motion->pack_restart(buf);
-  const int size = sizeof(buf);
+  motion->pack_restart(state + MOTION);
+  const int size = sizeof(state);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(buf, sizeof(double), N + 1, fp);
+  fwrite(state, sizeof(state), 1, fp);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixSPHWall::restart(char *buf)
 {
-  const auto *const numbers = reinterpret_cast<double *>(buf);
-  motion->restart(numbers);
-  if (gives_heat() && comm->me == 0) heat_given = numbers[WallMotion::NRESTART];
+  const auto *const state = reinterpret_cast<double *>(buf);
+  check_format(lmp, this, state[0], FORMAT);
+  motion->restart(state + MOTION);
+  if (gives_heat() && comm->me == 0) heat_given = state[HEAT];
 }
 
 /* ----------------------------------------------------------------------

@@ -65,6 +65,17 @@ void SPHDissipation::check_set_up(LAMMPS *lmp, const Fix *fix, bool set_up)
 
 /* ---------------------------------------------------------------------- */
 
+void SPHDissipation::check_format(LAMMPS *lmp, const Fix *fix, double first, int format)
+{
+  if (first != -format)
+    lmp->error->all(FLERR,
+                    "Fix {} {}: the restart file was written by {} version of this fix; give the "
+                    "fix another ID to begin anew",
+                    fix->style, fix->id, (first < -format) ? "a newer" : "an older");
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool SPHDissipation::is_rerun(LAMMPS *lmp)
 {
   return lmp->input->command && strcmp(lmp->input->command, "rerun") == 0;
@@ -319,6 +330,37 @@ void SPHDissipation::check_masses(LAMMPS *lmp, const std::string &style, const F
 
 /* ---------------------------------------------------------------------- */
 
+void SPHDissipation::check_numbers(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+{
+  Atom *atom = lmp->atom;
+  const auto check = [&](const std::string &name, const std::string &help,
+                         const std::function<bool(int)> &finite) {
+    const auto odd = first_particle(lmp, [&](int i) {
+      return !model.coeffs[atom->type[i]].other && !finite(i);
+    });
+    if (!odd.empty())
+      lmp->error->all(FLERR, Error::NOLASTLINE,
+                      "Pair style {}: {} must be a finite number, which that of {} is not; {}",
+                      style, name, odd, help);
+  };
+  const auto finite = [](const double *a) {
+    return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+  };
+  check("velocity", "use velocity create after set mass, and see the variables that have set it",
+        [&](int i) {
+          return finite(atom->v[i]);
+        });
+  if (Fields::with_spins(atom))
+    check("spin", "see the variables that have set it", [&](int i) {
+      return finite(atom->omega[i]);
+    });
+  check("internal energy", "use the set command", [&](int i) {
+    return std::isfinite(atom->esph[i]);
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
 void SPHDissipation::check_sizes(LAMMPS *lmp, const std::string &style, const FluidModel &model,
                                  int boundary_bits)
 {
@@ -349,14 +391,6 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
                                     const StrainRows &strains, int boundary_bits)
 {
   Atom *atom = lmp->atom;
-  const auto odd = first_particle(lmp, [&](int i) {
-    return !model.coeffs[atom->type[i]].other && !std::isfinite(atom->esph[i]);
-  });
-  if (!odd.empty())
-    lmp->error->all(FLERR, Error::NOLASTLINE,
-                    "Pair style {}: internal energy must be a finite number, which that of {} is "
-                    "not; use the set command",
-                    style, odd);
   const bool gas = (model.choice.eos == Eos::IDEAL);
   bigint number[2] = {0, 0}, all[2];    // of particles whose heat counts, of those without heat
   for (int i = 0; i < atom->nlocal; i++) {

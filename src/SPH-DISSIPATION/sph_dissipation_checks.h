@@ -64,6 +64,10 @@ namespace SPHDissipation {
 
   void check_spins(LAMMPS *, const std::string &style, const FluidModel &);
 
+  // the data of a fix in a restart file begin with the number -format of its version
+
+  void check_format(LAMMPS *, const Fix *, double first, int format);
+
   // particles have room for the relaxing processes of their type; warning about times far below the time step
 
   void check_processes(LAMMPS *, const std::string &style, const FluidModel &);
@@ -74,11 +78,15 @@ namespace SPHDissipation {
 
   void check_masses(LAMMPS *, const std::string &style, const FluidModel &);
 
+  // velocities, spins, and internal energies are finite numbers, as LAMMPS wants of positions
+
+  void check_numbers(LAMMPS *, const std::string &style, const FluidModel &);
+
   // warning about particles of one fluid whose sizes differ, if their volumes are those of equal ones
 
   void check_sizes(LAMMPS *, const std::string &style, const FluidModel &, int boundary_bits);
 
-  // internal energies are numbers; warnings about a fluid that exerts no forces: no internal energy
+  // warnings about a fluid that exerts no forces: no internal energy
   // with an equation of state that needs it, no neighbors inside the support.  Particles with one of boundary_bits in their mask are
   // no fluid.
 

@@ -207,6 +207,26 @@ void Fluid::find_own_types()
 }
 
 /* ----------------------------------------------------------------------
+   two types of this fluid whose pairs hybrid gives to other styles only
+------------------------------------------------------------------------- */
+
+void Fluid::check_all_interact()
+{
+  auto *const hybrid = dynamic_cast<PairHybrid *>(force->pair);
+  if (!hybrid || comm->me != 0) return;
+  std::string name = style;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i + 1; j <= atom->ntypes; j++)
+      if (has_type(i) && has_type(j) && !hybrid->check_ijtype(i, j, &name[0])) {
+        error->warning(FLERR,
+                       "Pair style {}: particles of types {} and {} do not interact, since "
+                       "pair_coeff gives these types to other styles only; use pair_coeff {} {} {}",
+                       style, i, j, i, j, style);
+        return;
+      }
+}
+
+/* ----------------------------------------------------------------------
    viscosities of unlike types and coefficients of the bulk term
 ------------------------------------------------------------------------- */
 
@@ -231,7 +251,7 @@ void Fluid::adopt()
 {
   if (!stale) return;
   derive_coeffs();
-  if (!update->setupflag && update->whichflag == 1 && modify->get_fix_by_style("^sph/dt").empty())
+  if (!update->setupflag && update->whichflag == 1 && !step_follows())
     check_time_step(coeff_table());
 }
 
@@ -240,6 +260,7 @@ void Fluid::adopt()
 bigint Fluid::compute(PairTally *tally)
 {
   if (neighbor->ago == 0) check_masses(lmp, style, *model);
+  if (update->setupflag) check_numbers(lmp, style, *model);
   if (touched) {
     const std::uint64_t hash = model->hash();
     changed = changed || hash != model->hash_of_forces;
@@ -610,6 +631,7 @@ void Fluid::report()
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", style, model->summary(dim, support),
                      engine->instruction_set(), table.text(update->dt) + skin_text(table),
                      state.table());
+    check_all_interact();
     check_sizes(lmp, style, *model, not_fluid());
     check_relaxation(lmp, style, *model);
     state.warn(style, shift->wanted);
@@ -617,7 +639,7 @@ void Fluid::report()
   announced = true;
   if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
 
-  check_time_step(table);
+  if (!step_follows()) check_time_step(table);
   check_energies(lmp, style, *model, engine->strains(), not_fluid());
   check_neighbors(lmp, style, *model, *engine, not_fluid(), dim, support);
 }
@@ -658,6 +680,15 @@ void Fluid::announce_noise(double rate)
         "velocities between steps, and with them the structure of the fluid, are hotter "
         "than the temperature of the noise",
         style, rate * update->dt, ACCURATE_NOISE);
+}
+
+/* ----------------------------------------------------------------------
+   the fix that sets the time step checks it, with the limits from which it follows
+------------------------------------------------------------------------- */
+
+bool Fluid::step_follows() const
+{
+  return !modify->get_fix_by_style("^sph/dt").empty();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -175,6 +175,7 @@ namespace SPHDissipation {
 
     CoeffTable coeff_table();
     double fall_time() const;
+    void check_time_step(const CoeffTable &);    // warning about one that is too large
 
    protected:
     int dim;           // dimension of the kernel
@@ -219,12 +220,13 @@ namespace SPHDissipation {
 
     void check_setup();
     void find_own_types();
+    void check_all_interact();
+    bool step_follows() const;    // a fix sets the time step by the limits
     void derive_coeffs();
     bigint sum_before_forces();
     const double *bound() const;    // of the limit, nullptr without
     void find_viscous_velocity();
     void find_temperature();
-    void check_time_step(const CoeffTable &);
     double stability_length() const;
     double smallest_inertia() const;
     std::string skin_text(const CoeffTable &) const;

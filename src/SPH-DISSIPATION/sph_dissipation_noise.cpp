@@ -35,7 +35,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
-    Stage(lmp, engine, exchange), clock(clock), form(), data()
+    Stage(lmp, engine, exchange), clock(clock), form(), data(), cold_arrival(false)
 {
 }
 
@@ -163,7 +163,11 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
   data.mobility = mobility.data();
   exchange.forward({field(row.data(), &row.data()->temperature, spins ? 2 : 1)});
 
-  if (!update->setupflag) return;
+  if (!update->setupflag) {
+    if (neighbor->ago == 0 && !cold_arrival) find_cold_arrivals(not_fluid);
+    return;
+  }
+  cold_arrival = false;
   bigint own[2] = {without, 0}, all[2];
   for (int i = 0; i < nlocal; i++)
     if (row[i].softness > 1.0) own[1]++;
@@ -174,11 +178,7 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
                "does not exceed their elastic energy; use set ... sph/e",
                all[0]);
   if (comm->me != 0) return;
-  if (all[0])
-    error->warning(FLERR,
-                   "Pair style with temp energy: {} particles have no heat, and no noise until "
-                   "friction or conduction warms them",
-                   all[0]);
+  if (all[0]) warn_of_cold(all[0]);
   if (all[1] && !continued)
     error->warning(
         FLERR,
@@ -186,6 +186,30 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
         "below Boltzmann's constant, with which most of their heats are near zero; use a "
         "larger cv",
         all[1]);
+}
+
+void NoiseStage::warn_of_cold(bigint number) const
+{
+  error->warning(FLERR,
+                 "Pair style with temp energy: {} particles have no heat, and no noise until "
+                 "friction or conduction warms them",
+                 number);
+}
+
+/* ----------------------------------------------------------------------
+   particles that a fix has created come with a new neighbor list, without internal energy
+------------------------------------------------------------------------- */
+
+void NoiseStage::find_cold_arrivals(int not_fluid)
+{
+  bigint own = 0, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!engine.parameters().type[atom->type[i]].other && !(atom->mask[i] & not_fluid) &&
+        atom->esph[i] == 0.0)
+      own++;
+  MPI_Allreduce(&own, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  cold_arrival = all > 0;
+  if (cold_arrival && comm->me == 0) warn_of_cold(all);
 }
 
 /* ----------------------------------------------------------------------

@@ -78,10 +78,13 @@ namespace SPHDissipation {
     std::vector<double> tag, reach, share, eta, pressure, drag, drag_force;
     std::vector<double> numbers, change, flow;
     std::vector<Acceleration> acceleration;
+    bool cold_arrival;    // in this run
 
     void check_box() const;
     void set_tags();
     void set_temperatures(bool continued, int not_fluid);
+    void find_cold_arrivals(int not_fluid);
+    void warn_of_cold(bigint number) const;
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);

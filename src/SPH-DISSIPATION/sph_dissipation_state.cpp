@@ -111,8 +111,9 @@ void FluidState::add_up()
     if (model.coeffs[type].other) continue;
     const EosParams &eos = model.coeffs[type].eos;
     const double excess = atom->rho[i] / eos.rho0 - 1.0;
-    const double energy = atom->esph[i] - strains.vibrational_energy(i);
-    const double p = pressure(model.choice.eos, eos, atom->rho[i], energy / atom->rmass[i]);
+    const double energy = atom->esph[i] - strains.energy(i) - strains.vibrational_energy(i);
+    const double p = pressure(model.choice.eos, eos, atom->rho[i], energy / atom->rmass[i]) +
+        strains.pressure(i);
     for (int set = ALL; set <= (full[i] > 0.0 ? FULL : ALL); set++) {
       Mean &mean = my_means[type * NSET + set];
       mean.count += 1.0;
@@ -245,7 +246,7 @@ double FluidState::longest_wave() const
 /* ----------------------------------------------------------------------
    Sum up d2c/dgamma2 for any shear gamma s k, with unit vectors k and s at right angles, which moves a
    neighbor at r by gamma s (k.r): -sum_j w_j [F (k.r)^2 + F'/r (k.r)^2 (s.r)^2], as sums over the
-   products of components of r, xx yy zz yz xz xy
+   products of components of r, xx yy zz yz xz xy.  The vorticity is that of the velocities in the friction.
 ------------------------------------------------------------------------- */
 
 void LatticeStrain::run(const std::vector<double> &weight)
@@ -256,12 +257,21 @@ void LatticeStrain::run(const std::vector<double> &weight)
   const int *const type = atom->type;
   const int n = atom->ntypes + 1;
   std::vector<Sum> my_sums(n, Sum());
+  std::vector<double> curl(3 * (std::size_t)(atom->nlocal + atom->nghost), 0.0);
 
   with_kernel(engine.parameters().kernel, [&](auto k) {
     engine.visit_pairs([&](int i, int j, bigint entry) {
       if (weight[i] + weight[j] == 0.0) return;
-      double r[3];
-      for (int d = 0; d < 3; d++) r[d] = particle[i].x[d] - particle[j].x[d];
+      double r[3], v[3], turn[3];
+      for (int d = 0; d < 3; d++) {
+        r[d] = particle[i].x[d] - particle[j].x[d];
+        v[d] = atom->vest[i][d] - atom->vest[j][d];
+      }
+      MathExtra::cross3(r, v, turn);
+      for (int d = 0; d < 3; d++) {
+        curl[3 * i + d] += engine.weight(j) * pairs.slope[entry] * turn[d];
+        curl[3 * j + d] += engine.weight(i) * pairs.slope[entry] * turn[d];
+      }
       const double product[6] = {r[0] * r[0], r[1] * r[1], r[2] * r[2],
                                  r[1] * r[2], r[0] * r[2], r[0] * r[1]};
       const double dist = sqrt(product[0] + product[1] + product[2]);
@@ -282,6 +292,12 @@ void LatticeStrain::run(const std::vector<double> &weight)
     });
     return 0;
   });
+  exchange.reverse({{curl.data(), 3, 3}});
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double by_density = weight[i] / (engine.density[i].c * engine.density[i].c);
+    my_sums[type[i]].vorticity_sq += by_density * MathExtra::lensq3(&curl[3 * i]);
+    my_sums[type[i]].rate_sq += by_density * engine.density[i].cdot * engine.density[i].cdot;
+  }
 
   sums.resize(n);
   MPI_Allreduce(my_sums.data(), sums.data(), n * sizeof(Sum) / sizeof(double), MPI_DOUBLE, MPI_SUM,
@@ -337,7 +353,9 @@ double LatticeStrain::largest(int type) const
 /* ----------------------------------------------------------------------
    A shear wave of wave number k with the viscosity mu and the elasticity G has the rates
    g = nu k^2/2 +- sqrt[(nu k^2/2)^2 - G k^2/rho]: for a small G, mu appears to be too small by the
-   part G rho/(mu k)^2 of it; from 1/4 on the wave oscillates.  If G < 0, it grows in the end.
+   part G rho/(mu k)^2 of it; from 1/4 on the wave oscillates.  If G < 0, it grows in the end.  The
+   arrangement yields to waves of a vorticity beyond k sqrt(|G|/rho), whose strains exceed 1; sound has no
+   vorticity.
 ------------------------------------------------------------------------- */
 
 void FluidState::warn(const std::string &fix_style, bool evened_out)
@@ -346,6 +364,8 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
   constexpr double SPARSE = 0.01;          // the same, where no particle has a full support
   constexpr double REGULAR = 0.001;        // spread of the density; disordered particles yield
   constexpr double ELASTIC_PART = 0.25;    // of the viscosity
+  constexpr double FEW = 10.0;             // particles, whose densities may be equal by chance
+  constexpr double SHEARED = 0.1;          // vorticity over the rate of density
 
   const bool shears = (engine.parameters().dim > 1) && !evened_out;
   LatticeStrain strain(lmp, engine, exchange);
@@ -356,6 +376,8 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
   }
   if (comm->me != 0) return;
 
+  int worst = 0;    // type of the largest part
+  double largest_part = ELASTIC_PART, elasticity_of_worst = 0.0;
   for (int type = 1; type <= atom->ntypes; type++) {
     if (!has_type(type)) continue;
     const double rho = mean_density(type), rho0 = model.coeffs[type].eos.rho0;
@@ -370,17 +392,25 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
     }
 
     const double mu = model.viscosity(0, type, type);
-    if (!shears || !has_full_support(type) || spread(type) > REGULAR || mu == 0.0) continue;
-    const double p = mean_pressure(type);
-    const double elasticity = p * strain.largest(type) / count(type, FULL);
+    if (!shears || count(type, FULL) < FEW || spread(type) > REGULAR || mu == 0.0) continue;
+    const double elasticity = mean_pressure(type) * strain.largest(type) / count(type, FULL);
     const double k = MY_2PI / length;
     const double part = fabs(elasticity) * rho / (mu * mu * k * k);
-    if (part < ELASTIC_PART) continue;
+    const double vorticity_sq = strain.vorticity_squared(type) / count(type, FULL);
+    const double rate_sq = strain.rate_squared(type) / count(type, FULL);
+    if (part < largest_part || !(vorticity_sq > SHEARED * SHEARED * rate_sq) ||
+        vorticity_sq > k * k * fabs(elasticity) / rho)
+      continue;
+    worst = type;
+    largest_part = part;
+    elasticity_of_worst = elasticity;
+  }
+  if (worst)
     error->warning(FLERR,
                    "The mean pressure {:.3g} of type {} gives its arrangement of particles a shear "
                    "elasticity of {:.2g}, which exceeds the viscosity: shear waves as long as the "
                    "box {} instead of decaying. Use keyword density of fix {} and no background "
                    "pressure or, for large strains, its keyword shift",
-                   p, type, elasticity, elasticity < 0.0 ? "grow" : "oscillate", fix_style);
-  }
+                   mean_pressure(worst), worst, elasticity_of_worst,
+                   elasticity_of_worst < 0.0 ? "grow" : "oscillate", fix_style);
 }

@@ -39,9 +39,15 @@ namespace SPHDissipation {
 
     double largest(int type) const;
 
+    // sums of weight times the square of the vorticity, and of the rate of the density over the density
+
+    double vorticity_squared(int type) const { return sums[type].vorticity_sq; }
+    double rate_squared(int type) const { return sums[type].rate_sq; }
+
    private:
     struct Sum {
       double second[6], fourth[6][6];    // coefficients of any shear
+      double vorticity_sq, rate_sq;
     };
     std::vector<Sum> sums;    // by type
   };
@@ -65,8 +71,9 @@ namespace SPHDissipation {
     double mean_pressure(int type) const;
     std::string table() const;    // for the log
 
-    // Warn, on rank 0, of types whose density is far from rho0, and of those whose arrangement has
-    // a shear elasticity; evened_out: shifting prevents it.  fix_style = the integrator, whose
+    // Warn, on rank 0, of types whose density is far from rho0, and of the one whose arrangement has
+    // the largest shear elasticity over its viscosity, if its motion is a shear that the arrangement
+    // survives; evened_out: shifting prevents it.  fix_style = the integrator, whose
     // keyword helps
 
     void warn(const std::string &fix_style, bool evened_out);

@@ -74,6 +74,19 @@ def test_a_pair_with_a_type_that_is_no_fluid(lammps):
             "between types 1 and 2, but type 2 has no coefficients")
 
 
+@pytest.mark.parametrize("lines, silent", [("pair_coeff * * zero\n", False), ("pair_coeff 1 2 none\n", False), ("", True),
+                                           ("pair_coeff 1 2 sph/bulk mu 0.5\npair_coeff * * zero\n", True)])
+def test_types_that_do_not_interact(lammps, lines, silent):
+    """A line for all types gives the pair 1 2 to another style, and LAMMPS mixes no coefficients for it."""
+    box(lammps)
+    other = "zero 3.0 " if "zero" in lines else ""
+    text = (header(2) + f"read_data box.data\npair_style hybrid/overlay {other}sph/bulk\n" + BULK.format(1, "") + BULK.format(2, "")
+            + lines + INTEGRATE)
+    found = warnings(lammps, text, "do not interact")
+    assert len(found) == (not silent), found
+    assert silent or "types 1 and 2 do not interact" in found[0] and "pair_coeff 1 2 sph/bulk" in found[0]
+
+
 @pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("order", ["sph/bulk sph", "sph sph/bulk"])
 def test_atom_style_with_another_density(lammps, order, ranks):
@@ -139,6 +152,23 @@ def test_tilted_spins_without_ids(lammps, ranks):
             "lattice sq 1.0\ncreate_box 1 B\ncreate_atoms 1 box\nset group all mass 1.0 omega 0.1 0.0 0.0\n"
             + test_micropolar.fluid(2) + test_micropolar.integrate("inertia 0.1667 0.1") + "run 0\n",
             "spin must be along z in 2d, which that of a particle is not", ranks)
+
+
+# ---------------------------------------------------------------------------------------------
+# numbers
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("commands, words", [
+    ("velocity all create 1.0 4711\nset group all mass 1.0\n", "velocity must be a finite number.*particle 1 is not; use velocity create after set mass"),
+    ("set group all mass 1.0\nvelocity odd set v_n 0 0\n", "velocity must be a finite number.*particle 5 "),
+    ("set group all mass 1.0\nset atom 5 omega 0 0 v_n\n", "spin must be a finite number.*particle 5 "),
+    ("set group all mass 1.0\nset atom 5 sph/e v_n\n", "internal energy must be a finite number.*particle 5 ")])
+def test_numbers_are_finite(lammps, commands, words, ranks):
+    """They spread over the whole fluid, and the run would end without an error."""
+    refused(lammps, header(2, style="sph/micropolar") + "region B block 0 9 0 9 -.5 .5\nlattice sq 1.0 origin 0.5 0.5 0\n"
+            "create_box 1 B\ncreate_atoms 1 box\ngroup odd id 5\nvariable n atom exp(1000.0)*0.0\n" + commands
+            + test_micropolar.fluid(2) + test_micropolar.integrate("inertia 0.1667 0.1") + "run 2\n", words, ranks)
 
 
 # ---------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from helpers import drop, fluid, free, header
+from helpers import disordered, drop, fluid, free, header
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples" / "viscosity"))
 from lattice_sums import period  # noqa: E402
@@ -93,6 +93,32 @@ def test_warning_of_a_lattice_under_pressure(lammps, name, c0, grows):
     assert not elastic()
     wave(lammps, name, c0, 0.1, "density keep shift 0.1", 0.05)
     assert not elastic()
+
+
+@pytest.mark.parametrize("motion, warned", [
+    ("velocity all set 0 v_u 0", True), ("velocity all set v_u 0 0", False), ("velocity all set 3 0 0", False),
+    ("variable u atom cos(v_k*x)\nvelocity all set 0 v_u 0", False), ("velocity all create 0.01 4711", False), ("", False)],
+    ids=["shear", "sound", "stream", "fast", "random", "rest"])
+def test_warning_where_it_matters(lammps, motion, warned):
+    """Neither for sound, nor for a flow that breaks the lattice up; for the worst of the types."""
+    text = WAVE.format(dim=2, lattice="sq", cells=32, width=4, c0=20, mu=0.1, kappa=0.2, depth="-0.1 0.1", support=6, keywords="",
+                       step=0.01, every=1, steps=0).replace("velocity all set 0 v_u 0", motion)
+    text = text.replace("create_box 1", "create_box 2").replace("pair_coeff", "region half block INF 16 INF INF INF INF units lattice\n"
+                                                                "set region half type 2\npair_coeff", 1)
+    text = text.replace("fix FLUID", "pair_coeff 2 2 1.0 40 0.1 0.2 6\nfix FLUID")
+    lines = [line for line in lammps(text).warnings if "shear elasticity" in line]
+    assert len(lines) == warned, lines
+    assert not warned or "of type 2 gives" in lines[0]
+
+
+def test_no_warning_for_a_handful_of_particles(lammps):
+    """One disordered fluid in 100 types, most of which have one or two particles: their densities are equal by chance."""
+    particles = disordered(2, (16, 10), jitter=0.1, spread=0.0, speed=1e-4)
+    particles.type = np.random.default_rng(1).integers(1, 101, len(particles))
+    particles.write(lammps.path("box.data"), ntypes=100)
+    result = lammps(header(2) + "read_data box.data\n" + fluid(2, mu=0.001, kappa=0.002, keywords="pb 10") + "fix FLUID all sph/bulk\n"
+                    "timestep 0.001\nrun 0\n")
+    assert not [line for line in result.warnings if "shear elasticity" in line]
 
 
 # ---------------------------------------------------------------------------------------------

@@ -99,14 +99,15 @@ INERTIA = (0.16, 0.1)    # of a particle of mass 1.2 and density 1 in 2d: 0.16 *
 ARRIVING_MASS = 1.2
 
 
-def arrivals(lammps, style, keywords="", velocity="vx 0.5 0.5 vy -1.0 -1.0", ranks=1, number=3, steps=80, check=True):
+def arrivals(lammps, style, keywords="", velocity="vx 0.5 0.5 vy -1.0 -1.0", ranks=1, number=3, steps=80, check=True, options="", energy=None):
     """A drop that turns and gets a particle in every 20th step."""
     particles = drop(2, 7.0)
     lammps.path("one.mol").write_text(
         f"a particle\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nMasses\n\n1 {ARRIVING_MASS}\n")
     if style == "sph/bulk":
+        particles.esph[:] = energy or particles.esph
         particles.write(lammps.path("box.data"))
-        model = fluid(2)
+        model = fluid(2, options)
     else:
         micropolar.write(particles, lammps.path("box.data"), inertia=0.0)
         model = micropolar.fluid(2)
@@ -155,6 +156,14 @@ def test_a_new_particle_moves_as_it_arrives(lammps, style):
     for new in (1, 2, 3):
         frame = first_frame_with(frames, old + new)
         assert [frame[f"c_V[{k}]"][-1] for k in (1, 2, 3)] == [0.5, -1.0, 0.0]
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_new_particles_without_heat_are_told_once(lammps, ranks):
+    """Noise at the temperatures of the particles leaves them cold; fix deposit gives them no energy."""
+    result = arrivals(lammps, "sph/bulk", options="temp energy 10.0 5", energy=100.0, ranks=ranks)
+    cold = [line for line in result.warnings if "particles have no heat" in line]
+    assert len(cold) == 1 and "1 particles have no heat, and no noise until" in cold[0], result.warnings
 
 
 def test_a_new_particle_without_inertia_is_refused_when_it_arrives(lammps):

@@ -944,3 +944,15 @@ def test_no_room(lammps):
 def test_bad_atom_style(lammps, style, words, message):
     result = lammps(f"units lj\ndimension 2\natom_style {style} {words}\n", check=False)
     assert result.code and re.search(message, result.error), result.error
+
+
+def test_pressure_of_strains_in_the_report(lammps):
+    """The mean pressure of the log has that of the strains; their energy is no heat, which has a pressure of its own."""
+    particles = disordered(2, 12, spread=0.0, speed=0.0, jitter=0.05)
+    rows = []
+    for strain, heat in ((0.5, 5.0), (0.0, 5.0 - 0.5 * 3.0 * 0.5**2)):    # g = 30/10
+        particles.esph[:] = heat
+        log = lammps(start(lammps, particles, fluid(2, keywords="relax 30 10 cv 2.0 gruneisen 0.4 1"), strain) + "run 0\n").log
+        rows.append([float(word) for word in re.search(r"^  1 +\d+ +\d+ +\| (\S+) .*\| (\S+)$", log, re.MULTILINE).groups()])
+    (density, pressure), (_, without) = rows
+    assert pressure - without == pytest.approx(3.0 * 0.5 * density, rel=2e-3)

@@ -211,3 +211,23 @@ def test_run_0_is_no_part_of_a_run(lammps):
     one, two = lammps.frame("one.dump"), lammps.frame("two.dump")
     for field in ("x", "v", "esph"):
         assert relative(two[field] - one[field], one[field]) < 1e-14, field
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("fix", ["sph/bulk", "sph/wall"])
+@pytest.mark.parametrize("format, words", [(0.0, "an older"), (-9999.0, "a newer")])
+def test_restart_data_of_another_format(lammps, fix, format, words, ranks):
+    """The data of a fix begin with a number; what another version has written is refused."""
+    disordered(2, 12, spread=0.0).write(lammps.path("box.data"))
+    groups = "region low block INF INF INF 2.9 INF INF\ngroup wall region low\ngroup fluid subtract all wall\n"
+    fixes = "fix F fluid sph/bulk\nfix W wall sph/wall rotate 6 6 0 0 0 1 0.1\ntimestep 0.001\n"
+    lammps(header(2) + "read_data box.data\n" + fluid(2) + groups + fixes + "run 1\nwrite_restart state.restart\n")
+    content = lammps.path("state.restart").read_bytes()
+    number = np.float64(-1001.0).tobytes()
+    places = [content.find(number), content.rfind(number)]
+    assert 0 < places[0] < places[1]
+    place = places[fix == "sph/wall"]
+    lammps.path("other.restart").write_bytes(content[:place] + np.float64(format).tobytes() + content[place + 8:])
+    result = lammps("read_restart other.restart\n" + fixes + "run 1\n", ranks=ranks, check=False, timeout=60)
+    assert result.code and f"Fix {fix} {'FW'[fix == 'sph/wall']}: the restart file was written by {words} version" in result.error
+    lammps("read_restart other.restart\n" + fixes.replace("fix F", "fix F2").replace("fix W", "fix W2") + "run 1\n", ranks=ranks)

@@ -7,6 +7,7 @@ import pytest
 
 import open_boundaries as ends
 import test_micropolar as micro
+import test_relax as relax
 import test_wall as walls
 from helpers import disordered, dump, header, lattice
 
@@ -176,6 +177,20 @@ def test_fix_dt_has_the_steps_of_the_table(lammps, name):
     assert not any("exceeds" in line for line in result.warnings), result.warnings
     assert thermo["f_D[1]"][0] == pytest.approx(table["acoustic"], rel=5e-4)
     assert thermo["Dt"][0] == pytest.approx(table["all"], rel=5e-4)
+
+
+@pytest.mark.parametrize("order", [0, 1])
+def test_fix_dt_never_exceeds_the_step_of_the_pair_style(lammps, order):
+    """At the default values, also at the start of runs that continue others; its own factors are warned of."""
+    particles = disordered(2, 10)
+    relax.write(particles, lammps.path("box.data"), relax.strained([0.1]))
+    fixes = ["fix 1 all sph/bulk\n", "fix D all sph/dt 1\n"]
+    text = (relax.room(2) + "read_data box.data\npair_style sph/bulk\n"
+            "pair_coeff * * 1.0 10.0 0.5 2.0 3.0 cv 2.0 gruneisen 0.4 1 relax 5 0.02\n" + fixes[order] + fixes[1 - order]
+            + "fix S all setforce NULL NULL 0\nrun 1\n" + 6 * "run 7\n")
+    assert not [line for line in lammps(text).warnings if "exceeds" in line]
+    far = lammps(text.replace("sph/dt 1", "sph/dt 1 acoustic 0.5 force 10")).warnings
+    assert [line for line in far if "exceeds" in line]
 
 
 def test_ideal_gas_under_a_background_pressure(lammps):
