@@ -27,14 +27,16 @@ namespace SPHDissipation {
   // number c of particle i is at base[c][i * stride[c]]
 
   struct ColumnsKokkos {
-    // those of an exchange: esph, vest, desph_before, inertia, omegaest, states
-    static constexpr int MOST = 1 + 3 + 1 + 1 + 3 + MOST_PROCESSES + 1;
+    // own fields that migrate: esph, vest, desph_before, inertia, omegaest, rho_relaxed, tvib; or a message of a stage
+    static constexpr int OWN = 1 + 3 + 1 + 1 + 3 + MOST_PROCESSES + 1;
+    static constexpr int MOST = (OWN > Exchange::ROOM) ? OWN : Exchange::ROOM;
     int n = 0;
     double *base[MOST];
     int stride[MOST];
 
     void add(double *first, int step)
     {
+      if (n == MOST) Kokkos::abort("SPH-DISSIPATION: particles have more columns than MOST");
       base[n] = first;
       stride[n++] = step;
     }

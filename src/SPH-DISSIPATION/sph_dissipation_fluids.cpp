@@ -144,10 +144,12 @@ FluidLine SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const
   if (lmp->comm->me == 0) {
     FILE *fp = utils::open_potential(file, lmp, nullptr);
     if (!fp)
-      error->one(FLERR,
-                 "Cannot open file of fluids {}, which is looked for in the current folder and in "
-                 "those of the environment variable LAMMPS_POTENTIALS: {}",
-                 file, utils::getsyserror());
+      error->one(
+          FLERR,
+          "Cannot open file of fluids {}, which is looked for in the current folder and in "
+          "those of the environment variable LAMMPS_POTENTIALS: {}; for a file of this package: "
+          "export LAMMPS_POTENTIALS=FOLDER/potentials, with the folder of the package",
+          file, utils::getsyserror());
 
     std::string line;
     int number = 0;

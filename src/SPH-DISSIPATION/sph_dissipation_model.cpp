@@ -14,6 +14,7 @@
 #include "sph_dissipation_model.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "input.h"
@@ -22,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -308,6 +310,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
     one.viscosity[k] = utils::numeric(FLERR, arg[5 + k], false, lmp);
   one.rc = positive("rc", arg[nvalues - 1]);
 
+  std::vector<std::string> given;
   for (int iarg = nvalues, nwords; iarg < narg; iarg += nwords) {
     const std::string keyword = arg[iarg];
     const TypeKeyword *const own = keyword_of_channel(keyword);
@@ -316,6 +319,9 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
       error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
                  keyword);
     if (iarg + nwords > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
+    if (!(own && own->group) && std::find(given.begin(), given.end(), keyword) != given.end())
+      error->all(FLERR, place(arg[iarg]), "Pair_coeff keyword {} is given twice", keyword);
+    given.push_back(keyword);
     if (own) {
       double *a = one.keywords.a + own->first;
       const double *const end = a + own->count;
@@ -366,6 +372,17 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
 }
 
 /* ----------------------------------------------------------------------
+   also inf and nan, which utils::numeric() refuses
+------------------------------------------------------------------------- */
+
+static bool is_number(const char *word)
+{
+  char *end = nullptr;
+  strtod(word, &end);
+  return end != word && *end == 0;
+}
+
+/* ----------------------------------------------------------------------
    of the keyword arg[0]; where they come in groups, up to the next word that is no number
 ------------------------------------------------------------------------- */
 
@@ -373,7 +390,7 @@ int FluidModel::number_of_values(const TypeKeyword &keyword, int narg, char **ar
 {
   if (!keyword.group) return keyword.count;
   int n = 0;
-  while (n + 1 < narg && utils::is_double(arg[n + 1])) n++;
+  while (n + 1 < narg && is_number(arg[n + 1])) n++;
   if (n == 0) utils::missing_cmd_args(FLERR, std::string("pair_coeff ") + keyword.name, error);
   if (n % keyword.group)
     error->all(FLERR, place(arg[0]),
@@ -389,6 +406,14 @@ int FluidModel::number_of_values(const TypeKeyword &keyword, int narg, char **ar
 int FluidModel::fluid_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi, int **setflag)
 {
   const FluidLine fluid = read_fluid(lmp, arg[2], arg[3]);
+  const int dim = dimension();
+  if (dim < 3 && fluid.mu > 0.0 && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair_coeff {} {}: kappa {:g} of the file is that of three dimensions; sound in "
+                   "{}d is damped as there with kappa {:g}, which needs rho0 c0 mu kappa rc as "
+                   "numbers",
+                   arg[2], arg[3], fluid.kappa, dim,
+                   fluid.kappa + fluid.mu * (dim == 1 ? 4.0 : 1.0) / 3.0);
   std::vector<std::string> words = {arg[0], arg[1]};
   for (double value : {fluid.rho, fluid.c, fluid.mu, fluid.kappa})
     words.push_back(fmt::format("{:.17g}", value));
@@ -421,6 +446,10 @@ int FluidModel::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, in
       error->all(FLERR, place(arg[iarg]),
                  "Pair_coeff keyword {} belongs to a type, not to a pair of types", keyword);
     const int k = is_viscosity(keyword);
+    if (k < 0 && narg == 4 && nviscosity() == 1 && !is_number(arg[3]))
+      error->all(FLERR, place(arg[2]),
+                 "Pair_coeff {} {}: a fluid of a file needs the support radius rc behind its name",
+                 arg[2], arg[3]);
     if (k < 0)
       error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
                  keyword);

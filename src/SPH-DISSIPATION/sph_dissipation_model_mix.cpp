@@ -241,6 +241,12 @@ void FluidModel::warn_of_ignored() const
     if (choice.eos == Eos::LINEAR && type.gamma > 0.0)
       error->warning(FLERR, "Pair_coeff gamma {} of type {} is ignored with eos linear", type.gamma,
                      i);
+    const double *const a = type.keywords.a;
+    if (a[DRAG_B] == 0.0 && (a[DRAG_UX] != 0.0 || a[DRAG_UY] != 0.0 || a[DRAG_UZ] != 0.0))
+      error->warning(FLERR, "Pair_coeff drag of type {}: the stream is ignored with drag 0", i);
+    if (a[GRUNEISEN] == 0.0 && a[GRUNEISEN_T0] != 0.0)
+      error->warning(FLERR, "Pair_coeff gruneisen of type {}: T0 {} is ignored with Gamma 0", i,
+                     a[GRUNEISEN_T0]);
     const double intrinsic = intrinsic_kappa(i, i);
     if (choice.bulk != Bulk::NONE || type.kappa == intrinsic) continue;
     error->warning(FLERR,
@@ -341,6 +347,15 @@ bool FluidModel::adopt()
       if (one.name == "kappa" && coeffs[i].intrinsic)
         error->all(FLERR, Error::NOLASTLINE,
                    "Pair style {}: kappa of type {} is intrinsic and cannot be changed", style, i);
+      const int process = k - (nviscosity() + NOTHER);
+      const int coefficient = (process < 0) ? 0 : TYPE_VARIABLES[process].coefficient;
+      const int count = RelaxChannel::count(coeffs[i].keywords);
+      if (coefficient >= RELAX + 2 * count)
+        error->all(
+            FLERR, Error::NOLASTLINE,
+            "Pair style {}: {} of type {} cannot be changed: its pair_coeff has {} processes "
+            "of relax",
+            style, one.name, i, count);
       type_value(k, i) = one.value[i][i];
       if (const char *violated = inadmissible(coeffs[i].keywords, domain->dimension))
         error->all(FLERR, Error::NOLASTLINE, "Pair style {}: {}, not {} of type {}", style,

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import test_micropolar
+import test_relax as relax
 from helpers import INTEGRATE, disordered, dump, fluid, header, relative, undump
 
 LIKE = {1: "1.0 10.0 0.5 2.0 3.0", 2: "1.1 12.0 0.2 0.8 3.0"}
@@ -359,3 +360,42 @@ def test_restart_file_that_ends_too_early(lammps):
     lammps.path("bad.restart").write_bytes(data[:place + 11])
     result = lammps("read_restart bad.restart\n", check=False)
     assert result.code != 0 and re.search("[Uu]nexpected end of file|Incomplete or corrupted", result.error), result.error
+
+
+# ---------------------------------------------------------------------------------------------
+# words
+
+
+@pytest.mark.parametrize("line, message", [
+    ("conductivity 1 conductivity 0", "Pair_coeff keyword conductivity is given twice"), ("pb 1 pb 2", "Pair_coeff keyword pb is given twice"),
+    ("relax inf 1", "parameter instead of 'inf'"), ("relax 1 nan", "parameter instead of 'nan'")])
+def test_keywords_that_are_refused(lammps, line, message):
+    result = lammps(start(lammps, f"pair_coeff * * 1 10 0.5 2 3 cv 1 {line}\n"), check=False)
+    assert result.code and message in result.error, result.error
+
+
+@pytest.mark.parametrize("line, warning", [("drag 0 1 1 0", "the stream is ignored with drag 0"), ("gruneisen 0 300", "T0 300 is ignored with Gamma 0")])
+def test_keywords_without_effect(lammps, line, warning):
+    assert warning in lammps(start(lammps, f"pair_coeff * * 1 10 0.5 2 3 cv 1 {line}\n") + "run 0\n").output
+
+
+def test_a_process_that_is_not_there_cannot_be_varied(lammps):
+    text = start(lammps, "pair_coeff * * 1 10 0.5 2 3 relax 1 1 relax 2 1\n").replace("atom_style sph/bulk", "atom_style sph/bulk relax 3")
+    relax.write(disordered(2, 12, ntypes=2), lammps.path("box.data"), np.zeros((144, 3)))
+    result = lammps(text + "variable one equal 0.7\nfix A all adapt 1 pair sph/bulk kappa_r3 1 1 v_one\nrun 1\n", check=False)
+    assert result.code and "kappa_r3 of type 1 cannot be changed: its pair_coeff has 2 processes of relax" in result.error, result.error
+
+
+def test_repeated_coefficients_are_no_change(lammps):
+    """A restart file, then the commands that it has already."""
+    pair = "pair_style sph/bulk temp 0.01 4711\n" + coeffs() + "pair_coeff 1 2 mu 0.9\n"
+    disordered(2, 12, ntypes=2).write(lammps.path("box.data"))
+    more = "fix FLUID all sph/bulk viscous implicit tolerance 1e-12\ntimestep 0.005\n"
+    text = pair.replace("\npair_coeff", "\nread_data box.data\npair_coeff", 1)
+    lammps(header(2) + text + more + "run 10\nwrite_restart state.restart\nrun 10\n" + dump("whole.dump") + "run 0\n")
+    ends = []
+    for k, lines in enumerate(("", pair, pair + "pair_coeff 1 1 1.0 10.0 0.5 2.0 3.0\npair_coeff 1 2 mu 0.9\n")):
+        lammps("read_restart state.restart\n" + lines + more + "run 10\n" + dump(f"{k}.dump") + "run 0\n")
+        ends.append(lammps.frame(f"{k}.dump"))
+        assert relative(ends[k]["v"] - ends[0]["v"], ends[0]["v"]) == 0.0
+        assert relative(ends[k]["x"] - lammps.frame("whole.dump")["x"], ends[0]["x"]) < 1e-10

@@ -153,7 +153,7 @@ def test_bad_file(box, name, ranks):
 
 
 @pytest.mark.parametrize("arguments, message", [
-    ("my.fluids water", "pair_coeff"),
+    ("my.fluids water", "needs the support radius rc behind its name"),
     ("my.fluids water wide", "'?wide'?"),
     ("my.fluids water 0.0", "rc must be > 0"),
     ("my.fluids water 2.5 pc 1.0", "Unknown pair_coeff keyword .*pc"),
@@ -379,3 +379,13 @@ def test_table_of_gases_on_the_page():
         assert float(rotation) == pytest.approx(gas.kappa / gas.mu, abs=5e-3)
         expected = [tau for _, tau in gas.relax] + [gas.constant().valid[1]]
         assert number == (pytest.approx(expected, rel=3e-2) if expected[-1] < math.inf else [])
+
+
+def test_kappa_of_a_file_is_that_of_three_dimensions(box):
+    plane = box("units si\ndimension 2\natom_style sph/bulk\nregion box block 0 1 0 1 -0.5 0.5\ncreate_box 1 box\npair_style sph/bulk\n"
+                + f"pair_coeff * * {FLUIDS} water 0.5\n")
+    number = re.search(r"WARNING: Pair_coeff .* water: kappa (\S+) of the file is that of three dimensions; sound in 2d is damped as there with kappa (\S+),", plane.output)
+    assert number and float(number[2]) > float(number[1])
+    missing = box("units si\natom_style sph/bulk\nregion box block 0 1 0 1 0 1\ncreate_box 1 box\npair_style sph/bulk\n"
+                  + f"pair_coeff * * {FLUIDS} water\n", check=False)
+    assert missing.code and "water: a fluid of a file needs the support radius rc behind its name" in missing.error

@@ -169,6 +169,20 @@ def test_relaxing_processes(lammps, style, ranks, options):
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
+def test_most_processes(lammps, style, ranks):
+    """As many as there are, in all arrays that migrate; the other type has vibrations."""
+    particles = disordered(2, 14, seed=4, jitter=0.1, ntypes=2, speed=2.0, spread=0.0)
+    particles.esph[:] = 80.0
+    strain = np.random.default_rng(3).uniform(-0.05, 0.05, (len(particles), 8))
+    strain[particles.type == 2, 1:] = 0.0
+    relax.write(particles, lammps.path("room.txt"), relax.strained(strain), style)
+    words = {"pair_coeff 1 1": " relax" + "".join(f" {k} {0.01 * k}" for k in range(1, 9)), "pair_coeff 2 2": " relax 5.0 0.2 cv 2.5 vibration 1.0 0.05"}
+    model = "".join(line + words.get(line[:14], "") + "\n" for line in fluids(style, 2, 2, "eos ideal").splitlines())
+    text = script(style, particles, model, 50, extra="atom_modify sort 5 1.5\n").replace("data.txt", "room.txt")
+    compare(lammps, style, particles, text.replace(f"atom_style {style}", f"atom_style {style} relax 8"), ranks)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("options, viscous", [("eos tait", ""), ("eos ideal volume mass", ""), ("eos tait", " viscous rkl2")])
 def test_conduction_of_heat(lammps, style, ranks, options, viscous):
     """Two types with thermal pressure, temperatures that the fix has set, a conductivity that changes on the way."""
