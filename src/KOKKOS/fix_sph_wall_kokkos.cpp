@@ -334,6 +334,14 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::min_post_force(in
   atomKK->modified(Host, F_MASK);
 }
 
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_run()
+{
+  atomKK->sync(Host, ALL_MASK);
+  FixSPHWall::post_run();
+}
+
 /* ----------------------------------------------------------------------
    array_atom, on the host and the device
 ------------------------------------------------------------------------- */

@@ -45,6 +45,7 @@ class FixSPHWallKokkos :
   void pre_force(int) override;
   void post_force(int) override;
   void min_post_force(int) override;
+  void post_run() override;
 
   void grow_arrays(int) override;
   void set_arrays(int) override;

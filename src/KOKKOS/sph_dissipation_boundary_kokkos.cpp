@@ -310,7 +310,7 @@ void BoundaryStageKokkos<DeviceType>::check(const LoopDataKokkos<DeviceType> &da
       },
       Kokkos::Min<int>(first));
   if (first >= atom->nlocal) return;
-  ((AtomKokkos *) atom)->sync(Host, TAG_MASK);
+  ((AtomKokkos *) atom)->sync(Host, TAG_MASK | X_MASK | V_MASK);
   stage.stop_for(first);
 }
 

@@ -489,6 +489,31 @@ void FixSPHWall::book_heat()
 }
 
 /* ----------------------------------------------------------------------
+   warn if the wall has taken heat from particles that have none
+------------------------------------------------------------------------- */
+
+void FixSPHWall::post_run()
+{
+  if (heat != WallHeat::FLUX || !(compute_vector(6) < 0.0)) return;
+  const Fluid *const fluid = find_fluid(force);
+  std::vector<double> temperature(atom->nlocal);
+  fluid->temperatures(temperature.data());
+  bigint cold = 0, all;
+  double lowest = 0.0, lowest_all;
+  for (const double T : temperature) {
+    if (T < 0.0) cold++;
+    lowest = std::min(lowest, T);
+  }
+  MPI_Allreduce(&cold, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  MPI_Allreduce(&lowest, &lowest_all, 1, MPI_DOUBLE, MPI_MIN, world);
+  if (all && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {} {} heat flux has taken more heat than there is: {} particles of the "
+                   "fluid have a temperature below 0, down to {:g}",
+                   id, style, all, lowest_all);
+}
+
+/* ----------------------------------------------------------------------
    the minimizer moves particles along their forces, but must not move the wall
 ------------------------------------------------------------------------- */
 

@@ -53,6 +53,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void pre_force(int) override;
   void post_force(int) override;
   void min_post_force(int) override;
+  void post_run() override;
   double compute_vector(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;

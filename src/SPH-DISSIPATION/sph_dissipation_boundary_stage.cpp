@@ -16,6 +16,7 @@
 #include "atom.h"
 #include "error.h"
 #include "force.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -349,7 +350,7 @@ void BoundaryStage::find_energies(double missing)
     work[pair.fluid] += (force.pressing + force.repulsion) * force.approach;
   });
   exchange.reverse({{each.data(), 1, 1}, {work.data(), 1, 1}});
-  std::copy_n(each.begin(), nlocal, engine.wall_energy.begin());
+  engine.set_wall_energy(each.data());
   for (int i = 0; i < nlocal; i++) engine.rows().esph[i] += missing * work[i];
 }
 
@@ -582,8 +583,11 @@ void BoundaryStage::check() const
 
 void BoundaryStage::stop_for(int i) const
 {
-  error->one(FLERR, "Particle {} of the fluid of pair style {} is inside a wall", atom->tag[i],
-             style);
+  const double *const x = atom->x[i];
+  error->one(FLERR,
+             "Particle {} of the fluid of pair style {} is inside a wall in step {}, at {:g} {:g} "
+             "{:g} with the speed {:g}",
+             atom->tag[i], style, update->ntimestep, x[0], x[1], x[2], MathExtra::len3(atom->v[i]));
 }
 
 /* ---------------------------------------------------------------------- */

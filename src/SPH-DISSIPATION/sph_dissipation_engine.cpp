@@ -21,6 +21,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -239,9 +240,39 @@ StrainRows Engine::strains() const
   std::copy_n(fields->rho_relaxed, fields->nprocess, rows.relaxed);
   rows.tvib = fields->tvib;
   rows.room = fields->nprocess;
-  if (!wall_energy.empty() && static_cast<int>(wall_energy.size()) >= atom->nlocal)
+  if (!wall_energy.empty()) {
+    follow_atoms();
     rows.by_walls = wall_energy.data();
+  }
   return rows;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::set_wall_energy(const double *energies)
+{
+  wall_energy.assign(energies, energies + atom->nlocal);
+  wall_energy_tags.assign(atom->tag, atom->tag + atom->nlocal);
+}
+
+/* ----------------------------------------------------------------------
+   energies that walls hold, in the order of the atoms now; atoms that were not here have none
+------------------------------------------------------------------------- */
+
+void Engine::follow_atoms() const
+{
+  const tagint *const tag = atom->tag;
+  const std::vector<tagint> &known = wall_energy_tags;
+  const std::size_t n = atom->nlocal;
+  if (known.size() == n && std::equal(known.begin(), known.end(), tag)) return;
+  std::map<tagint, double> energy_of;
+  for (std::size_t k = 0; k < known.size(); k++) energy_of[known[k]] = wall_energy[k];
+  wall_energy.assign(n, 0.0);
+  for (std::size_t i = 0; i < n; i++) {
+    const auto found = energy_of.find(tag[i]);
+    if (found != energy_of.end()) wall_energy[i] = found->second;
+  }
+  wall_energy_tags.assign(tag, tag + n);
 }
 
 /* ----------------------------------------------------------------------
@@ -309,7 +340,10 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     conductor.resize(nmax + BLOCK);
     std::fill_n(conductor.begin() + nall, BLOCK, Conductor());
   }
-  wall_energy.resize((par->own_temperatures && has_walls) ? nmax : 0);
+  if (!par->own_temperatures || !has_walls)
+    wall_energy.clear();
+  else if (wall_energy.empty())
+    set_wall_energy(std::vector<double>(nlocal).data());
   set_rows();
   set_weights();
 

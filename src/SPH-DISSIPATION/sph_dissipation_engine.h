@@ -302,12 +302,15 @@ namespace SPHDissipation {
     std::vector<Conductor> conductor;    // the same, if any type conducts heat
     std::vector<double>
         energy;    // the same, internal energy, if particles have the noise of their temperatures
-    std::vector<double> wall_energy;    // what walls hold of it, of owned atoms; empty: nothing
+    void set_wall_energy(const double *);    // what walls hold of it, of owned atoms
     bool has_walls = false;
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     Spin *spin;            // micropolar only
 
    private:
+    mutable std::vector<double> wall_energy;         // empty: nothing
+    mutable std::vector<tagint> wall_energy_tags;    // of the atoms in its order
+    void follow_atoms() const;
     const LoopSet *loops;
     const Parameters *par;
     Loop density_loop, rate_loop, force_loop;

@@ -238,13 +238,13 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
 }
 
 /* ----------------------------------------------------------------------
-   Divergence of the normals over the dimensions of the surface, by least squares from those around a particle; none where
-   they change too much for a smooth surface
+   Divergence of the normals over the dimensions of the surface, by least squares from those around a particle; none in
+   the edges of a hollow, where they turn too much for the normal half way
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &owned)
 {
-  constexpr double SMOOTH = 0.25;
+  constexpr double HOLLOW = -0.25;    // times the spacing
   const double support = engine.parameters().support;
   for_each(owned, [&](int i) {
     Surface &s = surface[i];
@@ -260,7 +260,7 @@ void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &ow
       norm += weight * (rsq - along * along);
     });
     const double curvature = turn / norm;
-    s.curvature = (std::fabs(curvature) * s.spacing < SMOOTH) ? curvature : 0.0;
+    s.curvature = (curvature * s.spacing > HOLLOW) ? curvature : 0.0;
   });
 }
 

@@ -103,6 +103,31 @@ bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b
 }
 
 /* ----------------------------------------------------------------------
+   particles that the fix of the style integrates
+------------------------------------------------------------------------- */
+
+void SPHDissipation::check_fluid_lists(LAMMPS *lmp, const std::string &style, const Fluid *fluid)
+{
+  const Neighbor *const neighbor = lmp->neighbor;
+  if (!neighbor->nex_type && !neighbor->nex_group && !neighbor->includegroup) return;
+  int integrated = 0, walls = 0;
+  for (const auto &ifix : lmp->modify->get_fix_by_style("^" + style)) integrated |= ifix->groupbit;
+  for (const auto &wall : lmp->modify->get_fix_by_style("^sph/wall")) walls |= wall->groupbit;
+
+  const std::set<Kind> kinds = all_kinds(lmp);
+  const auto is_fluid = [&](const Kind &kind) {
+    return fluid->has_type(kind.first) && (kind.second & integrated) && !(kind.second & walls);
+  };
+  for (const Kind &a : kinds)
+    for (const Kind &b : kinds)
+      if (a.first == b.first && is_fluid(a) && is_fluid(b) && !in_neighbor_lists(lmp, a, b))
+        lmp->error->all(FLERR, Error::NOLASTLINE,
+                        "Pair style {}: neigh_modify exclude or include leaves out pairs of the "
+                        "fluid of type {}",
+                        style, a.first);
+}
+
+/* ----------------------------------------------------------------------
    Tell whether the pair style of the fluid gets them: also pair style hybrid must let them through.
 ------------------------------------------------------------------------- */
 

@@ -32,7 +32,7 @@ namespace SPHDissipation {
     double normal[3];      // toward the fluid; zero: unknown
     double depth;          // distance of w from the surface
     double spacing;        // of the particles
-    double curvature;      // mean one, for a flux of heat: see surface_heat()
+    double curvature;      // mean one, > 0: convex; for a flux of heat: see surface_heat()
     double flux_volume;    // the same
     double omega[3];       // angular velocity of the rigid body that w belongs to
   };
@@ -365,18 +365,25 @@ namespace SPHDissipation {
   }
 
   // Heat per time that the particle f of the fluid gets from the surface, by a wall particle w, r = x_w - x_f.  The sum of
-  // 2 V_f V_w F r.n over all pairs is the area of the surface, for the integral of F z^2 over one half of space is 1/2, if n
-  // is the normal where the pair crosses it: on average that in the middle, n_w + C t/2 with the part t of -r along the surface and
-  // the divergence C of the normals over its dimensions.  On cubic lattices the sum is the area itself:
-  // for this, V_w is the reference volume times flux_factor().
+  // 2 V_f V_w F |r.n| over all pairs is the area of the surface, for the integral of F z^2 over one half of space is 1/2, if n
+  // is the normal where the pair crosses it.  With the divergence C of the normals over the dimensions of the surface:
+  // hollow: on average that in the middle, n_w - C r/2 along the surface.
+  // convex: that of a sphere of the radius 1/C + depth, (n_w - C s r)/(1 + C depth), s = part of the way where its length is 1.
+  // On cubic lattices the sum is the area itself: for this, V_w is the reference volume times flux_factor().
 
   SPH_FUNCTION double surface_heat(double flux, double vol_f, const double *r, double slope,
                                    const Surface &surface)
   {
-    const double across = -inner_product(r, surface.normal);
-    const double along_sq = inner_product(r, r) - across * across;
-    return 2.0 * flux * vol_f * surface.flux_volume * slope *
-        (across + 0.5 * surface.curvature * along_sq);
+    const double across = -inner_product(r, surface.normal), rsq = inner_product(r, r);
+    const double turn = surface.curvature * rsq;
+    double seen = across + 0.5 * (turn - surface.curvature * across * across);
+    if (turn > 0.0) {
+      const double stretch = 1.0 + surface.curvature * surface.depth;
+      const double rise = surface.depth * (1.0 + stretch);
+      const double way = across + sqrt(across * across + turn * rise);
+      seen = (way > rise) ? (across + turn * rise / way) / stretch : (across + turn) / stretch;
+    }
+    return 2.0 * flux * vol_f * surface.flux_volume * slope * seen;
   }
 
   // there the volumes V = 1/c are too small by the one sum, the number of pairs by the other

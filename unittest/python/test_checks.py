@@ -285,3 +285,14 @@ def test_fix_modify_has_nothing_to_modify(lammps, fix, option):
     box(lammps)
     refused(lammps, header(2) + "read_data box.data\n" + fluid(2) + f"fix M all {fix}\nfix_modify M {option}\n",
             f"does not support fix_modify|fix_modify {option.split()[0]}")
+
+
+@pytest.mark.parametrize("lists", ["exclude type 1 1", "exclude group A A", "exclude group A B"])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_pairs_of_the_fluid_are_excluded(lammps, lists, ranks):
+    """Between particles of one type; not where the fluid has no such particles."""
+    disordered(2, 10, ntypes=1).write(lammps.path("box.data"))
+    text = header(2) + "read_data box.data\ngroup A id 1:100:2\ngroup B subtract all A\n" + fluid(2) + INTEGRATE
+    result = lammps(text + f"neigh_modify {lists}\nrun 1\n", ranks=ranks, check=False)
+    assert result.code == 1 and "leaves out pairs of the fluid of type 1" in result.error, result.error
+    lammps(text + "group none empty\nneigh_modify exclude group none all\nrun 1\nneigh_modify exclude none\nrun 1\n", ranks=ranks)

@@ -47,7 +47,17 @@ def curvature(i, r, dist, normal, solid, radius):
     share = ref.fading(dist[near], radius)
     along = r[near] - np.outer(r[near] @ normal[i], normal[i])
     found = share @ (normal[near] * along).sum(axis=1) / (share @ (along**2).sum(axis=1))
-    return found if abs(found) < 0.25 else 0.0  # in spacings of 1, about
+    return found if found > -0.25 else 0.0  # in spacings of 1, about
+
+
+def crossing(curvature, depth, up, dist):
+    """Projection of the way from a wall particle to the fluid on the normal where it crosses the surface; up: on that of the particle."""
+    if curvature <= 0.0:
+        return up + 0.5 * curvature * (dist**2 - up**2)
+    radius = 1.0 / curvature  # of the place of the wall particle on a sphere
+    a, b, c = dist**2, radius * up, radius**2 - (radius + depth) ** 2  # where |radius normal + part way| = radius + depth
+    part = np.minimum((-b + np.sqrt(b**2 - a * c)) / a, 1.0)
+    return (radius * up + part * dist**2) / (radius + depth)
 
 
 def heating(particles, owner, fluids, T, walls, volume="number"):
@@ -85,8 +95,8 @@ def heating(particles, owner, fluids, T, walls, volume="number"):
             if kind == "flux":
                 zeroth, second = lattice_sums(dim, R, spacing)
                 up = r[near, i] @ normal[i]
-                crossing = up + 0.5 * curvature(i, -r[i], dist[i], normal, solid, min(R, 3 * spacing)) * (dist[i, near] ** 2 - up**2)
-                got = 2 * value * V[near] * cell[i] * zeroth / second * F[i, near] * crossing
+                turn = curvature(i, -r[i], dist[i], normal, solid, min(R, 3 * spacing))
+                got = 2 * value * V[near] * cell[i] * zeroth / second * F[i, near] * crossing(turn, depth[i], up, dist[i, near])
                 flow[near, i] += got
                 flow[i, near] -= got
                 continue
@@ -254,6 +264,29 @@ def test_flux_through_other_surfaces(lammps, shape):
     ratio = table["f_WALL[7]"][0] / area
     print(shape, ratio)
     assert abs(ratio - 1.0) < {"hexagonal": 0.005, "cup": 0.012, "cubic": 1e-12}[shape]
+
+
+@pytest.mark.parametrize("dim, radius, error", [(2, 4.1, 0.012), (2, 3.1, 0.012), (2, 2.2, 0.022), (3, 4.1, 0.012), (3, 3.1, 0.035)])
+def test_flux_of_small_bodies(lammps, dim, radius, error):
+    """Area of discs and spheres of few spacings, whose size is that of their particles."""
+    depth, where = ("-0.5 0.5", "lattice sq 1.0 origin 0.5 0.5 0") if dim == 2 else ("0 18", "lattice sc 1.0 origin 0.5 0.5 0.5")
+    body = f"cylinder z 9 9 {radius} INF INF" if dim == 2 else f"sphere 9 9 9 {radius}"
+    table = lammps(f"units lj\ndimension {dim}\natom_style sph/bulk\n{where}\nregion BOX block 0 18 0 18 {depth}\ncreate_box 1 BOX\n"
+                   f"create_atoms 1 box\nset group all mass 1.0\nregion BODY {body}\ngroup body region BODY\ngroup fluid subtract all body\n"
+                   "pair_style sph/bulk\npair_coeff 1 1 1.0 10.0 0.5 2.0 2.7 cv 1.0 conductivity 1.0\nvariable n equal count(body)\n"
+                   "fix FLUID fluid sph/bulk temperature 1.0\nfix WALL body sph/wall heat flux 1.0\nthermo_style custom step f_WALL[7] v_n\n"
+                   + FULL + "run 0\n").thermo()[0]
+    n = table["v_n"][0]
+    area = 2.0 * np.sqrt(np.pi * n) if dim == 2 else (36.0 * np.pi * n**2) ** (1 / 3)
+    assert table["f_WALL[7]"][0] == pytest.approx(area, rel=error)
+
+
+@pytest.mark.parametrize("flux, run, warned", [(-50.0, 60, True), (-50.0, 0, False), (50.0, 60, False)])
+def test_more_heat_than_there_is(lammps, flux, run, warned):
+    """A warning at the end of the run, one for each wall."""
+    text = channel(lammps, 6, low=f"heat flux {flux}", high="heat adiabatic") + f"timestep 0.001\nrun {run}\n"
+    lines = [line for line in lammps(text, ranks=2).warnings if "Fix LOW sph/wall heat flux has taken more heat than there is" in line]
+    assert len(lines) == warned
 
 
 def test_friction_heats(lammps):

@@ -125,7 +125,7 @@ def test_energy_of_an_ideal_gas(lammps, energy):
     (("run 100", "group in clear\nrun 100"), "group in is empty"),
     (("run 100", "neigh_modify exclude group in fluid\nrun 100"), "leaves out pairs of the zone with the fluid or with itself"),
     (("run 100", "neigh_modify exclude group in in\nrun 100"), "leaves out pairs of the zone with the fluid or with itself"),
-    (("run 100", "neigh_modify exclude type 1 1\nrun 100"), "leaves out pairs of the zone with the fluid or with itself"),
+    (("run 100", "neigh_modify exclude type 1 1\nrun 100"), "leaves out pairs of the fluid of type 1"),
     (("run 100", "group water union fluid\nneigh_modify exclude group water in\nrun 100"), "leaves out pairs of the zone"),
     (("run 100", "neigh_modify once yes\nrun 100"), "needs new neighbor lists: neigh_modify once must be no"),
     (("timestep 0.3", "timestep -0.3"), "the time step must not be negative"),

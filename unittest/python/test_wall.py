@@ -752,7 +752,7 @@ def test_particle_shot_into_a_wall(lammps, ranks, newton):
     result = run_vessel(lammps, particles, owner, one_fluid(2), [{}, {}], "timestep 0.002\nrun 100\n", ranks, newton,
                         check=False, timeout=60)
     assert result.code == 1, result.output[-2000:]
-    assert re.search(rf"Particle {shot + 1} of the fluid .*inside a wall", result.error), result.error
+    assert re.search(rf"Particle {shot + 1} of the fluid .*inside a wall in step [1-9]\d*, at \S+ \S+ \S+ with the speed [1-9]\S*", result.error), result.error
 
 
 def test_fluid_laid_into_the_wall(lammps):

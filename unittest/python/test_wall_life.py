@@ -542,3 +542,41 @@ def test_particle_inside_a_wall_of_a_large_support(lammps, dim, support, lone, r
 def test_thin_is_what_it_was(lammps):
     """The fix checks the thickness in the first run only."""
     assert len(thin(lammps(box() + "run 0\nrun 0\n"))) == 0
+
+
+NOISE = """
+units lj
+dimension 2
+atom_style sph/bulk
+atom_modify map array
+lattice sq 1.0 origin 0.5 0.5 0
+region box block 0 10 0 14 -0.5 0.5
+create_box 1 box
+create_atoms 1 box
+set group all mass 1.0
+region wall block INF INF 0 4 INF INF
+group wall region wall
+group fluid subtract all wall
+region gone block INF INF 12 14 INF INF
+group gone region gone
+displace_atoms fluid random 0.1 0.1 0 4711
+pair_style sph/bulk temp energy 1000.0 77
+pair_coeff * * 1.0 10.0 0.5 2.0 3.0 cv 10.0 conductivity 1.0 pb 20
+fix 1 fluid sph/bulk temperature 2.0
+fix W wall sph/wall
+compute T all property/atom tsph
+timestep 0.001
+run 5
+"""
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_temperatures_after_a_deletion(lammps, ranks):
+    """With temp energy a wall holds a part of the energy of the fluid next to it, which belongs to particles, not places in an array."""
+    write = "write_dump fluid custom {}.dump id c_T modify sort id format float %.17g\n"
+    lammps(NOISE + write.format("before"), ranks=ranks)
+    lammps(NOISE + "group some id 50:60\ndelete_atoms group some compress no\n" + write.format("after"), ranks=ranks)  # computes keep values of a step
+    before, after = lammps.frame("before.dump"), lammps.frame("after.dump")
+    left = np.isin(before["id"], after["id"])
+    assert left.sum() == len(left) - 11
+    assert np.abs(after["c_T"] - before["c_T"][left]).max() < 1e-12
