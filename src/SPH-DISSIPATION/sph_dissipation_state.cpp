@@ -23,6 +23,7 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_model.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -355,17 +356,18 @@ double LatticeStrain::largest(int type) const
    g = nu k^2/2 +- sqrt[(nu k^2/2)^2 - G k^2/rho]: for a small G, mu appears to be too small by the
    part G rho/(mu k)^2 of it; from 1/4 on the wave oscillates.  If G < 0, it grows in the end.  The
    arrangement yields to waves of a vorticity beyond k sqrt(|G|/rho), whose strains exceed 1; sound has no
-   vorticity.
+   vorticity.  If G < 0, short waves grow from rounding errors, at the rate |G|/mu at most.
 ------------------------------------------------------------------------- */
 
 void FluidState::warn(const std::string &fix_style, bool evened_out)
 {
-  constexpr double FAR_OFF = 0.1;          // density over rho0
-  constexpr double SPARSE = 0.01;          // the same, where no particle has a full support
-  constexpr double REGULAR = 0.001;        // spread of the density; disordered particles yield
-  constexpr double ELASTIC_PART = 0.25;    // of the viscosity
-  constexpr double FEW = 10.0;             // particles, whose densities may be equal by chance
-  constexpr double SHEARED = 0.1;          // vorticity over the rate of density
+  constexpr double FAR_OFF = 0.1;           // density over rho0
+  constexpr double SPARSE = 0.01;           // the same, where no particle has a full support
+  constexpr double REGULAR = 0.001;         // spread of the density; disordered particles yield
+  constexpr double ELASTIC_PART = 0.25;     // of the viscosity
+  constexpr double FEW = 10.0;              // particles, whose densities may be equal by chance
+  constexpr double SHEARED = 0.1;           // vorticity over the rate of density
+  constexpr double FROM_ROUNDOFF = 20.0;    // ln of the growth of a wave that is no longer small
 
   const bool shears = (engine.parameters().dim > 1) && !evened_out;
   LatticeStrain strain(lmp, engine, exchange);
@@ -398,7 +400,12 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
     const double part = fabs(elasticity) * rho / (mu * mu * k * k);
     const double vorticity_sq = strain.vorticity_squared(type) / count(type, FULL);
     const double rate_sq = strain.rate_squared(type) / count(type, FULL);
-    if (part < largest_part || !(vorticity_sq > SHEARED * SHEARED * rate_sq) ||
+    const bool sheared = (vorticity_sq > SHEARED * SHEARED * rate_sq);
+    const double growth = std::min(
+        fabs(elasticity) / mu, MY_2PI * sqrt(fabs(elasticity) / rho) / engine.parameters().support);
+    const bool rearranges =
+        (elasticity < 0.0 && growth * update->dt * update->nsteps > FROM_ROUNDOFF);
+    if (part < largest_part || !(sheared || rearranges) ||
         vorticity_sq > k * k * fabs(elasticity) / rho)
       continue;
     worst = type;

@@ -111,6 +111,15 @@ def test_warning_where_it_matters(lammps, motion, warned):
     assert not warned or "of type 2 gives" in lines[0]
 
 
+@pytest.mark.parametrize("steps, warned", [(10, False), (100000, True)])
+def test_warning_of_a_lattice_that_rearranges(lammps, steps, warned):
+    """At rest, if the run is long enough for rounding errors to grow; fix halt ends it at once."""
+    text = WAVE.format(dim=2, lattice="hex", cells=24, width=4, c0=20, mu=0.1, kappa=0.2, depth="-0.1 0.1", support=4, step=0.01,
+                       every=1, keywords="\nvariable s equal step\nfix H all halt 1 v_s > 1 error soft", steps=steps)
+    lines = [line for line in lammps(text.replace("velocity all set 0 v_u 0", "")).warnings if "shear elasticity" in line]
+    assert len(lines) == warned, lines
+
+
 def test_no_warning_for_a_handful_of_particles(lammps):
     """One disordered fluid in 100 types, most of which have one or two particles: their densities are equal by chance."""
     particles = disordered(2, (16, 10), jitter=0.1, spread=0.0, speed=1e-4)
