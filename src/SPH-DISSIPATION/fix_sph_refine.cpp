@@ -31,6 +31,7 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_refine_event.h"
 #include "update.h"
 
@@ -254,11 +255,12 @@ void FixSPHRefine::evaluate_target()
    of sound of now.
 ------------------------------------------------------------------------- */
 
-double FixSPHRefine::waiting(int i) const
+double FixSPHRefine::waiting(const StrainRows &strains, int i) const
 {
   constexpr double ROUNDOFF = 1.0e-6;
   const double rho0 = fluid->model->coeffs[atom->type[i]].eos.rho0;
-  const double time = (wait < 0.0) ? fluid->support_radius() / fluid->sound(i, rho0) : wait;
+  const double time = (wait < 0.0) ? fluid->support_radius() / fluid->sound(strains, i, rho0)
+                                   : wait;
   return ceil(time / update->dt - ROUNDOFF);
 }
 
@@ -299,10 +301,10 @@ bool FixSPHRefine::is_fluid(int i) const
    fix existed, it seems to be in the future: such an event does not count.
 ------------------------------------------------------------------------- */
 
-bool FixSPHRefine::may_change(int i) const
+bool FixSPHRefine::may_change(const StrainRows &strains, int i) const
 {
   const double since = static_cast<double>(update->ntimestep) - past[i][STEP];
-  return since < 0.0 || since >= waiting(i);
+  return since < 0.0 || since >= waiting(strains, i);
 }
 
 /* ----------------------------------------------------------------------
@@ -379,6 +381,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
   enum { FLUID, EVENTS, DAUGHTERS, CROWDED, NSUM };
   double sum[NSUM] = {0.0, 0.0, 0.0, 0.0}, all[NSUM];
   const double smallest = list_volume() / neighbor->oneatom;
+  const StrainRows strains = fluid->strains();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !is_fluid(i)) continue;
     sum[FLUID] += 1.0;
@@ -387,7 +390,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
       sum[DAUGHTERS] += ratio;
       if (target_volume(target(i)) < smallest) sum[CROWDED] += 1.0;
     }
-    if ((ratio > split_above || ratio < merge_below) && may_change(i)) sum[EVENTS] += 1.0;
+    if ((ratio > split_above || ratio < merge_below) && may_change(strains, i)) sum[EVENTS] += 1.0;
   }
   MPI_Allreduce(sum, all, NSUM, MPI_DOUBLE, MPI_SUM, world);
   const double room =
@@ -412,16 +415,16 @@ bool FixSPHRefine::wanted(bigint &nfluid)
 void FixSPHRefine::set_items()
 {
   event->begin();
+  const StrainRows strains = fluid->strains();
   for (int i = 0; i < atom->nlocal; i++) {
     RefineState state = is_fluid(i) ? KEEPS : APART;
     double goal = 0.0;
     if (state == KEEPS && (atom->mask[i] & groupbit)) {
       goal = target_volume(target(i));
       const double ratio = atom->vfrac[i] / goal;
-      if (may_change(i)) {
-        if (ratio > split_above) state = SPLITS;
-        if (ratio < merge_below) state = MERGES;
-      }
+      const bool splits = ratio > split_above;
+      if ((splits || ratio < merge_below) && may_change(strains, i))
+        state = splits ? SPLITS : MERGES;
     }
     event->set(i, state, atom->vfrac[i], split_above * goal, goal, past[i][FAMILY]);
   }

@@ -728,11 +728,12 @@ CoeffTable Fluid::coeff_table()
   // in the place of type 0, which does not exist: of all types
 
   double &fastest = most(mine, MOTION, 0);
+  const StrainRows strains = engine->strains();
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
     const TypeCoeff &coeff = model->coeffs[type];
     if (coeff.other) continue;
-    const double rho = atom->rho[i], c = sound(i, rho), v = MathExtra::len3(atom->v[i]);
+    const double rho = atom->rho[i], c = sound(strains, i, rho), v = MathExtra::len3(atom->v[i]);
     fastest = std::max(fastest, v);
     const double values[NMOST] = {c + v, c, v, is_boundary(i) ? 0.0 : coeff.eos.rho0 / rho};
     for (int k = 0; k < NMOST; k++) most(mine, k, type) = std::max(most(mine, k, type), values[k]);
@@ -773,17 +774,23 @@ CoeffTable Fluid::coeff_table()
   return table;
 }
 
+/* ---------------------------------------------------------------------- */
+
+StrainRows Fluid::strains() const
+{
+  return engine->strains();
+}
+
 /* ----------------------------------------------------------------------
    with the heat that it has now; of fast sound, in which vibrations stay as they are.  Walls of a liquid
    have no heat.
 ------------------------------------------------------------------------- */
 
-double Fluid::sound(int i, double rho) const
+double Fluid::sound(const StrainRows &strains, int i, double rho) const
 {
   const Eos eos = model->choice.eos;
   const EosParams &par = model->coeffs[atom->type[i]].eos;
   if (is_boundary(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
-  const StrainRows strains = engine->strains();
   const double held = strains.energy(i) + strains.vibrational_energy(i);
   const double q = (atom->esph[i] - held) / atom->rmass[i] -
       SPHDissipation::elastic_energy(eos, par, atom->rho[i]);

@@ -34,6 +34,7 @@ namespace SPHDissipation {
   class Exchange;
   class FluidModel;
   struct ForceSum;
+  struct StrainRows;
   class ForceStage;
   class HeatStage;
   class LimitStage;
@@ -162,12 +163,14 @@ namespace SPHDissipation {
 
     // particles and types
 
-    int not_fluid() const;                    // bits of the groups of all boundaries and open zones
-    bool is_boundary(int i) const;            // owned or ghost particle
-    bool has_type(int type) const;            // its particles are of this fluid
-    double sound(int i, double rho) const;    // speed of an owned particle that had this density
-    int dimension() const { return dim; }     // of the kernel
-    Threads &team() const;                    // that share its work
+    int not_fluid() const;            // bits of the groups of all boundaries and open zones
+    bool is_boundary(int i) const;    // owned or ghost particle
+    bool has_type(int type) const;    // its particles are of this fluid
+    // speed of sound of an owned particle that had this density; with the strains of all of them
+    double sound(const StrainRows &, int i, double rho) const;
+    StrainRows strains() const;
+    int dimension() const { return dim; }    // of the kernel
+    Threads &team() const;                   // that share its work
     double support_radius() const { return support; }
 
     // of the fluid as it is now: largest stable time steps; time in which a particle falls by the length
