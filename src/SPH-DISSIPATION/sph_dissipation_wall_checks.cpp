@@ -103,20 +103,19 @@ bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b
 }
 
 /* ----------------------------------------------------------------------
-   particles that the fix of the style integrates
+   also those that another fix moves, as the particles of a rigid body: their densities need all neighbors
 ------------------------------------------------------------------------- */
 
 void SPHDissipation::check_fluid_lists(LAMMPS *lmp, const std::string &style, const Fluid *fluid)
 {
   const Neighbor *const neighbor = lmp->neighbor;
   if (!neighbor->nex_type && !neighbor->nex_group && !neighbor->includegroup) return;
-  int integrated = 0, walls = 0;
-  for (const auto &ifix : lmp->modify->get_fix_by_style("^" + style)) integrated |= ifix->groupbit;
+  int walls = 0;
   for (const auto &wall : lmp->modify->get_fix_by_style("^sph/wall")) walls |= wall->groupbit;
 
   const std::set<Kind> kinds = all_kinds(lmp);
   const auto is_fluid = [&](const Kind &kind) {
-    return fluid->has_type(kind.first) && (kind.second & integrated) && !(kind.second & walls);
+    return fluid->has_type(kind.first) && !(kind.second & walls);
   };
   for (const Kind &a : kinds)
     for (const Kind &b : kinds)

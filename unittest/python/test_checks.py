@@ -296,3 +296,12 @@ def test_pairs_of_the_fluid_are_excluded(lammps, lists, ranks):
     result = lammps(text + f"neigh_modify {lists}\nrun 1\n", ranks=ranks, check=False)
     assert result.code == 1 and "leaves out pairs of the fluid of type 1" in result.error, result.error
     lammps(text + "group none empty\nneigh_modify exclude group none all\nrun 1\nneigh_modify exclude none\nrun 1\n", ranks=ranks)
+
+
+def test_pairs_of_a_body_are_excluded(lammps):
+    """As LAMMPS's page of fix rigid recommends it; particles of the fluid need all neighbors, whatever moves them."""
+    disordered(2, 10, ntypes=2).write(lammps.path("box.data"))
+    text = header(2) + "read_data box.data\ngroup BODY type 2\ngroup FLUID type 1\n" + fluid(2) + "fix 1 FLUID sph/bulk\n"
+    result = lammps(text + "neigh_modify exclude group BODY BODY\nrun 1\n", check=False)
+    assert result.code == 1 and "leaves out pairs of the fluid of type 2" in result.error, result.error
+    lammps(text + "run 1\n")

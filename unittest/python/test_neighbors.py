@@ -100,7 +100,7 @@ def test_vectors(lammps, particles, simd):
 
 @pytest.mark.parametrize("setting, reason", [("neighbor 0.3 nsq", "neighbor style nsq"), ("neighbor 0.3 multi", "neighbor style multi"),
                                              ("neigh_modify every 2", ""),
-                                             ("group A type 1\natom_modify first A\nneigh_modify include A", "neigh_modify include")])
+                                             ("group A union all\natom_modify first A\nneigh_modify include A", "neigh_modify include")])
 def test_what_lammps_builds(lammps, setting, reason):
     """What the package does not cover LAMMPS's own list covers, and the log says why."""
     PLANE.write(lammps.path("box.data"))
