@@ -19,10 +19,13 @@
 #include "error.h"
 #include "fix.h"
 #include "force.h"
+#include "group.h"
 #include "input.h"
 #include "lammps.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_model.h"
 #include "update.h"
@@ -30,6 +33,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -272,6 +277,74 @@ void SPHDissipation::check_spins(LAMMPS *lmp, const std::string &style, const Fl
     lmp->error->all(FLERR, Error::NOLASTLINE,
                     "Pair style {}: spin must be along z in 2d, which that of {} is not", style,
                     tilted);
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::set<Kind> SPHDissipation::all_kinds(LAMMPS *lmp)
+{
+  const Atom *const atom = lmp->atom;
+  std::set<Kind> own;
+  Kind last{0, 0};    // particles alike come in a row
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Kind kind{atom->type[i], atom->mask[i]};
+    if (kind != last) own.insert(last = kind);
+  }
+
+  std::vector<int> mine;
+  for (const Kind &kind : own) mine.insert(mine.end(), {kind.first, kind.second});
+  const std::vector<int> every = gather_all(lmp->world, mine, MPI_INT);
+  std::set<Kind> all;
+  for (std::size_t k = 0; k < every.size(); k += 2) all.insert({every[k], every[k + 1]});
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   Tell whether there can be pairs of two kinds, by the rules of NPair.
+------------------------------------------------------------------------- */
+
+bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b)
+{
+  const Neighbor *const neighbor = lmp->neighbor;
+  const int *const bitmask = lmp->group->bitmask;
+  const int included = neighbor->includegroup ? bitmask[neighbor->includegroup] : ~0;
+  if (!(a.second & b.second & included)) return false;
+  for (int n = 0; n < neighbor->nex_type; n++) {
+    const int first = neighbor->ex1_type[n], second = neighbor->ex2_type[n];
+    if ((a.first == first && b.first == second) || (b.first == first && a.first == second))
+      return false;
+  }
+  for (int n = 0; n < neighbor->nex_group; n++) {
+    const int first = bitmask[neighbor->ex1_group[n]], second = bitmask[neighbor->ex2_group[n]];
+    if (((a.second & first) && (b.second & second)) || ((b.second & first) && (a.second & second)))
+      return false;
+  }
+  return true;
+}
+
+/* ----------------------------------------------------------------------
+   also those that another fix moves, as the particles of a rigid body: their densities need all neighbors
+------------------------------------------------------------------------- */
+
+void SPHDissipation::check_fluid_lists(LAMMPS *lmp, const std::string &style,
+                                       const FluidModel &model)
+{
+  const Neighbor *const neighbor = lmp->neighbor;
+  if (!neighbor->nex_type && !neighbor->nex_group && !neighbor->includegroup) return;
+  int walls = 0;
+  for (const auto &wall : lmp->modify->get_fix_by_style("^sph/wall")) walls |= wall->groupbit;
+
+  const std::set<Kind> kinds = all_kinds(lmp);
+  const auto is_fluid = [&](const Kind &kind) {
+    return !model.coeffs[kind.first].other && !(kind.second & walls);
+  };
+  for (const Kind &a : kinds)
+    for (const Kind &b : kinds)
+      if (a.first == b.first && is_fluid(a) && is_fluid(b) && !in_neighbor_lists(lmp, a, b))
+        lmp->error->all(FLERR, Error::NOLASTLINE,
+                        "Pair style {}: neigh_modify exclude or include leaves out pairs of the "
+                        "fluid of type {}",
+                        style, a.first);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -15,7 +15,9 @@
 #define LMP_SPH_DISSIPATION_CHECKS_H
 
 #include <functional>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace LAMMPS_NS {
 class Fix;
@@ -25,6 +27,12 @@ namespace SPHDissipation {
   class Engine;
   class FluidModel;
   struct StrainRows;
+
+  // Particles alike in all that decides whether they have pairs: type and bits of groups
+
+  using Kind = std::pair<int, int>;
+  std::set<Kind> all_kinds(LAMMPS *);    // those of the particles of all ranks
+  bool in_neighbor_lists(LAMMPS *, const Kind &, const Kind &);    // pairs of two kinds
 
   // What a particle fluid needs from the rest of the simulation.  Called by all ranks; errors name the
   // pair style.
@@ -49,6 +57,10 @@ namespace SPHDissipation {
   // atom style, integrator, units, special bonds; no other pair style that cannot be there
 
   void check_styles(LAMMPS *, const std::string &style);
+
+  // no pairs of fluid particles of one type are excluded
+
+  void check_fluid_lists(LAMMPS *, const std::string &style, const FluidModel &);
 
   // what thermal noise needs: IDs of particles, a constant time step > 0, no minimization
 

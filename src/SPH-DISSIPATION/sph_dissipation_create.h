@@ -14,6 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_CREATE_H
 #define LMP_SPH_DISSIPATION_CREATE_H
 
+#include "sph_dissipation_exchange.h"
+
 #include "lmptype.h"
 
 #include <mpi.h>
@@ -24,24 +26,6 @@ namespace LAMMPS_NS {
 class LAMMPS;
 
 namespace SPHDissipation {
-
-  // Gather what all processors have, in their order.
-
-  template <class T>
-  std::vector<T> gather_all(MPI_Comm world, const std::vector<T> &mine, MPI_Datatype type)
-  {
-    int nprocs, n = static_cast<int>(mine.size()), total = 0;
-    MPI_Comm_size(world, &nprocs);
-    std::vector<int> counts(nprocs), starts(nprocs);
-    MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-    for (int p = 0; p < nprocs; p++) {
-      starts[p] = total;
-      total += counts[p];
-    }
-    std::vector<T> all(total);
-    MPI_Allgatherv(mine.data(), n, type, all.data(), counts.data(), starts.data(), type, world);
-    return all;
-  }
 
   // Tell whether x is inside the boundaries of the box that are not periodic.
 

@@ -19,6 +19,7 @@
 
 #include <cstddef>
 #include <initializer_list>
+#include <mpi.h>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -40,6 +41,24 @@ namespace SPHDissipation {
   {
     static_assert(sizeof(T) % sizeof(double) == 0, "a struct of doubles");
     return {member, sizeof(T) / sizeof(double), width};
+  }
+
+  // Gather what all processors have, in their order.
+
+  template <class T>
+  std::vector<T> gather_all(MPI_Comm world, const std::vector<T> &mine, MPI_Datatype type)
+  {
+    int nprocs, n = static_cast<int>(mine.size()), total = 0;
+    MPI_Comm_size(world, &nprocs);
+    std::vector<int> counts(nprocs), starts(nprocs);
+    MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+    for (int p = 0; p < nprocs; p++) {
+      starts[p] = total;
+      total += counts[p];
+    }
+    std::vector<T> all(total);
+    MPI_Allgatherv(mine.data(), n, type, all.data(), counts.data(), starts.data(), type, world);
+    return all;
   }
 
   // The communication of a pair style between owned and ghost atoms: a stage of the step names the

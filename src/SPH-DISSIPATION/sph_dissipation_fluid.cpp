@@ -35,7 +35,6 @@
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_state.h"
 #include "sph_dissipation_viscous.h"
-#include "sph_dissipation_wall_checks.h"
 #include "timer.h"
 #include "update.h"
 
@@ -175,7 +174,7 @@ void Fluid::check_setup()
   dim = model->dimension();
   support = model->common_support(pair->setflag);
   find_own_types();
-  check_fluid_lists(lmp, style, this);
+  check_fluid_lists(lmp, style, *model);
   check_processes(lmp, style, *model);
   check_support(lmp, style, *model, dim, support);
   if (spins) check_spins(lmp, style, *model);

@@ -29,7 +29,7 @@
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_condition.h"
 #include "sph_dissipation_open_plane.h"
-#include "sph_dissipation_wall_checks.h"
+#include "sph_dissipation_checks.h"
 #include "update.h"
 
 #include <algorithm>

@@ -15,8 +15,6 @@
 #define LMP_SPH_DISSIPATION_WALL_CHECKS_H
 
 #include <set>
-#include <string>
-#include <utility>
 
 namespace LAMMPS_NS {
 class Fix;
@@ -24,16 +22,6 @@ class LAMMPS;
 
 namespace SPHDissipation {
   class Fluid;
-
-  // Particles alike in all that decides whether they have pairs: type and bits of groups
-
-  using Kind = std::pair<int, int>;
-  std::set<Kind> all_kinds(LAMMPS *);    // those of the particles of all ranks
-  bool in_neighbor_lists(LAMMPS *, const Kind &, const Kind &);    // pairs of two kinds
-
-  // no pairs of fluid particles of one type are excluded
-
-  void check_fluid_lists(LAMMPS *, const std::string &style, const Fluid *);
 
   // Checks of a wall of particles.  Called by all ranks; messages name the fix.
 
