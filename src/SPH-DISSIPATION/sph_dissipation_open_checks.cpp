@@ -24,12 +24,12 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_hybrid.h"
+#include "sph_dissipation_checks.h"
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_condition.h"
 #include "sph_dissipation_open_plane.h"
-#include "sph_dissipation_checks.h"
 #include "update.h"
 
 #include <algorithm>
