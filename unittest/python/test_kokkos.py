@@ -609,7 +609,7 @@ def test_group_of_neighbors_is_refused(lammps, style):
     particles = disordered(2, 14, seed=15, jitter=0.1, spread=0.0)
     write(lammps, style, particles)
     text = script(style, particles, fluids(style, 2), 1, extra="neigh_modify include LOW\n")
-    text = text.replace("read_data data.txt\n", "atom_modify first LOW\nread_data data.txt\ngroup LOW id <= 100\n")
+    text = text.replace("read_data data.txt\n", "atom_modify first LOW\nread_data data.txt\ngroup LOW union all\n")
     assert lammps(text, check=False, switches=[]).code == 0
     assert "cannot be used with neigh_modify include" in lammps(text, check=False).error
 
