@@ -93,7 +93,7 @@ void Engine::setup(const Parameters &parameters)
   rate_loop = loops->rates(par->volume);
   const Shear shear = (par->inviscid && !par->spins()) ? Shear::NONE : par->shear;
   force_loop = loops->forces(shear, par->bulk, par->volume);
-  side.columns = {par->spins(), loops->channels(shear)};
+  side.set({par->spins(), loops->channels(shear)});
   noisy_loop = nullptr;
   drag_noise = nullptr;
   data.par = par;
@@ -482,7 +482,7 @@ void Engine::run_forces(NeighList *list, Loop loop, bool linear)
   scalar_sums.begin(*threads);
   side_sums.begin(*threads);
   side.resize((std::size_t) nmax + BLOCK);
-  const int width = side.columns.width();
+  const int width = side.width;
   random.resize(threads->size());
 
   auto work = [&](int k, LoopData own) {

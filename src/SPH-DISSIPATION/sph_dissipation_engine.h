@@ -20,7 +20,6 @@
 #include "sph_dissipation_threads.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -140,11 +139,17 @@ namespace SPHDissipation {
 
   struct ChannelSums {
     ChannelColumns columns = {false, 0};
+    int width = 0;    // numbers of a row
     std::vector<double> rows;
 
-    void resize(std::size_t n) { rows.resize(n * columns.width()); }
-    double *torque(int i) { return &rows[(std::size_t) i * columns.width()]; }
-    const double *torque(int i) const { return &rows[(std::size_t) i * columns.width()]; }
+    void set(const ChannelColumns &wanted)
+    {
+      columns = wanted;
+      width = columns.width();
+    }
+    void resize(std::size_t n) { rows.resize(n * width); }
+    double *torque(int i) { return &rows[(std::size_t) i * width]; }
+    const double *torque(int i) const { return &rows[(std::size_t) i * width]; }
     // by channel, added to heat[]; of all channels
     void add_heat(int i, double *heat) const
     {
@@ -153,11 +158,11 @@ namespace SPHDissipation {
     }
     double heat(int i) const
     {
-      double channel[NCHANNEL] = {};
-      if (columns.width()) add_heat(i, channel);
-      return std::accumulate(channel, channel + NCHANNEL, 0.0);
+      double sum = 0.0;
+      for (int k = columns.spins ? 3 : 0; k < width; k++) sum += rows[(std::size_t) i * width + k];
+      return sum;
     }
-    void clear(int i) { std::fill_n(rows.begin() + i * columns.width(), columns.width(), 0.0); }
+    void clear(int i) { std::fill_n(rows.begin() + (std::size_t) i * width, width, 0.0); }
     double memory_usage() const { return static_cast<double>(rows.capacity() * sizeof(double)); }
   };
 
@@ -295,7 +300,7 @@ namespace SPHDissipation {
     ChannelSums side;
     Field torques()    // micropolar only
     {
-      return {side.torque(0), (std::size_t) side.columns.width(), 3};
+      return {side.torque(0), (std::size_t) side.width, 3};
     }
     double *zeta_term;          // zeta cdot/c, set by the caller on owned and ghost atoms
     double *strain_pressure;    // of relaxing processes, as zeta_term; set if there are any

@@ -228,11 +228,12 @@ namespace SPHDissipation {
       g = pj[7];
       pair.vv = volumes_slope(dot(pair.r, pair.r), pi.vol, vol, slope);
       pair.approach = dot(pair.r, pair.u);
-      pair.heat[0] = all(0.0);
+      const Vec nothing = all(-0.0);    // to which compilers add without an instruction
+      pair.heat[0] = Form::heats(0) ? nothing : all(0.0);
       for (int c = 1; c < NCHANNEL; c++)
-        if (Form::heats(c)) pair.heat[c] = all(0.0);
+        if (Form::heats(c)) pair.heat[c] = nothing;
       if constexpr (Form::SPINS)
-        for (int d = 0; d < 3; d++) pair.t[d] = pair.spin[d] = all(0.0);
+        for (int d = 0; d < 3; d++) pair.t[d] = pair.spin[d] = nothing;
     }
 
     // torque, and heat of all channels but the first: to the neighbors and to the totals of the particle, in the columns

@@ -229,7 +229,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   const std::size_t nrow = (std::size_t) atom->nlocal + atom->nghost + BLOCK;
   forces.resize(std::max(forces.size(), nrow));
   divergence.resize(forces.size());
-  side.columns = engine.side.columns;
+  side.set(engine.side.columns);
   side.resize(forces.size());
   engine.accumulate_forces(pairs, forces.data(), side, divergence.data());
   if (conducts) {

@@ -351,7 +351,7 @@ void ForceStage::run(NeighList *list, PairTally *tally)
       for (const double heat : channel) desph[i] += heat;
     });
 
-  if (engine.side.columns.width() == 0) return;
+  if (engine.side.width == 0) return;
   double **const torque = engine.has_spin() ? atom->torque : nullptr;
   engine.for_each(n, [&](int i) {
     for (int d = 0; torque && d < 3; d++) torque[i][d] += engine.side.torque(i)[d];
