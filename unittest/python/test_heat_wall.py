@@ -285,7 +285,7 @@ def test_flux_of_small_bodies(lammps, dim, radius, error):
 def test_more_heat_than_there_is(lammps, flux, run, warned):
     """A warning at the end of the run, one for each wall."""
     text = channel(lammps, 6, low=f"heat flux {flux}", high="heat adiabatic") + f"timestep 0.001\nrun {run}\n"
-    lines = [line for line in lammps(text, ranks=2).warnings if "Fix LOW sph/wall heat flux has taken more heat than there is" in line]
+    lines = [line for line in lammps(text, ranks=2).warnings if re.search(r"Fix LOW sph/wall\S* heat flux has taken more heat than there is", line)]
     assert len(lines) == warned
 
 
