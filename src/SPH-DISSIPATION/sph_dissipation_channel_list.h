@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The list of the channels, in the order of compute sph/dissipation: each line is one, and all that a new channel needs
-// besides its header.  sph_dissipation_channels.h includes this list for each part of these headers.
+// The list of the channels, in the order of compute sph/dissipation: a line for each header.  sph_dissipation_channels.h
+// includes this list for each part of these headers.
 
 // clang-format off
 #include "sph_dissipation_channel_shear.h"
