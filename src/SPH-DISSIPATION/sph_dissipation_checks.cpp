@@ -331,12 +331,13 @@ void SPHDissipation::check_fluid_lists(LAMMPS *lmp, const std::string &style,
 {
   const Neighbor *const neighbor = lmp->neighbor;
   if (!neighbor->nex_type && !neighbor->nex_group && !neighbor->includegroup) return;
-  int walls = 0;
-  for (const auto &wall : lmp->modify->get_fix_by_style("^sph/wall")) walls |= wall->groupbit;
+  int others = 0;    // which have checks of their own
+  for (const auto &name : {"^sph/wall", "^sph/open"})
+    for (const auto &ifix : lmp->modify->get_fix_by_style(name)) others |= ifix->groupbit;
 
   const std::set<Kind> kinds = all_kinds(lmp);
   const auto is_fluid = [&](const Kind &kind) {
-    return !model.coeffs[kind.first].other && !(kind.second & walls);
+    return !model.coeffs[kind.first].other && !(kind.second & others);
   };
   for (const Kind &a : kinds)
     for (const Kind &b : kinds)
