@@ -239,9 +239,9 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
         now.acceleration_at(r, acceleration);
         extend_fluid(rows, i, wall, surface(k), sum, acceleration, w);
         if (with_heat && heat_sums(k).weight > 0.0)
-          rows.conductor[i] = wall_conductor(
-              kind, by_atom ? values(i) : value, rows.particle[i].vol,
-              rows.types[rows.type[i]].keywords.a[CONDUCTIVITY], surface(k), heat_sums(k));
+          rows.conductor[i] =
+              wall_conductor(kind, by_atom ? values(i) : value, rows.particle[i].vol,
+                             rows.types[rows.type[i]].conductivity, surface(k), heat_sums(k));
       });
 }
 

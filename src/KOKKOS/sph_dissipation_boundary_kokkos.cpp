@@ -200,7 +200,7 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
         const Surface s = surface(k);
         BoundarySum total = {};
         BoundaryHeatSum heat = {};
-        const double conductivity = loop.types[loop.type[particles(k)]].keywords.a[CONDUCTIVITY];
+        const double conductivity = loop.types[loop.type[particles(k)]].conductivity;
         for_neighbors(loop, particles(k), [&](int j, const double *r, double rsq) {
           if (number(j) >= 0) return;
           const Particle &f = loop.particle[j];

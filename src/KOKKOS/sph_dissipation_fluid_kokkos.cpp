@@ -575,7 +575,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(PairTally *
   if (pair->vflag_atom) data->vatom = decltype(data->vatom)("sph:vatom", atom->nlocal);
 
   with_kernel(model->choice.kernel, [&](auto kernel) {
-    with_form(model->choice.shear, [&](auto form) {
+    with_form(data->par.terms(), [&](auto form) {
       run_force_loop<decltype(kernel), decltype(form)>(tally);
     });
   });

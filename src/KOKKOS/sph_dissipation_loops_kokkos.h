@@ -173,7 +173,7 @@ namespace SPHDissipation {
       heat[Channels::place<BulkChannel>()] =
           bulk_heat(data.par.bulk, zeta_term_i, pi.vol, weight_i, data.density[i].cdot, divergence);
       if (data.par.drag && !(data.mask[i] & data.not_fluid))
-        Channels::add_drag(data.types[data.type[i]].keywords, pi.vol, pi.u, false, total_f, heat);
+        Channels::add_drag(data.types[data.type[i]].keywords.a, pi.vol, pi.u, false, total_f, heat);
       for (int d = 0; d < 3; d++) data.f(i, d) += total_f[d];
       if constexpr (Form::SPINS)
         for (int d = 0; d < 3; d++) data.torque(i, d) += total_t[d];

@@ -198,9 +198,10 @@ void FixSPHOpen::init()
   plane->init();
   values->init(fluid->model->choice.eos == Eos::IDEAL);
   for (int i = 1; i <= atom->ntypes; i++)
-    if (fluid->has_type(i) && fluid->model->coeffs[i].keywords.a[VIBRATION] > 0.0)
-      error->all(FLERR, "Fix {} cannot be used with vibration of pair_coeff, which type {} has",
-                 style, i);
+    if (const char *keyword = fluid->model->keyword_that_needs(NO_OPEN_ENDS, i))
+      if (fluid->has_type(i))
+        error->all(FLERR, "Fix {} cannot be used with {} of pair_coeff, which type {} has", style,
+                   keyword, i);
   check_open_heat(lmp, this, fluid, *values);
   condition->init(*fluid->model);
   if (area > 0.0)

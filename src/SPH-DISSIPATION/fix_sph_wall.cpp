@@ -229,7 +229,7 @@ void FixSPHWall::init()
   check_wall_particles(lmp, this);
   const std::set<int> felt = check_wall_interacts(lmp, this, fluid, !checked);
   const auto conducts = [&](int type) {
-    return HeatChannel::in_use(fluid->model->coeffs[type].keywords);
+    return fluid->model->coeffs[type].keywords.conductivity() > 0.0;
   };
   if (gives_heat() &&
       (!fluid->model->parameters().conducts ||

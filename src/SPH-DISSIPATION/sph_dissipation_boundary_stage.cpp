@@ -115,7 +115,7 @@ void BoundaryStage::set_heat(int i, WallHeat heat, double value, const Surface &
 
 double BoundaryStage::conductivity(int i) const
 {
-  return engine.parameters().type[atom->type[i]].keywords.a[CONDUCTIVITY];
+  return engine.parameters().type[atom->type[i]].conductivity;
 }
 
 double *BoundaryStage::spin(int i)

@@ -86,7 +86,8 @@ namespace SPHDissipation {
   struct BulkChannel : BaseChannel {
     static constexpr const char *NAME = "bulk";
 
-    static double rate(const PairFluid &fluid, const double *, const PairInertia &inertia)
+    static double rate(const PairFluid &fluid, const OwnWords &, const double *,
+                       const PairInertia &inertia)
     {
       return BULK_RATE * std::fabs(fluid.zeta / inertia.rho) / inertia.hsq;
     }

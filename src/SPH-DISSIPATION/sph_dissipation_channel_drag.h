@@ -31,24 +31,36 @@ namespace SPHDissipation {
   struct DragChannel : BaseChannel {
     static constexpr const char *NAME = "drag";
 
-    static bool in_use(const TypeCoeffs &type) { return type.a[DRAG_B] > 0.0; }
-    SPH_FUNCTION static Drag drag(const TypeCoeffs &type)
+    static constexpr bool OPTIONAL = true;
+    enum { B, UX, UY, UZ };
+    static constexpr int NTYPE = 4;
+    static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {{{"drag", 4, 0, NOTHING}}};
+    static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {{{"drag", B}}};
+
+    SPH_FUNCTION static Drag drag(const double *type)
     {
-      return {type.a[DRAG_B], {type.a[DRAG_UX], type.a[DRAG_UY], type.a[DRAG_UZ]}};
+      return {type[B], {type[UX], type[UY], type[UZ]}};
     }
-    template <class Add> static void add_columns(const PairFluid &fluid, const double *, Add &&add)
+    template <class Add>
+    static void add_columns(const PairFluid &, const OwnWords &words, const double *, Add &&add)
     {
-      add("drag", fluid.type.a[DRAG_B]);
+      add("drag", words.type[B]);
     }
-    static const char *inadmissible_type(const TypeCoeffs &type, int dim)
+    static const char *inadmissible_type(const double *type, int dim)
     {
-      if (!(type.a[DRAG_B] >= 0.0)) return "drag must be >= 0";
-      if (dim == 2 && type.a[DRAG_UZ] != 0.0) return "drag must have a stream of Uz = 0 in 2d";
+      if (!(type[B] >= 0.0)) return "drag must be >= 0";
+      if (dim == 2 && type[UZ] != 0.0) return "drag must have a stream of Uz = 0 in 2d";
       return nullptr;
     }
-    static double rate(const PairFluid &fluid, const double *, const PairInertia &inertia)
+    static const char *ignored(const double *type)
     {
-      return fluid.type.a[DRAG_B] / inertia.rho;
+      const bool moves = type[UX] != 0.0 || type[UY] != 0.0 || type[UZ] != 0.0;
+      return (type[B] == 0.0 && moves) ? "the stream of drag 0" : nullptr;
+    }
+    static double rate(const PairFluid &, const OwnWords &words, const double *,
+                       const PairInertia &inertia)
+    {
+      return words.type[B] / inertia.rho;
     }
   };
 

@@ -66,7 +66,14 @@ namespace SPHDissipation {
     static constexpr const char *NAME = "heat";
     static constexpr bool OF_MOTION = false;
 
-    static bool in_use(const TypeCoeffs &type) { return type.a[CONDUCTIVITY] > 0.0; }
+    static constexpr bool OPTIONAL = true;
+    enum { CONDUCTIVITY, GAMMA, T0 };    // the last two: of the equation of state
+    static constexpr int NTYPE = 3;
+    static constexpr std::array<TypeKeyword, 2> TYPE_KEYWORDS = {
+        {{"conductivity", 1, 0, HEAT_CAPACITY},
+         {"gruneisen", 2, 0, HEAT_CAPACITY | NOT_EOS_IDEAL}}};
+    static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {
+        {{"conductivity", CONDUCTIVITY}}};
 
     // of two types with these conductivities
     static double mean(double a, double b)
@@ -74,22 +81,27 @@ namespace SPHDissipation {
       return (a > 0.0 && b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
     }
 
-    template <class Add> static void add_columns(const PairFluid &fluid, const double *, Add &&add)
+    template <class Add>
+    static void add_columns(const PairFluid &fluid, const OwnWords &, const double *, Add &&add)
     {
       add("conductivity", fluid.conductivity);
     }
-    static const char *inadmissible_type(const TypeCoeffs &type, int)
+    static const char *inadmissible_type(const double *type, int)
     {
       const auto none = [&](int k) {
-        return !(type.a[k] >= 0.0 && std::isfinite(type.a[k]));
+        return !(type[k] >= 0.0 && std::isfinite(type[k]));
       };
       if (none(CONDUCTIVITY)) return "conductivity must be >= 0";
-      if (none(GRUNEISEN) || none(GRUNEISEN_T0))
-        return "gruneisen must have Gamma >= 0 and T0 >= 0";
+      if (none(GAMMA) || none(T0)) return "gruneisen must have Gamma >= 0 and T0 >= 0";
       return nullptr;
     }
+    static const char *ignored(const double *type)
+    {
+      return (type[GAMMA] == 0.0 && type[T0] != 0.0) ? "T0 of gruneisen 0" : nullptr;
+    }
     // of the form morris, with k/(rho cv) instead of mu/rho
-    static double rate(const PairFluid &fluid, const double *, const PairInertia &inertia)
+    static double rate(const PairFluid &fluid, const OwnWords &, const double *,
+                       const PairInertia &inertia)
     {
       if (fluid.conductivity == 0.0) return 0.0;
       return shear_rate(Shear::MORRIS) * fluid.conductivity /

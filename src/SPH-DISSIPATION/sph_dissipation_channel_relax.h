@@ -63,46 +63,53 @@ namespace SPHDissipation {
 
   struct RelaxChannel : BaseChannel {
     static constexpr const char *NAME = "relax";
-    static constexpr bool ELASTIC = true;
-
-    static bool in_use(const TypeCoeffs &type) { return type.a[RELAX] > 0.0; }
+    static constexpr bool ELASTIC = true, OPTIONAL = true;
+    static constexpr int MOST = 8;    // processes
+    enum { KAPPA_R, TAU, GROUP };     // of a process
+    static constexpr int NTYPE = GROUP * MOST;
+    static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
+        {{"relax", NTYPE, GROUP, NOTHING}}};
+    static constexpr std::array<TypeVariable, 2> TYPE_VARIABLES = {
+        {{"kappa_r", KAPPA_R}, {"tau", TAU}}};
 
     // number of processes of a type
-    static int count(const TypeCoeffs &type)
+    static int count(const double *type)
     {
       int n = 0;
-      while (n < MOST_PROCESSES && type.a[RELAX + 2 * n] > 0.0) n++;
+      while (n < MOST && type[GROUP * n] > 0.0) n++;
       return n;
     }
-    static double tau(const TypeCoeffs &type, int k) { return type.a[RELAX + 2 * k + 1]; }
+    static double kappa(const double *type, int k) { return type[GROUP * k]; }
+    static double tau(const double *type, int k) { return type[GROUP * k + TAU]; }
 
     // process k of a type of the reference density rho0, in a time step dt
-    static Relaxation process(const TypeCoeffs &type, int k, double rho0, double dt)
+    static Relaxation process(const double *type, int k, double rho0, double dt)
     {
-      const double g_tau = type.a[RELAX + 2 * k] / rho0, a = dt / tau(type, k);
+      const double g_tau = kappa(type, k) / rho0, a = dt / tau(type, k);
       const double part = -std::expm1(-a);
       return {g_tau / tau(type, k) * (a > 0.0 ? part / a : 1.0), part, 1.0 / g_tau,
               std::sqrt(2.0 * dt / g_tau)};
     }
 
     // what all processes of a type add to the square of the speed of sound, in a time step dt
-    static double stiffness(const TypeCoeffs &type, double rho0, double dt)
+    static double stiffness(const double *type, double rho0, double dt)
     {
       double sum = 0.0;
       for (int k = 0; k < count(type); k++) sum += process(type, k, rho0, dt).stiffness;
       return sum;
     }
 
-    template <class Add> static void add_columns(const PairFluid &fluid, const double *, Add &&add)
+    template <class Add>
+    static void add_columns(const PairFluid &, const OwnWords &words, const double *, Add &&add)
     {
       double sum = 0.0;
-      for (int k = 0; k < MOST_PROCESSES; k++) sum += fluid.type.a[RELAX + 2 * k];
+      for (int k = 0; k < MOST; k++) sum += kappa(words.type, k);
       add("kappa_r", sum);
     }
-    static const char *inadmissible_type(const TypeCoeffs &type, int)
+    static const char *inadmissible_type(const double *type, int)
     {
-      for (int k = 0; k < MOST_PROCESSES; k++) {
-        const double *const one = &type.a[RELAX + 2 * k];
+      for (int k = 0; k < MOST; k++) {
+        const double *const one = type + GROUP * k;
         const bool none = (one[0] == 0.0 && one[1] == 0.0 && k >= count(type));
         const bool finite = std::isfinite(one[0]) && std::isfinite(one[1]);
         if (!none && !(one[0] > 0.0 && one[1] > 0.0 && finite))
@@ -114,27 +121,32 @@ namespace SPHDissipation {
 
   struct VibrationChannel : BaseChannel {
     static constexpr const char *NAME = "vibration";
-    static constexpr bool ELASTIC = true;
+    static constexpr bool ELASTIC = true, OPTIONAL = true;
     static constexpr bool OF_MOTION = false;    // its heat is that of RelaxChannel
+    enum { CVIB, TAU };
+    static constexpr int NTYPE = 2;
+    static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
+        {{"vibration", NTYPE, NTYPE, HEAT_CAPACITY | NO_NOISE | EOS_IDEAL | NO_OPEN_ENDS}}};
 
-    static bool in_use(const TypeCoeffs &type) { return type.a[VIBRATION] > 0.0; }
+    static bool in_use(const double *type) { return type[CVIB] > 0.0; }
 
     // of a type of the heat capacity cv per mass without vibrations, in a time step dt
-    static Vibration process(const TypeCoeffs &type, double cv, double dt)
+    static Vibration process(const double *type, double cv, double dt)
     {
-      const double cvib = type.a[VIBRATION], tau_v = type.a[VIBRATION_TAU];
+      const double cvib = type[CVIB], tau_v = type[TAU];
       const double share = cv / (cv + cvib), tau = tau_v * share, a = dt / tau;
       const double part = -std::expm1(-a);
       return {cvib, 1.0 / tau_v, share * part, share * tau * (a - part)};
     }
 
-    template <class Add> static void add_columns(const PairFluid &fluid, const double *, Add &&add)
+    template <class Add>
+    static void add_columns(const PairFluid &, const OwnWords &words, const double *, Add &&add)
     {
-      add("cvib", fluid.type.a[VIBRATION]);
+      add("cvib", words.type[CVIB]);
     }
-    static const char *inadmissible_type(const TypeCoeffs &type, int)
+    static const char *inadmissible_type(const double *type, int)
     {
-      const double cvib = type.a[VIBRATION], tau_v = type.a[VIBRATION_TAU];
+      const double cvib = type[CVIB], tau_v = type[TAU];
       if (cvib == 0.0 && tau_v == 0.0) return nullptr;
       if (!(cvib > 0.0 && tau_v > 0.0 && std::isfinite(cvib) && std::isfinite(tau_v)))
         return "vibration must have cvib > 0 and tau_v > 0";

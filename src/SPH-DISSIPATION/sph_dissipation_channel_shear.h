@@ -142,7 +142,7 @@ namespace SPHDissipation {
     static constexpr const char *NAME = "shear";
     enum { ALONG_R, ALONG_U, NPAIR };
 
-    static void set_coefficients(const PairFluid &fluid, double *own)
+    static void set_coefficients(const PairFluid &fluid, const OwnWords &, double *own)
     {
       const double mu = fluid.viscosity[MU];
       if (fluid.shear == Shear::MICROPOLAR) {
@@ -159,7 +159,7 @@ namespace SPHDissipation {
       friction.across += own[ALONG_U];
     }
     template <class Add>
-    static void add_columns(const PairFluid &fluid, const double *own, Add &&add)
+    static void add_columns(const PairFluid &fluid, const OwnWords &, const double *own, Add &&add)
     {
       if (fluid.shear == Shear::MICROPOLAR)
         add("zeta1", own[ALONG_R]);
@@ -170,11 +170,12 @@ namespace SPHDissipation {
     {
       return SPHDissipation::intrinsic_kappa(fluid.shear, fluid.dim, fluid.viscosity[MU]);
     }
-    static const char *inadmissible(const PairFluid &fluid)
+    static const char *inadmissible(const PairFluid &fluid, const OwnWords &)
     {
       return (fluid.viscosity[MU] >= 0.0) ? nullptr : "mu must be >= 0";
     }
-    static double rate(const PairFluid &fluid, const double *own, const PairInertia &inertia)
+    static double rate(const PairFluid &fluid, const OwnWords &, const double *own,
+                       const PairInertia &inertia)
     {
       if (fluid.shear == Shear::MICROPOLAR)
         return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho, own[ALONG_R],

@@ -47,7 +47,7 @@ namespace SPHDissipation {
     enum { XI1, XI2, NPAIR };
 
     // inverse of gamma1 = xi1/10 + xi2/2, gamma2 = xi1/10 - xi2/2 (n = 3), gamma1 = -gamma2 = xi2/2 (n = 2)
-    static void set_coefficients(const PairFluid &fluid, double *own)
+    static void set_coefficients(const PairFluid &fluid, const OwnWords &, double *own)
     {
       const double gamma1 = fluid.viscosity[GAMMA1], gamma2 = fluid.viscosity[GAMMA2];
       if (fluid.dim == 3) own[XI1] = 5.0 * (gamma1 + gamma2);
@@ -58,14 +58,15 @@ namespace SPHDissipation {
       friction.spin_along += own[XI1] + own[XI2];
       friction.spin_across += own[XI2];
     }
-    template <class Add> static void add_columns(const PairFluid &, const double *own, Add &&add)
+    template <class Add>
+    static void add_columns(const PairFluid &, const OwnWords &, const double *own, Add &&add)
     {
       add("xi1", own[XI1]);
       add("xi2", own[XI2]);
     }
 
     // xi1 + xi2 >= 0, too; one spin viscosity in two dimensions
-    static const char *inadmissible(const PairFluid &fluid)
+    static const char *inadmissible(const PairFluid &fluid, const OwnWords &)
     {
       const double gamma1 = fluid.viscosity[GAMMA1], gamma2 = fluid.viscosity[GAMMA2];
       const bool flat = (fluid.dim == 2);
@@ -74,7 +75,8 @@ namespace SPHDissipation {
       if (!(flat || 6.0 * gamma1 + 4.0 * gamma2 >= 0.0)) return "6 gamma1 + 4 gamma2 must be >= 0";
       return nullptr;
     }
-    static double rate(const PairFluid &fluid, const double *own, const PairInertia &inertia)
+    static double rate(const PairFluid &fluid, const OwnWords &, const double *own,
+                       const PairInertia &inertia)
     {
       return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho_inertia, own[XI1], own[XI2]);
     }

@@ -53,7 +53,7 @@ namespace SPHDissipation {
     static constexpr bool SPINS = true;
     enum { ZETA2, NPAIR };
 
-    static void set_coefficients(const PairFluid &fluid, double *own)
+    static void set_coefficients(const PairFluid &fluid, const OwnWords &, double *own)
     {
       own[ZETA2] = slip_coefficient(fluid);
     }
@@ -62,7 +62,8 @@ namespace SPHDissipation {
       friction.along += own[ZETA2];
       friction.across += own[ZETA2];
     }
-    template <class Add> static void add_columns(const PairFluid &, const double *own, Add &&add)
+    template <class Add>
+    static void add_columns(const PairFluid &, const OwnWords &, const double *own, Add &&add)
     {
       add("zeta2", own[ZETA2]);
     }
@@ -70,7 +71,8 @@ namespace SPHDissipation {
     {
       return -fluid.viscosity[MU_R];
     }
-    static const char *inadmissible(const PairFluid &fluid)    // along_r + zeta2 >= 0, too
+    // along_r + zeta2 >= 0, too
+    static const char *inadmissible(const PairFluid &fluid, const OwnWords &)
     {
       const double mu_r = fluid.viscosity[MU_R];
       if (!(mu_r >= 0.0)) return "mu_r must be >= 0";
@@ -78,7 +80,8 @@ namespace SPHDissipation {
         return "mu_r must be <= mu (1 + 2/n)";
       return nullptr;
     }
-    static double rate(const PairFluid &, const double *own, const PairInertia &inertia)
+    static double rate(const PairFluid &, const OwnWords &, const double *own,
+                       const PairInertia &inertia)
     {
       return VORTEX_RATE * own[ZETA2] / inertia.rho_inertia;
     }

@@ -30,20 +30,21 @@
 //      (2021)
 //
 // The headers of the channels have parts, as the headers of LAMMPS's styles.  With CHANNEL_CLASS: their place in the
-// list.  With CHANNEL_TERMS: the terms of a pair, for the loops, which include them in more than one namespace.  Without:
-// all else.  No LAMMPS include.
+// list.  With CHANNEL_TERMS: the terms of a pair, for the loops, which include them in more than one namespace.  With
+// OPTIONAL_TERMS: those of them that any form of the shear force may have.  Without: all else.  No LAMMPS include.
 
 #ifdef CHANNEL_TERMS
 
 #include "sph_dissipation_channel_list.h"
 
-// the terms that the loops of each form of the shear force have
-template <Shear SHEAR, class... Term> struct Form {
-  static constexpr Shear shear = SHEAR;
+// terms of pairs, as the loops have them
+
+template <class... Term> struct Form {
   static constexpr bool CENTRAL = (Term::CENTRAL || ...);
   static constexpr bool VECTOR = (Term::VECTOR || ...);
   static constexpr bool BY_DISTANCE = (Term::BY_DISTANCE || ...);
   static constexpr bool SPINS = (Term::SPINS || ...);
+
   // has heat of this channel; the last one of terms with spins
   static constexpr bool heats(int channel) { return ((channel == Term::CHANNEL) || ...); }
   static constexpr int channels()
@@ -72,22 +73,42 @@ template <Shear SHEAR, class... Term> struct Form {
   }
 };
 
-// call function(Form()) of that form
-template <class Function> void with_form(Shear shear, Function &&function)
+// Forms with all optional terms, for the runs that use any of them.  The form espanol, whose terms are all those of
+// fluids without spins, has no other loops.
+#undef CHANNEL_TERMS
+#define OPTIONAL_TERMS
+#define OptionalTerm(One) , One
+// clang-format off
+using FullForm = Form<AlongR<false>, AlongU
+#include "sph_dissipation_channel_list.h"
+                      >;
+using FullSpinForm = Form<AlongR<false>, Slip, SpinDiffusion
+#include "sph_dissipation_channel_list.h"
+                          >;
+// clang-format on
+#undef OptionalTerm
+#undef OPTIONAL_TERMS
+#define CHANNEL_TERMS
+
+// call function(Form()) of the form with these terms
+
+template <class Function> void with_form(const Terms &terms, Function &&function)
 {
-  switch (shear) {
+  if (terms.optional && terms.shear == Shear::MICROPOLAR) return function(FullSpinForm());
+  if (terms.optional) return function(FullForm());
+  switch (terms.shear) {
     case Shear::MG:
-      return function(Form<Shear::MG, AlongR<false>>());
+      return function(Form<AlongR<false>>());
     case Shear::MG_FR:
-      return function(Form<Shear::MG_FR, AlongR<true>>());
+      return function(Form<AlongR<true>>());
     case Shear::MORRIS:
-      return function(Form<Shear::MORRIS, AlongU>());
+      return function(Form<AlongU>());
     case Shear::ESPANOL:
-      return function(Form<Shear::ESPANOL, AlongR<false>, AlongU>());
+      return function(FullForm());
     case Shear::MICROPOLAR:
-      return function(Form<Shear::MICROPOLAR, AlongR<false>, Slip, SpinDiffusion>());
+      return function(Form<AlongR<false>, Slip, SpinDiffusion>());
     default:
-      return function(Form<Shear::NONE>());
+      return function(Form<>());
   }
 }
 
@@ -99,8 +120,12 @@ template <class Function> void with_form(Shear shear, Function &&function)
 #include "sph_dissipation_function.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -113,51 +138,31 @@ namespace SPHDissipation {
     return spins ? NVISCOSITY : MU_R;
   }
 
-  // Coefficients of single types, by keyword of pair_coeff, each with its values one after another: once, or
-  // in groups of which there may be fewer.  The keyword with no name ends the list, as in the one of the names by
-  // which another command may vary a coefficient.
-  constexpr int MOST_PROCESSES = 8;
-  enum TypeCoefficient {
-    DRAG_B,
-    DRAG_UX,
-    DRAG_UY,
-    DRAG_UZ,
-    CONDUCTIVITY,
-    GRUNEISEN,    // of the equation of state: Gamma, and the temperature of c0 and pb
-    GRUNEISEN_T0,
-    VIBRATION,    // heat capacity cvib and time tau_v
-    VIBRATION_TAU,
-    RELAX,    // kappa_r and tau of each process
-    NTYPECOEFF = RELAX + 2 * MOST_PROCESSES
+  // What a keyword of pair_coeff requires of pair_style, see FluidModel::keyword_that_needs()
+  enum Requirement {
+    NOTHING = 0,
+    HEAT_CAPACITY = 1,    // temperatures: a heat capacity, and no heat bath of one temperature
+    NO_NOISE = 2,
+    EOS_IDEAL = 4,
+    NOT_EOS_IDEAL = 8,
+    NO_OPEN_ENDS = 16
   };
+
+  // A keyword of pair_coeff and its numbers, coefficients of a type, one after another: once, or in groups of which there
+  // may be fewer.
   struct TypeKeyword {
     const char *name;
-    int first, count;    // of enum TypeCoefficient
-    int group;           // as many values belong together; 0: all
+    int count;        // of numbers
+    int group;        // as many belong together; 0: all
+    int needs;        // of enum Requirement
+    int first = 0;    // number among the coefficients of all channels, set by type_keywords()
   };
-  constexpr TypeKeyword TYPE_KEYWORDS[] = {{"drag", DRAG_B, 4, 0},
-                                           {"conductivity", CONDUCTIVITY, 1, 0},
-                                           {"gruneisen", GRUNEISEN, 2, 0},
-                                           {"vibration", VIBRATION, 2, 2},
-                                           {"relax", RELAX, 2 * MOST_PROCESSES, 2},
-                                           {nullptr, NTYPECOEFF, 0, 0}};
+
+  // Name by which another command may vary a coefficient of a type, of this number in its channel.  In the second and
+  // further groups of a keyword the name has the number of the group behind it.
   struct TypeVariable {
     const char *name;
     int coefficient;
-  };
-  constexpr TypeVariable TYPE_VARIABLES[] = {
-      {"drag", DRAG_B},         {"conductivity", CONDUCTIVITY},
-      {"kappa_r", RELAX},       {"tau", RELAX + 1},
-      {"kappa_r2", RELAX + 2},  {"tau2", RELAX + 3},
-      {"kappa_r3", RELAX + 4},  {"tau3", RELAX + 5},
-      {"kappa_r4", RELAX + 6},  {"tau4", RELAX + 7},
-      {"kappa_r5", RELAX + 8},  {"tau5", RELAX + 9},
-      {"kappa_r6", RELAX + 10}, {"tau6", RELAX + 11},
-      {"kappa_r7", RELAX + 12}, {"tau7", RELAX + 13},
-      {"kappa_r8", RELAX + 14}, {"tau8", RELAX + 15},
-      {nullptr, NTYPECOEFF}};
-  struct TypeCoeffs {
-    double a[NTYPECOEFF + 1] = {};
   };
 
   // Friction of a pair as a tensor, in units of F V_i V_j (mg/fr: F r V_i V_j): on the velocity of slip and
@@ -175,9 +180,14 @@ namespace SPHDissipation {
     double mean_radius = 0.0;    // integral of r W
     double viscosity[NVISCOSITY] = {};
     double zeta = 0.0;             // coefficient of the bulk term, mean of the types
-    TypeCoeffs type;               // the larger ones of both types
     double conductivity = 0.0;     // mean of the types
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
+  };
+
+  // What pair_coeff has set for one channel: coefficients of a type, or the larger ones of two types, and those of
+  // two unlike types
+  struct OwnWords {
+    const double *type, *unlike;
   };
 
   // inertia of the motion that a channel damps, for its fastest rate
@@ -200,26 +210,39 @@ namespace SPHDissipation {
     static constexpr bool ELASTIC = false;
     // it turns motion into heat, which compute sph/dissipation gives out
     static constexpr bool OF_MOTION = true;
-    // the table leaves it out if no type, of these largest coefficients, has it
-    static bool in_use(const TypeCoeffs &) { return true; }
+    // its coefficients of pairs may all be 0: then the loops do without its terms, and the table without its columns
+    static constexpr bool OPTIONAL = false;
+    // Words of pair_coeff: keywords of a type with NTYPE coefficients in all, those that other commands may vary, and
+    // keywords of unlike types, each with one number that is 0 if it is not given and may be varied by the same name
+    static constexpr int NTYPE = 0;
+    static constexpr std::array<TypeKeyword, 0> TYPE_KEYWORDS = {};
+    static constexpr std::array<TypeVariable, 0> TYPE_VARIABLES = {};
+    static constexpr std::array<const char *, 0> UNLIKE_KEYWORDS = {};
+    // the inequality that the coefficients of a type in a box of this dimension violate, or those of a pair of
+    // types, or nullptr; what is ignored of the coefficients of a type, or nullptr
+    static const char *inadmissible_type(const double *, int) { return nullptr; }
+    static const char *inadmissible(const PairFluid &, const OwnWords &) { return nullptr; }
+    static const char *ignored(const double *) { return nullptr; }
     // Number of the coefficients of its terms for a pair of types; what they are, and the same as a tensor, for the
     // noise.  own = these coefficients, here and below
     enum { NPAIR };
-    static void set_coefficients(const PairFluid &, double *) {}
+    static void set_coefficients(const PairFluid &, const OwnWords &, double *) {}
     SPH_FUNCTION static void add_friction(const double *, PairFriction &) {}
     // call add(name, value) for each column of coefficients in the table of the log
-    template <class Add> static void add_columns(const PairFluid &, const double *, Add &&) {}
+    template <class Add>
+    static void add_columns(const PairFluid &, const OwnWords &, const double *, Add &&)
+    {
+    }
     // bulk viscosity that it brings with it
     static double intrinsic_kappa(const PairFluid &) { return 0.0; }
-    // the inequality that the viscosities of a pair, or the coefficients of a type in a box of this dimension,
-    // violate, or nullptr
-    static const char *inadmissible(const PairFluid &) { return nullptr; }
-    static const char *inadmissible_type(const TypeCoeffs &, int) { return nullptr; }
     // rate of its fastest mode, 1/time
-    static double rate(const PairFluid &, const double *, const PairInertia &) { return 0.0; }
+    static double rate(const PairFluid &, const OwnWords &, const double *, const PairInertia &)
+    {
+      return 0.0;
+    }
 
-    // of single particles: force, heat, and noise follow from it
-    SPH_FUNCTION static Drag drag(const TypeCoeffs &) { return {}; }
+    // of single particles with these coefficients of their type: force, heat, and noise follow from it
+    SPH_FUNCTION static Drag drag(const double *) { return {}; }
   };
 
 }    // namespace SPHDissipation
@@ -233,31 +256,42 @@ namespace SPHDissipation {
   // The list of the channels.  Each of them has a NAME, of its time step in the table of the log, and the members of
   // BaseChannel; its terms, in the other part of its header, derive from PairTerm.
   template <class Base, class... One> struct ChannelList {
+    // sum of these numbers of the channels before one of them
+    template <class Channel> static constexpr int sum_before(const int (&number)[sizeof...(One)])
+    {
+      int sum = 0, k = 0;
+      bool found = false;
+      ((found = found || std::is_same<One, Channel>::value, sum += found ? 0 : number[k++]), ...);
+      return sum;
+    }
+
     // those that turn motion into heat: how many there are, and the place of a channel among them
     static constexpr int NUMBER = ((One::OF_MOTION ? 1 : 0) + ...);
     template <class Channel> static constexpr int place()
     {
-      int before = 0;
-      bool found = false;
-      ((found = found || std::is_same<One, Channel>::value,
-        before += (One::OF_MOTION && !found) ? 1 : 0),
-       ...);
-      return before;
+      return sum_before<Channel>({One::OF_MOTION...});
     }
+    // coefficients of the terms of a pair of types, coefficients of a type, and of unlike types: how many there are, and
+    // the first one of a channel
+    static constexpr int NPAIR = (One::NPAIR + ...), NTYPE = (One::NTYPE + ...);
+    static constexpr int NUNLIKE = (static_cast<int>(One::UNLIKE_KEYWORDS.size()) + ...);
+    template <class Channel> static constexpr int first()
+    {
+      return sum_before<Channel>({One::NPAIR...});
+    }
+    template <class Channel> static constexpr int first_of_type()
+    {
+      return sum_before<Channel>({One::NTYPE...});
+    }
+    template <class Channel> static constexpr int first_of_unlike()
+    {
+      return sum_before<Channel>({static_cast<int>(One::UNLIKE_KEYWORDS.size())...});
+    }
+
     template <class Function> static void visit(bool spins, Function &&function)
     {
       ((One::SPINS && !spins ? void() : function(One())), ...);
     }
-    // coefficients of the terms of a pair of types: how many there are, and the first one of a channel
-    static constexpr int NPAIR = (One::NPAIR + ...);
-    template <class Channel> static constexpr int first()
-    {
-      int before = 0;
-      bool found = false;
-      ((found = found || std::is_same<One, Channel>::value, before += found ? 0 : One::NPAIR), ...);
-      return before;
-    }
-
     // friction of a pair of types with these coefficients as a tensor
     SPH_FUNCTION static PairFriction friction(bool spins, const double *coeff)
     {
@@ -265,16 +299,20 @@ namespace SPHDissipation {
       ((One::SPINS && !spins ? void() : One::add_friction(coeff + first<One>(), sum)), ...);
       return sum;
     }
-    // sum of the coefficients of drag
-    SPH_FUNCTION static double drag(const TypeCoeffs &type) { return (One::drag(type).b + ...); }
+    // sum of the coefficients of drag; type = coefficients of a type, of all channels
+    SPH_FUNCTION static double drag(const double *type)
+    {
+      return (One::drag(type + first_of_type<One>()).b + ...);
+    }
 
     // add the drag of a particle of volume vol and velocity u to its force and, by channel, to its heat, energy
     // per time; linear: relative to rest instead of the stream
-    SPH_FUNCTION static void add_drag(const TypeCoeffs &type, double vol, const double *u,
-                                      bool linear, double *force, double *heat)
+    SPH_FUNCTION static void add_drag(const double *type, double vol, const double *u, bool linear,
+                                      double *force, double *heat)
     {
       int channel = 0;
-      ((One::OF_MOTION ? add_drag(One::drag(type), vol, u, linear, force, heat[channel++])
+      ((One::OF_MOTION ? add_drag(One::drag(type + first_of_type<One>()), vol, u, linear, force,
+                                  heat[channel++])
                        : void()),
        ...);
     }
@@ -300,6 +338,7 @@ namespace SPHDissipation {
   // clang-format on
 
   constexpr int NCHANNEL = Channels::NUMBER;    // of those that turn motion into heat
+  constexpr int MOST_PROCESSES = RelaxChannel::MOST;
 
   // Coefficients of the terms of two types, one channel after the other:
   //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
@@ -312,6 +351,80 @@ namespace SPHDissipation {
     template <class Channel> const double *of() const { return a + Channels::first<Channel>(); }
     template <class Channel> double *of() { return a + Channels::first<Channel>(); }
   };
+
+  // coefficients of a type by keyword, one channel after the other
+  struct TypeCoeffs {
+    double a[Channels::NTYPE] = {};
+
+    // those of a channel
+    template <class Channel> const double *of() const
+    {
+      return a + Channels::first_of_type<Channel>();
+    }
+    double conductivity() const { return of<HeatChannel>()[HeatChannel::CONDUCTIVITY]; }
+    double drag() const { return Channels::drag(a); }
+    double gamma() const { return of<HeatChannel>()[HeatChannel::GAMMA]; }    // gruneisen
+    double T0() const { return of<HeatChannel>()[HeatChannel::T0]; }
+  };
+
+  // a pair of types with what pair_coeff has set for all channels
+  struct TypePair : PairFluid {
+    TypeCoeffs type;    // the larger ones of both types
+    double unlike[Channels::NUNLIKE + 1] = {};
+
+    // for a channel
+    template <class Channel> OwnWords words() const
+    {
+      return {type.of<Channel>(), unlike + Channels::first_of_unlike<Channel>()};
+    }
+  };
+
+  // keywords of the coefficients of a type, of all channels
+  inline std::vector<TypeKeyword> type_keywords()
+  {
+    std::vector<TypeKeyword> all;
+    int first = 0;
+    Channels::visit(true, [&](auto channel) {
+      for (TypeKeyword one : channel.TYPE_KEYWORDS) {
+        one.first = first;
+        first += one.count;
+        all.push_back(one);
+      }
+    });
+    return all;
+  }
+
+  // Names by which other commands may vary coefficients of a type, with the numbers of these in TypeCoeffs, in the
+  // order of the numbers of the groups
+  inline std::vector<std::pair<std::string, int>> type_variables()
+  {
+    std::vector<std::pair<std::string, int>> all;
+    const std::vector<TypeKeyword> keywords = type_keywords();
+    Channels::visit(true, [&](auto channel) {
+      for (const TypeVariable &one : channel.TYPE_VARIABLES) {
+        const int k = Channels::first_of_type<decltype(channel)>() + one.coefficient;
+        for (const TypeKeyword &word : keywords) {
+          if (k < word.first || k >= word.first + word.count) continue;
+          const int ngroup = word.group ? word.count / word.group : 1;
+          for (int n = 0; n < ngroup; n++)
+            all.emplace_back(one.name + (n ? std::to_string(n + 1) : std::string()),
+                             k + n * word.group);
+        }
+      }
+    });
+    return all;
+  }
+
+  // keywords of unlike types with their numbers in TypePair::unlike
+  inline std::vector<std::pair<std::string, int>> unlike_keywords(bool spins)
+  {
+    std::vector<std::pair<std::string, int>> all;
+    Channels::visit(spins, [&](auto channel) {
+      int k = Channels::first_of_unlike<decltype(channel)>();
+      for (const char *name : channel.UNLIKE_KEYWORDS) all.emplace_back(name, k++);
+    });
+    return all;
+  }
 
   // Columns of a row of sums over pairs: torque, if there are spins, then the heat of each of the channels with these bits
   // but the first
@@ -328,11 +441,30 @@ namespace SPHDissipation {
     constexpr int width() const { return heat(NCHANNEL); }
   };
 
-  inline PairCoeff pair_coefficients(const PairFluid &fluid)
+  // the terms of pairs that a run has: those of a form of the shear force, and the optional ones or not
+  struct Terms {
+    Shear shear;
+    bool optional;
+  };
+
+  // whether these coefficients have any of the optional terms: the name of their channel, or nullptr
+  inline const char *optional_channel(const PairCoeff &coeff)
+  {
+    const char *name = nullptr;
+    Channels::visit(true, [&](auto channel) {
+      const double *const own = coeff.of<decltype(channel)>();
+      for (int k = 0; channel.OPTIONAL && k < channel.NPAIR; k++)
+        if (own[k] != 0.0) name = channel.NAME;
+    });
+    return name;
+  }
+
+  inline PairCoeff pair_coefficients(const TypePair &pair)
   {
     PairCoeff coeff = {};
-    Channels::visit(fluid.shear == Shear::MICROPOLAR, [&](auto channel) {
-      channel.set_coefficients(fluid, coeff.of<decltype(channel)>());
+    Channels::visit(pair.shear == Shear::MICROPOLAR, [&](auto channel) {
+      using One = decltype(channel);
+      channel.set_coefficients(pair, pair.words<One>(), coeff.of<One>());
     });
     return coeff;
   }
@@ -358,9 +490,17 @@ namespace SPHDissipation {
   {
     const char *violated = nullptr;
     Channels::visit(true, [&](auto channel) {
-      if (!violated) violated = channel.inadmissible_type(type, dim);
+      if (!violated) violated = channel.inadmissible_type(type.of<decltype(channel)>(), dim);
     });
     return violated;
+  }
+
+  // what is ignored of the coefficients of a type by keyword: call report(what)
+  template <class Report> void report_ignored(const TypeCoeffs &type, Report &&report)
+  {
+    Channels::visit(true, [&](auto channel) {
+      if (const char *what = channel.ignored(type.of<decltype(channel)>())) report(what);
+    });
   }
 
   // the inequality that the viscosities violate, or nullptr if the fluid dissipates: those of a type,
@@ -371,11 +511,11 @@ namespace SPHDissipation {
     if (!(kappa >= 0.0)) return "kappa must be >= 0";
     return nullptr;
   }
-  inline const char *inadmissible(const PairFluid &fluid)
+  inline const char *inadmissible(const TypePair &pair)
   {
     const char *violated = nullptr;
-    Channels::visit(fluid.shear == Shear::MICROPOLAR, [&](auto channel) {
-      if (!violated) violated = channel.inadmissible(fluid);
+    Channels::visit(pair.shear == Shear::MICROPOLAR, [&](auto channel) {
+      if (!violated) violated = channel.inadmissible(pair, pair.words<decltype(channel)>());
     });
     return violated;
   }

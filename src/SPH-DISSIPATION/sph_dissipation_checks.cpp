@@ -97,17 +97,15 @@ void SPHDissipation::check_rerun(LAMMPS *lmp, const std::string &style, const Fl
                     "Pair style {} {} cannot be used with rerun: snapshots have no internal "
                     "energies of the particles",
                     style, gas ? "eos ideal" : "temp energy");
-  for (int i = 1; i <= lmp->atom->ntypes; i++) {
-    const TypeCoeffs &type = model.coeffs[i].keywords;
-    if (HeatChannel::in_use(type) || type.a[GRUNEISEN] > 0.0)
+  for (int i = 1; i <= lmp->atom->ntypes; i++)
+    if (const char *keyword = model.keyword_that_needs(HEAT_CAPACITY, i))
       lmp->error->all(
           FLERR, Error::NOLASTLINE,
           "Pair style {} with {} of type {} cannot be used with rerun: snapshots have no "
           "internal energies of the particles",
-          style, HeatChannel::in_use(type) ? "conductivity" : "gruneisen", i);
-  }
+          style, keyword, i);
   for (int i = 1; i <= lmp->atom->ntypes; i++)
-    if (RelaxChannel::in_use(model.coeffs[i].keywords) && lmp->comm->me == 0)
+    if (RelaxChannel::count(model.coeffs[i].keywords.of<RelaxChannel>()) && lmp->comm->me == 0)
       lmp->error->warning(
           FLERR,
           "Pair style {} with rerun: snapshots have no strain of relaxing processes, "
@@ -355,7 +353,8 @@ void SPHDissipation::check_processes(LAMMPS *lmp, const std::string &style, cons
   const int room = Fields::of(lmp->atom)->nprocess;
   for (int i = 1; i <= lmp->atom->ntypes; i++) {
     const TypeCoeff &type = model.coeffs[i];
-    const int count = RelaxChannel::count(type.keywords) + VibrationChannel::in_use(type.keywords);
+    const int count = RelaxChannel::count(type.keywords.of<RelaxChannel>()) +
+        VibrationChannel::in_use(type.keywords.of<VibrationChannel>());
     if (!type.other && count > room)
       lmp->error->all(FLERR, Error::NOLASTLINE,
                       "Pair style {}: the relaxing processes of type {} are {}, but particles have "
@@ -372,14 +371,14 @@ void SPHDissipation::check_relaxation(LAMMPS *lmp, const std::string &style,
   constexpr double SHORT = 1.0e-3;    // tau over the time step
   if (lmp->comm->me != 0) return;
   for (int i = 1; i <= lmp->atom->ntypes; i++) {
-    const TypeCoeffs &type = model.coeffs[i].keywords;
+    const double *const type = model.coeffs[i].keywords.of<RelaxChannel>();
     for (int k = 0; k < RelaxChannel::count(type) && !model.coeffs[i].other; k++)
       if (RelaxChannel::tau(type, k) < SHORT * lmp->update->dt)
         lmp->error->warning(
             FLERR,
             "Pair style {}: the relaxation time {:g} of type {} is far below the time "
             "step {:g}; a kappa that is larger by {:g} does the same",
-            style, RelaxChannel::tau(type, k), i, lmp->update->dt, type.a[RELAX + 2 * k]);
+            style, RelaxChannel::tau(type, k), i, lmp->update->dt, RelaxChannel::kappa(type, k));
   }
 }
 
@@ -470,7 +469,7 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
   for (int i = 0; i < atom->nlocal; i++) {
     const TypeCoeff &type = model.coeffs[atom->type[i]];
     if (type.other || (atom->mask[i] & boundary_bits)) continue;
-    if (type.eos.gruneisen == 0.0 && !HeatChannel::in_use(type.keywords)) continue;
+    if (type.eos.gruneisen == 0.0 && type.keywords.conductivity() == 0.0) continue;
     number[0]++;
     if (atom->esph[i] == 0.0 || !(strains.thermal_energy(i) > 0.0)) number[1]++;
   }

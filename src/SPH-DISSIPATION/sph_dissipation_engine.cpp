@@ -91,9 +91,9 @@ void Engine::setup(const Parameters &parameters)
   par = &parameters;
   density_loop = loops->density(par->kernel, par->volume);
   rate_loop = loops->rates(par->volume);
-  const Shear shear = (par->inviscid && !par->spins()) ? Shear::NONE : par->shear;
-  force_loop = loops->forces(shear, par->bulk, par->volume);
-  side.set({par->spins(), loops->channels(shear)});
+  const Terms terms = (par->inviscid && !par->spins()) ? Terms{Shear::NONE, false} : par->terms();
+  force_loop = loops->forces(terms, par->bulk, par->volume);
+  side.set({par->spins(), loops->channels(terms)});
   noisy_loop = nullptr;
   drag_noise = nullptr;
   data.par = par;
@@ -517,7 +517,7 @@ void Engine::add_drag(int i, bool linear, double *force_of, double *heat) const
 {
   const TypeParameters &type = par->type[atom->type[i]];
   if (!par->drag || type.other || (atom->mask[i] & not_fluid)) return;
-  Channels::add_drag(type.keywords, particle[i].vol, particle[i].u,
+  Channels::add_drag(type.keywords.a, particle[i].vol, particle[i].u,
                      linear || update->whichflag == 2, force_of, heat);
 }
 

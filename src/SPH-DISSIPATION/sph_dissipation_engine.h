@@ -115,8 +115,8 @@ namespace SPHDissipation {
     const char *name;
     Loop (*density)(Kernel, Volume);
     Loop (*rates)(Volume);
-    Loop (*forces)(Shear, Bulk, Volume);
-    int (*channels)(Shear);    // bits of the channels that its terms heat
+    Loop (*forces)(const Terms &, Bulk, Volume);
+    int (*channels)(const Terms &);    // bits of the channels that its terms heat
     Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
     NoiseLoop (*shared_work)(const NoiseForm &);

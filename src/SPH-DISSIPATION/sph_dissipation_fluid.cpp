@@ -164,7 +164,7 @@ void Fluid::check_setup()
                "on the heat of the particles, not on their positions alone",
                style);
   for (int i = 1; i <= atom->ntypes && update->whichflag == 2; i++)
-    if (model->coeffs[i].keywords.a[GRUNEISEN] > 0.0)
+    if (model->coeffs[i].keywords.gamma() > 0.0)
       error->all(
           FLERR,
           "Pair style {} with gruneisen cannot be used in a minimization: its energy depends "
@@ -745,16 +745,13 @@ CoeffTable Fluid::coeff_table()
   }
 
   const double h = stability_length(), hsq = h * h;
-  TypeCoeffs largest;
-  for (const TypeParameters &type : model->parameters().type)
-    for (int k = 0; k < NTYPECOEFF && !type.other; k++)
-      largest.a[k] = std::max(largest.a[k], std::fabs(type.keywords.a[k]));
-  CoeffTable table(largest, most(all, MOTION, 0));
+  CoeffTable table(most(all, MOTION, 0));
   const auto sound_step = [&](int type) {
     const TypeCoeff &one = model->coeffs[type];
     const double speed = most(all, SPEED, type), c = most(all, SOUND, type);
     return acoustic_step(h, speed, [&](double dt) {
-      const double more = RelaxChannel::stiffness(one.keywords, one.eos.rho0, dt);
+      const double more =
+          RelaxChannel::stiffness(one.keywords.of<RelaxChannel>(), one.eos.rho0, dt);
       return (more > 0.0) ? most(all, MOTION, type) + sqrt(c * c + more) - speed : 0.0;
     });
   };

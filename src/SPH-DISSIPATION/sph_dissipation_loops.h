@@ -564,45 +564,52 @@ namespace SPHDissipation {
 
 #include "sph_dissipation_neighbor_loops.h"
 
-    // The loops of the bulk form volume and of the noise have weights, which are 1 with volume number
+    // The loops of the bulk form volume, of the full forms, and of the noise have weights, which are 1 with volume number
 
-    inline Loop choose_force_loop(Shear shear, Bulk bulk, Volume volume)
+    template <class F>
+    constexpr bool IS_FULL =
+        std::is_same<F, FullForm>::value || std::is_same<F, FullSpinForm>::value;
+
+    inline Loop choose_force_loop(const Terms &terms, Bulk bulk, Volume volume)
     {
       Loop loop = nullptr;
-      with_form(shear, [&](auto form) {
+      with_form(terms, [&](auto form) {
         using F = decltype(form);
         loop = (bulk == Bulk::VOLUME)  ? force_loop<F, true, true>
             : (volume == Volume::MASS) ? force_loop<F, false, true>
-                                       : force_loop<F, false, false>;
+                                       : force_loop<F, false, IS_FULL<F>>;
       });
       return loop;
     }
 
-    inline int channels_of(Shear shear)
+    inline int channels_of(const Terms &terms)
     {
       int bits = 0;
-      with_form(shear, [&](auto form) {
+      with_form(terms, [&](auto form) {
         bits = form.channels();
       });
       return bits;
     }
 
-    // with noise: forms that only act along e, and all in one dimension, have no numbers across; there is no noise for
-    // the bulk form volume
+    // with noise: forms that only act along e have no numbers across; there is no noise for the bulk form volume, and
+    // without friction only that of the temperatures
 
     template <class F, NoiseKind KIND> Loop choose_noise(int dim)
     {
-      if constexpr (F::VECTOR) {
-        if (dim == 3) return force_loop<F, false, true, PairNoise<3, F::SPINS, KIND>>;
-        if (dim == 2 || F::SPINS) return force_loop<F, false, true, PairNoise<2, F::SPINS, KIND>>;
-      }
-      if constexpr (!F::SPINS) return force_loop<F, false, true, PairNoise<0, false, KIND>>;
+      constexpr bool FRICTION = F::VECTOR || F::CENTRAL;
+      if constexpr (F::VECTOR)
+        return (dim == 3) ? force_loop<F, false, true, PairNoise<3, F::SPINS, KIND>>
+                          : force_loop<F, false, true, PairNoise<2, F::SPINS, KIND>>;
+      else if constexpr (FRICTION || KIND == NoiseKind::ENERGY || KIND == NoiseKind::CONDUCTION)
+        return force_loop<F, false, true, PairNoise<0, false, KIND>>;
+      else
+        return nullptr;
     }
 
     inline Loop choose_noisy_force_loop(const NoiseForm &form)
     {
       Loop loop = nullptr;
-      with_form(form.shear, [&](auto terms) {
+      with_form(form.terms, [&](auto terms) {
         using F = decltype(terms);
         loop = (form.kind == NoiseKind::DIRECTED) ? choose_noise<F, NoiseKind::DIRECTED>(form.dim)
             : (form.kind == NoiseKind::ENERGY)    ? choose_noise<F, NoiseKind::ENERGY>(form.dim)
@@ -615,15 +622,20 @@ namespace SPHDissipation {
 
     inline NoiseLoop choose_eta_loop(const NoiseForm &form)
     {
-      if (form.shear == Shear::MG_FR) return eta_loop<true, 0>;
-      if (form.shear == Shear::MG || form.dim == 1) return eta_loop<false, 0>;
-      return (form.dim == 3) ? eta_loop<false, 3> : eta_loop<false, 2>;
+      NoiseLoop loop = nullptr;
+      with_form(form.terms, [&](auto terms) {
+        using F = decltype(terms);
+        constexpr int ACROSS = F::VECTOR ? 2 : 0;
+        loop = (F::VECTOR && form.dim == 3) ? eta_loop<F::BY_DISTANCE, 3>
+                                            : eta_loop<F::BY_DISTANCE, ACROSS>;
+      });
+      return loop;
     }
 
     inline NoiseLoop choose_work_loop(const NoiseForm &form)
     {
       NoiseLoop loop = nullptr;
-      with_form(form.shear, [&](auto terms) {
+      with_form(form.terms, [&](auto terms) {
         loop = work_loop<decltype(terms)>;
       });
       return loop;

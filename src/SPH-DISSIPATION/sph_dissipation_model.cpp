@@ -41,21 +41,24 @@ TypeCoeff::TypeCoeff() :
 
 FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
     Pointers(lmp), hash_of_forces(0), simd("auto"), coeffs(nullptr), shared(false), style(style),
-    spins(spins), pair_viscosity(nullptr), viscosity_set(nullptr)
+    spins(spins), keywords(type_keywords()), of_types(type_variables()),
+    of_pairs(unlike_keywords(spins)), pair_given(nullptr), is_given(nullptr)
 {
-  for (int k = 0; k < nviscosity(); k++)
-    variables.push_back({VISCOSITY_NAMES[k], nullptr, nullptr});
-  for (const auto &name : {"c0", "kappa", "pb"}) variables.push_back({name, nullptr, nullptr});
-  for (const auto *one = TYPE_VARIABLES; one->name; one++)
-    variables.push_back({one->name, nullptr, nullptr});
+  auto add = [&](const std::string &name) {
+    variables.push_back({name, nullptr, nullptr});
+  };
+  for (int k = 0; k < nviscosity(); k++) add(VISCOSITY_NAMES[k]);
+  for (const auto &one : of_pairs) add(one.first);
+  for (const auto &name : {"c0", "kappa", "pb"}) add(name);
+  for (const auto &one : of_types) add(one.first);
 }
 
 /* ---------------------------------------------------------------------- */
 
 FluidModel::~FluidModel()
 {
-  memory->destroy(pair_viscosity);
-  memory->destroy(viscosity_set);
+  memory->destroy(pair_given);
+  memory->destroy(is_given);
   for (auto &one : variables) {
     memory->destroy(one.value);
     memory->destroy(one.known);
@@ -68,10 +71,10 @@ FluidModel::~FluidModel()
 void FluidModel::allocate()
 {
   const int n = atom->ntypes + 1;
-  memory->create(pair_viscosity, nviscosity(), n, n, "pair:viscosity");
-  memory->create(viscosity_set, nviscosity(), n, n, "pair:viscosity_set");
-  std::fill_n(&pair_viscosity[0][0][0], nviscosity() * n * n, 0.0);
-  std::fill_n(&viscosity_set[0][0][0], nviscosity() * n * n, 0);
+  memory->create(pair_given, npair(), n, n, "pair:pair_given");
+  memory->create(is_given, npair(), n, n, "pair:is_given");
+  std::fill_n(&pair_given[0][0][0], npair() * n * n, 0.0);
+  std::fill_n(&is_given[0][0][0], npair() * n * n, 0);
   for (auto &one : variables) {
     memory->create(one.value, n, n, "pair:variable");
     memory->create(one.known, n, n, "pair:variable");
@@ -226,19 +229,19 @@ void FluidModel::set_temperature(char **words, bool energy)
    words of pair_coeff that belong to a type
 ------------------------------------------------------------------------- */
 
-static const TypeKeyword *keyword_of_channel(const std::string &word)
+const TypeKeyword *FluidModel::keyword(const std::string &word) const
 {
-  for (const auto *one = TYPE_KEYWORDS; one->name; one++)
-    if (word == one->name) return one;
+  for (const TypeKeyword &one : keywords)
+    if (word == one.name) return &one;
   return nullptr;
 }
 
-static bool is_type_keyword(const std::string &word)
+bool FluidModel::is_type_keyword(const std::string &word) const
 {
-  if (keyword_of_channel(word)) return true;
-  for (const auto &keyword : {"rho0", "c0", "kappa", "rc", "pb", "gamma", "cv"})
-    if (word == keyword) return true;
-  return false;
+  if (variable_of_pairs(word) >= 0) return false;
+  for (const auto &name : {"rho0", "c0", "kappa", "rc", "pb", "gamma", "cv"})
+    if (word == name) return true;
+  return keyword(word) != nullptr;
 }
 
 /* ----------------------------------------------------------------------
@@ -260,7 +263,7 @@ void FluidModel::coeff(int narg, char **arg, int **setflag)
   int count;
   if (utils::is_double(word))
     count = type_coeff(narg, arg, ilo, ihi, jlo, jhi, setflag);
-  else if (narg < 5 || nviscosity() > 1 || is_viscosity(word) >= 0 || is_type_keyword(word))
+  else if (narg < 5 || nviscosity() > 1 || variable_of_pairs(word) >= 0 || is_type_keyword(word))
     count = unlike_coeff(narg, arg, ilo, ihi, jlo, jhi, setflag);
   else
     count = fluid_coeff(narg, arg, ilo, ihi, jlo, jhi, setflag);
@@ -274,13 +277,13 @@ void FluidModel::coeff(int narg, char **arg, int **setflag)
 }
 
 /* ----------------------------------------------------------------------
-   index of a viscosity that unlike types may have of their own, or -1
+   index of a viscosity or another coefficient that unlike types may have of their own, or -1
 ------------------------------------------------------------------------- */
 
-int FluidModel::is_viscosity(const std::string &word) const
+int FluidModel::variable_of_pairs(const std::string &word) const
 {
-  for (int k = 0; k < nviscosity(); k++)
-    if (word == VISCOSITY_NAMES[k]) return k;
+  for (int k = 0; k < npair(); k++)
+    if (word == variables[k].name) return k;
   return -1;
 }
 
@@ -313,7 +316,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
   std::vector<std::string> given;
   for (int iarg = nvalues, nwords; iarg < narg; iarg += nwords) {
     const std::string keyword = arg[iarg];
-    const TypeKeyword *const own = keyword_of_channel(keyword);
+    const TypeKeyword *const own = this->keyword(keyword);
     nwords = 1 + (own ? number_of_values(*own, narg - iarg, arg + iarg) : 1);
     if (!own && keyword != "pb" && keyword != "gamma" && keyword != "cv")
       error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
@@ -358,11 +361,14 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
     count++;
   }
 
-  // two types that get new coefficients here have the mean of their viscosities again
+  // two types that get new coefficients here have the mean of their viscosities again, and nothing else of their own
 
   for (int i = std::max(ilo, jlo); i <= std::min(ihi, jhi); i++)
     for (int j = std::max(ilo, jlo); j <= std::min(ihi, jhi); j++)
-      for (int k = 0; k < nviscosity(); k++) viscosity_set[k][i][j] = 0;
+      for (int k = 0; k < npair(); k++) {
+        pair_given[k][i][j] = 0.0;
+        is_given[k][i][j] = 0;
+      }
 
   // pairs of unlike types in both ranges are ours, too, if another style shares the simulation
 
@@ -429,7 +435,7 @@ int FluidModel::fluid_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int
 }
 
 /* ----------------------------------------------------------------------
-   viscosity between unlike types; return # of pairs
+   viscosities and other coefficients of unlike types; return # of pairs
 ------------------------------------------------------------------------- */
 
 int FluidModel::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi,
@@ -445,7 +451,7 @@ int FluidModel::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, in
     if (is_type_keyword(keyword))
       error->all(FLERR, place(arg[iarg]),
                  "Pair_coeff keyword {} belongs to a type, not to a pair of types", keyword);
-    const int k = is_viscosity(keyword);
+    const int k = variable_of_pairs(keyword);
     if (k < 0 && narg == 4 && nviscosity() == 1 && !is_number(arg[3]))
       error->all(FLERR, place(arg[2]),
                  "Pair_coeff {} {}: a fluid of a file needs the support radius rc behind its name",
@@ -454,7 +460,7 @@ int FluidModel::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, in
       error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
                  keyword);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
-    const bool mean = (strcmp(arg[iarg + 1], "mean") == 0);
+    const bool mean = (k < nviscosity() && strcmp(arg[iarg + 1], "mean") == 0);
     const double value = mean ? 0.0 : utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     if (k == 0 && !(value >= 0.0))
       error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff mu must be >= 0, not {}", arg[iarg + 1]);
@@ -466,8 +472,8 @@ int FluidModel::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, in
     for (int j = jlo; j <= jhi; j++) {
       if (i == j) continue;
       for (const auto &one : given) {
-        pair_viscosity[one.k][i][j] = pair_viscosity[one.k][j][i] = one.value;
-        viscosity_set[one.k][i][j] = viscosity_set[one.k][j][i] = one.set;
+        pair_given[one.k][i][j] = pair_given[one.k][j][i] = one.value;
+        is_given[one.k][i][j] = is_given[one.k][j][i] = one.set;
       }
       setflag[std::min(i, j)][std::max(i, j)] = 1;
       count++;

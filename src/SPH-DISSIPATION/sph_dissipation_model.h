@@ -32,7 +32,7 @@ namespace SPHDissipation {
 
     EosParams eos;
     double viscosity[NVISCOSITY];
-    TypeCoeffs keywords;    // of TYPE_KEYWORDS
+    TypeCoeffs keywords;    // of the channels
     double kappa;
     double rc;
     double gamma;     // 0: default of the equation of state
@@ -78,7 +78,7 @@ namespace SPHDissipation {
 
     // of a pair of types: what its coefficients follow from, the bulk viscosity that its pair terms give
 
-    PairFluid pair_fluid(int i, int j) const;
+    TypePair pair_fluid(int i, int j) const;
     double intrinsic_kappa(int i, int j) const;
     double bulk_viscosity(int type) const;    // in effect
     void warn_of_ignored() const;             // kappa without bulk term, gamma of linear
@@ -96,7 +96,10 @@ namespace SPHDissipation {
     double heat_capacity(int type) const;    // per mass
     bool has_temperatures() const;           // any type has a heat capacity
     bool conducts() const;                   // any type conducts heat
-    bool is_mixed(int i, int j) const { return !viscosity_set[0][i][j]; }
+    bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
+
+    // a keyword of this type that needs one of these, see enum Requirement, or nullptr
+    const char *keyword_that_needs(int requirements, int type) const;
 
     // number that differs where settings or coefficients do, and that of the last forces, 0 before
     std::uint64_t hash() const;
@@ -109,8 +112,8 @@ namespace SPHDissipation {
     bool shared;          // there are types of other styles
 
    private:
-    // what extract() gives out: the viscosities, then coefficients of types, whose value for two types
-    // is the mean and has no other meaning; known = value when the model set it last
+    // what extract() gives out: the viscosities, the coefficients of unlike types, then coefficients of types, whose
+    // value for two types is the mean and has no other meaning; known = value when the model set it last
 
     struct Variable {
       std::string name;
@@ -118,23 +121,35 @@ namespace SPHDissipation {
       double **known;
     };
 
-    enum { C0, KAPPA, PB, NOTHER };    // the variables after the viscosities, before TYPE_VARIABLES
+    enum {
+      C0,
+      KAPPA,
+      PB,
+      NOTHER
+    };    // the variables after those of pairs, before those of channels
 
     const std::string style;
     const bool spins;
     Parameters par;
     std::vector<Variable> variables;
-    double ***pair_viscosity;    // by viscosity and type pair: what pair_coeff gave
-    int ***viscosity_set;        // 1 if it did, 0 if the value is mixed from the types
+    const std::vector<TypeKeyword> keywords;    // of types, of all channels
+    const std::vector<std::pair<std::string, int>> of_types,
+        of_pairs;            // names, numbers: of types, of unlike types
+    double ***pair_given;    // by variable and type pair: what pair_coeff gave
+    int ***is_given;         // 1 if it did, 0 if the value is mixed from the types
 
-    int is_viscosity(const std::string &name) const;    // its number, or -1
+    int npair() const { return nviscosity() + static_cast<int>(of_pairs.size()); }
+    int variable_of_pairs(const std::string &name) const;    // its number, or -1
+    const TypeKeyword *keyword(const std::string &name) const;
+    bool is_type_keyword(const std::string &name) const;
+    bool is_of_missing_group(int coefficient, int type) const;
     double &type_value(int, int);
     double pair_value(int, int, int);
     void publish(int, int);
     void mix(int);
     void check_pair(int, int) const;
     void check_balance(int) const;
-    void check_heat(int) const;
+    void check_keywords(int) const;
     int type_coeff(int, char **, int, int, int, int, int **);
     int number_of_values(const TypeKeyword &, int narg, char **arg) const;
     int fluid_coeff(int, char **, int, int, int, int, int **);

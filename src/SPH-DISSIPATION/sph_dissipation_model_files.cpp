@@ -26,10 +26,22 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// first number of the settings in a restart file; the settings of older versions begin with one
-// below 10.  A new one for every change of what is stored, which a coefficient of a channel is, too.
+// First number of the settings in a restart file; the settings of older versions begin with one below 10.  VERSION is a
+// new one for every change of what is stored but the coefficients of channels, whose names make the upper 15 bits.
 
-static constexpr int FORMAT = 1005 + (NTYPECOEFF << 16);
+static constexpr int VERSION = 1006;
+
+static int format_number(bool spins)
+{
+  std::string names;
+  for (int k = 0; k < number_of_viscosities(spins); k++)
+    names += fmt::format("{} ", VISCOSITY_NAMES[k]);
+  for (const auto &one : unlike_keywords(spins)) names += one.first + " ";
+  for (const auto &one : type_keywords()) names += fmt::format("{} {} ", one.name, one.count);
+  std::uint32_t sum = 2166136261u;    // FNV-1a
+  for (const char c : names) sum = (sum ^ static_cast<unsigned char>(c)) * 16777619u;
+  return VERSION + static_cast<int>((sum >> 17) << 16);
+}
 
 /* ----------------------------------------------------------------------
    numbers to and from a restart file; proc 0 reads and checks, all get them
@@ -95,7 +107,7 @@ class Reader : protected Pointers {
 
 void FluidModel::write_settings(FILE *fp) const
 {
-  put(fp, FORMAT);
+  put(fp, format_number(spins));
   put(fp, static_cast<int>(choice.kernel));
   put(fp, static_cast<int>(choice.eos));
   put(fp, static_cast<int>(choice.shear));
@@ -121,11 +133,14 @@ void FluidModel::write_settings(FILE *fp) const
 void FluidModel::read_settings(FILE *fp)
 {
   Reader read(lmp, fp, style);
-  const int format = read.format();
-  if (format != FORMAT)
+  const int format = read.format(), own = format_number(spins), version = format & 0xffff;
+  if (format != own)
     error->all(FLERR, Error::NOLASTLINE,
                "Restart file was written by {} version of pair style {}, format {}, not {}",
-               (format > FORMAT) ? "a newer" : "an older", style, format, FORMAT);
+               (version > VERSION)       ? "a newer"
+                   : (version < VERSION) ? "an older"
+                                         : "another",
+               style, format, own);
 
   // the micropolar shear term belongs to a style of its own
 
@@ -178,9 +193,9 @@ std::uint64_t FluidModel::hash() const
     for (const double value : {type.eos.rho0, type.eos.c0, type.eos.pb, type.gamma, type.cv,
                                type.intrinsic ? -1.0 : type.kappa, type.rc})
       add(value);
-    for (int k = 0; k < NTYPECOEFF; k++) add(type.keywords.a[k]);
+    for (const double value : type.keywords.a) add(value);
     for (int j = 1; j <= i; j++)
-      for (int k = 0; k < nviscosity(); k++) add(viscosity(k, i, j));
+      for (int k = 0; k < npair(); k++) add(viscosity(k, i, j));
   }
   return sum;
 }
@@ -201,13 +216,13 @@ void FluidModel::write_coeffs(FILE *fp, int **setflag) const
            {type.eos.rho0, type.eos.c0, type.eos.pb, type.gamma, type.cv, type.kappa, type.rc})
         put(fp, value);
       put(fp, type.intrinsic);
-      for (int k = 0; k < NTYPECOEFF; k++) put(fp, type.keywords.a[k]);
+      for (const double value : type.keywords.a) put(fp, value);
       for (int k = 0; k < nviscosity(); k++) put(fp, type.viscosity[k]);
     }
     for (int j = i + 1; j <= atom->ntypes; j++)
-      for (int k = 0; k < nviscosity(); k++) {
-        put(fp, viscosity_set[k][i][j]);
-        if (viscosity_set[k][i][j]) put(fp, pair_viscosity[k][i][j]);
+      for (int k = 0; k < npair(); k++) {
+        put(fp, is_given[k][i][j]);
+        if (is_given[k][i][j]) put(fp, pair_given[k][i][j]);
       }
   }
 }
@@ -232,16 +247,15 @@ void FluidModel::read_coeffs(FILE *fp, int **setflag)
       type.kappa = read.number("kappa");
       type.rc = read.number("rc", true);
       type.intrinsic = read.integer("flag of intrinsic kappa", 0, 1);
-      for (int k = 0; k < NTYPECOEFF; k++)
-        type.keywords.a[k] = read.number("coefficient of a channel");
+      for (double &value : type.keywords.a) value = read.number("coefficient of a channel");
       for (int k = 0; k < nviscosity(); k++) type.viscosity[k] = read.number(VISCOSITY_NAMES[k]);
     }
     for (int j = i + 1; j <= atom->ntypes; j++)
-      for (int k = 0; k < nviscosity(); k++) {
+      for (int k = 0; k < npair(); k++) {
         const int set = read.integer("flag of two types", 0, 1);
-        viscosity_set[k][i][j] = viscosity_set[k][j][i] = set;
+        is_given[k][i][j] = is_given[k][j][i] = set;
         if (!set) continue;
-        pair_viscosity[k][i][j] = pair_viscosity[k][j][i] = read.number(VISCOSITY_NAMES[k]);
+        pair_given[k][i][j] = pair_given[k][j][i] = read.number(variables[k].name.c_str());
         setflag[i][j] = 1;
       }
   }
@@ -267,10 +281,10 @@ void FluidModel::write_data_all(FILE *fp) const
     put_line(fp, fmt::format("{} {} {}", i, i, type_line(i)), style + " coefficients");
     for (int j = i + 1; j <= atom->ntypes; j++) {
       std::string line = fmt::format("{} {}", i, j);
-      for (int k = 0; k < nviscosity(); k++)
-        line +=
-            fmt::format(" {} {}", VISCOSITY_NAMES[k],
-                        viscosity_set[k][i][j] ? fmt::format("{}", viscosity(k, i, j)) : "mean");
+      for (int k = 0; k < npair(); k++)
+        if (k < nviscosity() || is_given[k][i][j])
+          line += fmt::format(" {} {}", variables[k].name,
+                              is_given[k][i][j] ? fmt::format("{}", viscosity(k, i, j)) : "mean");
       put_line(fp, line, style + " coefficients");
     }
   }
@@ -304,15 +318,15 @@ std::string FluidModel::type_line(int i) const
   if (c.gamma > 0.0) line += fmt::format(" gamma {}", c.gamma);
   if (c.eos.pb != 0.0) line += fmt::format(" pb {}", c.eos.pb);
   if (c.cv > 0.0) line += fmt::format(" cv {}", c.cv);
-  for (const auto *one = TYPE_KEYWORDS; one->name; one++) {
-    const double *const a = c.keywords.a + one->first;
-    if (std::all_of(a, a + one->count, [](double value) {
+  for (const TypeKeyword &one : keywords) {
+    const double *const a = c.keywords.a + one.first;
+    if (std::all_of(a, a + one.count, [](double value) {
           return value == 0.0;
         }))
       continue;
-    int count = one->count;
-    while (one->group && a[count - 1] == 0.0) count--;
-    line += fmt::format(" {}", one->name);
+    int count = one.count;
+    while (one.group && a[count - 1] == 0.0) count--;
+    line += fmt::format(" {}", one.name);
     for (int k = 0; k < count; k++) line += fmt::format(" {}", a[k]);
   }
   return line;

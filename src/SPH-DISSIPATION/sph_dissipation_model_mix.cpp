@@ -40,6 +40,7 @@ void FluidModel::derive(int dim, double support)
   for (int i = 1; i <= n; i++) {
     mix(i);
     par.type[i].keywords = coeffs[i].keywords;
+    par.type[i].conductivity = coeffs[i].keywords.conductivity();
     par.type[i].heat_capacity = heat_capacity(i);
     for (int j = 1; j <= i; j++) {
       if (!coeffs[i].other && !coeffs[j].other) check_pair(i, j);
@@ -51,14 +52,18 @@ void FluidModel::derive(int dim, double support)
     if (!type.intrinsic && choice.bulk != Bulk::NONE)
       derived.zeta = bulk_coefficient(type.kappa, intrinsic);
     if (type.intrinsic) type.kappa = intrinsic;
-    publish(nviscosity() + KAPPA, i);
+    publish(npair() + KAPPA, i);
     derived.eos = type.eos;
     derived.other = type.other;
-    if (!type.other && Channels::drag(type.keywords) > 0.0) par.drag = true;
-    if (!type.other) check_heat(i);
+    if (!type.other && type.keywords.drag() > 0.0) par.drag = true;
+    if (!type.other) check_keywords(i);
     if (choice.thermal) check_balance(i);
   }
   par.set_uniform();
+  for (const PairCoeff &one : par.pair)
+    if (choice.shear == Shear::MG_FR && optional_channel(one))
+      error->all(FLERR, Error::NOLASTLINE, "Pair style {} shear mg/fr cannot be used with {}",
+                 style, optional_channel(one));
   par.set_heat();
   par.set_step(par.step);
   if (par.drag && choice.own_temperatures)
@@ -83,27 +88,28 @@ void FluidModel::mix(int i)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}", type.eos.gamma,
                i);
-  type.eos.derive(choice.eos, type.keywords.a[GRUNEISEN],
-                  heat_capacity(i) * type.keywords.a[GRUNEISEN_T0]);
+  type.eos.derive(choice.eos, type.keywords.gamma(), heat_capacity(i) * type.keywords.T0());
   for (int k = 0; k < static_cast<int>(variables.size()); k++)
-    if (k != nviscosity() + KAPPA) publish(k, i);
+    if (k != npair() + KAPPA) publish(k, i);
 }
 
 /* ---------------------------------------------------------------------- */
 
-PairFluid FluidModel::pair_fluid(int i, int j) const
+TypePair FluidModel::pair_fluid(int i, int j) const
 {
-  PairFluid fluid;
+  TypePair fluid;
   fluid.shear = choice.shear;
   fluid.dim = par.dim;
   fluid.mean_radius = kernel_mean_radius(par.kernel, par.dim, par.support);
   fluid.zeta = 0.5 * (par.type[i].zeta + par.type[j].zeta);
   fluid.conductivity =
-      HeatChannel::mean(coeffs[i].keywords.a[CONDUCTIVITY], coeffs[j].keywords.a[CONDUCTIVITY]);
+      HeatChannel::mean(coeffs[i].keywords.conductivity(), coeffs[j].keywords.conductivity());
   fluid.heat_capacity = std::min(heat_capacity(i), heat_capacity(j));
-  for (int k = 0; k < NTYPECOEFF; k++)
+  for (int k = 0; k < Channels::NTYPE; k++)
     fluid.type.a[k] = std::max(par.type[i].keywords.a[k], par.type[j].keywords.a[k]);
   for (int k = 0; k < nviscosity(); k++) fluid.viscosity[k] = viscosity(k, i, j);
+  for (std::size_t k = 0; k < of_pairs.size(); k++)
+    fluid.unlike[of_pairs[k].second] = viscosity(nviscosity() + static_cast<int>(k), i, j);
   return fluid;
 }
 
@@ -139,8 +145,8 @@ void FluidModel::check_pair(int i, int j) const
   const char *const violated = inadmissible(pair_fluid(i, j));
   if (!violated) return;
   std::string values;
-  for (int k = 0; k < nviscosity(); k++)
-    values += fmt::format(" {} = {}", VISCOSITY_NAMES[k], viscosity(k, i, j));
+  for (int k = 0; k < (i == j ? nviscosity() : npair()); k++)
+    values += fmt::format(" {} = {}", variables[k].name, viscosity(k, i, j));
   error->all(FLERR, Error::NOLASTLINE, "Pair_coeff {}, not{} of types {} {}", violated, values, j,
              i);
 }
@@ -168,40 +174,39 @@ void FluidModel::check_balance(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   check the keywords of a type that need its temperature: not with a heat bath of one temperature,
-   not without heat capacity
+   whether the style and the heat capacity are such as the keywords of a type need
 ------------------------------------------------------------------------- */
 
-void FluidModel::check_heat(int i) const
+void FluidModel::check_keywords(int i) const
 {
-  const double *const a = coeffs[i].keywords.a;
-  for (const auto &keyword :
-       {std::make_pair("conductivity", CONDUCTIVITY), std::make_pair("gruneisen", GRUNEISEN),
-        std::make_pair("vibration", VIBRATION)}) {
-    if (!(a[keyword.second] > 0.0)) continue;
-    if (choice.thermal && (!choice.own_temperatures || keyword.second == VIBRATION))
-      error->all(FLERR, Error::NOLASTLINE,
-                 "Pair style {} temp cannot be used with {} of pair_coeff, which type {} has",
-                 style, keyword.first, i);
-    if (heat_capacity(i) == 0.0)
-      error->all(FLERR, Error::NOLASTLINE,
-                 "Pair_coeff {} of type {} needs its heat capacity, keyword cv", keyword.first, i);
-  }
-  if (a[GRUNEISEN] > 0.0 && choice.eos == Eos::IDEAL)
+  const int not_with_noise = choice.own_temperatures ? NO_NOISE : NO_NOISE | HEAT_CAPACITY;
+  const char *keyword = choice.thermal ? keyword_that_needs(not_with_noise, i) : nullptr;
+  if (keyword)
     error->all(FLERR, Error::NOLASTLINE,
-               "Pair_coeff gruneisen of type {} cannot be used with eos ideal, whose constant is "
-               "gamma - 1",
-               i);
-  if (a[VIBRATION] > 0.0 && choice.eos != Eos::IDEAL)
+               "Pair style {} temp cannot be used with {} of pair_coeff, which type {} has", style,
+               keyword, i);
+  keyword = keyword_that_needs(HEAT_CAPACITY, i);
+  if (keyword && heat_capacity(i) == 0.0)
     error->all(FLERR, Error::NOLASTLINE,
-               "Pair_coeff vibration of type {} needs eos ideal, not {}, whose pressure does not "
-               "follow from its heat alone",
-               i, eos_name(choice.eos));
+               "Pair_coeff {} of type {} needs its heat capacity, keyword cv", keyword, i);
+  keyword = keyword_that_needs((choice.eos == Eos::IDEAL) ? NOT_EOS_IDEAL : EOS_IDEAL, i);
+  if (keyword)
+    error->all(FLERR, Error::NOLASTLINE, "Pair_coeff {} of type {} cannot be used with eos {}",
+               keyword, i, eos_name(choice.eos));
   if (!(coeffs[i].eos.c_el > 0.0))
     error->all(
         FLERR, Error::NOLASTLINE,
         "Pair_coeff gruneisen {} {} of type {}: the heat alone makes sound faster than c0 {}",
-        a[GRUNEISEN], a[GRUNEISEN_T0], i, coeffs[i].eos.c0);
+        coeffs[i].keywords.gamma(), coeffs[i].keywords.T0(), i, coeffs[i].eos.c0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+const char *FluidModel::keyword_that_needs(int requirements, int type) const
+{
+  for (const TypeKeyword &one : keywords)
+    if ((one.needs & requirements) && coeffs[type].keywords.a[one.first] != 0.0) return one.name;
+  return nullptr;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -209,7 +214,7 @@ void FluidModel::check_heat(int i) const
 bool FluidModel::conducts() const
 {
   for (int i = 1; i <= atom->ntypes; i++)
-    if (HeatChannel::in_use(coeffs[i].keywords)) return true;
+    if (coeffs[i].keywords.conductivity() > 0.0) return true;
   return false;
 }
 
@@ -241,12 +246,9 @@ void FluidModel::warn_of_ignored() const
     if (choice.eos == Eos::LINEAR && type.gamma > 0.0)
       error->warning(FLERR, "Pair_coeff gamma {} of type {} is ignored with eos linear", type.gamma,
                      i);
-    const double *const a = type.keywords.a;
-    if (a[DRAG_B] == 0.0 && (a[DRAG_UX] != 0.0 || a[DRAG_UY] != 0.0 || a[DRAG_UZ] != 0.0))
-      error->warning(FLERR, "Pair_coeff drag of type {}: the stream is ignored with drag 0", i);
-    if (a[GRUNEISEN] == 0.0 && a[GRUNEISEN_T0] != 0.0)
-      error->warning(FLERR, "Pair_coeff gruneisen of type {}: T0 {} is ignored with Gamma 0", i,
-                     a[GRUNEISEN_T0]);
+    report_ignored(type.keywords, [&](const char *what) {
+      error->warning(FLERR, "Pair_coeff: {} of type {} is ignored", what, i);
+    });
     const double intrinsic = intrinsic_kappa(i, i);
     if (choice.bulk != Bulk::NONE || type.kappa == intrinsic) continue;
     error->warning(FLERR,
@@ -268,7 +270,8 @@ void *FluidModel::extract(const char *name, int &dim)
   if (choice.shear == Shear::NONE && strcmp(name, "mu") == 0) return nullptr;
   if (choice.bulk == Bulk::NONE && strcmp(name, "kappa") == 0) return nullptr;
   if (choice.eos == Eos::IDEAL && strcmp(name, "c0") == 0) return nullptr;
-  if (is_viscosity(name) > MU && !has_torques()) return nullptr;
+  const int k = variable_of_pairs(name);
+  if (k > MU && k < nviscosity() && !has_torques()) return nullptr;
   if (strcmp(name, "conductivity") == 0 && !conducts()) return nullptr;
   for (const auto &one : variables)
     if (one.name == name) return one.value;
@@ -283,7 +286,7 @@ double &FluidModel::type_value(int k, int i)
 {
   TypeCoeff &type = coeffs[i];
   if (k < nviscosity()) return type.viscosity[k];
-  switch (k - nviscosity()) {
+  switch (k - npair()) {
     case C0:
       return type.eos.c0;
     case KAPPA:
@@ -291,7 +294,7 @@ double &FluidModel::type_value(int k, int i)
     case PB:
       return type.eos.pb;
     default:
-      return type.keywords.a[TYPE_VARIABLES[k - nviscosity() - NOTHER].coefficient];
+      return type.keywords.a[of_types[k - npair() - NOTHER].second];
   }
 }
 
@@ -301,10 +304,11 @@ double &FluidModel::type_value(int k, int i)
 
 double FluidModel::pair_value(int k, int i, int j)
 {
+  if (k >= nviscosity() && k < npair()) return (i == j) ? 0.0 : pair_given[k][i][j];
   const double a = type_value(k, i), b = type_value(k, j);
   if (i == j) return a;
-  if (k >= nviscosity()) return 0.5 * (a + b);
-  if (viscosity_set[k][i][j]) return pair_viscosity[k][i][j];
+  if (k >= npair()) return 0.5 * (a + b);
+  if (is_given[k][i][j]) return pair_given[k][i][j];
   return (a * b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
 }
 
@@ -315,6 +319,20 @@ void FluidModel::publish(int k, int i)
   const Variable &one = variables[k];
   for (int j = 1; j <= i; j++)
     one.value[i][j] = one.value[j][i] = one.known[i][j] = one.known[j][i] = pair_value(k, i, j);
+}
+
+/* ----------------------------------------------------------------------
+   true if a coefficient by keyword belongs to a group of numbers that pair_coeff has not given to this type
+------------------------------------------------------------------------- */
+
+bool FluidModel::is_of_missing_group(int coefficient, int type) const
+{
+  for (const TypeKeyword &one : keywords)
+    if (one.group && coefficient >= one.first && coefficient < one.first + one.count) {
+      const int first = coefficient - (coefficient - one.first) % one.group;
+      return coeffs[type].keywords.a[first] == 0.0;
+    }
+  return false;
 }
 
 /* ----------------------------------------------------------------------
@@ -347,15 +365,15 @@ bool FluidModel::adopt()
       if (one.name == "kappa" && coeffs[i].intrinsic)
         error->all(FLERR, Error::NOLASTLINE,
                    "Pair style {}: kappa of type {} is intrinsic and cannot be changed", style, i);
-      const int process = k - (nviscosity() + NOTHER);
-      const int coefficient = (process < 0) ? 0 : TYPE_VARIABLES[process].coefficient;
-      const int count = RelaxChannel::count(coeffs[i].keywords);
-      if (coefficient >= RELAX + 2 * count)
+      if (k >= nviscosity() && k < npair())
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Pair style {}: {} of type {} was changed, but it belongs to two unlike types",
+                   style, one.name, i);
+      if (k >= npair() + NOTHER && is_of_missing_group(of_types[k - npair() - NOTHER].second, i))
         error->all(
             FLERR, Error::NOLASTLINE,
-            "Pair style {}: {} of type {} cannot be changed: its pair_coeff has {} processes "
-            "of relax",
-            style, one.name, i, count);
+            "Pair style {}: {} of type {} cannot be changed: its pair_coeff does not have it",
+            style, one.name, i);
       type_value(k, i) = one.value[i][i];
       if (const char *violated = inadmissible(coeffs[i].keywords, domain->dimension))
         error->all(FLERR, Error::NOLASTLINE, "Pair style {}: {}, not {} of type {}", style,
@@ -366,9 +384,10 @@ bool FluidModel::adopt()
       for (int j = i + 1; j <= atom->ntypes; j++) {
         if (!is_changed(i, j)) continue;
         const double value = one.value[i][j], mixed = pair_value(k, i, j);
-        if (k < nviscosity() && viscosity_set[k][i][j])
-          pair_viscosity[k][i][j] = pair_viscosity[k][j][i] = value;
-        else if (std::fabs(value - mixed) > ROUNDOFF * std::fabs(mixed))
+        if (k < npair() && (k >= nviscosity() || is_given[k][i][j])) {
+          pair_given[k][i][j] = pair_given[k][j][i] = value;
+          is_given[k][i][j] = is_given[k][j][i] = 1;
+        } else if (std::fabs(value - mixed) > ROUNDOFF * std::fabs(mixed))
           error->all(FLERR, Error::NOLASTLINE,
                      "Pair style {}: {} of types {} {} was changed to {}, but it {}", style,
                      one.name, i, j, value,

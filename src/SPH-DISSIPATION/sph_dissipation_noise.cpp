@@ -45,7 +45,7 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
 {
   if (neighbor->ago == 0) check_box();
   const bool energy = engine.parameters().own_temperatures;
-  form = {engine.parameters().shear, engine.parameters().dim,
+  form = {engine.parameters().terms(), engine.parameters().dim,
           !energy                                         ? NoiseKind::PLAIN
               : engine.parameters().conducts || not_fluid ? NoiseKind::CONDUCTION
                                                           : NoiseKind::ENERGY};
@@ -227,13 +227,12 @@ bool NoiseStage::set_coeffs(double factor)
     friction.along = std::max(friction.along, 0.0);
     friction.spin_along = std::max(friction.spin_along, 0.0);
     coeff[k].central = sqrt(share * factor * friction.along);
-    coeff[k].transverse = sqrt(factor * friction.across);
+    coeff[k].transverse = (par.dim == 1) ? 0.0 : sqrt(factor * friction.across);
     coeff[k].spin_along = sqrt(factor * friction.spin_along);
     coeff[k].spin_across = sqrt(factor * friction.spin_across);
     coeff[k].inverse_central = (friction.along > 0.0) ? 1.0 / friction.along : 0.0;
     const TypeParameters &first = par.type[k / par.ntypes_1], &second = par.type[k % par.ntypes_1];
-    coeff[k].conductivity =
-        HeatChannel::mean(first.keywords.a[CONDUCTIVITY], second.keywords.a[CONDUCTIVITY]);
+    coeff[k].conductivity = HeatChannel::mean(first.conductivity, second.conductivity);
     if (friction.along > 0.0 || friction.across > 0.0 || friction.spin_along > 0.0 ||
         friction.spin_across > 0.0)
       any = true;
@@ -293,7 +292,7 @@ void NoiseStage::add_drag(double factor, int not_fluid)
   engine.for_each(nlocal, [&](int i) {
     const TypeParameters &type = par.type[atom->type[i]];
     if (type.other || (atom->mask[i] & not_fluid)) return;
-    const double strength = sqrt(factor * Channels::drag(type.keywords) * engine.particle[i].vol);
+    const double strength = sqrt(factor * type.keywords.drag() * engine.particle[i].vol);
     for (int d = 0; d < par.dim; d++) drag_force[3 * i + d] = strength * drag[d * n + i];
   });
   engine.add_drag_noise(drag_force.data());

@@ -99,7 +99,7 @@ namespace SPHDissipation {
   // which numbers a pair needs
 
   struct NoiseForm {
-    Shear shear;
+    Terms terms;
     int dim;    // of the kernel
     NoiseKind kind;
   };

@@ -230,13 +230,13 @@ void SPHDissipation::check_open_heat(LAMMPS *lmp, const Fix *fix, const Fluid *f
   const Atom *const atom = lmp->atom;
   const FluidModel &model = *fluid->model;
   for (int i = 1; i <= atom->ntypes; i++) {
-    const double *const a = model.coeffs[i].keywords.a;
-    if (fluid->has_type(i) && values.given(OpenValues::ENERGY) && model.choice.eos != Eos::IDEAL &&
-        (a[CONDUCTIVITY] > 0.0 || a[GRUNEISEN] > 0.0))
+    const char *const keyword = model.keyword_that_needs(HEAT_CAPACITY, i);
+    if (keyword && fluid->has_type(i) && values.given(OpenValues::ENERGY) &&
+        model.choice.eos != Eos::IDEAL)
       lmp->error->all(FLERR,
                       "Fix {} energy cannot be used with {} of pair_coeff, which type {} has: give "
                       "the temperature instead",
-                      fix->style, a[GRUNEISEN] > 0.0 ? "gruneisen" : "conductivity", i);
+                      fix->style, keyword, i);
   }
   if (!values.given(OpenValues::TEMPERATURE)) return;
   for (int i = 0; i < atom->nlocal; i++)

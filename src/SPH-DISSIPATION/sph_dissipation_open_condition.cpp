@@ -252,8 +252,8 @@ double OpenCondition::sound(int i, double rho, double q) const
   const int type = atom->type[i];
   const double e = warm ? elastic_energy(form, eos(i), rho) + q : 0.0;
   const double c = sound_speed(form, eos(i), rho, e);
-  const double more =
-      RelaxChannel::stiffness(fluid->coeffs[type].keywords, eos(i).rho0, fluid->parameters().step);
+  const double more = RelaxChannel::stiffness(fluid->coeffs[type].keywords.of<RelaxChannel>(),
+                                              eos(i).rho0, fluid->parameters().step);
   return (more > 0.0) ? sqrt(c * c + 0.5 * more) : c;
 }
 

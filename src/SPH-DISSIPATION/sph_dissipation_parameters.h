@@ -61,9 +61,10 @@ namespace SPHDissipation {
     EosParams eos;
     double zeta = 0.0;             // coefficient of the bulk term
     double heat_capacity = 0.0;    // per mass
-    TypeCoeffs keywords;           // of the channels
-    int other = 1;                 // its particles belong to another style of pair_style hybrid
-    int nprocess = 0;              // relaxing processes: strains, then vibration
+    double conductivity = 0.0;
+    TypeCoeffs keywords;    // of the channels
+    int other = 1;          // its particles belong to another style of pair_style hybrid
+    int nprocess = 0;       // relaxing processes: strains, then vibration
     int nstrain = 0;
     Relaxation process[MOST_PROCESSES] = {};    // of the strains
     Vibration vibration = {};
@@ -79,6 +80,7 @@ namespace SPHDissipation {
     int ntypes_1 = 1;                 // number of types + 1
     bool uniform = true;              // the coefficients of type 1 hold for all pairs
     bool inviscid = true;             // they are zero
+    bool optional = false;            // pairs have optional terms
     bool drag = false;                // of single particles, of any type
     bool thermal_pressure = false;    // of any type: it depends on the internal energy
     bool conducts = false;            // any type
@@ -88,6 +90,7 @@ namespace SPHDissipation {
     double step = 0.0;                // time step that the strain of these processes is of
 
     bool spins() const { return shear == Shear::MICROPOLAR; }
+    Terms terms() const { return {shear, optional}; }
     void set_kernel(Kernel, int dim, double support);
   };
 
@@ -98,7 +101,7 @@ namespace SPHDissipation {
     std::vector<TypeParameters> type;    // by type, from 1
     std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
 
-    void set_uniform();          // uniform and inviscid, from pair
+    void set_uniform();          // uniform, inviscid, and optional, from pair
     void set_heat();             // what belongs to heat, from type
     void set_step(double dt);    // the time step of the relaxing processes
   };
@@ -118,6 +121,9 @@ namespace SPHDissipation {
   inline void Parameters::set_uniform()
   {
     uniform = inviscid = true;
+    optional = false;
+    for (const PairCoeff &one : pair)
+      if (optional_channel(one)) optional = true;
     for (int i = 1; i < ntypes_1; i++)
       for (int j = 1; j < ntypes_1; j++)
         for (int k = 0; k < Channels::NPAIR; k++) {
@@ -126,7 +132,7 @@ namespace SPHDissipation {
           if (a != 0.0) inviscid = false;
         }
     for (int i = 1; i < ntypes_1 && own_temperatures; i++)    // of which the noise has coefficients
-      if (type[i].keywords.a[CONDUCTIVITY] != type[1].keywords.a[CONDUCTIVITY]) uniform = false;
+      if (type[i].conductivity != type[1].conductivity) uniform = false;
   }
 
   inline void Parameters::set_heat()
@@ -138,8 +144,8 @@ namespace SPHDissipation {
       if (one.other) continue;
       if (!first) first = &one;
       if (one.eos.gruneisen != 0.0) thermal_pressure = true;
-      if (HeatChannel::in_use(one.keywords)) conducts = true;
-      if (one.keywords.a[CONDUCTIVITY] != first->keywords.a[CONDUCTIVITY]) conducts_alike = false;
+      if (one.conductivity > 0.0) conducts = true;
+      if (one.conductivity != first->conductivity) conducts_alike = false;
     }
   }
 
@@ -148,12 +154,14 @@ namespace SPHDissipation {
     step = dt;
     nprocess = 0;
     for (TypeParameters &one : type) {
-      one.nprocess = one.nstrain = one.other ? 0 : RelaxChannel::count(one.keywords);
+      const double *const strains = one.keywords.of<RelaxChannel>();
+      const double *const heat = one.keywords.of<VibrationChannel>();
+      one.nprocess = one.nstrain = one.other ? 0 : RelaxChannel::count(strains);
       for (int k = 0; k < one.nstrain; k++)
-        one.process[k] = RelaxChannel::process(one.keywords, k, one.eos.rho0, dt);
-      if (!one.other && VibrationChannel::in_use(one.keywords)) {
+        one.process[k] = RelaxChannel::process(strains, k, one.eos.rho0, dt);
+      if (!one.other && VibrationChannel::in_use(heat)) {
         one.nprocess++;
-        one.vibration = VibrationChannel::process(one.keywords, one.heat_capacity, dt);
+        one.vibration = VibrationChannel::process(heat, one.heat_capacity, dt);
       }
       nprocess = std::max(nprocess, one.nprocess);
     }

@@ -383,7 +383,7 @@ namespace SPHDissipation {
     {
       const bool conducts = is_fluid(i, not_fluid);
       conductor[i].vol = conducts ? particle[i].vol : 0.0;
-      conductor[i].conductivity = conducts ? types[type[i]].keywords.a[CONDUCTIVITY] : 0.0;
+      conductor[i].conductivity = conducts ? types[type[i]].conductivity : 0.0;
       conductor[i].flux = 0.0;
     }
 

@@ -35,7 +35,7 @@ static constexpr double ONE_PERCENT_STEP = 0.15, TENTH_PERCENT_STEP = 0.05;
 std::string CoeffTable::text(double dt) const
 {
   std::string result =
-      lines +
+      lines() +
       fmt::format(
           "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
           "of the largest stable time step\n",
@@ -79,51 +79,72 @@ std::string CoeffTable::skin_text(double skin, double dt, double support, int di
 
 /* ---------------------------------------------------------------------- */
 
-void CoeffTable::add_row(int i, int j, const PairFluid &fluid, const PairInertia &inertia,
+void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &inertia,
                          double acoustic_of_pair)
 {
-  typedef std::vector<std::pair<std::string, double>> Columns;
-  const bool spins = (fluid.shear == Shear::MICROPOLAR);
-  const PairCoeff coeff = pair_coefficients(fluid);
-  Columns values, steps = {{"acoustic", acoustic_of_pair}};
+  constexpr int NONE = -1;
+  const bool spins = (pair.shear == Shear::MICROPOLAR);
+  const PairCoeff coeff = pair_coefficients(pair);
+  Row row = {fmt::format("{}-{}", i, j), {}, {{"acoustic", NONE, acoustic_of_pair}}};
   std::vector<double> numbers, of_motion, of_heat;
 
   for (int k = 0; k < number_of_viscosities(spins); k++) {
-    values.emplace_back(VISCOSITY_NAMES[k], fluid.viscosity[k]);
-    if (k == MU) values.emplace_back("kappa", fluid.zeta + intrinsic_kappa(fluid));
+    row.coefficients.push_back({VISCOSITY_NAMES[k], NONE, pair.viscosity[k]});
+    if (k == MU) row.coefficients.push_back({"kappa", NONE, pair.zeta + intrinsic_kappa(pair)});
   }
-  values.emplace_back("zeta", fluid.zeta);
+  row.coefficients.push_back({"zeta", NONE, pair.zeta});
+  int number = 0;
   Channels::visit(spins, [&](auto channel) {
-    if (!channel.in_use(largest)) return;
-    const double *const own = coeff.of<decltype(channel)>();
-    channel.add_columns(fluid, own, [&](const char *name, double value) {
-      values.emplace_back(name, value);
+    using One = decltype(channel);
+    const double *const own = coeff.of<One>();
+    const OwnWords words = pair.words<One>();
+    const int k = number++;
+    bool used = !channel.OPTIONAL;
+    channel.add_columns(pair, words, own, [&](const char *name, double value) {
+      row.coefficients.push_back({name, k, value});
+      used = used || value != 0.0;
     });
+    if (!used && rows.empty()) left_out.insert(k);
+    if (used) left_out.erase(k);
     if (channel.ELASTIC) return;
-    numbers.push_back(SPHDissipation::viscous_step(channel.rate(fluid, own, inertia)));
+    numbers.push_back(SPHDissipation::viscous_step(channel.rate(pair, words, own, inertia)));
     (channel.OF_MOTION ? of_motion : of_heat).push_back(numbers.back());
-    steps.emplace_back(channel.NAME, numbers.back());
+    row.steps.push_back({channel.NAME, k, numbers.back()});
   });
-  steps.emplace_back("all", combined_step(acoustic_of_pair, numbers));
-  smallest = std::min(smallest, steps.back().second);
+  row.steps.push_back({"all", NONE, combined_step(acoustic_of_pair, numbers)});
+  smallest = std::min(smallest, row.steps.back().value);
   acoustic = std::min(acoustic, acoustic_of_pair);
   viscous = std::min(viscous, combined_step(UNLIMITED_STEP, of_motion));
   dissipative = std::min(dissipative, combined_step(UNLIMITED_STEP, numbers));
   heat = std::min(heat, combined_step(UNLIMITED_STEP, of_heat));
+  rows.push_back(row);
+}
 
-  if (lines.empty()) {
-    lines = "  types   ";
-    for (const auto &value : values) lines += fmt::format(" {:<11}", value.first);
-    lines += " | largest stable time step:";
-    for (const auto &step : steps) lines += fmt::format(" {:<10}", step.first);
-    lines += "\n";
+/* ----------------------------------------------------------------------
+   the rows, with a header, without the columns of channels that none of them uses
+------------------------------------------------------------------------- */
+
+std::string CoeffTable::lines() const
+{
+  std::string header, result;
+  for (const Row &row : rows) {
+    std::string names = "  types   ";
+    result += fmt::format("  {:<8}", row.types);
+    for (const Column &one : row.coefficients) {
+      if (left_out.count(one.channel)) continue;
+      names += fmt::format(" {:<11}", one.name);
+      result += fmt::format(" {:<11.4g}", one.value);
+    }
+    names += " | largest stable time step:";
+    result += " |                          ";
+    for (const Column &one : row.steps) {
+      if (left_out.count(one.channel)) continue;
+      names += fmt::format(" {:<10}", one.name);
+      result += (one.value < UNLIMITED_STEP) ? fmt::format(" {:<10.4g}", one.value)
+                                             : fmt::format(" {:<10}", "-");
+    }
+    header = names + "\n";
+    result += "\n";
   }
-
-  lines += fmt::format("  {:<8}", fmt::format("{}-{}", i, j));
-  for (const auto &value : values) lines += fmt::format(" {:<11.4g}", value.second);
-  lines += " |                          ";
-  for (const auto &step : steps)
-    lines += (step.second < UNLIMITED_STEP) ? fmt::format(" {:<10.4g}", step.second)
-                                            : fmt::format(" {:<10}", "-");
-  lines += "\n";
+  return header + result;
 }

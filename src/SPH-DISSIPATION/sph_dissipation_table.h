@@ -17,7 +17,9 @@
 #include "sph_dissipation_channels.h"
 #include "sph_dissipation_steps.h"
 
+#include <set>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -27,15 +29,15 @@ namespace SPHDissipation {
 
   class CoeffTable {
    public:
-    // largest = coefficients by keyword of any type, fastest = speed of any particle
-    CoeffTable(const TypeCoeffs &largest, double fastest) :
-        fastest(fastest), largest(largest), smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP),
+    // fastest = speed of any particle
+    CoeffTable(double fastest) :
+        fastest(fastest), smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP),
         viscous(UNLIMITED_STEP), dissipative(UNLIMITED_STEP), heat(UNLIMITED_STEP)
     {
     }
 
     // of types i and j, with the largest stable time step for their sound
-    void add_row(int i, int j, const PairFluid &, const PairInertia &, double acoustic_step);
+    void add_row(int i, int j, const TypePair &, const PairInertia &, double acoustic_step);
     // with lines on the accuracy of these steps, and on what dt needs
     std::string text(double dt) const;
     double smallest_step() const { return smallest; }    // with all terms together, of all rows
@@ -49,9 +51,21 @@ namespace SPHDissipation {
     std::string skin_text(double skin, double dt, double support, int dim) const;
 
    private:
+    std::string lines() const;
+
+    struct Column {
+      std::string name;
+      int channel;    // of the list of all channels, -1: none
+      double value;
+    };
+    struct Row {
+      std::string types;
+      std::vector<Column> coefficients, steps;
+    };
+
     const double fastest;
-    const TypeCoeffs largest;
-    std::string lines;
+    std::vector<Row> rows;
+    std::set<int> left_out;    // optional channels that no row uses
     double smallest, acoustic, viscous, dissipative, heat;
 
     static double rate_of(double step) { return (step < UNLIMITED_STEP) ? 1.0 / step : 0.0; }

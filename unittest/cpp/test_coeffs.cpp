@@ -175,19 +175,19 @@ static double shear_step(Shear shear, double hsq, double nu)
 {
   PairFluid fluid = fluid_of(shear, 2);
   fluid.viscosity[MU] = nu;
-  return viscous_step(ShearChannel::rate(fluid, nullptr, inertia_of(hsq, 1.0)));
+  return viscous_step(ShearChannel::rate(fluid, {}, nullptr, inertia_of(hsq, 1.0)));
 }
 
 static double bulk_step(double hsq, double zeta_over_rho)
 {
   PairFluid fluid = fluid_of(Shear::MG, 2);
   fluid.zeta = zeta_over_rho;
-  return viscous_step(BulkChannel::rate(fluid, nullptr, inertia_of(hsq, 1.0)));
+  return viscous_step(BulkChannel::rate(fluid, {}, nullptr, inertia_of(hsq, 1.0)));
 }
 
 static double vortex_step(double rho_inertia, double zeta2)
 {
-  return viscous_step(VortexChannel::rate(PairFluid(), &zeta2, inertia_of(1.0, rho_inertia)));
+  return viscous_step(VortexChannel::rate(PairFluid(), {}, &zeta2, inertia_of(1.0, rho_inertia)));
 }
 
 static double micropolar_step(int n, double hsq, double inertia, double along_r, double along_u)
@@ -276,7 +276,8 @@ static std::array<double, 2> products_of_spin(DenseReference::Model model,
     model.spins = {fluid};
     const DenseReference::Matrix R = DenseReference::System(model, box, particles).micropolar().R;
     const int nspin = static_cast<int>(particles.spin.size());
-    PairFluid pair = fluid_of(Shear::MICROPOLAR, n);
+    TypePair pair;
+    static_cast<PairFluid &>(pair) = fluid_of(Shear::MICROPOLAR, n);
     pair.viscosity[MU] = 1.0;
     pair.viscosity[MU_R] = double(fluid.mu_r);
     pair.viscosity[GAMMA1] = double(fluid.gamma1);
