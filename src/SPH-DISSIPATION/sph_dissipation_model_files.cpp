@@ -29,7 +29,7 @@ using namespace SPHDissipation;
 // first number of the settings in a restart file; the settings of older versions begin with one
 // below 10.  A new one for every change of what is stored, which a coefficient of a channel is, too.
 
-static constexpr int FORMAT = 1005 + (NTYPECOEFF << 16);
+static constexpr int FORMAT = 1006 + (NTYPECOEFF << 16);
 
 /* ----------------------------------------------------------------------
    numbers to and from a restart file; proc 0 reads and checks, all get them
@@ -108,6 +108,9 @@ void FluidModel::write_settings(FILE *fp) const
   put(fp, static_cast<int>(choice.own_temperatures));
   put(fp, choice.heat_capacity);
   put(fp, choice.seed);
+  put(fp, static_cast<int>(choice.continuity));
+  put(fp, choice.delta);
+  put(fp, static_cast<int>(choice.tension));
   put(fp, static_cast<double>(clock.step));
   put(fp, static_cast<double>(clock.offset));
   put(fp, static_cast<int>(hash_of_forces));
@@ -143,6 +146,9 @@ void FluidModel::read_settings(FILE *fp)
   choice.own_temperatures = read.integer("flag of temperatures", 0, 1);
   choice.heat_capacity = read.number("heat capacity");
   choice.seed = read.integer("seed", 0, MAXSMALLINT);
+  choice.continuity = read.integer("flag of density continuity", 0, 1);
+  choice.delta = read.number("delta");
+  choice.tension = read.integer("flag of tension", 0, 1);
   clock.step = static_cast<bigint>(read.number("step of the noise"));
   clock.offset = static_cast<bigint>(read.number("offset of the noise"));
   constexpr int LOWEST = std::numeric_limits<int>::min(), HIGHEST = std::numeric_limits<int>::max();
@@ -171,6 +177,9 @@ std::uint64_t FluidModel::hash() const
     add(value);
   add(choice.temperature);
   add(choice.heat_capacity);
+  add(choice.continuity);
+  add(choice.delta);
+  add(choice.tension);
   for (int i = 1; i <= atom->ntypes; i++) {
     const TypeCoeff &type = coeffs[i];
     add(type.other);

@@ -84,7 +84,7 @@ void FluidModel::mix(int i)
                "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}", type.eos.gamma,
                i);
   type.eos.derive(choice.eos, type.keywords.a[GRUNEISEN],
-                  heat_capacity(i) * type.keywords.a[GRUNEISEN_T0]);
+                  heat_capacity(i) * type.keywords.a[GRUNEISEN_T0], choice.tension);
   for (int k = 0; k < static_cast<int>(variables.size()); k++)
     if (k != nviscosity() + KAPPA) publish(k, i);
 }
@@ -187,6 +187,11 @@ void FluidModel::check_heat(int i) const
       error->all(FLERR, Error::NOLASTLINE,
                  "Pair_coeff {} of type {} needs its heat capacity, keyword cv", keyword.first, i);
   }
+  if (a[GRUNEISEN] > 0.0 && !choice.tension)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair_coeff gruneisen of type {} with density continuity requires tension yes in "
+               "pair_style",
+               i);
   if (a[GRUNEISEN] > 0.0 && choice.eos == Eos::IDEAL)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair_coeff gruneisen of type {} cannot be used with eos ideal, whose constant is "

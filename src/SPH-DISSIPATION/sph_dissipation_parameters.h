@@ -38,6 +38,10 @@ namespace SPHDissipation {
 
   enum class Limit { NO, COUNT, YES };
 
+  // defaults of density continuity
+
+  constexpr double DEFAULT_DELTA = 0.1;
+
   // choices of the pair_style command
 
   struct Settings {
@@ -53,6 +57,9 @@ namespace SPHDissipation {
     bool own_temperatures = false;    // each particle has that of its internal energy instead
     double heat_capacity = 0.0;       // per mass, of types that have none of their own
     int seed = 0;
+    bool continuity = false;    // the density is a sum and an offset that particles keep
+    double delta = 0.0;         // of the diffusion of volume
+    bool tension = true;        // the pressure may be negative
   };
 
   // of a type
