@@ -144,6 +144,7 @@ namespace SPHDissipation {
     void set_surface(const char *delta, const char *tension);
     int place(const char *) const;
     std::string type_line(int) const;
+    void warn_of_lost_densities() const;
     void put_line(FILE *, const std::string &line, const std::string &what) const;
   };
 

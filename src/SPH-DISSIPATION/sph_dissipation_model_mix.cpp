@@ -59,7 +59,7 @@ void FluidModel::derive(int dim, double support)
     if (choice.thermal) check_balance(i);
   }
   par.set_uniform();
-  par.set_heat();
+  par.set_alike();
   par.set_step(par.step);
   if (par.drag && choice.own_temperatures)
     error->all(FLERR, Error::NOLASTLINE,

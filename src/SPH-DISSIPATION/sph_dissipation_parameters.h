@@ -90,6 +90,7 @@ namespace SPHDissipation {
     bool thermal_pressure = false;    // of any type: it depends on the internal energy
     bool conducts = false;            // any type
     bool conducts_alike = true;       // all types
+    bool impedes_alike = true;        // all types have the same rho0 c0
     bool shared = false;              // there are types of other styles
     int nprocess = 0;                 // most relaxing processes of a type
     double step = 0.0;                // time step that the strain of these processes is of
@@ -106,7 +107,7 @@ namespace SPHDissipation {
     std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
 
     void set_uniform();          // uniform and inviscid, from pair
-    void set_heat();             // what belongs to heat, from type
+    void set_alike();            // what belongs to heat and sound, from type
     void set_step(double dt);    // the time step of the relaxing processes
   };
 
@@ -136,10 +137,10 @@ namespace SPHDissipation {
       if (type[i].keywords.a[CONDUCTIVITY] != type[1].keywords.a[CONDUCTIVITY]) uniform = false;
   }
 
-  inline void Parameters::set_heat()
+  inline void Parameters::set_alike()
   {
     thermal_pressure = conducts = false;
-    conducts_alike = true;
+    conducts_alike = impedes_alike = true;
     const TypeParameters *first = nullptr;
     for (const TypeParameters &one : type) {
       if (one.other) continue;
@@ -147,6 +148,7 @@ namespace SPHDissipation {
       if (one.eos.gruneisen != 0.0) thermal_pressure = true;
       if (HeatChannel::in_use(one.keywords)) conducts = true;
       if (one.keywords.a[CONDUCTIVITY] != first->keywords.a[CONDUCTIVITY]) conducts_alike = false;
+      if (one.eos.impedance() != first->eos.impedance()) impedes_alike = false;
     }
   }
 

@@ -40,7 +40,7 @@ std::string CoeffTable::text(double dt) const
           "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
           "of the largest stable time step\n",
           ONE_PERCENT_STEP, TENTH_PERCENT_STEP);
-  if (!(dissipative < UNLIMITED_STEP)) return result;
+  if (!(std::min(viscous, heat) < UNLIMITED_STEP)) return result;
   const auto stages_for = [](double rate) {
     const double stages = RKL2::stages_for(rate);
     return (stages <= RKL2::MOST) ? fmt::format("takes {:.0f} stages", stages)
@@ -80,7 +80,7 @@ std::string CoeffTable::skin_text(double skin, double dt, double support, int di
 /* ---------------------------------------------------------------------- */
 
 void CoeffTable::add_row(int i, int j, const PairFluid &fluid, const PairInertia &inertia,
-                         double acoustic_of_pair)
+                         double acoustic_of_pair, double diffusion_rate)
 {
   typedef std::vector<std::pair<std::string, double>> Columns;
   const bool spins = (fluid.shear == Shear::MICROPOLAR);
@@ -104,9 +104,13 @@ void CoeffTable::add_row(int i, int j, const PairFluid &fluid, const PairInertia
     (channel.OF_MOTION ? of_motion : of_heat).push_back(numbers.back());
     steps.emplace_back(channel.NAME, numbers.back());
   });
+  if (diffusion_rate > 0.0) {
+    numbers.push_back(SPHDissipation::viscous_step(diffusion_rate));
+    steps.emplace_back("diffusion", numbers.back());
+  }
   steps.emplace_back("all", combined_step(acoustic_of_pair, numbers));
   smallest = std::min(smallest, steps.back().second);
-  acoustic = std::min(acoustic, acoustic_of_pair);
+  acoustic = std::min({acoustic, acoustic_of_pair, SPHDissipation::viscous_step(diffusion_rate)});
   viscous = std::min(viscous, combined_step(UNLIMITED_STEP, of_motion));
   dissipative = std::min(dissipative, combined_step(UNLIMITED_STEP, numbers));
   heat = std::min(heat, combined_step(UNLIMITED_STEP, of_heat));
