@@ -457,6 +457,7 @@ void FixSPHBulk::change_density(int i, double change)
   const Fields &kept = fields();
   const double part = change / atom->rho[i];
   atom->rho[i] += change;
+  atom->vfrac[i] = atom->rmass[i] / atom->rho[i];
   for (int k = 0; k < kept.nprocess; k++) kept.rho_relaxed[k][i] *= 1.0 + part;
 }
 
