@@ -84,3 +84,26 @@ def test_ranks_and_balance(lammps):
     result = lammps(dam(between="comm_style brick\n", commands="fix even all balance 50 1.0 shift xy 10 1.1\nrun 500\n"), ranks=4)
     _, four = check(result)
     assert np.abs(four - one).max() < 1e-6
+
+
+def test_gravity_by_variables(lammps):
+    """The same run with constant variables; of a gravity that turns, the force on the tank is that on the fluid at rest."""
+    fixed, free = "gravity 0 -1 0", "gravity v_zero v_g 0"
+    variables = "variable zero equal 0.0\nvariable g equal -1.0\n"
+    runs = [check(lammps(variables + dam(commands="run 100\n").replace(f"free {fixed}", f"free {words}")))[1] for words in (fixed, free)]
+    assert (runs[0] == runs[1]).all()
+
+    turning = "variable gx equal 0.5*sin(20*time)\n" + dam(commands="run 40\n")
+    fronts = [check(lammps(turning.replace(f"free {fixed}", f"free {words}")))[1] for words in (fixed, "gravity v_gx -1 0")]
+    assert fronts[0][0] == fronts[1][0] and fronts[0][-1] != fronts[1][-1]
+
+
+@pytest.mark.parametrize("words, message", [
+    ("gravity v_none -1 0", "Variable none for fix sph/wall gravity does not exist"),
+    ("gravity v_a -1 0", "Variable a for fix sph/wall gravity is not an equal-style variable"),
+    ("gravity 0 -1 v_z", "velocity and gravity must lie in the plane in 2d"), ("gravity 0 v_inf 0", "Fix sph/wall gravity must be finite, not inf"),
+    ("gravity 0 -1", "fix sph/wall gravity")])
+def test_gravity_that_is_refused(lammps, words, message):
+    variables = "variable a atom x\nvariable z equal 0.0\nvariable inf equal exp(1000)\n"
+    result = lammps(variables + dam(commands="run 1\n").replace("free gravity 0 -1 0", f"free {words}"), check=False)
+    assert result.code and message in result.error, result.error
