@@ -52,7 +52,6 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
   forceclearflag = 1;
 
   atom->rmass_flag = 1;
-  atom->rho_flag = 1;    // for the set command
   atom->esph_flag = 1;
   atom->vest_flag = 1;
 

@@ -41,9 +41,11 @@ namespace SPHDissipation {
 
   template <int DIM> struct DiffusionPlaces {
     static constexpr int VOL = (DIM == 3) ? 3 : 2, P = VOL + 1, G = P + 1;
-    static constexpr int NTENSOR = DIM * (DIM + 1) / 2;
-    static constexpr int NSUM =
-        NTENSOR + DIM;    // sum a V r r by rows of its upper half, sum a V (p_i - p_j) r
+    // sum a V r r by rows of its upper half, sum a V (p_i - p_j) r; rows of them do not cross a cache line
+    static constexpr int NSUM = DIM * (DIM + 1) / 2 + DIM, WIDTH = (DIM == 3) ? 12 : 8;
+  };
+  struct alignas(64) SumBlock {
+    double a[8] = {};
   };
   inline int place_of_volume(int dim)
   {
@@ -52,6 +54,10 @@ namespace SPHDissipation {
   inline int number_of_sums(int dim)
   {
     return dim * (dim + 1) / 2 + dim;
+  }
+  inline int width_of_sums(int dim)
+  {
+    return (dim == 3) ? 12 : 8;
   }
 
   struct DiffusionData {

@@ -406,11 +406,13 @@ void Engine::accumulate_heat(std::vector<double> &flow)
 /* ---------------------------------------------------------------------- */
 
 void Engine::accumulate_diffusion(DiffusionPart part_of, const DiffusionData &diffusion, int width,
-                                  std::vector<double> &sums)
+                                  std::vector<SumBlock> &sums)
 {
+  constexpr std::size_t EACH = sizeof(SumBlock) / sizeof(double);
   const DiffusionLoop loop = loops->diffusion(part_of, par->dim, par->impedes_alike);
-  sums.assign(static_cast<std::size_t>(atom->nlocal + atom->nghost + BLOCK) * width, 0.0);
-  scalar_sums.run(*threads, sums.data(), sums.size(), [&](int k, double *sum) {
+  const auto n = static_cast<std::size_t>(atom->nlocal + atom->nghost + BLOCK) * width;
+  sums.assign((n + EACH - 1) / EACH, SumBlock());
+  scalar_sums.run(*threads, sums[0].a, n, [&](int k, double *sum) {
     loop(part(k), diffusion, sum);
   });
 }

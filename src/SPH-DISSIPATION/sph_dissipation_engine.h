@@ -249,7 +249,7 @@ namespace SPHDissipation {
 
     // sums of the diffusion of volume, width numbers of each owned and ghost atom; room for the spare ones
     void accumulate_diffusion(DiffusionPart, const DiffusionData &, int width,
-                              std::vector<double> &sums);
+                              std::vector<SumBlock> &sums);
 
     // forces, torques, heat and divergence of those pairs alone, and their conduction, added to arrays with room for the
     // spare particles; after pass 2; without noise

@@ -552,7 +552,7 @@ namespace SPHDissipation {
     void diffusion_sums(const LoopData &data, const DiffusionData &diffusion, double *sums)
     {
       typedef DiffusionPlaces<DIM> At;
-      constexpr int N = At::NSUM, FOURS = N / 4 * 4;
+      constexpr int N = At::NSUM, FOURS = N / 4 * 4, WIDTH = At::WIDTH;
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         const double *const own = diffusion.row[i].a;
@@ -570,7 +570,7 @@ namespace SPHDissipation {
           if constexpr (DIM == 3) load_4_columns<8>(diffusion.row[0].a + 4, j, other + 4);
           for (int l = 0; l < LANES; l++) {
             prefetch(diffusion.row + j[l + AHEAD]);
-            prefetch(sums + N * j[l + AHEAD]);
+            prefetch(sums + WIDTH * j[l + AHEAD]);
           }
           for (int d = 0; d < DIM; d++) r[d] = own[d] - other[d];
           const Vec slope = diffusion_slope<ALIKE>(diffusion, impedance, j, load(slope_of + k));
@@ -583,10 +583,10 @@ namespace SPHDissipation {
             total[m] += other[At::VOL] * on_j[m];
             on_j[m] *= own[At::VOL];
           }
-          for (m = 0; m < FOURS; m += 4) add_4_columns<N>(sums + m, j, on_j + m);
-          for (m = FOURS; m < N; m++) add_column<N>(sums + m, j, on_j[m]);
+          for (m = 0; m < FOURS; m += 4) add_4_columns<WIDTH>(sums + m, j, on_j + m);
+          for (m = FOURS; m < N; m++) add_column<WIDTH>(sums + m, j, on_j[m]);
         }
-        for (int k = 0; k < N; k++) sums[i * N + k] += sum(total[k]);
+        for (int k = 0; k < N; k++) sums[i * WIDTH + k] += sum(total[k]);
       }
     }
 

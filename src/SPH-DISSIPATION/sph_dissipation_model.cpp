@@ -148,6 +148,7 @@ void FluidModel::settings(int narg, char **arg)
     }
   }
   set_surface(delta, tension);
+  atom->rho_flag = choice.continuity;    // for the set command
 
   if (choice.limit != Limit::NO && choice.bulk != Bulk::DENSITY)
     error->all(FLERR, "Pair_style {} limit requires bulk density", style);

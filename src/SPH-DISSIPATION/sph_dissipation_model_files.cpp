@@ -147,6 +147,7 @@ void FluidModel::read_settings(FILE *fp)
   choice.heat_capacity = read.number("heat capacity");
   choice.seed = read.integer("seed", 0, MAXSMALLINT);
   choice.continuity = read.integer("flag of density continuity", 0, 1);
+  atom->rho_flag = choice.continuity;
   choice.delta = read.number("delta");
   choice.tension = read.integer("flag of tension", 0, 1);
   clock.step = static_cast<bigint>(read.number("step of the noise"));

@@ -272,21 +272,24 @@ double HeatStage::memory_usage() const
 void DiffusionStage::run(int not_fluid)
 {
   const Parameters &par = engine.parameters();
-  const int dim = par.dim, nsum = number_of_sums(dim), vol = place_of_volume(dim), p = vol + 1;
+  const int dim = par.dim, nsum = number_of_sums(dim), width = width_of_sums(dim);
+  const int vol = place_of_volume(dim), p = vol + 1;
   constexpr std::size_t WIDTH = sizeof(DiffusionRow) / sizeof(double);
   set_rows(not_fluid);
   const DiffusionData data = {rows.data(), impedances.data()};
-  engine.accumulate_diffusion(DiffusionPart::SUMS, data, nsum, sums);
-  exchange.reverse({{sums.data(), static_cast<std::size_t>(nsum), nsum}});
+  engine.accumulate_diffusion(DiffusionPart::SUMS, data, width, sums);
+  double *const sum = sums[0].a;
+  exchange.reverse({{sum, static_cast<std::size_t>(width), nsum}});
   engine.for_each(atom->nlocal, [&](int i) {
     double *const row = rows[i].a;
     const double scale = par.impedes_alike ? 1.0 : impedances[i];
-    supports[i] = (row[vol] > 0.0) ? pressure_gradient(dim, &sums[nsum * i], scale, row + p + 1)
+    supports[i] = (row[vol] > 0.0) ? pressure_gradient(dim, sum + width * i, scale, row + p + 1)
                                    : 0.0;
   });
   exchange.forward({{rows[0].a + p + 1, WIDTH, dim}});
   engine.accumulate_diffusion(DiffusionPart::FLOW, data, 2, flow);
-  exchange.reverse({{flow.data(), 2, 2}});
+  double *const flow_of = flow[0].a;
+  exchange.reverse({{flow_of, 2, 2}});
 
   // with the factor of a_ij that the loops leave out
 
@@ -294,7 +297,7 @@ void DiffusionStage::run(int not_fluid)
   double *const rho_rate = Fields::of(atom)->rho_rate, *const desph = atom->desph;
   engine.for_each(atom->nlocal, [&](int i) {
     const double *const row = rows[i].a;
-    const double expansion = factor * flow[2 * i], residual = factor * flow[2 * i + 1];
+    const double expansion = factor * flow_of[2 * i], residual = factor * flow_of[2 * i + 1];
     rho_rate[i] = -atom->rho[i] * expansion;
     desph[i] += row[vol] * (0.5 * residual - row[p] * expansion);
   });
@@ -311,16 +314,14 @@ void DiffusionStage::set_rows(int not_fluid)
   impedances.resize(nall + BLOCK);
   supports.resize(atom->nlocal);
   engine.for_each(nall, [&](int i) {
-    DiffusionRow row;
+    double *const row = rows[i].a;
     const EosParams &eos = par.type[atom->type[i]].eos;
-    const double *const x = engine.particle[i].x;
-    std::copy_n(x, par.dim, row.a);
-    if (par.dim == 1) row.a[0] += x[1];    // a line along x or y
-    if (of.is_fluid(i, not_fluid)) {
-      row.a[vol] = engine.particle[i].vol;
-      row.a[vol + 1] = pressure(par.eos, eos, atom->rho[i], of.esph[i] / atom->rmass[i]);
-    }
-    rows[i] = row;
+    const Particle &particle = engine.particle[i];
+    for (int d = 0; d < par.dim; d++) row[d] = particle.x[d];
+    if (par.dim == 1) row[0] += particle.x[1];    // a line along x or y
+    const bool fluid = of.is_fluid(i, not_fluid);
+    row[vol] = fluid ? particle.vol : 0.0;
+    row[vol + 1] = fluid ? pressure(par.eos, eos, atom->rho[i], of.esph[i] / atom->rmass[i]) : 0.0;
     impedances[i] = eos.impedance();
   });
   std::fill_n(rows.begin() + nall, BLOCK, DiffusionRow());
@@ -332,8 +333,8 @@ void DiffusionStage::set_rows(int not_fluid)
 double DiffusionStage::memory_usage() const
 {
   return (double) rows.capacity() * sizeof(DiffusionRow) +
-      (double) (impedances.capacity() + sums.capacity() + flow.capacity() + supports.capacity()) *
-      sizeof(double);
+      (double) (impedances.capacity() + supports.capacity()) * sizeof(double) +
+      (double) (sums.capacity() + flow.capacity()) * sizeof(SumBlock);
 }
 
 /* ---------------------------------------------------------------------- */

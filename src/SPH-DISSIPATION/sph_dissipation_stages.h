@@ -174,7 +174,8 @@ namespace SPHDissipation {
 
    private:
     std::vector<DiffusionRow> rows;    // of owned, ghost, and spare particles, as the next three
-    std::vector<double> impedances, sums, flow;
+    std::vector<double> impedances;
+    std::vector<SumBlock> sums, flow;
     std::vector<double> supports;
 
     void set_rows(int not_fluid);
