@@ -49,13 +49,16 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
   add_field(V_MASK, atoms.k_v, atoms.v);
   add_field(F_MASK, atoms.k_f, atoms.f);
   add_field(RMASS_MASK, atoms.k_rmass, atoms.rmass);
-  add_own_field(SPH_RHO_MASK, k_rho, atoms.rho, {});
+  add_own_field(SPH_RHO_MASK, k_rho, atoms.rho, {EXCHANGE});
   add_own_field(DRHO_MASK, k_drho, atoms.drho, {});
   add_own_field(VFRAC_MASK, k_vfrac, atoms.vfrac, {});
   add_own_field(ESPH_MASK, k_esph, atoms.esph, {BORDER, EXCHANGE});
   add_own_field(DESPH_MASK, k_desph, atoms.desph, {});
   add_own_field(VEST_MASK, k_vest, atoms.vest, {COMM, BORDER, EXCHANGE});
   add_own_field(DESPH_BEFORE_MASK, k_desph_before, desph_before, {EXCHANGE});
+  add_own_field(OFFSET_MASK, k_rho_sum, rho_sum, {EXCHANGE});
+  add_own_field(OFFSET_MASK, k_rho_rate, rho_rate, {});
+  add_own_field(OFFSET_MASK, k_rho_rate_before, rho_rate_before, {EXCHANGE});
   if (has_spins) {
     add_field(OMEGA_MASK, atoms.k_omega, atoms.omega);
     add_field(TORQUE_MASK, atoms.k_torque, atoms.torque);
@@ -73,7 +76,7 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
 
 void AtomVecSPHBulkKokkos::process_args(int narg, char **arg)
 {
-  add_processes(narg, arg);
+  add_columns(narg, arg);
   for (int k = 0; k < nprocess; k++)
     add_own_field(RHO_RELAXED_MASK, k_rho_relaxed[k], rho_relaxed[k], {EXCHANGE});
   if (nprocess) add_own_field(RHO_RELAXED_MASK, k_tvib, tvib, {EXCHANGE});

@@ -166,7 +166,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::pre_force(int vflag)
 {
-  if (!heat_value.varies()) return;
+  if (!heat_value.varies() && !gravity_varies()) return;
   atomKK->sync(Host, ALL_MASK);    // variables may be of any particles
   FixSPHWall::pre_force(vflag);
   if (!heat_value.is_by_atom()) return;

@@ -97,6 +97,10 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
   if (neighbor->includegroup)    // which the neighbor lists of KOKKOS ignore
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {}/kk cannot be used with neigh_modify include", fluid->style);
+  if (fluid->model->choice.continuity)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {}/kk cannot be used with density continuity: use {}", fluid->style,
+               fluid->style);
   const std::string reason = runs_on_device() ? on_host_because() : "";
   const bool on_device = runs_on_device() && reason.empty();
   device->choose(on_device);

@@ -166,7 +166,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::announce()
       const int n = atom->nlocal + atom->nghost;
       const std::vector<double> rho(atom->rho, atom->rho + n), drho(atom->drho, atom->drho + n),
           vfrac(atom->vfrac, atom->vfrac + n);
-      density->run(pair->list, atom->vest, nullptr);
+      density->run(pair->list, atom->vest, nullptr, not_fluid());
       std::copy(rho.begin(), rho.end(), atom->rho);
       std::copy(drho.begin(), drho.end(), atom->drho);
       std::copy(vfrac.begin(), vfrac.end(), atom->vfrac);

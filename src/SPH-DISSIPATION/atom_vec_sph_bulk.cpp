@@ -28,10 +28,11 @@ using namespace SPHDissipation;
 // names known to compute property/atom, in the order of their index, those of spins last; LAMMPS has a property
 // temperature itself
 
-static constexpr const char *PROPERTY[] = {
-    "numden", "dnumden", "vol",   "rho",     "esph",      "desph",     "tsph",     "tvib",
-    "vestx",  "vesty",   "vestz", "inertia", "omegaestx", "omegaesty", "omegaestz"};
-enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, TSPH, TVIB, VESTX };
+static constexpr const char *PROPERTY[] = {"numden",    "dnumden",  "vol",   "rho",     "esph",
+                                           "desph",     "tsph",     "tvib",  "offset",  "surface",
+                                           "vestx",     "vesty",    "vestz", "inertia", "omegaestx",
+                                           "omegaesty", "omegaestz"};
+enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, TSPH, TVIB, OFFSET, SURFACE, VESTX };
 enum { INERTIA = VESTX + 3, OMEGAESTX, NPROPERTY = OMEGAESTX + 3 };
 
 static constexpr int CUSTOM_DOUBLE = 1;    // data type of Atom::add_custom()
@@ -60,24 +61,29 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
                  "Atom style hybrid of sph/bulk and sph/micropolar: use one of the two, "
                  "sph/micropolar has all that sph/bulk has");
   add_array("desph_before", &desph_before);
+  add_array("rho_sum", &rho_sum);
+  add_array("rho_rate", &rho_rate);
+  add_array("rho_rate_before", &rho_rate_before);
 
   // strings with peratom variables to include in each AtomVec method
   // strings cannot contain fields in corresponding AtomVec default strings
   // order of fields in a string does not matter
   // except: fields_data_atom & fields_data_vel must match data file
   // rho, drho, vfrac are computed anew in every step, for owned and ghost atoms, by the
-  // pair style; vest and desph_before of restart files are those of the last step
+  // pair style, with density continuity from rho and rho_sum of the last one; vest and
+  // desph_before of restart files are those of the last step
 
   fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
-  fields_copy = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest", "desph_before"};
+  fields_copy = {"rmass", "rho",          "drho",    "vfrac",    "esph",           "desph",
+                 "vest",  "desph_before", "rho_sum", "rho_rate", "rho_rate_before"};
   fields_comm = {"vest"};
   fields_comm_vel = {"vest"};
   fields_reverse = {"desph"};
   fields_border = {"rmass", "esph", "vest"};
   fields_border_vel = {"rmass", "esph", "vest"};
-  fields_exchange = {"rmass", "esph", "vest", "desph_before"};
-  fields_restart = {"rmass", "esph", "vest", "desph_before"};
-  fields_create = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest", "desph_before"};
+  fields_exchange = {"rmass", "rho", "esph", "vest", "desph_before", "rho_sum", "rho_rate_before"};
+  fields_restart = fields_exchange;
+  fields_create = fields_copy;
   fields_data_atom = {"id", "type", "rmass", "esph", "x"};
   fields_data_vel = {"id", "v"};
 
@@ -88,33 +94,42 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
 
 void AtomVecSPHBulk::process_args(int narg, char **arg)
 {
-  add_processes(narg, arg);
+  add_columns(narg, arg);
   setup_fields();
 }
 
 /* ----------------------------------------------------------------------
-   room for relaxing processes.  Data files have their state before the position: lines of
+   room for relaxing processes; a column with the density.  Data files have both before the position: lines of
    velocities have no room, because the buffer of WriteData::velocities() has a limited width
 ------------------------------------------------------------------------- */
 
-void AtomVecSPHBulk::add_processes(int narg, char **arg)
+void AtomVecSPHBulk::add_columns(int narg, char **arg)
 {
-  if (narg == 0) return;
   const std::string style = has_spins ? "sph/micropolar" : "sph/bulk";
-  if (strcmp(arg[0], "relax") != 0)
-    error->all(FLERR, "Unknown atom_style {} keyword: {}", style, arg[0]);
-  if (narg < 2) utils::missing_cmd_args(FLERR, "atom_style " + style + " relax", error);
-  if (narg > 2) error->all(FLERR, "Unknown atom_style {} keyword: {}", style, arg[2]);
-  nprocess = utils::inumeric(FLERR, arg[1], false, lmp);
-  if (nprocess < 1 || nprocess > MOST_PROCESSES)
-    error->all(FLERR, "Atom_style {} relax must be 1 to {}, not {}", style, MOST_PROCESSES, arg[1]);
+  for (int iarg = 0; iarg < narg; iarg++) {
+    if (strcmp(arg[iarg], "rho") == 0)
+      density_in_files = true;
+    else if (strcmp(arg[iarg], "relax") == 0 && !nprocess) {
+      if (++iarg == narg) utils::missing_cmd_args(FLERR, "atom_style " + style + " relax", error);
+      nprocess = utils::inumeric(FLERR, arg[iarg], false, lmp);
+      if (nprocess < 1 || nprocess > MOST_PROCESSES)
+        error->all(FLERR, "Atom_style {} relax must be 1 to {}, not {}", style, MOST_PROCESSES,
+                   arg[iarg]);
+    } else
+      error->all(FLERR, "Unknown atom_style {} keyword: {}", style, arg[iarg]);
+  }
+  const auto insert = [this](const std::string &name) {
+    fields_data_atom.insert(fields_data_atom.end() - 1, name);
+  };
+  if (density_in_files) insert("rho");
   for (int k = 0; k < nprocess; k++) {
     const std::string name = fmt::format("rho_relaxed{}", k + 1);
     add_array(name, &rho_relaxed[k]);
     for (auto *list : {&fields_copy, &fields_exchange, &fields_restart, &fields_create})
       list->push_back(name);
-    fields_data_atom.insert(fields_data_atom.end() - 1, name);
+    insert(name);
   }
+  if (!nprocess) return;
   add_array("tvib", &tvib);
   for (auto *list : {&fields_copy, &fields_exchange, &fields_restart, &fields_create})
     list->push_back("tvib");
@@ -294,6 +309,11 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
   if (!(rmass[ilocal] > 0.0))
     error->one(FLERR, "Invalid mass {} in Atoms section of data file: mass must be > 0",
                rmass[ilocal]);
+  if (density_in_files && !(rho[ilocal] >= 0.0))
+    error->one(FLERR, "Invalid density {} in Atoms section of data file: must be >= 0",
+               rho[ilocal]);
+  if (!density_in_files) rho[ilocal] = 0.0;
+  rho_sum[ilocal] = rho_rate_before[ilocal] = 0.0;
   unpack_restart_init(ilocal);
   desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
   if (nprocess) tvib[ilocal] = -1.0;
@@ -310,7 +330,7 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
 
 void AtomVecSPHBulk::unpack_restart_init(int ilocal)
 {
-  rho[ilocal] = drho[ilocal] = vfrac[ilocal] = desph[ilocal] = 0.0;
+  drho[ilocal] = vfrac[ilocal] = desph[ilocal] = rho_rate[ilocal] = 0.0;
   if (!has_spins) return;
   for (int d = 0; d < 3; d++) atom->torque[ilocal][d] = 0.0;
 }
@@ -340,6 +360,7 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
   const bool heat = (index == TSPH || index == TVIB);
   const std::vector<double> temperature = heat ? temperatures(index == TVIB)
                                                : std::vector<double>();
+  const std::vector<double> support = (index == SURFACE) ? supports() : std::vector<double>();
 
   for (int i = 0, n = 0; i < nlocal; i++, n += nvalues) {
     buf[n] = 0.0;
@@ -366,6 +387,12 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
       case TSPH:
       case TVIB:
         buf[n] = temperature[i];
+        break;
+      case OFFSET:
+        buf[n] = (rho_sum[i] > 0.0) ? (rho[i] - rho_sum[i]) / rmass[i] : 0.0;
+        break;
+      case SURFACE:
+        buf[n] = support[i];
         break;
       case INERTIA:
         buf[n] = inertia[i];
@@ -394,6 +421,22 @@ std::vector<double> AtomVecSPHBulk::temperatures(bool of_vibrations) const
     fluid->vibrational_temperatures(result.data());
   else
     fluid->temperatures(result.data());
+  return result;
+}
+
+/* ----------------------------------------------------------------------
+   of the last forces
+------------------------------------------------------------------------- */
+
+std::vector<double> AtomVecSPHBulk::supports() const
+{
+  const Fluid *const fluid = find_fluid(lmp, "Compute property/atom surface");
+  if (!fluid->has_surface())
+    error->all(FLERR,
+               "Compute property/atom surface needs forces of a pair style with density continuity "
+               "and delta > 0");
+  std::vector<double> result(atom->nlocal);
+  fluid->surface(result.data());
   return result;
 }
 

@@ -29,7 +29,8 @@ namespace LAMMPS_NS {
 // Per-atom arrays of a particle fluid: mass (rmass), internal energy (esph) and its rate (desph),
 // velocity extrapolated to the end of the step (vest); from the last force computation, density
 // rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.  Where particles spin, also spin (omega,
-// angular velocity) and torque.  Class Fields has the others.  Argument: relax N, room for N relaxing processes.
+// angular velocity) and torque.  Class Fields has the others.  Arguments: relax N,
+// room for N relaxing processes; rho, data files have the density.
 
 class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
  public:
@@ -60,13 +61,14 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
 
   class Atom *const owner;    // of the arrays
   const bool in_views;        // all arrays, by a derived class
-  void add_processes(int narg, char **arg);
+  void add_columns(int narg, char **arg);
   void show_custom_vectors();    // as custom properties, where they are now
 
  private:
   void add_spins();
   void check_data_line(int) const;
   std::vector<double> temperatures(bool of_vibrations) const;    // of owned particles
+  std::vector<double> supports() const;                          // the same, see DiffusionStage
 
   struct OwnArray {
     std::string name;

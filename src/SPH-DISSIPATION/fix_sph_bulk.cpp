@@ -131,13 +131,14 @@ double rest_of_heat(const TimeStep &step, const double *v, const double *acting,
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), exact(false), shift_speed(0.0), remap_v_flag(0),
-    integrated_groups(0), first_instance(false), fluid(nullptr), fluid_style(without_suffix(style)),
-    spins(Fields::with_spins(atom)), dt_of_forces(0.0), dt_of_strain(0.0), extrapolation(1.0),
-    balanced(false), viscous(new ViscousKeywords(lmp, style)), temperature(nullptr),
-    temperature_done(false), last(), inertia_flag(0), factor(0.0), offset(0.0), inertia_done(false),
-    density_done(0), density_flag(0), set_up(false), energy_extrapolated(false), setup_step(0),
-    last_instance(false), not_integrated(0)
+    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), diffuses(false), exact(false), shift_speed(0.0),
+    remap_v_flag(0), integrated_groups(0), first_instance(false), fluid(nullptr),
+    fluid_style(without_suffix(style)), spins(Fields::with_spins(atom)), dt_of_forces(0.0),
+    dt_of_strain(0.0), extrapolation(1.0), balanced(false),
+    viscous(new ViscousKeywords(lmp, style)), temperature(nullptr), temperature_done(false), last(),
+    inertia_flag(0), factor(0.0), offset(0.0), inertia_done(false), density_done(0),
+    density_flag(0), set_up(false), energy_extrapolated(false), setup_step(0), last_instance(false),
+    not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
@@ -236,6 +237,12 @@ void FixSPHBulk::init()
     error->all(FLERR,
                "Fix {} shift cannot be used with temp of pair style {}: a shifted fluid has no "
                "thermal equilibrium",
+               style, style);
+  diffuses = fluid && fluid->model->choice.delta > 0.0 && fluid->pair->compute_flag;
+  if (density_flag && fluid && fluid->model->choice.continuity)
+    error->all(FLERR,
+               "Fix {} density rho0 cannot be used with density continuity of pair style {}, which "
+               "begins with rho0 for any masses: use set mass, and set sph/rho for other densities",
                style, style);
   if (density_flag && !fluid)
     error->all(FLERR, "Fix {} density requires pair style {}", style, style);
@@ -367,9 +374,13 @@ void FixSPHBulk::setup(int /*vflag*/)
   set_up = true;
   dt_of_forces = dtv;
   const double *const desph_before = fields().desph_before;
+  const double *const rho_before = fields().rho_rate_before;
   if (energy_extrapolated)
-    for (int i = 0; i < atom->nlocal; i++)
-      if (atom->mask[i] & groupbit) atom->esph[i] += desph_before[i];
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (!(atom->mask[i] & groupbit)) continue;
+      atom->esph[i] += desph_before[i];
+      change_density(i, rho_before[i]);
+    }
   energy_extrapolated = false;
   if (!fluid || !last_instance) return;
   fluid->announce();
@@ -419,18 +430,35 @@ void FixSPHBulk::setup_pre_exchange()
   double *const desph_before = fields().desph_before;
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
+  double *const rho_before = fields().rho_rate_before;
+  if (!continued && fluid && first_instance) fluid->keep_densities();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     if (!continued) {
       step.follow(particles, i);
-      desph_before[i] = 0.0;
+      desph_before[i] = rho_before[i] = 0.0;
     } else if (remap_v_flag)
       for (int d = 0; d < 3; d++) atom->vest[i][d] -= atom->v[i][d];
     atom->esph[i] -= desph_before[i];
+    change_density(i, -rho_before[i]);
   }
   energy_extrapolated = true;
   last.known = continued;
   setup_step = update->ntimestep;
+}
+
+/* ----------------------------------------------------------------------
+   of an owned particle, by the diffusion of volume, at constant strains
+------------------------------------------------------------------------- */
+
+void FixSPHBulk::change_density(int i, double change)
+{
+  if (change == 0.0) return;
+  const Fields &kept = fields();
+  const double part = change / atom->rho[i];
+  atom->rho[i] += change;
+  atom->vfrac[i] = atom->rmass[i] / atom->rho[i];
+  for (int k = 0; k < kept.nprocess; k++) kept.rho_relaxed[k][i] *= 1.0 + part;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -534,7 +562,7 @@ void FixSPHBulk::set_arrays(int i)
 
 void FixSPHBulk::arrive(int i)
 {
-  fields().desph_before[i] = 0.0;
+  fields().desph_before[i] = fields().rho_rate_before[i] = 0.0;
   if (inertia_flag) set_inertia_of(i, fields().inertia[i]);
   if (!has_viscous_stage()) return;
   fluid->viscous->carry_force(i, time_step().keep);
@@ -723,6 +751,14 @@ void FixSPHBulk::integrate(Half half)
         step.begin(particles, i);
       else
         step.end(particles, i);
+      if (diffuses) {
+        double change = 0.0, &before = kept.rho_rate_before[i];
+        if (half == BEGIN)
+          step.begin_energy(kept.rho_rate[i], change, before);
+        else
+          step.end_energy(kept.rho_rate[i], before, change);
+        change_density(i, change);
+      }
       if (exact)
         for (const double heat : rest) {
           atom->esph[i] += heat;

@@ -77,6 +77,7 @@ class FixSPHBulk : public Fix {
 
  protected:
   double dtv, dtf;
+  bool diffuses;                   // densities change by the diffusion of volume
   bool exact;                      // motion and heat exchange energy exactly, see integrate()
   double shift_speed;              // scale and twice the limit of the velocity of particle shifting
   int remap_v_flag;                // fix deform remaps velocities at periodic boundaries
@@ -107,6 +108,7 @@ class FixSPHBulk : public Fix {
   SPHDissipation::Fields &fields() const;
   int keyword_argument(int iarg, int narg, char **arg);    // # of words of the keyword at arg[iarg]
   void integrate(Half);
+  void change_density(int i, double change);
 
   void reset_extrapolation();    // of particles that no such fix integrates
 

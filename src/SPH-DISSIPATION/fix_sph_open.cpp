@@ -420,6 +420,7 @@ void FixSPHOpen::compress(int i)
         return one.first < other;
       });
   if (found == states.end() || found->first != i) return;
+  if (fluid->model->choice.continuity) return;    // it keeps its density
   const double rho = sums[found - states.begin()] + update->dt * atom->drho[i];
   condition->keep(i, condition->at_density(i, found->second, rho));
 }

@@ -358,6 +358,7 @@ void FixSPHRefine::post_integrate()
     past[i][STEP] = static_cast<double>(update->ntimestep);
     past[i][FAMILY] = family;
   });
+  fluid->keep_densities();
   event_step = next_reneighbor = update->ntimestep;
 }
 

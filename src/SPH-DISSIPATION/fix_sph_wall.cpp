@@ -70,7 +70,6 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     noise(false), checked(false), total(), total_all(), total_summed(false),
     heat(WallHeat::ADIABATIC), heat_rate(0.0), heat_given(0.0)
 {
-  double *const gravity = condition->gravity;
   for (int iarg = 3; iarg < narg;) {
     const std::string keyword = arg[iarg];
     auto needs = [&](int n) {
@@ -136,13 +135,17 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
       iarg += 2;
     } else if (keyword == "gravity") {
       needs(3);
-      for (int d = 0; d < 3; d++) gravity[d] = utils::numeric(FLERR, arg[iarg + 1 + d], false, lmp);
+      for (int d = 0; d < 3; d++) {
+        gravity[d] = Value();
+        gravity[d].set(lmp, arg[iarg + 1 + d]);
+        condition->gravity[d] = gravity[d].now();
+      }
       iarg += 4;
     } else
       error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
   }
 
-  if (domain->dimension == 2 && gravity[2] != 0.0)
+  if (domain->dimension == 2 && !gravity[2].is_zero())
     error->all(FLERR, "Fix {}: velocity and gravity must lie in the plane in 2d", style);
   if (group->dynamic[igroup])
     error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[igroup]);
@@ -180,7 +183,7 @@ FixSPHWall::~FixSPHWall()
 
 int FixSPHWall::setmask()
 {
-  return PRE_EXCHANGE | INITIAL_INTEGRATE | (heat_value.varies() ? PRE_FORCE : 0) | POST_FORCE |
+  return PRE_EXCHANGE | INITIAL_INTEGRATE | (heat_value.varies() || gravity_varies() ? PRE_FORCE : 0) | POST_FORCE |
       MIN_PRE_EXCHANGE | MIN_POST_FORCE;
 }
 
@@ -217,6 +220,10 @@ void FixSPHWall::init()
     error->all(FLERR, "Variable {} for fix {} heat is neither of equal style nor of atom style",
                heat_value.name(), style);
   if (!heat_value.varies()) check_heat();
+  for (auto &one : gravity)
+    if (!one.init(lmp, fmt::format("fix {} gravity", style), false))
+      error->all(FLERR, "Variable {} for fix {} gravity is not an equal-style variable", one.name(),
+                 style);
   fluid->boundary->add(this);
 
   // no pairs of wall particles in the neighbor lists
@@ -275,11 +282,24 @@ void FixSPHWall::setup_pre_force(int vflag)
 
 void FixSPHWall::pre_force(int /*vflag*/)
 {
-  if (!heat_value.varies()) return;
+  if (!heat_value.varies() && !gravity_varies()) return;
   modify->clearstep_compute();
-  heat_value.evaluate(lmp, igroup);
+  if (heat_value.varies()) heat_value.evaluate(lmp, igroup);
+  for (int d = 0; d < 3; d++) {
+    gravity[d].evaluate(lmp, igroup);
+    condition->gravity[d] = gravity[d].now();
+    if (!std::isfinite(condition->gravity[d]))
+      error->all(FLERR, "Fix {} gravity must be finite, not {}", style, condition->gravity[d]);
+  }
   modify->addstep_compute(update->ntimestep + 1);
-  check_heat();
+  if (heat_value.varies()) check_heat();
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixSPHWall::gravity_varies() const
+{
+  return gravity[0].varies() || gravity[1].varies() || gravity[2].varies();
 }
 
 /* ---------------------------------------------------------------------- */

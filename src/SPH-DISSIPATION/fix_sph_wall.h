@@ -84,6 +84,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
   SPHDissipation::WallHeat heat;
   SPHDissipation::Value heat_value;    // temperature, or heat per area and time
+  SPHDissipation::Value gravity[3];    // acceleration of the fluid by a body force
 
   bool turns_surface(bool before) const;
   void book_heat();
@@ -95,6 +96,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   double heat_given;    // heat since the fix was defined
 
   bool is_wrong(double value) const;    // of heat_value
+  bool gravity_varies() const;
   void check_heat() const;
   void from_point(int, const SPHDissipation::WallVelocity &, double *) const;
   bool set_velocity();    // returns whether that of an owned particle is another one than before

@@ -33,12 +33,13 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// Repulsion of the surfaces with thermal noise: a particle of the fluid has the energy HARDNESS kT s^2, where s is
-// the part beyond one half of a support of CONTACT spacings that boundary particles fill.  It is half full at the
-// surface and at least 0.96 full inside of lattices: 32 kT.
+// Repulsion of the surfaces with thermal noise or free surfaces: a particle of the fluid has the energy HARDNESS kT s^2,
+// where s is the part beyond one half of a support of CONTACT spacings that boundary particles fill.  It is half full at
+// the surface and at least 0.96 full inside of lattices: 32 kT.
 
 static constexpr double HARDNESS = 150.0;
-static constexpr double HARDNESS_OF_SOUND = 0.5;    // where there is no given T: of m c0^2
+static constexpr double HARDNESS_OF_SOUND = 0.5;     // where particles have temperatures: of m c0^2
+static constexpr double HARDNESS_OF_SURFACE = 0.05;  // where there is no noise: of m c0^2
 static constexpr double CONTACT = 1.7;
 typedef WendlandC2 ContactKernel;
 
@@ -231,7 +232,7 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow)
 
 bool BoundaryStage::has_energy() const
 {
-  return engine.parameters().thermal;
+  return engine.parameters().thermal || engine.parameters().continuity;
 }
 
 double BoundaryStage::over(int i) const
@@ -242,9 +243,9 @@ double BoundaryStage::over(int i) const
 double BoundaryStage::stiffness(int i) const
 {
   const Parameters &par = engine.parameters();
-  if (!par.own_temperatures) return 2.0 * HARDNESS * force->boltz * par.temperature;
+  if (par.thermal && !par.own_temperatures) return 2.0 * HARDNESS * force->boltz * par.temperature;
   const double c0 = par.type[atom->type[i]].eos.c0;
-  return 2.0 * HARDNESS_OF_SOUND * atom->rmass[i] * c0 * c0;
+  return 2.0 * (par.thermal ? HARDNESS_OF_SOUND : HARDNESS_OF_SURFACE) * atom->rmass[i] * c0 * c0;
 }
 
 int BoundaryStage::nforce() const
@@ -264,8 +265,9 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
     force.r[d] = f.x[d] - w.x[d];
     force.approach -= force.r[d] * (f.u[d] - w.u[d]);
   }
-  force.pressing =
-      engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * engine.pairs().slope[pair.entry];
+  if (engine.parameters().thermal)
+    force.pressing = engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g *
+        engine.pairs().slope[pair.entry];
   const NearKernel &wall = contact[pair.wall];
   const double s = over(pair.fluid), q = sqrt(inner_product(force.r, force.r)) * wall.scale;
   if (s > 0.0 && q < 1.0)
@@ -384,7 +386,7 @@ void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &
   const Parameters &par = engine.parameters();
   with_kernel(engine.parameters().kernel, [&](auto k) {
     pairs.visit([&](const BoundaryPair &pair) {
-      if (pair.fluid >= n) return;
+      if (pair.fluid >= n || !par.thermal) return;
       const Particle &w = engine.particle[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = engine.particle[pair.fluid].x[d] - w.x[d];

@@ -54,9 +54,9 @@ namespace SPHDissipation {
     // the temperatures alone, or increments of them
     void extend_temperatures(bool increments);
 
-    // With thermal noise, the forces of walls on the fluid have an energy.  After pass 2: add the repulsion of the
-    // surfaces to the forces of the engine and of LAMMPS, and take its work and that of the pressure of the
-    // walls from the internal energies
+    // With thermal noise, the forces of walls on the fluid have an energy; with free surfaces, their repulsion has.  After
+    // pass 2: add the repulsion of the surfaces to the forces of the engine and of LAMMPS, and take its work, with
+    // noise also that of the pressure of the walls, from the internal energies
 
     void repel(PairTally *);
 
@@ -131,14 +131,14 @@ namespace SPHDissipation {
     SurfaceStage surface;
     bigint surface_step;    // that the normals of the surface are for
 
-    bool has_energy() const;    // with thermal noise
+    bool has_energy() const;    // with thermal noise, or free surfaces
     double conductivity(int i) const;
     double over(int i) const;
     double stiffness(int i) const;
     void begin(NeighList *);
 
     // what pair of the fluid and a wall does: force on the particle of the fluid along r by the pressure of the wall, times
-    // 1/r, and by the repulsion; minus r.u
+    // 1/r, if that has an energy, and by the repulsion; minus r.u
 
     struct WallForce {
       double r[3], approach, pressing, repulsion;

@@ -71,7 +71,7 @@ namespace SPHDissipation {
     static constexpr int NTYPE = 3;
     static constexpr std::array<TypeKeyword, 2> TYPE_KEYWORDS = {
         {{"conductivity", 1, 0, HEAT_CAPACITY},
-         {"gruneisen", 2, 0, HEAT_CAPACITY | NOT_EOS_IDEAL}}};
+         {"gruneisen", 2, 0, HEAT_CAPACITY | NOT_EOS_IDEAL | TENSION}}};
     static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {
         {{"conductivity", CONDUCTIVITY}}};
 

@@ -145,7 +145,8 @@ namespace SPHDissipation {
     NO_NOISE = 2,
     EOS_IDEAL = 4,
     NOT_EOS_IDEAL = 8,
-    NO_OPEN_ENDS = 16
+    NO_OPEN_ENDS = 16,
+    TENSION = 32
   };
 
   // A keyword of pair_coeff and its numbers, coefficients of a type, one after another: once, or in groups of which there

@@ -104,6 +104,11 @@ void SPHDissipation::check_rerun(LAMMPS *lmp, const std::string &style, const Fl
           "Pair style {} with {} of type {} cannot be used with rerun: snapshots have no "
           "internal energies of the particles",
           style, keyword, i);
+  if (model.choice.continuity)
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "Pair style {} density continuity cannot be used with rerun: snapshots have no "
+                    "densities of the particles",
+                    style);
   for (int i = 1; i <= lmp->atom->ntypes; i++)
     if (RelaxChannel::count(model.coeffs[i].keywords.of<RelaxChannel>()) && lmp->comm->me == 0)
       lmp->error->warning(
@@ -384,6 +389,27 @@ void SPHDissipation::check_relaxation(LAMMPS *lmp, const std::string &style,
 
 /* ---------------------------------------------------------------------- */
 
+void SPHDissipation::check_surface(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+{
+  if (!model.choice.continuity || lmp->comm->me != 0) return;
+  for (int i = 1; i <= lmp->atom->ntypes; i++) {
+    const TypeCoeff &type = model.coeffs[i];
+    if (!type.other && type.eos.pb > 0.0)
+      lmp->error->warning(FLERR,
+                          "Pair style {} density continuity: pb {:g} of type {} presses free "
+                          "surfaces outward; use pb 0",
+                          style, type.eos.pb, i);
+  }
+  const Shear shear = model.choice.shear;
+  if ((shear == Shear::MORRIS || shear == Shear::ESPANOL) && !model.parameters().inviscid)
+    lmp->error->warning(FLERR,
+                        "Pair style {} density continuity: shear {} exerts a torque on a fluid "
+                        "with a free surface that rotates; use shear mg",
+                        style, shear_name(shear));
+}
+
+/* ---------------------------------------------------------------------- */
+
 void SPHDissipation::check_masses(LAMMPS *lmp, const std::string &style, const FluidModel &model)
 {
   Atom *atom = lmp->atom;
@@ -426,6 +452,10 @@ void SPHDissipation::check_numbers(LAMMPS *lmp, const std::string &style, const 
   if (Fields::with_spins(atom))
     check("spin", "see the variables that have set it", [&](int i) {
       return finite(atom->omega[i]);
+    });
+  if (model.choice.continuity)
+    check("density", "use set sph/rho", [&](int i) {
+      return std::isfinite(atom->rho[i]) && atom->rho[i] >= 0.0;
     });
   check("internal energy", "use the set command", [&](int i) {
     return std::isfinite(atom->esph[i]);

@@ -80,6 +80,9 @@ namespace SPHDissipation {
 
   void check_format(LAMMPS *, const Fix *, double first, int format);
 
+  // warnings about a free surface that the settings press outward or turn
+  void check_surface(class LAMMPS *, const std::string &style, const FluidModel &);
+
   // particles have room for the relaxing processes of their type; warning about times far below the time step
 
   void check_processes(LAMMPS *, const std::string &style, const FluidModel &);

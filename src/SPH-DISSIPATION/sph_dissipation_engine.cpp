@@ -227,7 +227,8 @@ void Engine::set_rows()
                atom->desph,
                with_strains,
                strain_pressure,
-               conductor.data()};
+               conductor.data(),
+               Fields::of(atom)->rho_sum};
 }
 
 /* ---------------------------------------------------------------------- */
@@ -399,6 +400,20 @@ void Engine::accumulate_heat(std::vector<double> &flow)
   flow.assign(nall + BLOCK, 0.0);
   scalar_sums.run(*threads, flow.data(), flow.size(), [&](int k, double *sum) {
     loop(part(k), conductor.data(), sum);
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_diffusion(DiffusionPart part_of, const DiffusionData &diffusion, int width,
+                                  std::vector<SumBlock> &sums)
+{
+  constexpr std::size_t EACH = sizeof(SumBlock) / sizeof(double);
+  const DiffusionLoop loop = loops->diffusion(part_of, par->dim, par->impedes_alike);
+  const auto n = static_cast<std::size_t>(atom->nlocal + atom->nghost + BLOCK) * width;
+  sums.assign((n + EACH - 1) / EACH, SumBlock());
+  scalar_sums.run(*threads, sums[0].a, n, [&](int k, double *sum) {
+    loop(part(k), diffusion, sum);
   });
 }
 

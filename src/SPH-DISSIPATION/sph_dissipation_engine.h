@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_ENGINE_H
 
 #include "pointers.h"
+#include "sph_dissipation_diffusion_terms.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_threads.h"
@@ -94,6 +95,8 @@ namespace SPHDissipation {
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
   typedef void (*HeatLoop)(const LoopData &, const Conductor *, double *flow);
+  typedef void (*DiffusionLoop)(const LoopData &, const DiffusionData &, double *sums);
+  enum class DiffusionPart { SUMS, FLOW };    // for the gradient; with it
 
   // Positions and indices of particles, sorted into cells; candidates for neighbors, relative to the corner of a cell.
   // Both have room for a vector of 16 numbers behind the last entry
@@ -123,6 +126,7 @@ namespace SPHDissipation {
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int from, int to, int n, int count,
                              double *numbers);
     HeatLoop (*heat)(bool alike);    // the same conductivity of all particles that conduct
+    DiffusionLoop (*diffusion)(DiffusionPart, int dim, bool alike);    // of impedance
     // take (x - corner) * scale
     void (*take_candidates)(const PlaceColumns &, int from, int to, const double *corner,
                             double scale, CandidateColumns &);
@@ -242,6 +246,10 @@ namespace SPHDissipation {
 
     // heat per time that owned and ghost atoms get by conduction, of conductor[]; room for the spare ones
     void accumulate_heat(std::vector<double> &flow);
+
+    // sums of the diffusion of volume, width numbers of each owned and ghost atom; room for the spare ones
+    void accumulate_diffusion(DiffusionPart, const DiffusionData &, int width,
+                              std::vector<SumBlock> &sums);
 
     // forces, torques, heat and divergence of those pairs alone, and their conduction, added to arrays with room for the
     // spare particles; after pass 2; without noise

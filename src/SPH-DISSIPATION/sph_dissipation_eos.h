@@ -24,6 +24,8 @@
 //   tait    p_el = rho0 c_el^2 / gamma [(rho/rho0)^gamma - 1] + pb_el
 //   ideal   p_el = pb,   Gamma = gamma - 1
 //
+// Without tension, p_el is 0 below the density rho_min at which it gets 0, and e_el is that of rho_min.
+//
 // elastic_energy() is the energy e_el per mass from which p_el follows, p_el = rho^2 de_el/drho, zero at rho0.
 
 #include "sph_dissipation_function.h"
@@ -49,7 +51,7 @@ namespace SPHDissipation {
 
   struct EosParams {
     SPH_FUNCTION EosParams() :
-        rho0(1.0), c0(0.0), pb(0.0), gamma(7.0), gruneisen(0.0), c_el(0.0), pb_el(0.0)
+        rho0(1.0), c0(0.0), pb(0.0), gamma(7.0), gruneisen(0.0), c_el(0.0), pb_el(0.0), rho_min(0.0)
     {
     }
 
@@ -61,19 +63,33 @@ namespace SPHDissipation {
     // by derive()
     double gruneisen;      // Gamma
     double c_el, pb_el;    // sound speed and background pressure without heat
+    double rho_min;        // density below which there is no pressure; 0 with tension
 
-    void derive(Eos eos, double gruneisen_in, double reference_heat);
+    double impedance() const { return rho0 * c0; }    // acoustic
+    void derive(Eos eos, double gruneisen_in, double reference_heat, bool tension = true);
   };
+
+  // density at which the elastic pressure of linear and tait is 0; 0 if it is positive at all densities
+
+  inline double density_without_pressure(Eos eos, const EosParams &par)
+  {
+    const double cc = par.c_el * par.c_el;
+    if (eos == Eos::LINEAR) return std::fmax(par.rho0 - par.pb_el / cc, 0.0);
+    const double power = 1.0 - par.pb_el * par.gamma / (par.rho0 * cc);
+    return (power > 0.0) ? par.rho0 * std::pow(power, 1.0 / par.gamma) : 0.0;
+  }
 
   // Set what follows from c0, pb and gamma, of Grueneisen's constant (read for linear and tait) and
   // the heat per mass cv T0 at the reference temperature; c_el is NaN if sound is faster than c0 by
   // the heat alone.
 
-  inline void EosParams::derive(Eos eos, double gruneisen_in, double reference_heat)
+  inline void EosParams::derive(Eos eos, double gruneisen_in, double reference_heat, bool tension)
   {
+    rho_min = 0.0;
     gruneisen = (eos == Eos::IDEAL) ? gamma - 1.0 : gruneisen_in;
     c_el = c0;
     pb_el = pb;
+    if (!tension) rho_min = density_without_pressure(eos, *this);
     if (eos == Eos::IDEAL || gruneisen == 0.0) return;
     c_el = std::sqrt(c0 * c0 - gruneisen * (gruneisen + 1.0) * reference_heat);
     pb_el -= gruneisen * rho0 * reference_heat;
@@ -94,6 +110,7 @@ namespace SPHDissipation {
 
   SPH_FUNCTION double elastic_pressure(Eos eos, const EosParams &par, double rho)
   {
+    if (rho < par.rho_min) return 0.0;
     switch (eos) {
       case Eos::TAIT:
         return par.rho0 * par.c_el * par.c_el / par.gamma *
@@ -111,6 +128,7 @@ namespace SPHDissipation {
   SPH_FUNCTION double elastic_energy(Eos eos, const EosParams &par, double rho)
   {
     if (eos == Eos::IDEAL && par.pb_el == 0.0) return 0.0;
+    if (rho < par.rho_min) rho = par.rho_min;
     const double rest = par.rho0 / rho;
     const double background = par.pb_el / par.rho0 * (1.0 - rest);
     if (eos == Eos::IDEAL) return background;
@@ -145,6 +163,7 @@ namespace SPHDissipation {
   {
     const double q = (par.gruneisen == 0.0) ? 0.0 : e - elastic_energy(eos, par, rho);
     if (eos == Eos::IDEAL) return std::sqrt(par.gruneisen * (par.gamma * q));
+    if (rho < par.rho_min) rho = par.rho_min;
     const double c = (eos == Eos::TAIT)
         ? par.c_el * std::sqrt(tait_power(rho / par.rho0, par.gamma) * par.rho0 / rho)
         : par.c_el;

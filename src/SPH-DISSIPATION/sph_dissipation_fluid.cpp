@@ -61,6 +61,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     forces(new ForceStage(lmp, *engine, *exchange)),
     relaxation(new RelaxStage(lmp, *engine, *exchange)),
     conduction(new HeatStage(lmp, *engine, *exchange)),
+    diffusion(new DiffusionStage(lmp, *engine, *exchange)),
     open(new OpenStage(lmp, *engine, *exchange)),
     boundary(new BoundaryStage(lmp, *engine, *exchange, style)),
     shift(new ShiftStage(lmp, *engine, *exchange)),
@@ -68,7 +69,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
     temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false), dim(0),
     support(0.0), stale(false), own_list(false), set_up(false), announced(false), touched(false),
-    changed(false), warned_step(0.0), noise_step(0.0)
+    changed(false), warned_step(0.0), noise_step(0.0), fast_lists(0)
 {
 }
 
@@ -260,7 +261,10 @@ void Fluid::adopt()
 
 bigint Fluid::compute(PairTally *tally)
 {
-  if (neighbor->ago == 0) check_masses(lmp, style, *model);
+  if (neighbor->ago == 0) {
+    check_masses(lmp, style, *model);
+    if (model->choice.continuity) check_speed();
+  }
   if (update->setupflag) check_numbers(lmp, style, *model);
   if (touched) {
     const std::uint64_t hash = model->hash();
@@ -293,6 +297,7 @@ bigint Fluid::compute(PairTally *tally)
   sum_forces(tally);
   if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
   if (par.conducts && !par.own_temperatures) sum_heat();
+  if (par.delta > 0.0) sum_diffusion();
   if (!open->empty()) open->sum_impacts(neighbors());
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
   if (model->choice.own_temperatures) noise->share_work();
@@ -362,6 +367,11 @@ void Fluid::begin_run(double dt)
                    "Pair style {}: {} particles have states of processes that their type does not "
                    "have, which are lost; those of its own begin anew",
                    style, others);
+}
+
+void Fluid::keep_densities()
+{
+  std::fill_n(Fields::of(atom)->rho_sum, atom->nlocal, 0.0);
 }
 
 void Fluid::begin_step(double dt)
@@ -472,6 +482,26 @@ void Fluid::find_temperature()
   temperature->run(not_fluid());
 }
 
+/* ----------------------------------------------------------------------
+   a minimization leaves the offsets of the densities alone
+------------------------------------------------------------------------- */
+
+void Fluid::sum_diffusion()
+{
+  if (update->whichflag != 2) diffusion->run(not_fluid());
+}
+
+bool Fluid::has_surface() const
+{
+  return model->parameters().delta > 0.0 && has_forces() &&
+      diffusion->support().size() == static_cast<std::size_t>(atom->nlocal);
+}
+
+void Fluid::surface(double *support_of) const
+{
+  std::copy_n(diffusion->support().begin(), atom->nlocal, support_of);
+}
+
 /* ---------------------------------------------------------------------- */
 
 double Fluid::energy(double *each_atom) const
@@ -520,7 +550,7 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
 {
   double *const desph_before = Fields::of(atom)->desph_before;
   on_host([&]() {
-    density->run(neighbors(), nullptr, nullptr);
+    density->run(neighbors(), nullptr, nullptr, not_fluid());
     if (!boundary->empty() && model->choice.own_temperatures)
       boundary->find_energies_at_rest(neighbors());
     const StrainRows strains = engine->strains();
@@ -544,6 +574,32 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
       atom->esph[i] = strains.energy_at(i, temperature);
     }
   });
+}
+
+/* ----------------------------------------------------------------------
+   of the particles, at two neighbor lists one after the other: a liquid faster than that is compressed, its density
+   varies by more than a percent.  Single drops of spray may be.
+------------------------------------------------------------------------- */
+
+void Fluid::check_speed()
+{
+  constexpr double FAST = 0.1, MANY = 0.1;    // of c0, of the particles
+  if (fast_lists < 0) return;
+  bigint mine[2] = {0, 0}, all[2];
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!has_type(atom->type[i]) || is_boundary(i)) continue;
+    mine[0]++;
+    if (MathExtra::len3(atom->v[i]) > FAST * model->coeffs[atom->type[i]].eos.c0) mine[1]++;
+  }
+  MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  fast_lists = (all[1] > MANY * all[0]) ? fast_lists + 1 : 0;
+  if (fast_lists < 2) return;
+  fast_lists = -1;
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style {}: {} of {} particles are faster than {:g} c0: the liquid is "
+                   "compressed; use a c0 of 10 times the largest speed",
+                   style, all[1], all[0], FAST);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -585,7 +641,7 @@ const double *Fluid::own_torque(int i) const
 void Fluid::find_volumes()
 {
   on_host([this]() {
-    density->run(neighbors(), nullptr, nullptr);
+    density->run(neighbors(), nullptr, nullptr, not_fluid());
   });
 }
 
@@ -603,7 +659,7 @@ void Fluid::set_mean_density(int groupbit)
     FluidState state(lmp, *engine, *exchange, *model);
     std::vector<double> factor(atom->ntypes + 1, 1.0);
     for (int k = 0; k < MOST; k++) {
-      density->run(neighbors(), nullptr, nullptr);
+      density->run(neighbors(), nullptr, nullptr, not_fluid());
       state.run(groupbit, not_fluid());
       if (state.scale_masses(factor, open->bits()) < CLOSE) break;
     }
@@ -635,6 +691,7 @@ void Fluid::report()
     check_all_interact();
     check_sizes(lmp, style, *model, not_fluid());
     check_relaxation(lmp, style, *model);
+    check_surface(lmp, style, *model);
     state.warn(style, shift->wanted);
   }
   announced = true;
@@ -765,7 +822,18 @@ CoeffTable Fluid::coeff_table()
       damped.hsq = hsq;
       damped.rho = rho;
       damped.rho_inertia = rho * inertia;
-      table.add_row(i, j, model->pair_fluid(i, j), damped, std::min(sound_step(i), sound_step(j)));
+      double diffusion_of = 0.0;
+      if (model->choice.delta > 0.0) {
+        const auto stiffness = [&](int type) {
+          const double c = most(all, SOUND, type);
+          return model->coeffs[type].eos.rho0 * c * c;
+        };
+        diffusion_of = diffusion_rate(model->choice.delta, 0.5 * support, hsq,
+                                      std::max(stiffness(i), stiffness(j)),
+                                      0.5 * (a.eos.impedance() + b.eos.impedance()));
+      }
+      table.add_row(i, j, model->pair_fluid(i, j), damped, std::min(sound_step(i), sound_step(j)),
+                    diffusion_of);
     }
   return table;
 }
@@ -868,5 +936,5 @@ double Fluid::memory_usage() const
   return engine->memory_usage() + search->memory_usage() + limit->memory_usage() +
       open->memory_usage() + boundary->memory_usage() + shift->memory_usage() +
       noise->memory_usage() + viscous->memory_usage() + temperature->memory_usage() +
-      conduction->memory_usage();
+      conduction->memory_usage() + diffusion->memory_usage();
 }

@@ -30,6 +30,7 @@ namespace SPHDissipation {
   class BoundaryStage;
   class ShiftStage;
   class DensityStage;
+  class DiffusionStage;
   class Engine;
   class Exchange;
   class FluidModel;
@@ -76,6 +77,7 @@ namespace SPHDissipation {
     const std::unique_ptr<ForceStage> forces;
     const std::unique_ptr<RelaxStage> relaxation;
     const std::unique_ptr<HeatStage> conduction;
+    const std::unique_ptr<DiffusionStage> diffusion;
 
    public:
     // stages that fixes call directly.  A boundary or an open zone is registered until its fix is
@@ -109,6 +111,9 @@ namespace SPHDissipation {
     // step begins
 
     void begin_run(double dt);
+    // with density continuity: owned particles keep their densities where sums change that are not due to motion, of
+    // particles that come, go, split, or merge, and at the start of a run that does not continue the last one
+    void keep_densities();
     void begin_step(double dt);
 
     // Potential energy of the last forces, on this processor, added to those of the particles (nullptr: to none)
@@ -141,6 +146,8 @@ namespace SPHDissipation {
     has_forces() const;    // on all processors, for the particles that are there now; asked by all
     virtual void heating(double *heat, double *power) const;
     virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank
+    bool has_surface() const;        // the last forces have found how full supports are
+    void surface(double *) const;    // how full, of owned particles: see DiffusionStage::support()
     const ForceSum *own_forces() const;
     const double *own_torque(int i) const;
 
@@ -205,6 +212,7 @@ namespace SPHDissipation {
     virtual void sum_gradient();    // of the concentration, for shifting
     virtual void sum_forces(PairTally *);
     virtual void sum_heat();    // of conduction
+    void sum_diffusion();       // of volume
 
     virtual bool has_own_forces() const;    // on this processor
     void report();
@@ -220,8 +228,10 @@ namespace SPHDissipation {
     bool changed;          // other coefficients, or motions of walls, than those of the last forces
     double warned_step;    // the time step that the last warning was about
     double noise_step;     // the time step that was announced with the noise
+    int fast_lists;        // neighbor lists in a row with fast particles; -1: there was a warning
 
     void check_setup();
+    void check_speed();
     void find_own_types();
     void check_all_interact();
     bool step_follows() const;    // a fix sets the time step by the limits

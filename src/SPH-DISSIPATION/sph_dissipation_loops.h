@@ -534,6 +534,125 @@ namespace SPHDissipation {
       return alike ? heat_loop<true> : heat_loop<false>;
     }
 
+    // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h: F without the factor of a_ij that is the
+    // same for all pairs.  ALIKE: all particles have the same impedance
+
+    template <bool ALIKE>
+    SPH_INLINE Vec diffusion_slope(const DiffusionData &data, double own, const int *j, Vec slope)
+    {
+      if constexpr (ALIKE)
+        return slope;
+      else
+        return 2.0 * slope / (own + gather(data.impedance, j));
+    }
+
+    // the sums of pressure_gradient()
+
+    template <int DIM, bool ALIKE>
+    void diffusion_sums(const LoopData &data, const DiffusionData &diffusion, double *sums)
+    {
+      typedef DiffusionPlaces<DIM> At;
+      constexpr int N = At::NSUM, FOURS = N / 4 * 4, WIDTH = At::WIDTH;
+      for (int ii = 0; ii < data.inum; ii++) {
+        const int i = data.ilist[ii];
+        const double *const own = diffusion.row[i].a;
+        if (own[At::VOL] == 0.0) continue;
+        const double impedance = ALIKE ? 0.0 : diffusion.impedance[i];
+        const int n = data.count[ii];
+        const int *const neighbor = data.neighbor + data.first[ii];
+        const double *const slope_of = data.slope + data.first[ii];
+        Vec total[N], on_j[N], other[8], r[DIM];
+        for (int k = 0; k < N; k++) total[k] = all(0.0);
+
+        for (int k = 0; k < n; k += LANES) {
+          const int *const j = neighbor + k;
+          load_4_columns<8>(diffusion.row[0].a, j, other);
+          if constexpr (DIM == 3) load_4_columns<8>(diffusion.row[0].a + 4, j, other + 4);
+          for (int l = 0; l < LANES; l++) {
+            prefetch(diffusion.row + j[l + AHEAD]);
+            prefetch(sums + WIDTH * j[l + AHEAD]);
+          }
+          for (int d = 0; d < DIM; d++) r[d] = own[d] - other[d];
+          const Vec slope = diffusion_slope<ALIKE>(diffusion, impedance, j, load(slope_of + k));
+          const Vec difference = own[At::P] - other[At::P];
+          int m = 0;
+          for (int d = 0; d < DIM; d++)
+            for (int e = d; e < DIM; e++) on_j[m++] = slope * r[d] * r[e];
+          for (int d = 0; d < DIM; d++) on_j[m++] = slope * difference * r[d];
+          for (m = 0; m < N; m++) {
+            total[m] += other[At::VOL] * on_j[m];
+            on_j[m] *= own[At::VOL];
+          }
+          for (m = 0; m < FOURS; m += 4) add_4_columns<WIDTH>(sums + m, j, on_j + m);
+          for (m = FOURS; m < N; m++) add_column<WIDTH>(sums + m, j, on_j[m]);
+        }
+        for (int k = 0; k < N; k++) sums[i * WIDTH + k] += sum(total[k]);
+      }
+    }
+
+    // dV_i/dt over V_i, and R_i
+
+    template <int DIM, bool ALIKE>
+    void diffusion_flow(const LoopData &data, const DiffusionData &diffusion, double *flow)
+    {
+      typedef DiffusionPlaces<DIM> At;
+      for (int ii = 0; ii < data.inum; ii++) {
+        const int i = data.ilist[ii];
+        const double *const own = diffusion.row[i].a;
+        if (own[At::VOL] == 0.0) continue;
+        const double impedance = ALIKE ? 0.0 : diffusion.impedance[i];
+        const int n = data.count[ii];
+        const int *const neighbor = data.neighbor + data.first[ii];
+        const double *const slope_of = data.slope + data.first[ii];
+        Vec total[2] = {all(0.0), all(0.0)}, on_j[2], other[8];
+
+        for (int k = 0; k < n; k += LANES) {
+          const int *const j = neighbor + k;
+          load_4_columns<8>(diffusion.row[0].a, j, other);
+          if constexpr (DIM == 3)
+            load_4_columns<8>(diffusion.row[0].a + 4, j, other + 4);
+          else
+            load_2_columns<8>(diffusion.row[0].a + 4, j, other + 4);
+          for (int l = 0; l < LANES; l++) {
+            prefetch(diffusion.row + j[l + AHEAD]);
+            prefetch(flow + 2 * j[l + AHEAD]);
+          }
+          const Vec slope = diffusion_slope<ALIKE>(diffusion, impedance, j, load(slope_of + k));
+          Vec by_i = own[At::P] - other[At::P],
+              by_j = by_i;    // difference without that of the gradient
+          for (int d = 0; d < DIM; d++) {
+            const Vec r = own[d] - other[d];
+            by_i -= own[At::G + d] * r;
+            by_j -= other[At::G + d] * r;
+          }
+          const Vec from_j = slope * other[At::VOL], chi = 0.5 * (by_i + by_j);
+          const Vec from_i = own[At::VOL] * slope;
+          total[0] += from_j * chi;
+          total[1] += from_j * by_i * by_i;
+          on_j[0] = -from_i * chi;
+          on_j[1] = from_i * by_j * by_j;
+          add_2_columns<2>(flow, j, on_j);
+        }
+        for (int k = 0; k < 2; k++) flow[2 * i + k] += sum(total[k]);
+      }
+    }
+
+    template <bool ALIKE> DiffusionLoop choose_diffusion(DiffusionPart part, int dim)
+    {
+      if (part == DiffusionPart::SUMS)
+        return (dim == 3) ? diffusion_sums<3, ALIKE>
+            : (dim == 2)  ? diffusion_sums<2, ALIKE>
+                          : diffusion_sums<1, ALIKE>;
+      return (dim == 3) ? diffusion_flow<3, ALIKE>
+          : (dim == 2)  ? diffusion_flow<2, ALIKE>
+                        : diffusion_flow<1, ALIKE>;
+    }
+
+    inline DiffusionLoop choose_diffusion_loop(DiffusionPart part, int dim, bool alike)
+    {
+      return alike ? choose_diffusion<true>(part, dim) : choose_diffusion<false>(part, dim);
+    }
+
     template <bool WEIGHTED> Loop choose_kernel(Kernel kernel)
     {
       switch (kernel) {
@@ -653,6 +772,7 @@ namespace SPHDissipation {
                              LOOPS::choose_work_loop,
                              LOOPS::particle_numbers,
                              LOOPS::choose_heat_loop,
+                             LOOPS::choose_diffusion_loop,
                              LOOPS::take_candidates,
                              LOOPS::near};
 

@@ -121,6 +121,7 @@ void FluidModel::settings(int narg, char **arg)
   choice = Settings();
   simd = "auto";
   if (spins) choice.shear = Shear::MICROPOLAR;
+  const char *delta = nullptr, *tension = nullptr;
 
   for (int iarg = 0, nwords; iarg < narg; iarg += nwords) {
     const std::string keyword = arg[iarg];
@@ -129,6 +130,7 @@ void FluidModel::settings(int narg, char **arg)
     nwords = energy ? 4 : (keyword == "temp") ? 3 : 2;
     if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "bulk" &&
         keyword != "volume" && keyword != "limit" && keyword != "simd" && keyword != "temp" &&
+        keyword != "density" && keyword != "delta" && keyword != "tension" &&
         (keyword != "shear" || spins))
       error->all(FLERR, place(arg[iarg]), "Unknown pair_style {} keyword: {}", style, keyword);
     if (iarg + nwords > narg)
@@ -141,9 +143,15 @@ void FluidModel::settings(int narg, char **arg)
       if (choice.dim < 1 || choice.dim > 3)
         error->all(FLERR, place(arg[iarg + 1]), "Pair_style {} dim must be 1, 2, or 3, not {}",
                    style, arg[iarg + 1]);
-    } else
+    } else if (keyword == "delta")
+      delta = arg[iarg + 1];
+    else {
+      if (keyword == "tension") tension = arg[iarg + 1];
       set_choice(keyword, arg[iarg + 1]);
+    }
   }
+  set_surface(delta, tension);
+  atom->rho_flag = choice.continuity;    // for the set command
 
   if (choice.limit != Limit::NO && choice.bulk != Bulk::DENSITY)
     error->all(FLERR, "Pair_style {} limit requires bulk density", style);
@@ -156,6 +164,38 @@ void FluidModel::settings(int narg, char **arg)
     error->all(FLERR,
                "Pair_style {} temp cannot be used with eos ideal: the heat of the viscous forces, "
                "without end at a given temperature, would raise its pressure",
+               style);
+}
+
+/* ----------------------------------------------------------------------
+   what follows from density continuity, with the words of the keywords that only it has, nullptr: not given
+------------------------------------------------------------------------- */
+
+void FluidModel::set_surface(const char *delta, const char *tension)
+{
+  if (!choice.continuity) {
+    for (const auto &one : {std::make_pair("delta", delta), std::make_pair("tension", tension)})
+      if (one.second)
+        error->all(FLERR, place(one.second), "Pair_style {} {} requires density continuity", style,
+                   one.first);
+    return;
+  }
+  choice.delta = DEFAULT_DELTA;
+  if (!tension) choice.tension = false;
+  if (delta) {
+    choice.delta = utils::numeric(FLERR, delta, false, lmp);
+    if (!(choice.delta >= 0.0) || !std::isfinite(choice.delta))
+      error->all(FLERR, place(delta), "Pair_style {} delta must be >= 0, not {}", style, delta);
+  }
+  if (choice.eos == Eos::IDEAL)
+    error->all(FLERR,
+               "Pair_style {} density continuity cannot be used with eos ideal: a gas has no free "
+               "surface",
+               style);
+  if (choice.thermal && choice.delta > 0.0)
+    error->all(FLERR,
+               "Pair_style {} temp with density continuity requires delta 0: no noise is in "
+               "balance with the diffusion of volume",
                style);
 }
 
@@ -193,6 +233,10 @@ void FluidModel::set_choice(const std::string &keyword, const char *word)
   } else if (keyword == "limit") {
     known = choose(choice.limit, word,
                    {{"no", Limit::NO}, {"count", Limit::COUNT}, {"yes", Limit::YES}});
+  } else if (keyword == "density") {
+    known = choose(choice.continuity, word, {{"sum", false}, {"continuity", true}});
+  } else if (keyword == "tension") {
+    known = choose(choice.tension, word, {{"no", false}, {"yes", true}});
   } else {
     simd = word;
     known = (simd == "auto" || simd == "none" || simd == "avx2" || simd == "avx512");
@@ -519,8 +563,12 @@ double FluidModel::common_support(int **setflag) const
 
 std::string FluidModel::summary(int dim, double support) const
 {
-  return fmt::format("kernel {}, dim {}, eos {}, shear {}, bulk {}, volume {}, support radius {:g}",
-                     kernel_name(choice.kernel), dim, eos_name(choice.eos),
-                     shear_name(choice.shear), bulk_name(choice.bulk), volume_name(choice.volume),
-                     support);
+  const std::string surface = choice.continuity
+      ? fmt::format("density continuity, delta {:g}, tension {}, ", choice.delta,
+                    choice.tension ? "yes" : "no")
+      : "";
+  return fmt::format(
+      "kernel {}, dim {}, eos {}, shear {}, bulk {}, volume {}, {}support radius {:g}",
+      kernel_name(choice.kernel), dim, eos_name(choice.eos), shear_name(choice.shear),
+      bulk_name(choice.bulk), volume_name(choice.volume), surface, support);
 }

@@ -156,8 +156,10 @@ namespace SPHDissipation {
     int unlike_coeff(int, char **, int, int, int, int, int **);
     void set_choice(const std::string &keyword, const char *word);
     void set_temperature(char **words, bool energy);
+    void set_surface(const char *delta, const char *tension);
     int place(const char *) const;
     std::string type_line(int) const;
+    void warn_of_lost_densities() const;
     void put_line(FILE *, const std::string &line, const std::string &what) const;
   };
 

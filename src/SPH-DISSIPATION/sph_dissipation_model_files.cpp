@@ -29,7 +29,7 @@ using namespace SPHDissipation;
 // First number of the settings in a restart file; the settings of older versions begin with one below 10.  VERSION is a
 // new one for every change of what is stored but the coefficients of channels, whose names make the upper 15 bits.
 
-static constexpr int VERSION = 1006;
+static constexpr int VERSION = 1007;
 
 static int format_number(bool spins)
 {
@@ -120,6 +120,9 @@ void FluidModel::write_settings(FILE *fp) const
   put(fp, static_cast<int>(choice.own_temperatures));
   put(fp, choice.heat_capacity);
   put(fp, choice.seed);
+  put(fp, static_cast<int>(choice.continuity));
+  put(fp, choice.delta);
+  put(fp, static_cast<int>(choice.tension));
   put(fp, static_cast<double>(clock.step));
   put(fp, static_cast<double>(clock.offset));
   put(fp, static_cast<int>(hash_of_forces));
@@ -158,6 +161,10 @@ void FluidModel::read_settings(FILE *fp)
   choice.own_temperatures = read.integer("flag of temperatures", 0, 1);
   choice.heat_capacity = read.number("heat capacity");
   choice.seed = read.integer("seed", 0, MAXSMALLINT);
+  choice.continuity = read.integer("flag of density continuity", 0, 1);
+  atom->rho_flag = choice.continuity;
+  choice.delta = read.number("delta");
+  choice.tension = read.integer("flag of tension", 0, 1);
   clock.step = static_cast<bigint>(read.number("step of the noise"));
   clock.offset = static_cast<bigint>(read.number("offset of the noise"));
   constexpr int LOWEST = std::numeric_limits<int>::min(), HIGHEST = std::numeric_limits<int>::max();
@@ -186,6 +193,9 @@ std::uint64_t FluidModel::hash() const
     add(value);
   add(choice.temperature);
   add(choice.heat_capacity);
+  add(choice.continuity);
+  add(choice.delta);
+  add(choice.tension);
   for (int i = 1; i <= atom->ntypes; i++) {
     const TypeCoeff &type = coeffs[i];
     add(type.other);
@@ -267,8 +277,20 @@ void FluidModel::read_coeffs(FILE *fp, int **setflag)
 
 void FluidModel::write_data(FILE *fp) const
 {
+  warn_of_lost_densities();
   for (int i = 1; i <= atom->ntypes; i++)
     put_line(fp, fmt::format("{} {}", i, type_line(i)), style + " coefficients");
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidModel::warn_of_lost_densities() const
+{
+  if (choice.continuity && !Fields::of(atom)->density_in_files)
+    error->warning(FLERR,
+                   "Data file without the densities of density continuity, which become rho0: use "
+                   "atom_style {} rho, or write_restart",
+                   style);
 }
 
 /* ----------------------------------------------------------------------
@@ -277,6 +299,7 @@ void FluidModel::write_data(FILE *fp) const
 
 void FluidModel::write_data_all(FILE *fp) const
 {
+  warn_of_lost_densities();
   for (int i = 1; i <= atom->ntypes; i++) {
     put_line(fp, fmt::format("{} {} {}", i, i, type_line(i)), style + " coefficients");
     for (int j = i + 1; j <= atom->ntypes; j++) {

@@ -64,7 +64,7 @@ void FluidModel::derive(int dim, double support)
     if (choice.shear == Shear::MG_FR && optional_channel(one))
       error->all(FLERR, Error::NOLASTLINE, "Pair style {} shear mg/fr cannot be used with {}",
                  style, optional_channel(one));
-  par.set_heat();
+  par.set_alike();
   par.set_step(par.step);
   if (par.drag && choice.own_temperatures)
     error->all(FLERR, Error::NOLASTLINE,
@@ -88,7 +88,8 @@ void FluidModel::mix(int i)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}", type.eos.gamma,
                i);
-  type.eos.derive(choice.eos, type.keywords.gamma(), heat_capacity(i) * type.keywords.T0());
+  type.eos.derive(choice.eos, type.keywords.gamma(), heat_capacity(i) * type.keywords.T0(),
+                  choice.tension);
   for (int k = 0; k < static_cast<int>(variables.size()); k++)
     if (k != npair() + KAPPA) publish(k, i);
 }
@@ -193,6 +194,12 @@ void FluidModel::check_keywords(int i) const
   if (keyword)
     error->all(FLERR, Error::NOLASTLINE, "Pair_coeff {} of type {} cannot be used with eos {}",
                keyword, i, eos_name(choice.eos));
+  keyword = choice.tension ? nullptr : keyword_that_needs(TENSION, i);
+  if (keyword)
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair_coeff {} of type {} with density continuity requires tension yes in pair_style",
+        keyword, i);
   if (!(coeffs[i].eos.c_el > 0.0))
     error->all(
         FLERR, Error::NOLASTLINE,

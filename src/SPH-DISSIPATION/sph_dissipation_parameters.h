@@ -38,6 +38,10 @@ namespace SPHDissipation {
 
   enum class Limit { NO, COUNT, YES };
 
+  // defaults of density continuity
+
+  constexpr double DEFAULT_DELTA = 0.1;
+
   // choices of the pair_style command
 
   struct Settings {
@@ -53,6 +57,9 @@ namespace SPHDissipation {
     bool own_temperatures = false;    // each particle has that of its internal energy instead
     double heat_capacity = 0.0;       // per mass, of types that have none of their own
     int seed = 0;
+    bool continuity = false;    // the density is a sum and an offset that particles keep
+    double delta = 0.0;         // of the diffusion of volume
+    bool tension = true;        // the pressure may be negative
   };
 
   // of a type
@@ -85,6 +92,7 @@ namespace SPHDissipation {
     bool thermal_pressure = false;    // of any type: it depends on the internal energy
     bool conducts = false;            // any type
     bool conducts_alike = true;       // all types
+    bool impedes_alike = true;        // all types have the same rho0 c0
     bool shared = false;              // there are types of other styles
     int nprocess = 0;                 // most relaxing processes of a type
     double step = 0.0;                // time step that the strain of these processes is of
@@ -102,7 +110,7 @@ namespace SPHDissipation {
     std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
 
     void set_uniform();          // uniform, inviscid, and optional, from pair
-    void set_heat();             // what belongs to heat, from type
+    void set_alike();            // what belongs to heat and sound, from type
     void set_step(double dt);    // the time step of the relaxing processes
   };
 
@@ -135,10 +143,10 @@ namespace SPHDissipation {
       if (type[i].conductivity != type[1].conductivity) uniform = false;
   }
 
-  inline void Parameters::set_heat()
+  inline void Parameters::set_alike()
   {
     thermal_pressure = conducts = false;
-    conducts_alike = true;
+    conducts_alike = impedes_alike = true;
     const TypeParameters *first = nullptr;
     for (const TypeParameters &one : type) {
       if (one.other) continue;
@@ -146,6 +154,7 @@ namespace SPHDissipation {
       if (one.eos.gruneisen != 0.0) thermal_pressure = true;
       if (one.conductivity > 0.0) conducts = true;
       if (one.conductivity != first->conductivity) conducts_alike = false;
+      if (one.eos.impedance() != first->eos.impedance()) impedes_alike = false;
     }
   }
 

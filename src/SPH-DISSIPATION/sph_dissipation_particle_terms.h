@@ -281,8 +281,9 @@ namespace SPHDissipation {
     double *desph;    // zero when the step begins
 
     StrainRows strains;
-    double *strain_pressure;    // of relaxing processes; read if there are any
-    Conductor *conductor;       // if any type conducts heat
+    double *strain_pressure;      // of relaxing processes; read if there are any
+    Conductor *conductor;         // if any type conducts heat
+    double *rho_sum = nullptr;    // see Fields; with density continuity
 
     // w of the form volume mass
 
@@ -301,6 +302,29 @@ namespace SPHDissipation {
       rho[i] = mass * density[i].c;
       drho[i] = mass * density[i].cdot;
       vfrac[i] = vol;
+    }
+
+    // Density continuity: c of an owned particle, a sum, becomes rho/m.  Since the last forces, rho has changed as the
+    // sum has; at the first ones it is what it was, or rho0.  Particles of walls and open zones have a sum alone.
+
+    SPH_FUNCTION void add_offset(int i, int not_fluid) const
+    {
+      constexpr double LEAST =
+          0.1;    // of rho0, for spray, where the sum has lost nearly all neighbors
+      double &sum = rho_sum[i];
+      const double before = sum, mass = rmass[i] / weight[i * each];
+      sum = 0.0;
+      if (!is_fluid(i, not_fluid)) return;
+      sum = mass * density[i].c;
+      const double rho0 = types[type[i]].eos.rho0;
+      double now = rho[i];
+      if (before > 0.0)
+        now += sum - before;
+      else if (!(now > 0.0))
+        now = rho0;
+      if (now < LEAST * rho0) now = LEAST * rho0;
+      rho[i] = now;
+      density[i].c = now / mass;
     }
 
     // density and pressure P, see pressure_term(), where they do not follow from pass 1; volume and P/c^2

@@ -271,7 +271,10 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
     if (!merging(i) || !pairs.leads(i)) continue;
     Merge one;
     one.i = i;
-    for (int j : pairs.members(i)) one.parts.push_back(items[j].lump);
+    for (int j : pairs.members(i)) {
+      one.parts.push_back(items[j].lump);
+      one.volume += atom->rmass[j] / atom->rho[j];
+    }
     one.heat = merge(one.parts.data(), one.parts.size(), domain->dimension, fields->has_spins,
                      one.whole, one.residual);
     merges.push_back(one);
@@ -306,6 +309,7 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
     whole.energy += force->mvv2e * (one.heat - residual.work(one.i));
     set_lump(one.i, whole);
     set_relaxing(one.i, whole);
+    atom->rho[one.i] = whole.mass / one.volume;
     balance.count(1.0, whole);
     balance.merged(force->mvv2e * one.heat);
     changed(one.i, 0.0);

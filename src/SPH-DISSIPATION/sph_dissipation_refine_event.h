@@ -70,6 +70,7 @@ namespace SPHDissipation {
       int i;
       std::vector<Lump> parts;
       Lump whole;
+      double volume = 0.0;
       double heat, residual[3];
     };
     std::vector<double> targets;

@@ -30,11 +30,23 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-void DensityStage::run(NeighList *list, double **vest, double **omegaest)
+void DensityStage::run(NeighList *list, double **vest, double **omegaest, int not_fluid)
+{
+  sum(list, vest, omegaest, not_fluid);
+  send(false, false, 0, 0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DensityStage::sum(NeighList *list, double **vest, double **omegaest, int not_fluid)
 {
   engine.accumulate_density(list, vest, omegaest);
   exchange.reverse({field(engine.density, &engine.density->c, 2)});
-  send(false, false, 0, 0);
+  if (!engine.parameters().continuity) return;
+  const ParticleRows &rows = engine.rows();
+  engine.for_each(atom->nlocal, [&](int i) {
+    rows.add_offset(i, not_fluid);
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -45,9 +57,8 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool a
   const bool relaxes = engine.parameters().nprocess;
   const bool completes = engine.parameters().own_temperatures;
   const bool conducts = engine.parameters().conducts && !completes;
-  if (!relaxes && !conducts && !completes) return run(list, vest, omegaest);
-  engine.accumulate_density(list, vest, omegaest);
-  exchange.reverse({field(engine.density, &engine.density->c, 2)});
+  if (!relaxes && !conducts && !completes) return run(list, vest, omegaest, not_fluid);
+  sum(list, vest, omegaest, not_fluid);
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal, [&](int i) {
     rows.set_density(i);
@@ -252,6 +263,78 @@ double HeatStage::received(int groupbit) const
 double HeatStage::memory_usage() const
 {
   return (double) flow.capacity() * sizeof(double);
+}
+
+/* ----------------------------------------------------------------------
+   The pressure is that of the equation of state: strains stay as they are
+------------------------------------------------------------------------- */
+
+void DiffusionStage::run(int not_fluid)
+{
+  const Parameters &par = engine.parameters();
+  const int dim = par.dim, nsum = number_of_sums(dim), width = width_of_sums(dim);
+  const int vol = place_of_volume(dim), p = vol + 1;
+  constexpr std::size_t WIDTH = sizeof(DiffusionRow) / sizeof(double);
+  set_rows(not_fluid);
+  const DiffusionData data = {rows.data(), impedances.data()};
+  engine.accumulate_diffusion(DiffusionPart::SUMS, data, width, sums);
+  double *const sum = sums[0].a;
+  exchange.reverse({{sum, static_cast<std::size_t>(width), nsum}});
+  engine.for_each(atom->nlocal, [&](int i) {
+    double *const row = rows[i].a;
+    const double scale = par.impedes_alike ? 1.0 : impedances[i];
+    supports[i] = (row[vol] > 0.0) ? pressure_gradient(dim, sum + width * i, scale, row + p + 1)
+                                   : 0.0;
+  });
+  exchange.forward({{rows[0].a + p + 1, WIDTH, dim}});
+  engine.accumulate_diffusion(DiffusionPart::FLOW, data, 2, flow);
+  double *const flow_of = flow[0].a;
+  exchange.reverse({{flow_of, 2, 2}});
+
+  // with the factor of a_ij that the loops leave out
+
+  const double factor = par.delta * par.support / (par.impedes_alike ? impedances[0] : 1.0);
+  double *const rho_rate = Fields::of(atom)->rho_rate, *const desph = atom->desph;
+  engine.for_each(atom->nlocal, [&](int i) {
+    const double *const row = rows[i].a;
+    const double expansion = factor * flow_of[2 * i], residual = factor * flow_of[2 * i + 1];
+    rho_rate[i] = -atom->rho[i] * expansion;
+    desph[i] += row[vol] * (0.5 * residual - row[p] * expansion);
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DiffusionStage::set_rows(int not_fluid)
+{
+  const Parameters &par = engine.parameters();
+  const ParticleRows &of = engine.rows();
+  const int nall = atom->nlocal + atom->nghost, vol = place_of_volume(par.dim);
+  rows.resize(nall + BLOCK);
+  impedances.resize(nall + BLOCK);
+  supports.resize(atom->nlocal);
+  engine.for_each(nall, [&](int i) {
+    double *const row = rows[i].a;
+    const EosParams &eos = par.type[atom->type[i]].eos;
+    const Particle &particle = engine.particle[i];
+    for (int d = 0; d < par.dim; d++) row[d] = particle.x[d];
+    if (par.dim == 1) row[0] += particle.x[1];    // a line along x or y
+    const bool fluid = of.is_fluid(i, not_fluid);
+    row[vol] = fluid ? particle.vol : 0.0;
+    row[vol + 1] = fluid ? pressure(par.eos, eos, atom->rho[i], of.esph[i] / atom->rmass[i]) : 0.0;
+    impedances[i] = eos.impedance();
+  });
+  std::fill_n(rows.begin() + nall, BLOCK, DiffusionRow());
+  std::fill_n(impedances.begin() + nall, BLOCK, 1.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double DiffusionStage::memory_usage() const
+{
+  return (double) rows.capacity() * sizeof(DiffusionRow) +
+      (double) (impedances.capacity() + supports.capacity()) * sizeof(double) +
+      (double) (sums.capacity() + flow.capacity()) * sizeof(SumBlock);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_STAGES_H
 
 #include "pointers.h"
+#include "sph_dissipation_diffusion_terms.h"
 #include "sph_dissipation_rows.h"
 #include "sph_dissipation_threads.h"
 
@@ -56,9 +57,10 @@ namespace SPHDissipation {
    public:
     using Stage::Stage;
 
-    // extrapolated velocity and spin, each nullptr where it is zero
+    // extrapolated velocity and spin, each nullptr where it is zero.  not_fluid = bits of the groups of particles of
+    // walls and open zones
 
-    void run(NeighList *, double **vest, double **omegaest);
+    void run(NeighList *, double **vest, double **omegaest, int not_fluid);
 
     // for forces, with the pressure of relaxing processes: at_rest, they have relaxed; with the temperatures that
     // conduction needs; and, where particles have the noise of their temperatures, with the internal energies at the end
@@ -69,6 +71,7 @@ namespace SPHDissipation {
              int not_fluid);
 
    private:
+    void sum(NeighList *, double **vest, double **omegaest, int not_fluid);
     void send(bool with_strain, bool with_temperature, int not_fluid, int first);
   };
 
@@ -151,6 +154,31 @@ namespace SPHDissipation {
     std::vector<double> flow;    // of owned and ghost atoms
 
     int nheat() const;    // atoms that heat goes to
+  };
+
+  // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h: rates of the densities of owned particles,
+  // Fields::rho_rate, and of their internal energies
+
+  class DiffusionStage : public Stage {
+   public:
+    using Stage::Stage;
+
+    void run(int not_fluid);
+
+    // Smallest eigenvalue of the tensor of each owned particle in run(): 1 inside of the fluid, about 1/2 at a plane
+    // surface, 0 of particles that have no neighbors or are not fluid
+
+    const std::vector<double> &support() const { return supports; }
+
+    double memory_usage() const override;
+
+   private:
+    std::vector<DiffusionRow> rows;    // of owned, ghost, and spare particles, as the next three
+    std::vector<double> impedances;
+    std::vector<SumBlock> sums, flow;
+    std::vector<double> supports;
+
+    void set_rows(int not_fluid);
   };
 
   // Minus the gradient of the concentration of the particles, for particle shifting:

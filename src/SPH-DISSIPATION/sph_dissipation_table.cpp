@@ -40,7 +40,7 @@ std::string CoeffTable::text(double dt) const
           "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
           "of the largest stable time step\n",
           ONE_PERCENT_STEP, TENTH_PERCENT_STEP);
-  if (!(dissipative < UNLIMITED_STEP)) return result;
+  if (!(std::min(viscous, heat) < UNLIMITED_STEP)) return result;
   const auto stages_for = [](double rate) {
     const double stages = RKL2::stages_for(rate);
     return (stages <= RKL2::MOST) ? fmt::format("takes {:.0f} stages", stages)
@@ -80,7 +80,7 @@ std::string CoeffTable::skin_text(double skin, double dt, double support, int di
 /* ---------------------------------------------------------------------- */
 
 void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &inertia,
-                         double acoustic_of_pair)
+                         double acoustic_of_pair, double diffusion_rate)
 {
   constexpr int NONE = -1;
   const bool spins = (pair.shear == Shear::MICROPOLAR);
@@ -111,9 +111,13 @@ void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &
     (channel.OF_MOTION ? of_motion : of_heat).push_back(numbers.back());
     row.steps.push_back({channel.NAME, k, numbers.back()});
   });
+  if (diffusion_rate > 0.0) {
+    numbers.push_back(SPHDissipation::viscous_step(diffusion_rate));
+    row.steps.push_back({"diffusion", NONE, numbers.back()});
+  }
   row.steps.push_back({"all", NONE, combined_step(acoustic_of_pair, numbers)});
   smallest = std::min(smallest, row.steps.back().value);
-  acoustic = std::min(acoustic, acoustic_of_pair);
+  acoustic = std::min({acoustic, acoustic_of_pair, SPHDissipation::viscous_step(diffusion_rate)});
   viscous = std::min(viscous, combined_step(UNLIMITED_STEP, of_motion));
   dissipative = std::min(dissipative, combined_step(UNLIMITED_STEP, numbers));
   heat = std::min(heat, combined_step(UNLIMITED_STEP, of_heat));

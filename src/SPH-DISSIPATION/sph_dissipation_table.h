@@ -36,12 +36,13 @@ namespace SPHDissipation {
     {
     }
 
-    // of types i and j, with the largest stable time step for their sound
-    void add_row(int i, int j, const TypePair &, const PairInertia &, double acoustic_step);
+    // of types i and j, with the largest stable time step for their sound, and the rate of the diffusion of volume
+    void add_row(int i, int j, const TypePair &, const PairInertia &, double acoustic_step,
+                 double diffusion_rate);
     // with lines on the accuracy of these steps, and on what dt needs
     std::string text(double dt) const;
     double smallest_step() const { return smallest; }    // with all terms together, of all rows
-    double acoustic_step() const { return acoustic; }    // of sound alone
+    double acoustic_step() const { return acoustic; }    // of sound, and of the diffusion of volume
     double dissipative_step() const { return dissipative; }       // without sound
     double fastest_rate() const { return rate_of(viscous); }      // of the viscous terms
     double fastest_heat_rate() const { return rate_of(heat); }    // of conduction

@@ -50,7 +50,7 @@ namespace SPHDissipation {
     double pressure;      // p + zeta cdot/c (bulk density), p (otherwise)
     double zeta_term;     // zeta cdot/c
     double filled;        // fluid particles only
-    double occupied;      // the same of a smaller support, with thermal noise; fluid particles only
+    double occupied;      // the same of a smaller support, where surfaces repel; fluid particles only
     double d, d3;         // d, d^3
     double d4, d5, d6;    // d^4, d^5, d^6
     double u[3];          // relative velocity
@@ -394,14 +394,16 @@ namespace SPHDissipation {
   }
 
   // Values of particle i of a wall with this acceleration in pass 2, extrapolated from the fluid,
-  // sum.weight > 0
+  // sum.weight > 0.  A wall does not pull on a fluid without tension.
 
   SPH_FUNCTION void extend_fluid(const ParticleRows &rows, int i, const WallCondition &condition,
                                  const Surface &surface, const BoundarySum &sum,
                                  const double *acceleration, double *spin)
   {
     const double norm = 1.0 / sum.weight;
-    rows.set_state(i, sum.rho * norm, wall_pressure(sum, condition.gravity, acceleration));
+    const double pressure = wall_pressure(sum, condition.gravity, acceleration);
+    rows.set_state(i, sum.rho * norm,
+                   (pressure > 0.0 || rows.par.tension) ? pressure : 0.0);
     rows.zeta_term[i] = sum.zeta_term * norm;
     extend_motion(condition, surface, sum, rows.particle[i].u, spin);
   }

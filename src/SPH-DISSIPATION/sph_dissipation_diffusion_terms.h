@@ -1,0 +1,133 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_DIFFUSION_TERMS_H
+#define LMP_SPH_DISSIPATION_DIFFUSION_TERMS_H
+
+// Diffusion of volume between particles of the fluid, for density continuity.  No LAMMPS include.
+//
+//   dV_i/dt = V_i sum_j a_ij V_j [p_i - p_j - (g_i + g_j).r_ij/2],   a_ij = 4 delta h F/(Z_i + Z_j)
+//
+// with the acoustic impedance Z = rho0 c0 and h = rc/2.  g is the gradient of the pressure: it minimizes the residual
+//   R_i = sum_j a_ij V_j (p_i - p_j - g_i.r_ij)^2.
+// No pair changes the sum of the volumes.  The elastic energy of the particles loses sum_i V_i R_i/2 per time, which
+// becomes heat: V_i R_i/2 of particle i.  The minimum is that of the same weights a_ij V_j with which volume flows, else
+// the heat could be negative.  The gradient makes hydrostatic pressure exact: M. Antuono et al., Comput. Phys. Commun.
+// 181, 532 (2010), in variables that conserve volume and have a known heat.
+
+#include "sph_dissipation_function.h"
+
+#include <cmath>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // What the loops read of a particle, one cache line.  Volume 0: it takes no part.  Numbers in their places are, in one
+  // and two dimensions, x y V p, gradient; in three, x y z V, p gradient
+
+  struct alignas(64) DiffusionRow {
+    double a[8] = {};
+  };
+
+  template <int DIM> struct DiffusionPlaces {
+    static constexpr int VOL = (DIM == 3) ? 3 : 2, P = VOL + 1, G = P + 1;
+    // sum a V r r by rows of its upper half, sum a V (p_i - p_j) r; rows of them do not cross a cache line
+    static constexpr int NSUM = DIM * (DIM + 1) / 2 + DIM, WIDTH = (DIM == 3) ? 12 : 8;
+  };
+  struct alignas(64) SumBlock {
+    double a[8] = {};
+  };
+  inline int place_of_volume(int dim)
+  {
+    return (dim == 3) ? 3 : 2;
+  }
+  inline int number_of_sums(int dim)
+  {
+    return dim * (dim + 1) / 2 + dim;
+  }
+  inline int width_of_sums(int dim)
+  {
+    return (dim == 3) ? 12 : 8;
+  }
+
+  struct DiffusionData {
+    const DiffusionRow *row;
+    const double *impedance;    // Z of each particle; not read if it is the same for all
+  };
+
+  // rate of the diffusion, its fastest mode, of the largest rho0 c^2 and the mean impedance of two fluids; h and
+  // stability_length_squared() as for the channels.  7 delta c0/h for one fluid with Wendland's C2; measured on
+  // square, hexagonal, and cubic lattices
+
+  inline double diffusion_rate(double delta, double h, double hsq, double stiffness,
+                               double impedance)
+  {
+    return 7.0 * delta * h / hsq * stiffness / impedance;
+  }
+
+  // Smallest eigenvalue of a symmetric tensor of which the upper half is given by rows
+
+  SPH_FUNCTION double smallest_eigenvalue(int dim, const double *t)
+  {
+    if (dim == 1) return t[0];
+    if (dim == 2) {
+      const double half = 0.5 * (t[0] - t[2]);
+      return 0.5 * (t[0] + t[2]) - std::sqrt(half * half + t[1] * t[1]);
+    }
+    const double mean = (t[0] + t[3] + t[5]) / 3.0;
+    const double a = t[0] - mean, b = t[3] - mean, c = t[5] - mean;
+    const double off = t[1] * t[1] + t[2] * t[2] + t[4] * t[4];
+    const double p = std::sqrt((a * a + b * b + c * c + 2.0 * off) / 6.0);
+    if (!(p > 1.0e-12 * mean)) return mean;
+    const double det = a * (b * c - t[4] * t[4]) - t[1] * (t[1] * c - t[4] * t[2]) +
+        t[2] * (t[1] * t[4] - b * t[2]);
+    const double cosine = std::fmin(std::fmax(0.5 * det / (p * p * p), -1.0), 1.0);
+    constexpr double THIRD_OF_CIRCLE = 2.0943951023931954923;
+    return mean + 2.0 * p * std::cos(std::acos(cosine) / 3.0 + THIRD_OF_CIRCLE);
+  }
+
+  // Gradient of the pressure from the sums of a particle.  Returns the smallest eigenvalue of their tensor, which is 1
+  // inside of a fluid of one impedance if scale is its inverse.  Where that is near zero, neighbors are too few, or on
+  // one line or plane: the gradient is zero there.
+
+  constexpr double LEAST_SUPPORT = 0.01;
+
+  SPH_FUNCTION double pressure_gradient(int dim, const double *sums, double scale, double *g)
+  {
+    const double smallest = scale * smallest_eigenvalue(dim, sums);
+    const double *const d = sums + dim * (dim + 1) / 2;
+    const double *const t = sums;
+    for (int k = 0; k < dim; k++) g[k] = 0.0;
+    if (!(smallest >= LEAST_SUPPORT)) return smallest;
+    if (dim == 1)
+      g[0] = d[0] / t[0];
+    else if (dim == 2) {
+      const double inverse = 1.0 / (t[0] * t[2] - t[1] * t[1]);
+      g[0] = inverse * (t[2] * d[0] - t[1] * d[1]);
+      g[1] = inverse * (t[0] * d[1] - t[1] * d[0]);
+    } else {
+      const double xx = t[3] * t[5] - t[4] * t[4], xy = t[2] * t[4] - t[1] * t[5];
+      const double xz = t[1] * t[4] - t[2] * t[3], yy = t[0] * t[5] - t[2] * t[2];
+      const double yz = t[1] * t[2] - t[0] * t[4], zz = t[0] * t[3] - t[1] * t[1];
+      const double inverse = 1.0 / (t[0] * xx + t[1] * xy + t[2] * xz);
+      g[0] = inverse * (xx * d[0] + xy * d[1] + xz * d[2]);
+      g[1] = inverse * (xy * d[0] + yy * d[1] + yz * d[2]);
+      g[2] = inverse * (xz * d[0] + yz * d[1] + zz * d[2]);
+    }
+    return smallest;
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,109 @@
+"""Flows with a free surface: density continuity with walls, from inputs as users write them."""
+
+import numpy as np
+import pytest
+
+L = 5.366  # length of the tank, units of the height of the column
+
+INPUT = """
+units lj
+dimension {dim}
+boundary f f p
+atom_style sph/bulk
+lattice {lattice}
+region domain block -0.4 5.766 -0.4 {height} {z} units box
+create_box 2 domain
+region column block 0.0 2.0 0.0 1.0 INF INF units box
+region tank block 0.0 5.366 0.0 INF INF INF units box side out
+create_atoms 1 region column
+create_atoms 2 region tank
+group water type 1
+group tank type 2
+set group all mass {mass}
+pair_style sph/bulk density continuity eos {eos}
+pair_coeff * * 1.0 20.0 {mu} 0.4 $(4.0/10)
+variable rho atom 1.0+(1.0-y)/20.0^2
+set group water sph/rho v_rho
+"""
+RUN = """
+fix gravity water gravity 1.0 vector 0 -1 0
+fix walls tank sph/wall slip {slip} gravity 0 -1 0
+fix flow water sph/bulk
+timestep 0.002
+compute front water reduce max x
+compute left water reduce min x
+compute low water reduce min y
+thermo_style custom step time c_front c_left c_low
+thermo_modify format float %.12g
+thermo 25
+"""
+CASES = {"slip free": {}, "no slip": {"slip": "no"}, "tait": {"eos": "tait"}, "mu": {"mu": "0.01"},
+         "hexagonal": {"lattice": "hex 100 origin 0.25 0.25 0.0"},
+         "slab": {"dim": 3, "lattice": "sc 1000 origin 0.5 0.5 0.5", "z": "0.0 0.5", "mass": "0.001", "height": 1.2}}
+
+
+def dam(between="", commands="run 1100\n", **words):
+    """A column of 10 particles that falls; between: commands before the fixes."""
+    words = {"dim": 2, "lattice": "sq 100 origin 0.5 0.5 0.0", "z": "-0.5 0.5", "mass": "0.01", "eos": "linear", "mu": "1e-6",
+             "slip": "free", "height": 6.0, **words}
+    return (INPUT + between + RUN + commands).format(**words)
+
+
+def check(result):
+    """No warning, nobody inside a wall; times and places of the front."""
+    assert not result.warnings, result.warnings
+    time, front, left, low = (np.concatenate([run[name] for run in result.thermo()]) for name in ("Time", "c_front", "c_left", "c_low"))
+    depth = max(-left.min(), front.max() - L, -low.min())
+    assert depth < 0.15 * 0.1, depth
+    return time, front
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_dam_break(lammps, case):
+    time, front = check(lammps(dam(commands="run 300\n" if case == "slab" else "run 1100\n", **CASES[case])))
+    for when, expected, within in ((0.5, 2.140, 0.01), (1.0, 2.69, 0.06), (2.0, 4.24, 0.2)):
+        if when < time[-1]:
+            assert front[np.isclose(time, when)][0] == pytest.approx(expected, abs=within)
+
+
+def test_goes_on_from_a_file(lammps):
+    """A restart file gives the same run, a data file the same flow."""
+    _, whole = check(lammps(dam(commands="run 500\nrun 500\n")))
+    lammps(dam(commands="run 500\nwrite_restart half.restart\nwrite_data half.data\n"))
+    fixes = RUN.format(slip="free")
+    start = "units lj\nboundary f f p\ndimension 2\natom_style sph/bulk\npair_style sph/bulk density continuity\n"
+    _, again = check(lammps("read_restart half.restart\n" + fixes + "run 500\n"))
+    assert np.abs(again - whole[-len(again):]).max() < 1e-9
+    groups = "group water type 1\ngroup tank type 2\n"
+    _, again = check(lammps(start + "read_data half.data\n" + groups + fixes + "run 500\n"))
+    assert np.abs(again - whole[-len(again):]).max() < 1e-3
+
+
+def test_ranks_and_balance(lammps):
+    _, one = check(lammps(dam(commands="run 500\n")))
+    result = lammps(dam(between="comm_style brick\n", commands="fix even all balance 50 1.0 shift xy 10 1.1\nrun 500\n"), ranks=4)
+    _, four = check(result)
+    assert np.abs(four - one).max() < 1e-6
+
+
+def test_gravity_by_variables(lammps):
+    """The same run with constant variables; of a gravity that turns, the force on the tank is that on the fluid at rest."""
+    fixed, free = "gravity 0 -1 0", "gravity v_zero v_g 0"
+    variables = "variable zero equal 0.0\nvariable g equal -1.0\n"
+    runs = [check(lammps(variables + dam(commands="run 100\n").replace(f"free {fixed}", f"free {words}")))[1] for words in (fixed, free)]
+    assert (runs[0] == runs[1]).all()
+
+    turning = "variable gx equal 0.5*sin(20*time)\n" + dam(commands="run 40\n")
+    fronts = [check(lammps(turning.replace(f"free {fixed}", f"free {words}")))[1] for words in (fixed, "gravity v_gx -1 0")]
+    assert fronts[0][0] == fronts[1][0] and fronts[0][-1] != fronts[1][-1]
+
+
+@pytest.mark.parametrize("words, message", [
+    ("gravity v_none -1 0", "Variable none for fix sph/wall gravity does not exist"),
+    ("gravity v_a -1 0", "Variable a for fix sph/wall gravity is not an equal-style variable"),
+    ("gravity 0 -1 v_z", "velocity and gravity must lie in the plane in 2d"), ("gravity 0 v_inf 0", "Fix sph/wall gravity must be finite, not inf"),
+    ("gravity 0 -1", "fix sph/wall gravity")])
+def test_gravity_that_is_refused(lammps, words, message):
+    variables = "variable a atom x\nvariable z equal 0.0\nvariable inf equal exp(1000)\n"
+    result = lammps(variables + dam(commands="run 1\n").replace("free gravity 0 -1 0", f"free {words}"), check=False)
+    assert result.code and message in result.error, result.error
