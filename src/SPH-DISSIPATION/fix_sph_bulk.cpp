@@ -374,13 +374,14 @@ void FixSPHBulk::setup(int /*vflag*/)
   set_up = true;
   dt_of_forces = dtv;
   const double *const desph_before = fields().desph_before;
-  const double *const rho_before = fields().rho_rate_before;
   if (energy_extrapolated)
-    for (int i = 0; i < atom->nlocal; i++) {
-      if (!(atom->mask[i] & groupbit)) continue;
-      atom->esph[i] += desph_before[i];
-      change_density(i, rho_before[i]);
-    }
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) atom->esph[i] += desph_before[i];
+  if (diffuses && !last.known) {
+    const Fields &kept = fields();
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) kept.rho_rate_before[i] = kept.rho_rate[i];
+  }
   energy_extrapolated = false;
   if (!fluid || !last_instance) return;
   fluid->announce();
@@ -440,7 +441,6 @@ void FixSPHBulk::setup_pre_exchange()
     } else if (remap_v_flag)
       for (int d = 0; d < 3; d++) atom->vest[i][d] -= atom->v[i][d];
     atom->esph[i] -= desph_before[i];
-    change_density(i, -rho_before[i]);
   }
   energy_extrapolated = true;
   last.known = continued;
@@ -448,7 +448,9 @@ void FixSPHBulk::setup_pre_exchange()
 }
 
 /* ----------------------------------------------------------------------
-   of an owned particle, by the diffusion of volume, at constant strains
+   of an owned particle, by the diffusion of volume, at constant strains.  As the internal energy, the density gets the
+   old rate in a step, and at its end half of the change of this rate; but this half only when the next step begins, so
+   that between steps densities are those of the forces
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::change_density(int i, double change)
@@ -457,7 +459,6 @@ void FixSPHBulk::change_density(int i, double change)
   const Fields &kept = fields();
   const double part = change / atom->rho[i];
   atom->rho[i] += change;
-  atom->vfrac[i] = atom->rmass[i] / atom->rho[i];
   for (int k = 0; k < kept.nprocess; k++) kept.rho_relaxed[k][i] *= 1.0 + part;
 }
 
@@ -751,13 +752,11 @@ void FixSPHBulk::integrate(Half half)
         step.begin(particles, i);
       else
         step.end(particles, i);
-      if (diffuses) {
-        double change = 0.0, &before = kept.rho_rate_before[i];
-        if (half == BEGIN)
-          step.begin_energy(kept.rho_rate[i], change, before);
-        else
-          step.end_energy(kept.rho_rate[i], before, change);
-        change_density(i, change);
+      if (diffuses && half == BEGIN) {
+        const double rate = kept.rho_rate[i];
+        double &before = kept.rho_rate_before[i];
+        change_density(i, dtv * rate + 0.5 * dt_of_forces * (rate - before));
+        before = rate;
       }
       if (exact)
         for (const double heat : rest) {

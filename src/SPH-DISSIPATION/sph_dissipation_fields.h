@@ -59,7 +59,7 @@ namespace SPHDissipation {
 
     // Of density continuity, mass/length^n: the part of rho that is the sum of the last forces, 0 of a density that waits
     // for its first sum (that of a new particle is 0, which means rho0); the rate of rho by the diffusion of volume, and
-    // what it was when the step began, as desph_before
+    // what it was when the last step began
     double *rho_sum, *rho_rate, *rho_rate_before;
     bool density_in_files;    // data files have a column rho
 
