@@ -439,3 +439,64 @@ def test_no_warning_of_a_quiet_fluid(lammps):
     free_drop().write(lammps.path("plain.data"))
     result = lammps(plain + "run 0\nwrite_data a.data\n")
     assert len([one for one in result.warnings if "without the densities" in one]) == 1
+
+
+# ---------------------------------------------------------------------------------------------
+# with other features
+
+
+def test_splits_and_merges_keep_densities(lammps):
+    """Volumes of daughters are parts of the parent's, that of a merge is their sum; all other particles keep theirs."""
+    p = free_drop()
+    random = np.random.default_rng(8)
+    rho = random.uniform(0.95, 1.05, len(p))
+    p.v[:] = 0.0
+    write(lammps.path("box.data"), p, rho)
+    lammps(text(2, "density continuity volume mass delta 0 tension yes", "1.0 10.0 0.0 0.0 3.2", free(2))
+           + "variable t atom 1.0-0.7*(x>0)+1.3*(x<-3)\nfix R all sph/refine 1 volume v_t\ntimestep 1e-9\n"
+           + "compute G all property/atom offset\n" + dump("a.dump", extra="c_G") + "run 1\n")
+    begin, end = lammps.frames("a.dump")
+    assert len(end["id"]) > len(begin["id"]) and not np.isin(begin["id"], end["id"]).all()
+    assert abs((end["mass"] / end["rho"]).sum() / (begin["mass"] / begin["rho"]).sum() - 1) < 1e-9
+    same = {i: (m, r) for i, m, r in zip(begin["id"], begin["mass"], begin["rho"])}
+    kept = [(r, same[i][1]) for i, m, r in zip(end["id"], end["mass"], end["rho"]) if i in same and abs(m - same[i][0]) < 1e-12]
+    assert len(kept) > 10 and max(abs(r / before - 1) for r, before in kept) < 1e-9
+    assert np.abs(end["c_G"]).max() > 0.1
+
+
+def test_relaxing_processes(lammps):
+    """The diffusion does not strain a process that is at rest; energy stays of second order."""
+    start = (header(2, "on", free(2), "sph/bulk relax 1") + "atom_modify map array\ncomm_modify vel yes\nregion B block -30 30 -30 30 -0.5 0.5\n"
+             "create_box 1 B\nlattice sq 1\nregion C cylinder z 0 0 7.2 INF INF\ncreate_atoms 1 region C\nset group all mass 1\n"
+             "pair_style sph/bulk density continuity\npair_coeff * * 1 10 0.02 0.3 3.2 relax 2 0.5\n"
+             "variable r atom 1+0.01*random(0,1,34)\nset group all sph/rho v_r\nfix 1 all sph/bulk\n")
+    lammps(start + dump("a.dump", extra="d_rho_relaxed1 d_rho_rate") + "timestep 1e-7\nrun 2\n")
+    begin, _, end = lammps.frames("a.dump")
+    change = end["rho"] / begin["rho"] - 1
+    assert np.abs(change).max() > 1e-9 and np.abs(end["d_rho_relaxed1"] / end["rho"] - 1).max() < 1e-6 * np.abs(change).max() + 1e-14
+    errors = []
+    for steps in (200, 400, 800):
+        result = lammps(start + "variable vx atom 0.05*x-0.03*y\nvariable vy atom -0.05*y+0.03*x\nvelocity all set v_vx v_vy 0\ncompute E all sph/energy\n"
+                        f"thermo_style custom step c_E\nthermo_modify norm no format float %.15g\nthermo {steps}\ntimestep {4 / steps}\nrun {steps}\n")
+        values = result.thermo()[0]["c_E"]
+        errors.append(values[-1] - values[0])
+    assert all(abs(a) > 3.3 * abs(b) for a, b in zip(errors, errors[1:])), errors
+
+
+def test_fluid_that_enters_has_the_density_of_its_zone(lammps):
+    """A stream between two zones, whose offsets differ from those of the fluid: the density stays that of the zones."""
+    p = lattice(2, (30, 6))
+    p.lo[0], p.hi[0] = -2.0, 32.0
+    p.v[:, 0] = 0.5
+    p.esph[:] = 0.0
+    write(lammps.path("box.data"), p)
+    groups = "region I block INF 8 INF INF INF INF\nregion O block 22 INF INF INF INF INF\ngroup in region I\ngroup out region O\ngroup fluid subtract all in out\n"
+    base = text(2, "density continuity", "1.0 10.0 0.1 0.3 3.2", "f p p").replace("fix FLUID all", groups + "fix FLUID fluid")
+    lammps(base + "fix I in sph/open fluid 8 0 0 1 0 0 8 velocity 0.5 0 0\nfix O out sph/open fluid 22 0 0 -1 0 0 8 pressure 0\n"
+           + FIELDS + dump("a.dump", 600, WANTED) + "timestep 0.01\nrun 1200\n")
+    last = lammps.frame("a.dump")
+    inside = (last["x"][:, 0] > 8) & (last["x"][:, 0] < 22)
+    entered = inside & (last["id"] > 30 * 6)
+    assert entered.sum() >= 0 and inside.sum() > 70
+    assert np.abs(last["rho"][inside] - 1).max() < 1e-3
+    assert np.abs(last["v"][inside] - [0.5, 0, 0]).max() < 0.02
