@@ -40,7 +40,7 @@ VALUES = np.array("""
 """.split(), dtype=float).reshape(10, 7)
 
 FIELDS = "compute G all property/atom offset surface\n"
-WANTED = "c_G[*] d_rho_sum d_rho_rate"
+WANTED = "c_G[*] d_rho_sum d_vol_rate"
 
 
 def write(path, particles, rho=None):
@@ -79,9 +79,9 @@ def test_ten_particles(lammps, simd):
     assert relative(frame["c_G[1]"] - VALUES[:, 0], VALUES[:, 0]) < 1e-11
     assert relative(frame["dnumden"] * mass - VALUES[:, 1], VALUES[:, 1]) < 1e-11
     assert relative(frame["f"][:, :2] - VALUES[:, 2:4], VALUES[:, 2:4]) < 1e-11
-    assert relative(frame["d_rho_rate"] + rho**2 / mass * change, rho**2 / mass * change) < 1e-11
+    assert relative(frame["d_vol_rate"] - change, change) < 1e-11
     assert relative(frame["desph"] - (VALUES[:, 4] - pressure * change + heat), VALUES[:, 4]) < 1e-11
-    assert abs((mass / rho**2 * frame["d_rho_rate"]).sum()) < 1e-18
+    assert abs(frame["d_vol_rate"].sum()) < 1e-18
 
 
 # ---------------------------------------------------------------------------------------------
@@ -124,7 +124,7 @@ def dense(p, rho, rho0, c0, rc, delta, by_mass, tension=True):
     change = volume * ((a * chi) @ volume)
     misfit = jump - np.einsum("ix,ijx->ij", gradient, r)
     heat = 0.5 * volume * ((a * misfit**2) @ volume)
-    return offset, -rho / volume * change, heat - pressure * change, heat, lowest
+    return offset, change, heat - pressure * change, heat, lowest
 
 
 def random_set(dim, cells, seed=1, ntypes=1, jitter=0.3, keep=0.7):
@@ -165,11 +165,10 @@ def test_dense_reference(lammps, dim, cells, types, volume, newton, ranks, optio
     work = (work if tension else np.maximum(work, 0.0)) * p.mass * frame["dnumden"] * p.mass / rho**2
     assert relative(frame["c_G[1]"] - (offset * (rho0[p.type - 1] / p.mass if volume == "mass" else 1.0)) / 1.0, frame["numden"]) < 1e-13 \
         or volume == "mass"
-    assert relative(frame["d_rho_rate"] - rate, rate) < 1e-11
+    assert relative(frame["d_vol_rate"] - rate, rate) < 1e-11
     assert relative(frame["desph"] - work - energy_rate, energy_rate) < 1e-11
     assert relative(frame["c_G[2]"] - lowest, lowest) < 1e-12
-    volumes = p.mass / rho
-    assert abs((volumes / rho * frame["d_rho_rate"]).sum()) < 1e-13 * np.abs(volumes / rho * rate).max()
+    assert abs(frame["d_vol_rate"].sum()) < 1e-13 * np.abs(rate).max()
 
 
 def test_heat_is_never_negative(lammps):
@@ -181,7 +180,7 @@ def test_heat_is_never_negative(lammps):
     write(lammps.path("box.data"), p, rho)
     lammps(text(2, "density continuity tension yes", "1.0 10.0 0.0 0.0 2.5") + FIELDS + dump("a.dump", extra=WANTED) + "run 0\n")
     frame = lammps.frame("a.dump")
-    work = 100.0 * (rho - 1.0) * p.mass / rho**2 * frame["d_rho_rate"]
+    work = -100.0 * (rho - 1.0) * frame["d_vol_rate"]
     heat = frame["desph"] - work
     assert heat.min() > -1e-13 * np.abs(work).max() and heat.max() > 0.01
     assert abs(frame["desph"].sum()) < 1e-13 * np.abs(frame["desph"]).sum()
@@ -244,7 +243,7 @@ def test_conservation_of_a_free_drop(lammps, two, ranks, newton, volume):
            + FIELDS + dump("a.dump", 200, WANTED) + "timestep 0.02\nrun 400\n", ranks=ranks)
     frames = lammps.frames("a.dump")
     for frame in frames:
-        rate = frame["mass"] / frame["rho"]**2 * frame["d_rho_rate"]
+        rate = frame["d_vol_rate"]
         assert abs(rate.sum()) < 1e-13 * np.abs(rate).max() * np.sqrt(len(p))
     momentum = [(f["mass"][:, None] * f["v"]).sum(axis=0) for f in frames]
     spin = [(f["mass"] * (f["x"][:, 0] * f["v"][:, 1] - f["x"][:, 1] * f["v"][:, 0])).sum() for f in frames]
@@ -262,7 +261,7 @@ def test_results_do_not_depend_on_the_number_of_ranks(lammps):
                + "neigh_modify delay 0 every 1 check yes\nfix B all balance 50 1.0 shift xy 10 1.01\ntimestep 0.02\nrun 300\n", ranks=ranks)
         frames.append(lammps.frame("a.dump"))
     for other in frames[1:]:
-        for name in ("f", "rho", "esph", "d_rho_rate", "c_G[1]", "c_G[2]"):
+        for name in ("f", "rho", "esph", "d_vol_rate", "c_G[1]", "c_G[2]"):
             assert relative(frames[0][name] - other[name], frames[0][name]) < 1e-9, name
 
 
@@ -405,8 +404,8 @@ def test_settings_that_are_refused(lammps, options, message):
     ("unfix FLUID\nfix FLUID all sph/bulk density rho0\nrun 0\n", "density rho0 cannot be used with density continuity"),
     ("pair_coeff * * 1 10 0.1 0.3 3 cv 1 gruneisen 1 0\nrun 0\n", "requires tension yes"),
     ("set atom 3 sph/rho -1\nrun 0\n", "density must be a finite number"),
-    ("compute G all property/atom surface\ndump D all custom 1 a.dump c_G\npair_style sph/bulk\npair_coeff * * 1 10 0.1 0.3 3\nrun 0\n",
-     "surface needs forces of a pair style with density continuity")])
+    ("compute G all property/atom surface\ndump D all custom 1 a.dump id c_G\npair_style sph/bulk\npair_coeff * * 1 10 0.1 0.3 3\nrun 0\n",
+     "surface needs a pair style with density continuity")])
 def test_commands_that_are_refused(lammps, lines, message):
     write(lammps.path("box.data"), free_drop())
     result = lammps(text(2, "density continuity") + lines, check=False)
@@ -470,7 +469,7 @@ def test_relaxing_processes(lammps):
              "create_box 1 B\nlattice sq 1\nregion C cylinder z 0 0 7.2 INF INF\ncreate_atoms 1 region C\nset group all mass 1\n"
              "pair_style sph/bulk density continuity\npair_coeff * * 1 10 0.02 0.3 3.2 relax 2 0.5\n"
              "variable r atom 1+0.01*random(0,1,34)\nset group all sph/rho v_r\nfix 1 all sph/bulk\n")
-    lammps(start + dump("a.dump", extra="d_rho_relaxed1 d_rho_rate") + "timestep 1e-7\nrun 2\n")
+    lammps(start + dump("a.dump", extra="d_rho_relaxed1 d_vol_rate") + "timestep 1e-7\nrun 2\n")
     begin, _, end = lammps.frames("a.dump")
     change = end["rho"] / begin["rho"] - 1
     assert np.abs(change).max() > 1e-9 and np.abs(end["d_rho_relaxed1"] / end["rho"] - 1).max() < 1e-6 * np.abs(change).max() + 1e-14
