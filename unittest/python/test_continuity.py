@@ -206,6 +206,17 @@ def test_without_offsets_it_is_the_sum(lammps):
     assert relative(lammps.frame("state.dump")["c_G"], summed[0]["numden"]) < 1e-11
 
 
+def test_noise_without_offsets_is_that_of_the_sum(lammps):
+    p, _ = random_set(2, 14, jitter=0.1, keep=1.0)
+    write(lammps.path("box.data"), p)
+    more = dump("{}.dump", 50) + "timestep 0.002\nrun 50\n"
+    lammps(text(2, "temp 0.1 4711") + more.format("sum"))
+    write(lammps.path("box.data"), p, lammps.frames("sum.dump")[0]["rho"])
+    lammps(text(2, "density continuity delta 0 tension yes temp 0.1 4711") + more.format("state"))
+    one, other = lammps.frame("sum.dump"), lammps.frame("state.dump")
+    assert relative(one["f"] - other["f"], one["f"]) < 1e-11 and relative(one["v"] - other["v"], one["v"]) < 1e-11
+
+
 # ---------------------------------------------------------------------------------------------
 # a free drop
 
@@ -250,6 +261,19 @@ def test_conservation_of_a_free_drop(lammps, two, ranks, newton, volume):
     speed = (frames[0]["mass"] * np.linalg.norm(frames[0]["v"], axis=1)).sum()
     assert np.abs(momentum[-1] - momentum[0]).max() < 1e-13 * speed
     assert abs(spin[-1] - spin[0]) < 1e-12 * abs(spin[0])
+
+
+@pytest.mark.parametrize("delta, interval", [(0.1, 3), (0.15, 2), (0.5, 1)])
+def test_rates_are_evaluated_as_often_as_stability_needs(lammps, delta, interval):
+    """7 n delta c0 dt/h <= 0.6; in between they stay with the particles, whatever the number of the step is."""
+    p = free_drop()
+    random = np.random.default_rng(5)
+    write(lammps.path("box.data"), p, random.uniform(1.0, 1.02, len(p)))
+    lammps(text(2, f"density continuity delta {delta} tension yes", "1.0 10.0 0.02 0.3 3.2", free(2)) + dump("a.dump", extra="d_vol_rate")
+           + "timestep 0.04\nrun 3\nundump D\nuncompute F\nreset_timestep 0\n" + dump("b.dump", extra="d_vol_rate") + "run 4\n")
+    rates = [frame["d_vol_rate"] for frame in lammps.frames("a.dump")] + [frame["d_vol_rate"] for frame in lammps.frames("b.dump")[1:]]
+    for step, (one, other) in enumerate(zip(rates, rates[1:]), 1):
+        assert (relative(one - other, one) < 1e-10) != (step % interval == 0), step
 
 
 def test_results_do_not_depend_on_the_number_of_ranks(lammps):
