@@ -40,9 +40,10 @@ TypeCoeff::TypeCoeff() :
 /* ---------------------------------------------------------------------- */
 
 FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
-    Pointers(lmp), hash_of_forces(0), simd("auto"), coeffs(nullptr), shared(false), style(style),
-    spins(spins), keywords(type_keywords()), of_types(type_variables()),
-    of_pairs(unlike_keywords(spins)), pair_given(nullptr), is_given(nullptr)
+    Pointers(lmp), hash_of_forces(0), diffusion_age(0), simd("auto"), coeffs(nullptr),
+    shared(false), style(style), spins(spins), keywords(type_keywords()),
+    of_types(type_variables()), of_pairs(unlike_keywords(spins)), pair_given(nullptr),
+    is_given(nullptr)
 {
   auto add = [&](const std::string &name) {
     variables.push_back({name, nullptr, nullptr});
