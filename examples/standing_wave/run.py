@@ -62,8 +62,8 @@ def plot(path, runs):
         time = 0.25 * round(periods * 2 * np.pi / omega / 0.25)
         picture = axes.scatter(frame["x"], frame["y"], c=np.maximum(C0**2 * (frame["c_rho"] - 1), 0), s=160 / fine.n, lw=0, vmin=0, vmax=0.2,
                                cmap="viridis", rasterized=True)
-        axes.plot(x, 1 + elevation(x, time), "k-", lw=1)
-        axes.set(xlim=(0, 2), ylim=(0.85, 1.05), xlabel="$x/H$")
+        axes.plot(x, 1 - 0.5 / fine.n + elevation(x, time), "k-", lw=1)      # of the uppermost particles
+        axes.set(xlim=(0, 2), ylim=(0.9, 1.03), xlabel="$x/H$")
         axes.set_title(f"$t\\,(g/H)^{{1/2}}$ = {time:g}", loc="left")
         axes.grid(False)
     panels[0].set_ylabel("$y/H$ (stretched)")
