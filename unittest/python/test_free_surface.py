@@ -1,5 +1,8 @@
 """Flows with a free surface: density continuity with walls, from inputs as users write them."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -107,3 +110,50 @@ def test_gravity_that_is_refused(lammps, words, message):
     variables = "variable a atom x\nvariable z equal 0.0\nvariable inf equal exp(1000)\n"
     result = lammps(variables + dam(commands="run 1\n").replace("free gravity 0 -1 0", f"free {words}"), check=False)
     assert result.code and message in result.error, result.error
+
+
+# -- Recipes of the page Howto_sph_surface --------------------------------------------------------------------------
+
+PAGE = (Path(__file__).resolve().parents[2] / "doc" / "src" / "Howto_sph_surface.rst").read_text()
+
+
+def recipe(title):
+    """The input of the page that begins with this comment."""
+    block = re.search(rf"^   # {title}.*\n(?:   .*\n|\n)+", PAGE, re.MULTILINE)[0]
+    return re.sub("^   ", "", block, flags=re.MULTILINE)
+
+
+def test_probes_of_a_tank_at_rest(lammps):
+    """Pressure in both ways, level, and force on a wall are those of hydrostatics; the tank stays at rest."""
+    text = recipe("A dam break")
+    for old, new in (("n equal 15", "n equal 20"), ("5.366", "1.0"), ("0.0 2.0 0.0 1.0", "0.0 1.0 0.0 1.0"), ("0.117", "0.3"), ("0.267", "0.7"),
+                     ("x-1.0)<", "x-0.5)<"), ("abs(x-1.0)/", "abs(x-0.5)/"), ("c_thrust\n", "c_thrust ke\n"), ("run             2000", "run 3000")):
+        assert old in text, old
+        text = text.replace(old, new)
+    result = lammps(text)
+    assert not result.warnings, result.warnings
+    probes = {name: column[-10:].mean() for name, column in result.thermo()[-1].items()}
+    assert probes["v_tap"] == pytest.approx(0.5, abs=0.01)
+    assert probes["v_mean"] == pytest.approx(0.5, abs=0.01)
+    assert probes["c_level"] == pytest.approx(1.0, abs=0.01)
+    assert probes["v_front"] == pytest.approx(1.0, abs=0.01)
+    assert probes["c_thrust"] == pytest.approx(0.5, abs=0.01)
+    assert np.sqrt(2 * probes["KinEng"]) < 5e-3      # what is left of the start
+
+
+def test_frequency_of_sloshing(lammps):
+    """After the push, the center of the water swings with the frequency of linear waves."""
+    result = lammps(recipe("Sloshing"))
+    assert not result.warnings, result.warnings
+    time, center = (result.thermo()[-1][name] for name in ("Time", "v_center"))
+    k = np.pi
+    free = time > 0.6
+    omegas = np.sqrt(k * np.tanh(0.5 * k)) * np.linspace(0.9, 1.1, 401)
+
+    def misfit(omega):
+        waves = np.column_stack([np.cos(omega * time[free]), np.sin(omega * time[free]), np.ones(free.sum())])
+        return np.linalg.lstsq(waves, center[free], rcond=None)[1][0]
+
+    found = min(omegas, key=misfit) / np.sqrt(k * np.tanh(0.5 * k))
+    assert found == pytest.approx(1.0, abs=0.02)
+    assert 0.005 < np.ptp(center[free]) / 2 < 0.01

@@ -111,6 +111,7 @@ ANSWERS = {
     "convert": "Howto_sph_comparison", "GPU": "Howto_sph_kokkos",
     "SDPD": "Howto_sph_fluctuations", "fluctuating hydrodynamics": "Howto_sph_fluctuations", "fluctuation-dissipation": "Howto_sph_fluctuations",
     "no-slip": "Howto_sph_walls", "boundary condition": "Howto_sph_walls",
+    "dam break": "Howto_sph_surface", "sloshing": "Howto_sph_surface", "water level": "Howto_sph_surface", "pressure tap": "Howto_sph_surface",
     "non-reflecting": "Howto_sph_open", "buffer zone": "Howto_sph_open",
     "adaptive particle refinement": "Howto_sph_refine", "variable resolution": "Howto_sph_refine",
 }
