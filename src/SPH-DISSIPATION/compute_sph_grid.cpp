@@ -16,7 +16,6 @@
 #include "domain.h"
 #include "error.h"
 #include "memory.h"
-#include "sph_dissipation_grid.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;

@@ -20,7 +20,7 @@ ComputeStyle(sph/spectrum,ComputeSPHSpectrum);
 #ifndef LMP_COMPUTE_SPH_SPECTRUM_H
 #define LMP_COMPUTE_SPH_SPECTRUM_H
 
-#include "sph_dissipation_grid_compute.h"
+#include "sph_dissipation_grid.h"
 
 #include <complex>
 #include <memory>

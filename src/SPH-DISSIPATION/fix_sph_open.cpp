@@ -30,10 +30,8 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_open.h"
 #include "sph_dissipation_open_checks.h"
-#include "sph_dissipation_open_condition.h"
-#include "sph_dissipation_open_plane.h"
-#include "sph_dissipation_open_rows.h"
 #include "update.h"
 
 #include <algorithm>

@@ -32,7 +32,7 @@
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
-#include "sph_dissipation_refine_event.h"
+#include "sph_dissipation_refine.h"
 #include "update.h"
 
 #include <algorithm>

@@ -14,9 +14,10 @@
 #ifndef LMP_SPH_DISSIPATION_GRID_H
 #define LMP_SPH_DISSIPATION_GRID_H
 
-#include "pointers.h"
+#include "compute.h"
 #include "sph_dissipation_kernel.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -24,6 +25,7 @@ class Grid2d;
 class Grid3d;
 
 namespace SPHDissipation {
+  class Fluid;
 
   // Values of points from those of particles: averages weighted by V W, or the weighted linear
   // regression through the particles, which is exact for linear fields (moving least squares: P.
@@ -78,6 +80,46 @@ namespace SPHDissipation {
     template <class KernelShape> void sum_fields(const Smoothing &, double **, int);
     template <class KernelShape> void weigh_row(const Smoothing &, double, double, double, int);
     bigint solve(bool linear);
+  };
+
+  // A compute of the fluid on a grid: compute ID group style Nx Ny Nz ... order 0|1.  It makes the grid
+  // and maps values of the particles to it.
+
+  class GridCompute : public Compute {
+   public:
+    GridCompute(class LAMMPS *, int, char **);
+    ~GridCompute() override;
+    void init() override;
+    void reset_grid() override;
+    int pack_forward_comm(int, int *, double *, int, int *) override;
+    void unpack_forward_comm(int, int, double *) override;
+    double memory_usage() override;
+
+   protected:
+    int count[3];    // points
+    bool linear;     // order 1
+    ParticleGrid *grid;
+
+    bool add_value(const std::string &);    // a value of the particles to map; false if unknown
+    int nvalue() const { return static_cast<int>(names.size()); }
+    bool order_keyword(int &iarg, int narg, char **arg);
+
+    Fluid *fluid() const;
+    bool is_mapped(const Fluid *, int) const;    // owned particle
+    bigint map();    // all values, to ParticleGrid::field(); points without particles, of all ranks
+
+   private:
+    using Value = double (GridCompute::*)(int) const;
+
+    std::vector<std::string> names;
+    std::vector<Value> getters;
+    int nmax;
+    double **values;    // of owned and ghost particles: volume (0: not mapped), then those to map
+
+    template <int DIM> double velocity(int) const;
+    template <int DIM> double spin(int) const;
+    double density(int) const;
+    double energy(int) const;
   };
 
 }    // namespace SPHDissipation

@@ -28,8 +28,7 @@
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_open_condition.h"
-#include "sph_dissipation_open_plane.h"
+#include "sph_dissipation_open.h"
 #include "update.h"
 
 #include <algorithm>

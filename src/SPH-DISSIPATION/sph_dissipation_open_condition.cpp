@@ -11,7 +11,7 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_open_condition.h"
+#include "sph_dissipation_open.h"
 
 #include "atom.h"
 #include "domain.h"

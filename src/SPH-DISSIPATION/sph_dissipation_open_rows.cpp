@@ -11,14 +11,13 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_open_rows.h"
+#include "sph_dissipation_open.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "math_extra.h"
 #include "sph_dissipation_create.h"
-#include "sph_dissipation_open_plane.h"
 
 #include <algorithm>
 #include <cmath>

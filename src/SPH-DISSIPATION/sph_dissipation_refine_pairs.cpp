@@ -11,7 +11,7 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_refine_pairs.h"
+#include "sph_dissipation_refine.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -20,7 +20,6 @@
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
-#include "sph_dissipation_extension.h"
 
 #include <algorithm>
 #include <cmath>
