@@ -31,7 +31,6 @@
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open.h"
-#include "sph_dissipation_open_checks.h"
 #include "update.h"
 
 #include <algorithm>
@@ -188,9 +187,9 @@ void FixSPHOpen::init()
   const int fluid_group = group->find(fluid_name);
   if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, fluid_name);
   fluidbit = group->bitmask[fluid_group];
-  check_open_groups(lmp, this, fluid, fluid_group);
-  check_open_lists(lmp, this, fluidbit);
-  integrator = find_open_integrator(lmp, this, fluid_group);
+  check_groups(fluid_group);
+  check_lists();
+  integrator = find_integrator(fluid_group);
 
   const double support = fluid->support_radius();
   plane->init();
@@ -199,14 +198,14 @@ void FixSPHOpen::init()
     if (fluid->has_type(i) && fluid->model->coeffs[i].keywords.a[VIBRATION] > 0.0)
       error->all(FLERR, "Fix {} cannot be used with vibration of pair_coeff, which type {} has",
                  style, i);
-  check_open_heat(lmp, this, fluid, *values);
+  check_heat();
   condition->init(*fluid->model);
   if (area > 0.0)
     rows->set_distance([this](int i) {
       return atom->rmass[i] / (area * (*values)(OpenValues::RHO, i));
     });
   rows->init(support, fluidbit);
-  if (rows->are_new()) check_open_styles(lmp, this, fluid, fluidbit);
+  if (rows->are_new()) warn_of_styles();
 
   // a small radius, because it smooths the profile, but large enough for a few particles
 
@@ -281,16 +280,16 @@ void FixSPHOpen::setup_pre_exchange()
   if (condition->is_new && condition->has_heat())
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) condition->density_of_energy(i) = atom->rho[i];
-  check_open_places(lmp, this, *plane, fluidbit);
+  check_places();
   values->evaluate(igroup);
   if (condition->given_velocity() && !samples->any()) {
     fluid->note_change();
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) set_velocity(i);
   }
-  check_open_length(lmp, this, *plane, fluid->support_radius(), rows->largest_spacing());
+  check_length();
   is_new = rows->are_new();
-  if (is_new && integrator->has_set_masses()) check_open_masses(lmp, this, fluidbit);
+  if (is_new && integrator->has_set_masses()) warn_of_masses();
   pre_exchange();
 }
 
@@ -471,7 +470,7 @@ void FixSPHOpen::set_spin(int i)
 
 void FixSPHOpen::pre_exchange()
 {
-  check_open_region(lmp, this, *plane, radius, rows->are_new() ? 0.0 : 0.5 * rows->width());
+  check_region();
   rows->renew([this](const std::vector<int> &created) {
     if (!values->vary()) return;
     values->evaluate(igroup);
@@ -503,8 +502,8 @@ void FixSPHOpen::set_states(OpenStage &stage, const double *all)
   samples->finish(condition->clock, all + 3);
   warn(all[0]);
   if (is_new) {
-    check_density();
-    warn_of_cold_zone(lmp, this, fluid, *condition, members);
+    warn_of_density();
+    warn_of_cold_zone();
   }
   is_new = false;
   states.clear();
@@ -512,20 +511,6 @@ void FixSPHOpen::set_states(OpenStage &stage, const double *all)
   for (const int i : members)
     if (atom->mask[i] & groupbit) set_state(stage, i);
   totals_known = false;
-}
-
-/* ----------------------------------------------------------------------
-   Compare the density of the zone with the prescribed one, at particles with a full support.
-------------------------------------------------------------------------- */
-
-void FixSPHOpen::check_density() const
-{
-  std::vector<double> ratios;
-  for (const int i : members)
-    if ((atom->mask[i] & groupbit) &&
-        plane->height(atom->x[i]) > fluid->support_radius() - plane->length)
-      ratios.push_back(atom->rho[i] / condition->prescribed_density(i));
-  check_open_density(lmp, this, ratios);
 }
 
 /* ----------------------------------------------------------------------
@@ -561,16 +546,22 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
 }
 
 /* ----------------------------------------------------------------------
-   with each new neighbor list; nsupersonic = particles of all processors that leave faster than sound
+   Warn, with each new neighbor list until the first time, of a gap, and of fluid that leaves faster than
+   sound, from where no wave comes back, so that nothing can be prescribed.  nsupersonic = such particles
+   of all processors.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn(double nsupersonic)
 {
   if (neighbor->ago > 0) return;
-  if (!gap) gap = warn_of_gap(lmp, this, *plane, fluid, fluidbit, radius, rows->largest_spacing());
-  if (supersonic) return;
-  if (!condition->given_velocity() && !condition->given_state()) return;
-  supersonic = warn_of_supersonic(lmp, this, static_cast<bigint>(nsupersonic));
+  if (!gap) gap = warn_of_gap();
+  if (supersonic || !(condition->given_velocity() || condition->given_state())) return;
+  supersonic = nsupersonic > 0.0;
+  if (supersonic && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {} {}: {} particles leave faster than sound at step {}, where only "
+                   "condition fixed with velocity, density and pressure from inside is right",
+                   style, id, static_cast<bigint>(nsupersonic), update->ntimestep);
 }
 
 /* ----------------------------------------------------------------------

@@ -112,10 +112,24 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void leave(int i);
   void set_velocity(int i);
   void set_spin(int i);
-  void check_density() const;
   void keep_states();
   void warn(double nsupersonic);
   void set_state(SPHDissipation::OpenStage &, int i);
+
+  // in fix_sph_open_checks.cpp
+
+  void check_groups(int fluid_group);
+  class FixSPHBulk *find_integrator(int fluid_group);
+  void check_places();
+  void check_region();
+  void check_lists();
+  void check_heat();
+  void check_length();
+  void warn_of_cold_zone();
+  void warn_of_styles();
+  void warn_of_masses();
+  void warn_of_density();
+  bool warn_of_gap();
 };
 
 }    // namespace LAMMPS_NS
