@@ -93,7 +93,13 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   const int fluid_group = group->find(fluid_name);
   if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, fluid_name);
   plane->set(arg + 4);
-  for (int iarg = 11; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
+  for (Keywords key(lmp, owner, 11, narg, arg); key.next();) {
+    values->read(key);
+    condition->read(key);
+    if (key.is("region")) plane->set_region(key.word());
+    if (key.is("area")) area = key.positive();
+    if (key.is("spacing")) rows->set_spacing(key.positive());
+  }
   values->check();
   condition->check();
   if (area > 0.0 && rows->has_spacing())
@@ -117,33 +123,6 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   extvector = 0;    // sums are not to be scaled by the number of atoms
 
   if (lmp->citeme) lmp->citeme->add(cite_open);
-}
-
-/* ---------------------------------------------------------------------- */
-
-int FixSPHOpen::keyword_argument(int iarg, int narg, char **arg)
-{
-  int words = values->keyword_argument(iarg, narg, arg);
-  if (!words) words = condition->keyword_argument(iarg, narg, arg);
-  if (words) return words;
-
-  const std::string keyword = arg[iarg];
-  if (keyword != "spacing" && keyword != "area" && keyword != "region")
-    error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
-  if (iarg + 2 > narg)
-    utils::missing_cmd_args(FLERR, fmt::format("fix {} {}", style, keyword), error);
-  if (keyword == "region") {
-    plane->set_region(arg[iarg + 1]);
-    return 2;
-  }
-  const double number = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  if (!(number > 0.0))
-    error->all(FLERR, "Fix {} {} must be > 0, not {}", style, keyword, arg[iarg + 1]);
-  if (keyword == "area")
-    area = number;
-  else
-    rows->set_spacing(number);
-  return 2;
 }
 
 /* ---------------------------------------------------------------------- */

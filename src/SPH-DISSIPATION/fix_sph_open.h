@@ -101,7 +101,6 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::vector<std::pair<int, SPHDissipation::OpenState>> states;
   std::vector<double> sums;
 
-  int keyword_argument(int, int, char **);
   void set_times(const double *crossings);
   void measure_sound(std::vector<double> &);
   void find_members();

@@ -76,7 +76,22 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
   by_spacing = (strcmp(arg[4], "spacing") == 0);
   target_word = arg[5];
   target.set(lmp, target_word);
-  for (int iarg = 6; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
+  for (Keywords key(lmp, fmt::format("Fix {}", style), 6, narg, arg); key.next();) {
+    if (key.is("split")) {
+      split_above = (strcmp(key.word(), "no") == 0) ? INFINITY : key.number();
+      key.demand(split_above > 1.0, "> 1");
+    } else if (key.is("merge")) {
+      const bool no = (strcmp(key.word(), "no") == 0);
+      merge_below = no ? 0.0 : key.number();
+      key.demand(no || (merge_below > 0.0 && merge_below < 1.0), "between 0 and 1");
+    } else if (key.is("wait")) {
+      wait = key.number();
+      key.demand(wait >= 0.0, ">= 0");
+    } else if (key.is("fraction")) {
+      fraction = key.number();
+      key.demand(fraction > 0.0 && fraction <= 1.0, "> 0 and at most 1");
+    }
+  }
   if (split_above < 2.0 * merge_below)
     error->all(FLERR,
                "Fix {}: split must be at least twice merge, not {} and {}: what has split would "
@@ -98,44 +113,6 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
   for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
-}
-
-/* ---------------------------------------------------------------------- */
-
-int FixSPHRefine::keyword_argument(int iarg, int narg, char **arg)
-{
-  const std::string keyword = arg[iarg];
-  if (keyword != "split" && keyword != "merge" && keyword != "wait" && keyword != "fraction")
-    error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
-  if (iarg + 2 > narg)
-    utils::missing_cmd_args(FLERR, fmt::format("fix {} {}", style, keyword), error);
-  const std::string word = arg[iarg + 1];
-  if (keyword == "split" && word == "no") {
-    split_above = INFINITY;
-    return 2;
-  }
-  if (keyword == "merge" && word == "no") {
-    merge_below = 0.0;
-    return 2;
-  }
-  const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  auto demand = [&](bool good, const char *what) {
-    if (!good) error->all(FLERR, "Fix {} {} must be {}, not {}", style, keyword, what, word);
-  };
-  if (keyword == "split") {
-    demand(value > 1.0, "> 1");
-    split_above = value;
-  } else if (keyword == "merge") {
-    demand(value > 0.0 && value < 1.0, "between 0 and 1");
-    merge_below = value;
-  } else if (keyword == "wait") {
-    demand(value >= 0.0, ">= 0");
-    wait = value;
-  } else {
-    demand(value > 0.0 && value <= 1.0, "> 0 and at most 1");
-    fraction = value;
-  }
-  return 2;
 }
 
 /* ---------------------------------------------------------------------- */

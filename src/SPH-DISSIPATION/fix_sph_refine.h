@@ -85,7 +85,6 @@ class FixSPHRefine : public Fix {
   bool set_up;    // since it was defined
   std::vector<double> totals;
 
-  int keyword_argument(int, int, char **);
   void check_setup();
   void check_overlap();
   double target_volume(double value) const;

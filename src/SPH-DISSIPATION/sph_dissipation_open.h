@@ -216,8 +216,7 @@ namespace SPHDissipation {
 
     OpenValues(class LAMMPS *, const std::string &owner);    // owner: for messages
 
-    // Set the quantities of the keyword at arg[iarg]; return its number of words, 0 if it is none of them.
-    int keyword_argument(int iarg, int narg, char **arg);
+    void read(Keywords &);    // Set the quantities of the keyword, if it is one of them.
     void check() const;
     void init(bool needs_heat);    // finds the variables; heat must then be > 0
 
@@ -259,9 +258,8 @@ namespace SPHDissipation {
     double clock;             // time of the zone, which reset_timestep does not change
     bool is_new;              // no particle has a state yet: the heat of each is that without waves
 
-    // Set what the keyword at arg[iarg] says; return its number of words, 0 if it is none of a condition.
-    int keyword_argument(int iarg, int narg, char **arg);
-    void check();    // errors for keywords without an effect, and for too few of them
+    void read(Keywords &);    // Set what the keyword says, if it is one of a condition.
+    void check();             // errors for keywords without an effect, and for too few of them
 
     void init(const FluidModel &);
     bool given_velocity() const;
@@ -330,36 +328,7 @@ namespace SPHDissipation {
     double changes(const Reference &, double wave) const;
   };
 
-  // The particles near the far end of a buffer zone, of all processors, also those not of the zone
-
-  class OpenBand : protected Pointers {
-   public:
-    // those between two heights
-    OpenBand(class LAMMPS *, const OpenPlane &, int groupbit, double lo, double hi);
-
-    // one of the zone behind x, not farther beside it than this
-    bool has_behind(const double *x, double beside) const;
-
-    // distance of the nearest one of the zone behind x, or in front of it, not farther beside it than
-    // this; infinite if there is none
-    double next(const double *x, double beside, bool behind) const;
-
-    // any one behind x, not farther beside it than this
-    bool has_any_behind(const double *x, double beside) const;
-
-    // any one, or one that is not of the zone, closer to x than this
-    bool has_near(const double *x, double distance) const;
-    bool has_other_near(const double *x, double distance) const;
-
-   private:
-    const OpenPlane &plane;
-    std::vector<double> place;    // 3 each
-    std::vector<char> of_zone;
-    std::vector<std::vector<int>> at_node;    // of the plane
-
-    int nearest_node(const double *x) const;
-    template <class Function> bool any(const double *x, double reach, Function &&function) const;
-  };
+  class OpenBand;
 
   // Creates and deletes the particles at the far end of a buffer zone, before neighbor lists are built
   // anew.  Particles stand in rows along the normal of the plane: a copy of the last one of a row comes

@@ -25,6 +25,33 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
+// The particles near the far end of a buffer zone, of all processors, also those not of the zone
+
+class SPHDissipation::OpenBand : protected Pointers {
+ public:
+  // Collect the particles between two heights.
+  OpenBand(class LAMMPS *, const OpenPlane &, int groupbit, double lo, double hi);
+
+  // Tell whether one of the zone, or of any kind, is behind x, not farther beside it than this.
+  bool has_behind(const double *x, double beside, bool any_kind = false) const;
+
+  // Return the distance of the nearest one of the zone behind x, or in front of it, not farther beside it
+  // than this; infinite if there is none.
+  double next(const double *x, double beside, bool behind) const;
+
+  // Tell whether any one, or one that is not of the zone, is closer to x than this.
+  bool has_near(const double *x, double distance, bool other = false) const;
+
+ private:
+  const OpenPlane &plane;
+  std::vector<double> place;    // 3 each
+  std::vector<char> of_zone;
+  std::vector<std::vector<int>> at_node;    // of the plane
+
+  int nearest_node(const double *x) const;
+  template <class Function> bool any(const double *x, double reach, Function &&function) const;
+};
+
 /* ---------------------------------------------------------------------- */
 
 OpenBand::OpenBand(LAMMPS *lmp, const OpenPlane &plane, int groupbit, double lo, double hi) :
@@ -73,17 +100,10 @@ bool OpenBand::any(const double *x, double reach, Function &&function) const
 
 /* ---------------------------------------------------------------------- */
 
-bool OpenBand::has_behind(const double *x, double beside) const
+bool OpenBand::has_behind(const double *x, double beside, bool any_kind) const
 {
   return any(x, beside, [&](int k, const OpenPlane::Offset &to) {
-    return of_zone[k] && to.beside < beside && to.ahead < 0.0;
-  });
-}
-
-bool OpenBand::has_any_behind(const double *x, double beside) const
-{
-  return any(x, beside, [&](int, const OpenPlane::Offset &to) {
-    return to.beside < beside && to.ahead < 0.0;
+    return (any_kind || of_zone[k]) && to.beside < beside && to.ahead < 0.0;
   });
 }
 
@@ -98,17 +118,10 @@ double OpenBand::next(const double *x, double beside, bool behind) const
   return nearest;
 }
 
-bool OpenBand::has_near(const double *x, double distance) const
-{
-  return any(x, distance, [&](int, const OpenPlane::Offset &to) {
-    return to.distance() < distance;
-  });
-}
-
-bool OpenBand::has_other_near(const double *x, double distance) const
+bool OpenBand::has_near(const double *x, double distance, bool other) const
 {
   return any(x, distance, [&](int k, const OpenPlane::Offset &to) {
-    return !of_zone[k] && to.distance() < distance;
+    return !(other && of_zone[k]) && to.distance() < distance;
   });
 }
 
@@ -381,7 +394,7 @@ void OpenRows::check_alone(const OpenBand &band) const
   bigint count = 0, all;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    if (band.has_other_near(atom->x[i], half_width)) count++;
+    if (band.has_near(atom->x[i], half_width, true)) count++;
   }
   MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all)
@@ -409,7 +422,7 @@ void OpenRows::check_lattice(const OpenBand &band, double largest) const
     const double *const x = atom->x[i];
     const double height = plane.height(x);
     if ((atom->mask[i] & fluidbit) && height >= 0.0 && height < largest && !plane.beside(x) &&
-        !band.has_any_behind(x, APART * half_width))
+        !band.has_behind(x, APART * half_width, true))
       sum[BARE]++;
     if (!(atom->mask[i] & groupbit)) continue;
     const double one = step(i);

@@ -72,16 +72,12 @@ namespace SPHDissipation {
     RefineItem &operator[](int i) { return items[i]; }
     const RefineItem &operator[](int i) const { return items[i]; }
 
-    // Send members of the items to the ghosts.  The positions of ghosts are not sent but those that
-    // they have: of periodic images.
+    // Send so many numbers of the items, from this one on, to the ghosts; 0: all that follow.  The
+    // positions of ghosts are not sent but those that they have: of periodic images.
 
     static constexpr int SIZE = sizeof(RefineItem) / sizeof(double);
+    void forward(double RefineItem::*first, int number = 1);
     void forward_all();
-    void forward_choice();
-    void forward_settled();
-    void forward_withheld();
-    void forward_point();
-    void forward_rotation();
 
     int pack(int n, const int *list, double *buf) const;
     void unpack(int n, int from, const double *buf);
@@ -91,8 +87,6 @@ namespace SPHDissipation {
     Fix *fix;
     std::vector<RefineItem> items;
     int first, count;    // of the doubles of an item that are sent
-
-    void forward(int first, int count);
   };
 
   // Finds the partners of merges.  Each particle that is to merge chooses the nearest one that may be

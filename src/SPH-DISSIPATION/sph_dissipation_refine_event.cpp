@@ -203,8 +203,6 @@ bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
   return true;
 }
 
-/* ---------------------------------------------------------------------- */
-
 /* ----------------------------------------------------------------------
    Drop the events of the highest IDs if there are more than the most.  Return how many take place.
 ------------------------------------------------------------------------- */
@@ -223,7 +221,7 @@ bigint RefineEvent::withhold(bigint most)
   std::nth_element(tags.begin(), tags.begin() + most, tags.end());
   const tagint end = tags[most];
   for (int i = 0; i < atom->nlocal; i++) items[i].withheld = (atom->tag[i] >= end) ? 1.0 : 0.0;
-  items.forward_withheld();
+  items.forward(&RefineItem::withheld);
   splits.erase(std::remove_if(splits.begin(), splits.end(),
                               [&](const Split &one) {
                                 return atom->tag[one.i] >= end;
@@ -247,7 +245,7 @@ void RefineEvent::give_residual(NeighList *full)
     for (int d = 0; d < 3; d++) item.center[d] = one.whole.x[d] - item.lump.x[d];
     std::copy_n(one.whole.u, 3, item.u);
   }
-  items.forward_point();
+  items.forward(&RefineItem::mass, 7);
 
   std::vector<Merge> taken;
   for (const Merge &one : merges) {
@@ -257,8 +255,8 @@ void RefineEvent::give_residual(NeighList *full)
       items[one.i].withheld = 1.0;
   }
   merges = taken;
-  items.forward_withheld();
-  items.forward_rotation();
+  items.forward(&RefineItem::withheld);
+  items.forward(&RefineItem::gives, 0);
   residual.take(full);
 }
 

@@ -19,15 +19,9 @@
 #include "neigh_list.h"
 
 #include <algorithm>
-#include <cstddef>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-static constexpr int column_of(std::size_t bytes)
-{
-  return static_cast<int>(bytes / sizeof(double));
-}
 
 /* ---------------------------------------------------------------------- */
 
@@ -38,10 +32,11 @@ void RefineItems::resize()
 
 /* ---------------------------------------------------------------------- */
 
-void RefineItems::forward(int first_in, int count_in)
+void RefineItems::forward(double RefineItem::*member, int number)
 {
-  first = first_in;
-  count = count_in;
+  const RefineItem one = RefineItem();
+  first = static_cast<int>(&(one.*member) - reinterpret_cast<const double *>(&one));
+  count = number ? number : SIZE - first;
   comm->forward_comm(fix, count);
 }
 
@@ -49,35 +44,9 @@ void RefineItems::forward(int first_in, int count_in)
 
 void RefineItems::forward_all()
 {
-  forward(0, SIZE);
+  forward(&RefineItem::state, SIZE);
   const int nall = atom->nlocal + atom->nghost;
   for (int i = atom->nlocal; i < nall; i++) std::copy_n(atom->x[i], 3, items[i].lump.x);
-}
-
-void RefineItems::forward_choice()
-{
-  forward(column_of(offsetof(RefineItem, choice)), 1);
-}
-
-void RefineItems::forward_settled()
-{
-  forward(column_of(offsetof(RefineItem, settled)), 1);
-}
-
-void RefineItems::forward_withheld()
-{
-  forward(column_of(offsetof(RefineItem, withheld)), 1);
-}
-
-void RefineItems::forward_point()
-{
-  forward(column_of(offsetof(RefineItem, mass)), 7);
-}
-
-void RefineItems::forward_rotation()
-{
-  const int from = column_of(offsetof(RefineItem, gives));
-  forward(from, SIZE - from);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -187,7 +156,7 @@ void RefinePairs::settle()
 {
   for (int i = 0; i < atom->nlocal; i++)
     if (mates[i] >= 0) items[i].settled = 1.0;
-  items.forward_settled();
+  items.forward(&RefineItem::settled);
 }
 
 /* ----------------------------------------------------------------------
@@ -247,7 +216,7 @@ void RefinePairs::find_families(NeighList *full, double farthest, int size)
     mates[i] = found[1];
     families[i] = found;
   }
-  items.forward_choice();
+  items.forward(&RefineItem::choice);
 
   for (int ii = 0; ii < full->inum; ii++) {
     const int i = full->ilist[ii];
@@ -274,7 +243,7 @@ void RefinePairs::find(NeighList *full, double farthest)
         choice[i] = nearest(i, full->firstneigh[i], full->numneigh[i], farthest * farthest);
       items[i].choice = choice[i] < 0 ? 0.0 : static_cast<double>(atom->tag[choice[i]]);
     }
-    items.forward_choice();
+    items.forward(&RefineItem::choice);
 
     int found = 0, found_all;
     for (int i = 0; i < atom->nlocal; i++) {
