@@ -26,10 +26,8 @@
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_exclusions.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_wall_checks.h"
 #include "sph_dissipation_wall_motion.h"
 #include "sph_dissipation_wall_terms.h"
 #include "update.h"
@@ -65,7 +63,6 @@ static const char cite_wall[] =
 
 FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), motion(new WallMotion(lmp, fmt::format("Fix {}", style))),
-    exclusions(new Exclusions(lmp)),
     condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}), move(true),
     noise(false), checked(false), total(), total_all(), total_summed(false),
     heat(WallHeat::ADIABATIC), heat_rate(0.0), heat_given(0.0)
@@ -169,9 +166,9 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
 FixSPHWall::~FixSPHWall()
 {
   if (auto *fluid = find_fluid(force)) fluid->boundary->remove(this);
+  include_walls();
   atom->delete_callback(id, Atom::GROW);
   memory->destroy(array_atom);
-  delete exclusions;
   delete condition;
   delete motion;
 }
@@ -219,15 +216,9 @@ void FixSPHWall::init()
   if (!heat_value.varies()) check_heat();
   fluid->boundary->add(this);
 
-  // no pairs of wall particles in the neighbor lists
-
-  std::vector<Exclusions::Groups> walls;
-  for (const auto &ifix : modify->get_fix_by_style("^sph/wall"))
-    walls.push_back({igroup, ifix->igroup});
-  exclusions->set(walls);
-
-  check_wall_particles(lmp, this);
-  const std::set<int> felt = check_wall_interacts(lmp, this, fluid, !checked);
+  exclude_walls();
+  check_particles();
+  const std::set<int> felt = interacting_types(fluid);
   const auto conducts = [&](int type) {
     return HeatChannel::in_use(fluid->model->coeffs[type].keywords);
   };
@@ -319,7 +310,7 @@ void FixSPHWall::setup_pre_exchange()
 
 void FixSPHWall::setup(int vflag)
 {
-  if (!checked) check_wall_thickness(lmp, this, find_fluid(force));
+  if (!checked) check_thickness(find_fluid(force));
   checked = true;
   post_force(vflag);
 }

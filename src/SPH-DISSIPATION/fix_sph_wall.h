@@ -25,9 +25,12 @@ FixStyle(sph/wall,FixSPHWall);
 #include "sph_dissipation_boundary.h"
 #include "sph_dissipation_value.h"
 
+#include <set>
+#include <vector>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-  class Exclusions;
+  class Fluid;
   class WallMotion;
   struct WallCondition;
   enum class WallHeat;
@@ -73,7 +76,6 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
  protected:
   SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
-  SPHDissipation::Exclusions *exclusions;
   SPHDissipation::WallCondition *condition;
   bool move;
   bool noise;      // of the fluid
@@ -98,6 +100,17 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void check_heat() const;
   void from_point(int, const SPHDissipation::WallVelocity &, double *) const;
   bool set_velocity();    // returns whether that of an owned particle is another one than before
+
+  // in fix_sph_wall_checks.cpp
+
+  std::vector<int> excluded;    // groups whose pairs with the wall this fix has excluded
+
+  void exclude_walls();
+  void include_walls();
+  int find_excluded(int first, int second) const;
+  void check_particles() const;
+  std::set<int> interacting_types(const SPHDissipation::Fluid *) const;
+  void check_thickness(const SPHDissipation::Fluid *) const;
 };
 
 }    // namespace LAMMPS_NS
