@@ -166,16 +166,16 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::pre_force(int vflag)
 {
-  if (!heat_value.varies()) return;
+  if (!heat_value->varies()) return;
   atomKK->sync(Host, ALL_MASK);    // variables may be of any particles
   FixSPHWall::pre_force(vflag);
-  if (!heat_value.is_by_atom()) return;
+  if (!heat_value->is_by_atom()) return;
   if ((int) heat_values.extent(0) < atom->nlocal) {
     heat_values = {};
     heat_values = decltype(heat_values)(Kokkos::NoInit("sph/wall:heat"), atom->nmax);
   }
   const auto on_host = Kokkos::create_mirror_view(heat_values);
-  for (int i = 0; i < atom->nlocal; i++) on_host(i) = heat_value(i);
+  for (int i = 0; i < atom->nlocal; i++) on_host(i) = (*heat_value)(i);
   Kokkos::deep_copy(heat_values, on_host);
 }
 
@@ -220,8 +220,8 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
   auto *const spin = data.spin;
   const int bit = groupbit;
   const WallHeat kind = heat;
-  const bool with_heat = data.par.conducts, by_atom = heat_value.is_by_atom();
-  const double value = heat_value.now();
+  const bool with_heat = data.par.conducts, by_atom = heat_value->is_by_atom();
+  const double value = heat_value->now();
   auto values = heat_values;
   auto heat_sums = boundary.heat_sum;
 

@@ -31,6 +31,7 @@
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open.h"
+#include "sph_dissipation_open_stage.h"
 #include "update.h"
 
 #include <algorithm>

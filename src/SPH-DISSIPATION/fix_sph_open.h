@@ -22,7 +22,7 @@ FixStyle(sph/open,FixSPHOpen);
 
 #include "fix.h"
 
-#include "sph_dissipation_open_stage.h"
+#include "sph_dissipation_boundary.h"
 
 #include <memory>
 #include <string>

@@ -33,6 +33,7 @@
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_refine.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <algorithm>
@@ -61,10 +62,10 @@ enum { BALANCE = 1, HIGHEST = BALANCE + RefineBalance::NVALUE, NSTATE };
 /* ---------------------------------------------------------------------- */
 
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), by_spacing(false), largest_volume(0.0), fluid(nullptr), list(nullptr),
-    split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr), not_fluid(0),
-    last_step(-1), event_step(-1), postponed(false), totals_known(false), set_up(false),
-    totals(RefineBalance::NVALUE)
+    Fix(lmp, narg, arg), by_spacing(false), target(new Value), largest_volume(0.0), fluid(nullptr),
+    list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr),
+    not_fluid(0), last_step(-1), event_step(-1), postponed(false), totals_known(false),
+    set_up(false), totals(RefineBalance::NVALUE)
 {
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
@@ -75,7 +76,7 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
   event.reset(new RefineEvent(lmp, this, *balance));
   by_spacing = (strcmp(arg[4], "spacing") == 0);
   target_word = arg[5];
-  target.set(lmp, target_word);
+  target->set(lmp, target_word);
   for (Keywords key(lmp, fmt::format("Fix {}", style), 6, narg, arg); key.next();) {
     if (key.is("split")) {
       split_above = (strcmp(key.word(), "no") == 0) ? INFINITY : key.number();
@@ -136,6 +137,7 @@ FixSPHRefine::~FixSPHRefine()
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(past);
+  delete target;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -173,10 +175,10 @@ void FixSPHRefine::init()
 
   const double support = fluid->support_radius();
   largest_volume = pow(WIDEST * support, domain->dimension);
-  if (!target.init(lmp, fmt::format("Fix {}", style), true))
+  if (!target->init(lmp, fmt::format("Fix {}", style), true))
     error->all(FLERR, "Variable {} for Fix {} is neither of equal style nor of atom style",
-               target.name(), style);
-  if (!target.varies()) check_target(target.now(), 0);
+               target->name(), style);
+  if (!target->varies()) check_target(target->now(), 0);
   event->init(*fluid, merge_below);
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
   set_up = true;
@@ -218,12 +220,12 @@ void FixSPHRefine::check_target(double value, tagint tag) const
 
 void FixSPHRefine::evaluate_target()
 {
-  if (!target.varies()) return;
+  if (!target->varies()) return;
   modify->clearstep_compute();
-  target.evaluate(lmp, igroup);
-  if (!target.is_by_atom()) check_target(target.now(), 0);
-  for (int i = 0; i < atom->nlocal && target.is_by_atom(); i++)
-    if (atom->mask[i] & groupbit) check_target(target(i), atom->tag[i]);
+  target->evaluate(lmp, igroup);
+  if (!target->is_by_atom()) check_target(target->now(), 0);
+  for (int i = 0; i < atom->nlocal && target->is_by_atom(); i++)
+    if (atom->mask[i] & groupbit) check_target((*target)(i), atom->tag[i]);
   modify->addstep_compute(update->ntimestep + 1);
 }
 
@@ -362,10 +364,10 @@ bool FixSPHRefine::wanted(bigint &nfluid)
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !is_fluid(i)) continue;
     sum[FLUID] += 1.0;
-    const double ratio = atom->vfrac[i] / target_volume(target(i));
+    const double ratio = atom->vfrac[i] / target_volume((*target)(i));
     if (ratio > split_above) {
       sum[DAUGHTERS] += ratio;
-      if (target_volume(target(i)) < smallest) sum[CROWDED] += 1.0;
+      if (target_volume((*target)(i)) < smallest) sum[CROWDED] += 1.0;
     }
     if ((ratio > split_above || ratio < merge_below) && may_change(strains, i)) sum[EVENTS] += 1.0;
   }
@@ -397,7 +399,7 @@ void FixSPHRefine::set_items()
     RefineState state = is_fluid(i) ? KEEPS : APART;
     double goal = 0.0;
     if (state == KEEPS && (atom->mask[i] & groupbit)) {
-      goal = target_volume(target(i));
+      goal = target_volume((*target)(i));
       const double ratio = atom->vfrac[i] / goal;
       const bool splits = ratio > split_above;
       if ((splits || ratio < merge_below) && may_change(strains, i))

@@ -22,8 +22,6 @@ FixStyle(sph/refine,FixSPHRefine);
 
 #include "fix.h"
 
-#include "sph_dissipation_value.h"
-
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +31,7 @@ namespace SPHDissipation {
   class Fluid;
   class RefineEvent;
   class RefineBalance;
+  class Value;
   struct StrainRows;
 }    // namespace SPHDissipation
 
@@ -67,7 +66,7 @@ class FixSPHRefine : public Fix {
  private:
   bool by_spacing;            // the target is a spacing, else a volume
   std::string target_word;    // as it was given
-  SPHDissipation::Value target;
+  SPHDissipation::Value *target;
   double largest_volume;    // target that leaves enough neighbors
   std::unique_ptr<SPHDissipation::RefineBalance> balance;
   std::unique_ptr<SPHDissipation::RefineEvent> event;

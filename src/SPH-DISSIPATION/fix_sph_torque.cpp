@@ -21,6 +21,7 @@
 #include "modify.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <cstring>
@@ -32,8 +33,8 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), total{0.0, 0.0, 0.0}, power(0.0), work(0.0), receiving_groups(0),
-    not_receiving(0), set_up(false)
+    Fix(lmp, narg, arg), value(new Value[3]), total{0.0, 0.0, 0.0}, power(0.0), work(0.0),
+    receiving_groups(0), not_receiving(0), set_up(false)
 {
   if (!Fields::with_spins(atom))
     error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);
@@ -51,6 +52,13 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
 
 /* ---------------------------------------------------------------------- */
 
+FixSPHTorque::~FixSPHTorque()
+{
+  delete[] value;
+}
+
+/* ---------------------------------------------------------------------- */
+
 int FixSPHTorque::setmask()
 {
   return POST_FORCE;
@@ -62,9 +70,9 @@ void FixSPHTorque::init()
 {
   if (domain->dimension == 2 && !(value[0].is_zero() && value[1].is_zero()))
     error->all(FLERR, "Fix {}: torque must be along z in 2d", style);
-  for (auto &one : value)
-    if (!one.init(lmp, fmt::format("fix {}", style), true))
-      error->all(FLERR, "Variable {} for fix {} is of invalid style", one.name(), style);
+  for (int d = 0; d < 3; d++)
+    if (!value[d].init(lmp, fmt::format("fix {}", style), true))
+      error->all(FLERR, "Variable {} for fix {} is of invalid style", value[d].name(), style);
 
   receiving_groups = 0;
   for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar"))
@@ -123,7 +131,7 @@ void FixSPHTorque::post_force(int /*vflag*/)
   check_set_up(lmp, this, set_up);
   const bool any_variable = value[0].varies() || value[1].varies() || value[2].varies();
   if (any_variable) modify->clearstep_compute();
-  for (auto &one : value) one.evaluate(lmp, igroup);
+  for (int d = 0; d < 3; d++) value[d].evaluate(lmp, igroup);
   if (any_variable) modify->addstep_compute(update->ntimestep + 1);
 
   const Fields &fields = *Fields::of(atom);

@@ -28,6 +28,7 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_value.h"
 #include "sph_dissipation_wall_motion.h"
 #include "sph_dissipation_wall_terms.h"
 #include "update.h"
@@ -65,7 +66,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), motion(new WallMotion(lmp, fmt::format("Fix {}", style))),
     condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}), move(true),
     noise(false), checked(false), total(), total_all(), total_summed(false),
-    heat(WallHeat::ADIABATIC), heat_rate(0.0), heat_given(0.0)
+    heat(WallHeat::ADIABATIC), heat_value(new Value), heat_rate(0.0), heat_given(0.0)
 {
   double *const gravity = condition->gravity;
   for (int iarg = 3; iarg < narg;) {
@@ -116,7 +117,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     } else if (keyword == "heat") {
       needs(1);
       const char *const word = arg[iarg + 1];
-      heat_value = Value();
+      *heat_value = Value();
       if (strcmp(word, "adiabatic") == 0)
         heat = WallHeat::ADIABATIC;
       else if (strcmp(word, "temp") == 0)
@@ -127,7 +128,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
         unknown(word);
       if (gives_heat()) {
         needs(2);
-        heat_value.set(lmp, arg[iarg + 2]);
+        heat_value->set(lmp, arg[iarg + 2]);
         iarg++;
       }
       iarg += 2;
@@ -169,6 +170,7 @@ FixSPHWall::~FixSPHWall()
   include_walls();
   atom->delete_callback(id, Atom::GROW);
   memory->destroy(array_atom);
+  delete heat_value;
   delete condition;
   delete motion;
 }
@@ -177,7 +179,7 @@ FixSPHWall::~FixSPHWall()
 
 int FixSPHWall::setmask()
 {
-  return PRE_EXCHANGE | INITIAL_INTEGRATE | (heat_value.varies() ? PRE_FORCE : 0) | POST_FORCE |
+  return PRE_EXCHANGE | INITIAL_INTEGRATE | (heat_value->varies() ? PRE_FORCE : 0) | POST_FORCE |
       MIN_PRE_EXCHANGE | MIN_POST_FORCE;
 }
 
@@ -210,10 +212,10 @@ void FixSPHWall::init()
                style);
 
   motion->init();
-  if (!heat_value.init(lmp, fmt::format("fix {} heat", style), true))
+  if (!heat_value->init(lmp, fmt::format("fix {} heat", style), true))
     error->all(FLERR, "Variable {} for fix {} heat is neither of equal style nor of atom style",
-               heat_value.name(), style);
-  if (!heat_value.varies()) check_heat();
+               heat_value->name(), style);
+  if (!heat_value->varies()) check_heat();
   fluid->boundary->add(this);
 
   exclude_walls();
@@ -266,9 +268,9 @@ void FixSPHWall::setup_pre_force(int vflag)
 
 void FixSPHWall::pre_force(int /*vflag*/)
 {
-  if (!heat_value.varies()) return;
+  if (!heat_value->varies()) return;
   modify->clearstep_compute();
-  heat_value.evaluate(lmp, igroup);
+  heat_value->evaluate(lmp, igroup);
   modify->addstep_compute(update->ntimestep + 1);
   check_heat();
 }
@@ -279,14 +281,14 @@ void FixSPHWall::check_heat() const
 {
   const char *const what = (heat == WallHeat::TEMPERATURE) ? "temp must be >= 0"
                                                            : "flux must be finite";
-  if (!heat_value.is_by_atom()) {
-    if (is_wrong(heat_value.now()))
-      error->all(FLERR, "Fix {} heat {}, not {}", style, what, heat_value.now());
+  if (!heat_value->is_by_atom()) {
+    if (is_wrong(heat_value->now()))
+      error->all(FLERR, "Fix {} heat {}, not {}", style, what, heat_value->now());
     return;
   }
   for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && is_wrong(heat_value(i)))
-      error->one(FLERR, "Fix {} heat {}, not {} for particle {}", style, what, heat_value(i),
+    if ((atom->mask[i] & groupbit) && is_wrong((*heat_value)(i)))
+      error->one(FLERR, "Fix {} heat {}, not {} for particle {}", style, what, (*heat_value)(i),
                  atom->tag[i]);
 }
 
@@ -436,7 +438,7 @@ void FixSPHWall::set_heat(BoundaryStage &stage, const Surface *surfaces, bool in
   if (update->whichflag == 2) return;
   stage.for_each(atom->nlocal, [&](int i) {
     if (atom->mask[i] & groupbit)
-      stage.set_heat(i, heat, increments ? 0.0 : heat_value(i), surfaces[i]);
+      stage.set_heat(i, heat, increments ? 0.0 : (*heat_value)(i), surfaces[i]);
   });
 }
 
@@ -604,5 +606,5 @@ int FixSPHWall::unpack_exchange(int i, double *buf)
 
 double FixSPHWall::memory_usage()
 {
-  return 6.0 * atom->nmax * sizeof(double) + heat_value.memory_usage();
+  return 6.0 * atom->nmax * sizeof(double) + heat_value->memory_usage();
 }

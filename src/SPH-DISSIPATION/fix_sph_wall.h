@@ -23,7 +23,6 @@ FixStyle(sph/wall,FixSPHWall);
 #include "fix.h"
 
 #include "sph_dissipation_boundary.h"
-#include "sph_dissipation_value.h"
 
 #include <set>
 #include <vector>
@@ -31,6 +30,7 @@ FixStyle(sph/wall,FixSPHWall);
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Fluid;
+  class Value;
   class WallMotion;
   struct WallCondition;
   enum class WallHeat;
@@ -85,7 +85,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   bool total_summed;
 
   SPHDissipation::WallHeat heat;
-  SPHDissipation::Value heat_value;    // temperature, or heat per area and time
+  SPHDissipation::Value *heat_value;    // temperature, or heat per area and time
 
   bool turns_surface(bool before) const;
   void book_heat();

@@ -14,6 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_OPEN_STAGE_H
 #define LMP_SPH_DISSIPATION_OPEN_STAGE_H
 
+#include "sph_dissipation_boundary.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_stages.h"
 
@@ -31,33 +32,6 @@ namespace SPHDissipation {
     // what acts on a particle of the fluid
     void add(const Particle &, const ForceSum &, double heat);    // of all other channels
     void add(const Spin &, const double *couple);
-  };
-
-  class OpenStage;
-
-  // A buffer zone, as a fix provides it between the two passes: its particles are fluid with a prescribed
-  // state, as it enters or leaves.  The fix hands itself to OpenStage::add() in its init() and takes itself
-  // back when it is deleted.
-
-  class OpenZone {
-   public:
-    virtual int zone_bit() const = 0;     // bit of the group of its particles
-    virtual int fluid_bit() const = 0;    // bit of the group of the fluid that ends there
-    // whether a particle at x may have pairs across the border of zone and fluid, of this length
-    virtual bool zone_near(const double *x, double reach) const = 0;
-
-    // Append numbers of this processor, equally many on each; set_states() gets their sums over all
-    // processors, in one message for all zones
-    virtual void measure(const OpenStage &, std::vector<double> &mine) = 0;
-
-    // set density and pressure of its owned particles by OpenStage::set_state()
-    virtual void set_states(OpenStage &, const double *sums) = 0;
-
-    // sums of this processor, for each force computation
-    virtual void set_impact(const OpenImpact &) = 0;
-
-   protected:
-    ~OpenZone() = default;    // nobody deletes a fix through this
   };
 
   // Gives the particles of buffer zones the density and pressure that act in the pair forces, and sums
