@@ -16,6 +16,7 @@
 #include "domain.h"
 #include "error.h"
 #include "memory.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -29,9 +30,8 @@ ComputeSPHGrid::ComputeSPHGrid(LAMMPS *lmp, int narg, char **arg) :
 {
   int iarg = 6;
   while (iarg < narg && add_value(arg[iarg])) iarg++;
-  while (iarg < narg)
-    if (!order_keyword(iarg, narg, arg))
-      error->all(FLERR, "Unknown compute {} value or keyword: {}", style, arg[iarg]);
+  for (Keywords key(lmp, fmt::format("Compute {}", style), iarg, narg, arg); key.next();)
+    read_order(key);
   if (nvalue() == 0) error->all(FLERR, "Compute {} needs at least one value", style);
   allocate();
 }

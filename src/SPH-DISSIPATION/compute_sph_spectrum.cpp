@@ -23,11 +23,11 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -115,20 +115,13 @@ ComputeSPHSpectrum::ComputeSPHSpectrum(LAMMPS *lmp, int narg, char **arg) :
                "SPH-DISSIPATION",
                style);
 
-  int iarg = 6;
-  while (iarg < narg) {
-    if (order_keyword(iarg, narg, arg)) continue;
-    if (strcmp(arg[iarg], "deconvolve") != 0 && strcmp(arg[iarg], "shells") != 0)
-      error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[iarg]);
-    if (iarg + 2 > narg)
-      utils::missing_cmd_args(FLERR, fmt::format("compute {} {}", style, arg[iarg]), error);
-    if (strcmp(arg[iarg], "deconvolve") == 0)
-      deconvolve = utils::logical(FLERR, arg[iarg + 1], false, lmp);
-    else {
-      nshell = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-      if (nshell < 1) error->all(FLERR, "Compute {} shells must be at least 1", style);
+  for (Keywords key(lmp, fmt::format("Compute {}", style), 6, narg, arg); key.next();) {
+    read_order(key);
+    if (key.is("deconvolve")) deconvolve = utils::logical(FLERR, key.word(), false, lmp);
+    if (key.is("shells")) {
+      nshell = key.whole_number();
+      key.demand(nshell >= 1, "at least 1");
     }
-    iarg += 2;
   }
 
   for (const char *name : {"vx", "vy", "vz", "rho"}) add_value(name);

@@ -35,7 +35,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <set>
 #include <vector>
 
@@ -69,75 +68,28 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     heat(WallHeat::ADIABATIC), heat_value(new Value), heat_rate(0.0), heat_given(0.0)
 {
   double *const gravity = condition->gravity;
-  for (int iarg = 3; iarg < narg;) {
-    const std::string keyword = arg[iarg];
-    auto needs = [&](int n) {
-      if (iarg + n >= narg)
-        utils::missing_cmd_args(FLERR, fmt::format("fix {} {}", style, keyword), error);
-    };
-    auto unknown = [&](const char *word) {
-      error->all(FLERR, "Unknown fix {} {} value: {}", style, keyword, word);
-    };
-
-    if (keyword == "velocity") {
-      needs(3);
-      motion->set_velocity(arg + iarg + 1);
-      iarg += 4;
-    } else if (keyword == "rotate") {
-      needs(7);
-      motion->set_rotation(arg + iarg + 1);
-      iarg += 8;
-    } else if (keyword == "move") {
-      needs(1);
-      move = utils::logical(FLERR, arg[iarg + 1], false, lmp);
-      iarg += 2;
-    } else if (keyword == "slip") {
-      needs(1);
-      if (strcmp(arg[iarg + 1], "no") == 0)
-        condition->slip = false;
-      else if (strcmp(arg[iarg + 1], "free") == 0)
-        condition->slip = true;
-      else
-        unknown(arg[iarg + 1]);
-      iarg += 2;
-    } else if (keyword == "spin") {
-      needs(1);
-      if (strcmp(arg[iarg + 1], "zero") == 0) {
-        condition->spin = WallSpin::ZERO;
-      } else if (strcmp(arg[iarg + 1], "free") == 0) {
-        condition->spin = WallSpin::FREE;
-      } else if (strcmp(arg[iarg + 1], "rate") == 0) {
-        needs(2);
-        condition->spin = WallSpin::RATE;
-        condition->alpha = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-        iarg++;
-      } else
-        unknown(arg[iarg + 1]);
-      iarg += 2;
-    } else if (keyword == "heat") {
-      needs(1);
-      const char *const word = arg[iarg + 1];
-      *heat_value = Value();
-      if (strcmp(word, "adiabatic") == 0)
-        heat = WallHeat::ADIABATIC;
-      else if (strcmp(word, "temp") == 0)
-        heat = WallHeat::TEMPERATURE;
-      else if (strcmp(word, "flux") == 0)
-        heat = WallHeat::FLUX;
-      else
-        unknown(word);
-      if (gives_heat()) {
-        needs(2);
-        heat_value->set(lmp, arg[iarg + 2]);
-        iarg++;
+  for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
+    if (key.is("velocity", 3)) motion->set_velocity(key.words());
+    if (key.is("rotate", 7)) motion->set_rotation(key.words());
+    if (key.is("move")) move = utils::logical(FLERR, key.word(), false, lmp);
+    if (key.is("slip")) condition->slip = (key.choice({"no", "free"}) == 1);
+    if (key.is("spin")) {
+      condition->spin = static_cast<WallSpin>(key.choice({"zero", "rate", "free"}));
+      if (condition->spin == WallSpin::RATE) {
+        key.more(1);
+        condition->alpha = key.number(1);
       }
-      iarg += 2;
-    } else if (keyword == "gravity") {
-      needs(3);
-      for (int d = 0; d < 3; d++) gravity[d] = utils::numeric(FLERR, arg[iarg + 1 + d], false, lmp);
-      iarg += 4;
-    } else
-      error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
+    }
+    if (key.is("heat")) {
+      heat = static_cast<WallHeat>(key.choice({"adiabatic", "temp", "flux"}));
+      *heat_value = Value();
+      if (gives_heat()) {
+        key.more(1);
+        heat_value->set(lmp, key.word(1));
+      }
+    }
+    if (key.is("gravity", 3))
+      for (int d = 0; d < 3; d++) gravity[d] = key.number(d);
   }
 
   if (domain->dimension == 2 && gravity[2] != 0.0)

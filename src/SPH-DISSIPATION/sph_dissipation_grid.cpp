@@ -25,10 +25,10 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_value.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -413,16 +413,9 @@ bool GridCompute::add_value(const std::string &name)
 
 /* ---------------------------------------------------------------------- */
 
-bool GridCompute::order_keyword(int &iarg, int narg, char **arg)
+void GridCompute::read_order(Keywords &key)
 {
-  if (strcmp(arg[iarg], "order") != 0) return false;
-  if (iarg + 2 > narg)
-    utils::missing_cmd_args(FLERR, fmt::format("compute {} order", style), error);
-  const int order = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-  if (order < 0 || order > 1) error->all(FLERR, "Compute {} order must be 0 or 1", style);
-  linear = (order == 1);
-  iarg += 2;
-  return true;
+  if (key.is("order")) linear = (key.choice({"0", "1"}) == 1);
 }
 
 /* ---------------------------------------------------------------------- */

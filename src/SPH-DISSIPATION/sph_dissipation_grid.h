@@ -26,6 +26,7 @@ class Grid3d;
 
 namespace SPHDissipation {
   class Fluid;
+  class Keywords;
 
   // Values of points from those of particles: averages weighted by V W, or the weighted linear
   // regression through the particles, which is exact for linear fields (moving least squares: P.
@@ -102,7 +103,7 @@ namespace SPHDissipation {
 
     bool add_value(const std::string &);    // a value of the particles to map; false if unknown
     int nvalue() const { return static_cast<int>(names.size()); }
-    bool order_keyword(int &iarg, int narg, char **arg);
+    void read_order(Keywords &);    // keyword order, if it is that one
 
     Fluid *fluid() const;
     bool is_mapped(const Fluid *, int) const;    // owned particle

@@ -167,10 +167,7 @@ OpenCondition::OpenCondition(LAMMPS *lmp, const std::string &owner, const OpenPl
 void OpenCondition::read(Keywords &key)
 {
   if (key.is("average")) averaging_time = key.positive();
-  if (key.is("order")) {
-    order = key.whole_number();
-    key.demand(order == 0 || order == 1, "0 or 1");
-  }
+  if (key.is("order")) order = key.choice({"0", "1"});
   if (key.is("condition"))
     kind = static_cast<Kind>(key.choice({"lagged", "characteristic", "fixed"}));
 }
