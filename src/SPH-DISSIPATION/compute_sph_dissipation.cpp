@@ -58,7 +58,7 @@ void ComputeSPHDissipation::init()
 }
 
 /* ----------------------------------------------------------------------
-   heat of each particle (not if nullptr), and total power by channel; the fluid is looked up at every use,
+   Get the heat of each particle (not if nullptr) and the total power by channel; the fluid is looked up at every use,
    for the pair style may have been replaced since
 ------------------------------------------------------------------------- */
 

@@ -44,7 +44,7 @@ ComputeSPHGrid::~ComputeSPHGrid()
 }
 
 /* ----------------------------------------------------------------------
-   in the layout of LAMMPS's grids
+   Allocate arrays in the layout of LAMMPS's grids.
 ------------------------------------------------------------------------- */
 
 void ComputeSPHGrid::allocate()
@@ -112,7 +112,7 @@ void ComputeSPHGrid::compute_pergrid()
 }
 
 /* ----------------------------------------------------------------------
-   one grid with the name "grid", and one set of data on it with the name "data"
+   There is one grid with the name "grid", and one set of data on it with the name "data".
 ------------------------------------------------------------------------- */
 
 int ComputeSPHGrid::get_grid_by_name(const std::string &name, int &dim)

@@ -48,7 +48,7 @@ static double wave_number(int i, int n, double length)
   return 2.0 * KERNEL_PI / length * (i <= (n - 1) / 2 ? i : i - n);
 }
 
-// of one mode of a velocity field: energies |u|^2/2 of both parts, squares of curl and divergence
+// one mode of a velocity field: energies |u|^2/2 of both parts, squares of curl and divergence
 
 struct ModeEnergies {
   double solenoidal, dilatational, curl2, div2;
@@ -185,7 +185,7 @@ void ComputeSPHSpectrum::reset_grid()
 }
 
 /* ----------------------------------------------------------------------
-   shell s has the wave numbers from (s - 1/2) to (s + 1/2) shell widths
+   Return the width of a shell: shell s has the wave numbers from (s - 1/2) to (s + 1/2) widths.
 ------------------------------------------------------------------------- */
 
 double ComputeSPHSpectrum::shell_width() const
@@ -220,7 +220,7 @@ void ComputeSPHSpectrum::compute_array()
 }
 
 /* ----------------------------------------------------------------------
-   vector and array at once, valid for both
+   Calculate vector and array at once.
 ------------------------------------------------------------------------- */
 
 void ComputeSPHSpectrum::calculate()
@@ -284,7 +284,7 @@ void ComputeSPHSpectrum::set_raise()
 }
 
 /* ----------------------------------------------------------------------
-   totals, and sums of each shell over its width
+   Sum up the totals, and each shell over its width.
 ------------------------------------------------------------------------- */
 
 void ComputeSPHSpectrum::sum_modes()

@@ -48,7 +48,7 @@ class ComputeSPHSpectrum : public SPHDissipation::GridCompute {
   int nshell;    // shells asked for, 0: all
   bool micropolar, checked;
   std::unique_ptr<SPHDissipation::FourierGrid> fourier;
-  std::vector<std::vector<std::complex<double>>> modes;    // of each field, see calculate()
+  std::vector<std::vector<std::complex<double>>> modes;    // one array per field, see calculate()
   std::vector<double> raise;                               // factor of each mode
   std::vector<double> raised_for;                          // box, support radius, kernel
 

@@ -38,7 +38,7 @@ using namespace SPHDissipation;
 
 static constexpr double GROWTH = 1.25;
 
-// of a time that may be without end
+// Return a part of a time, which may be unlimited.
 
 static double part_of(double part, double time)
 {
@@ -154,7 +154,7 @@ double FixSPHDt::allowed_step(const CoeffTable &table)
 }
 
 /* ----------------------------------------------------------------------
-   as fix dt/reset does
+   Set the time step, as fix dt/reset does.
 ------------------------------------------------------------------------- */
 
 void FixSPHDt::reset_step(double dt)

@@ -42,7 +42,8 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
 
-static constexpr double NODES = 3.0;          // of the plane, per radius of what is measured there
+static constexpr double NODES =
+    3.0;    // nodes of the plane per radius in which the fluid is measured
 static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
 // in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves.
@@ -274,7 +275,7 @@ void FixSPHOpen::setup_pre_exchange()
 }
 
 /* ----------------------------------------------------------------------
-   the internal energies of the zone follow the forces, which may be computed several times in a step
+   Set the internal energies of the zone after the forces, which may be computed several times in a step.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup(int /*vflag*/)
@@ -517,7 +518,7 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
                  condition->sample(i, particle, stage.strain_pressure(i)),
                  fluid->model->choice.kernel, radius);
   }
-  double fast = 0.0;    // of use with new neighbor lists only
+  double fast = 0.0;    // counted with new neighbor lists only
   for (const int i : near)
     if (neighbor->ago == 0 && condition->is_supersonic(i, stage.particle(i))) fast += 1.0;
   mine.push_back(fast);

@@ -81,12 +81,12 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::unique_ptr<SPHDissipation::OpenRows> rows;
   std::unique_ptr<SPHDissipation::OpenBalance> balance;
   SPHDissipation::Fluid *fluid;
-  class FixSPHBulk *integrator;    // of the fluid
+  class FixSPHBulk *integrator;    // moves the fluid
   SPHDissipation::Fields *fields;
-  std::string fluid_name;    // of its group
+  std::string fluid_name;    // group of the fluid
   int fluidbit;
-  double radius;                 // of the fluid that is measured at the plane
-  double area;                   // of the cross section of a row; 0: rows have a spacing
+  double radius;                 // the fluid within it is measured at the plane
+  double area;                   // cross section of a row; 0: rows have a spacing
   double my_longest, longest;    // time in which sound crosses a support radius near the plane
   std::vector<int> members;      // owned particles of the zone, and fluid that may come to it
   bool is_new;                   // no forces have been computed with this zone
@@ -96,7 +96,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
 
-  // of owned particles of a zone with heat, in ascending order: their states in the last forces, and their sums over
+  // Owned particles of a zone with heat, in ascending order: their states in the last forces, and their sums over
   // the neighbors; until they move on
   std::vector<std::pair<int, SPHDissipation::OpenState>> states;
   std::vector<double> sums;

@@ -157,7 +157,7 @@ void FixSPHOpen::check_region()
   if (!plane->limited()) return;
   const double play = 1.0e-6 * plane->length;
   const double beside = std::max(rows->are_new() ? 0.0 : 0.5 * rows->width(), play);
-  bigint number[2] = {0, 0}, all[2];    // of the zone, in front of it
+  bigint number[2] = {0, 0}, all[2];    // particles outside, particles without a region in front
   for (int i = 0; i < atom->nlocal; i++) {
     double x[3], front[3];
     std::copy_n(atom->x[i], 3, x);
@@ -397,7 +397,7 @@ bool FixSPHOpen::warn_of_gap()
   double widest = 0.0;
   for (int node = 0; node < nodes; node++) {
     if (all[nodes + node] != (Bits(1) << sides) - 1) continue;
-    int end = 0;    // of the fluid so far
+    int end = 0;    // of the last part with fluid
     for (int k = 0; k < PARTS; k++)
       if (all[node] >> k & 1) {
         widest = std::max(widest, (k - end) * part);

@@ -74,12 +74,12 @@ class FixSPHRefine : public Fix {
   class NeighList *list;
   double split_above, merge_below;    // volume over target
   double wait;                        // time between two events of a particle; < 0: R/c0
-  double fraction;                    // of the particles, that may have an event at once
+  double fraction;                    // part of the particles that may have an event at once
   double **past;                      // last event of each particle
   int not_fluid;                      // bits of the groups of walls and open zones
-  bigint last_step;                   // that this fix has seen
-  bigint event_step;                  // of the last events
-  bool postponed;                     // the last check
+  bigint last_step;                   // step of the last call of this fix
+  bigint event_step;                  // step of the last events
+  bool postponed;                     // the last check waits for the next step
   bool totals_known;
   bool set_up;    // since it was defined
   std::vector<double> totals;

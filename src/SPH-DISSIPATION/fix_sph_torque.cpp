@@ -101,7 +101,8 @@ void FixSPHTorque::check_receivers()
     dynamic_cast<FixSPHBulk *>(ifix)->set_inertia();
 
   const double *const inertia = Fields::of(atom)->inertia;
-  bigint count[2] = {0, 0}, all[2];    // of the group; of them, without integrator or inertia
+  bigint count[2] = {0, 0},
+         all[2];    // particles of the group; those without integrator or inertia
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     count[0]++;
@@ -174,7 +175,7 @@ double FixSPHTorque::compute_vector(int d)
 }
 
 /* ----------------------------------------------------------------------
-   restart files hold the work
+   Restart files hold the work.
 ------------------------------------------------------------------------- */
 
 void FixSPHTorque::write_restart(FILE *fp)

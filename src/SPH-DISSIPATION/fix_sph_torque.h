@@ -47,7 +47,7 @@ class FixSPHTorque : public Fix {
  private:
   SPHDissipation::Value *value;    // three
   double total[3];                 // torque on all particles in the last step, of this rank
-  double power;                    // of the last step, of this rank
+  double power;                    // on this rank in the last step
   double work;                     // since the fix was defined, of this rank
 
   int receiving_groups;    // bits of the groups whose spin is integrated

@@ -210,7 +210,7 @@ bool FixSPHWall::is_wrong(double value) const
 }
 
 /* ----------------------------------------------------------------------
-   when the particles are where the forces are computed
+   Evaluate the variable of keyword heat when the particles are where the forces are computed.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::setup_pre_force(int vflag)
@@ -245,7 +245,7 @@ void FixSPHWall::check_heat() const
 }
 
 /* ----------------------------------------------------------------------
-   before the exchange of atoms, so that ghost atoms get the velocity with their borders;
+   Set the velocity before the exchange of atoms, so that ghost atoms get it with their borders;
    in a minimization nothing moves
 ------------------------------------------------------------------------- */
 
@@ -277,7 +277,7 @@ void FixSPHWall::min_setup(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   rigid motion by the mean velocity of the step; fix sph/bulk then copies the velocity
+   Move the wall by the mean velocity of the step; fix sph/bulk then copies the velocity
    to the extrapolated one
 ------------------------------------------------------------------------- */
 
@@ -322,7 +322,7 @@ bool FixSPHWall::set_velocity()
 }
 
 /* ----------------------------------------------------------------------
-   by the motion of the last step
+   Tell whether the normals turn with the motion of the last step.
 ------------------------------------------------------------------------- */
 
 bool FixSPHWall::turns_surface(bool before) const
@@ -348,7 +348,7 @@ void FixSPHWall::move_surface(BoundaryStage &stage, Surface *surface, bool befor
 }
 
 /* ----------------------------------------------------------------------
-   values of the wall particles in the pair forces.  An extrapolated pressure has no energy: in a
+   Set the values of the wall particles in the pair forces.  An extrapolated pressure has no energy: in a
    minimization it is zero, and the forces are the gradient of the energy of the fluid.
 ------------------------------------------------------------------------- */
 
@@ -421,7 +421,7 @@ void FixSPHWall::post_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   the heat of a step is that of the mean rate at both ends, as in the internal energies of the fluid
+   The heat of a step is that of the mean rate at both ends, as in the internal energies of the fluid
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::book_heat()
@@ -434,7 +434,7 @@ void FixSPHWall::book_heat()
 }
 
 /* ----------------------------------------------------------------------
-   warn if the wall has taken heat from particles that have none
+   Warn if the wall has taken heat from particles that have none.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::post_run()
@@ -459,7 +459,7 @@ void FixSPHWall::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   the minimizer moves particles along their forces, but must not move the wall
+   The minimizer moves particles along their forces, but must not move the wall.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::min_post_force(int vflag)
@@ -470,7 +470,7 @@ void FixSPHWall::min_post_force(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   force and torque of the fluid on the wall; heat per time that the wall gives the fluid, and heat
+   Return force and torque of the fluid on the wall; heat per time that the wall gives the fluid, and heat.
 ------------------------------------------------------------------------- */
 
 double FixSPHWall::compute_vector(int n)
@@ -486,7 +486,7 @@ double FixSPHWall::compute_vector(int n)
 }
 
 /* ----------------------------------------------------------------------
-   vector from the point on the axis to a particle
+   Set r to the vector from the point on the axis to a particle.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::from_point(int i, const WallVelocity &now, double *r) const
@@ -496,7 +496,7 @@ void FixSPHWall::from_point(int i, const WallVelocity &now, double *r) const
 }
 
 /* ----------------------------------------------------------------------
-   the point on the axis has moved with the wall, and the wall has given heat
+   Write the point on the axis, which has moved with the wall, and the heat that the wall has given.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::write_restart(FILE *fp)
@@ -521,7 +521,7 @@ void FixSPHWall::restart(char *buf)
 }
 
 /* ----------------------------------------------------------------------
-   force and couple on each particle; only those of the wall have some to take along
+   Force and couple on each particle: only those of the wall have some to take along.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::grow_arrays(int nmax)

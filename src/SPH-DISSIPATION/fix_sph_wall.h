@@ -78,7 +78,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
   SPHDissipation::WallCondition *condition;
   bool move;
-  bool noise;      // of the fluid
+  bool noise;      // the fluid has thermal noise
   bool checked;    // thickness checked, in the first run; false: not set up since defined
 
   double total[6], total_all[6];    // force and torque, of this rank and of all
@@ -96,7 +96,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   double heat_rate;     // heat per time in the last step
   double heat_given;    // heat since the fix was defined
 
-  bool is_wrong(double value) const;    // of heat_value
+  bool is_wrong(double value) const;    // as the value of keyword heat
   void check_heat() const;
   void from_point(int, const SPHDissipation::WallVelocity &, double *) const;
   bool set_velocity();    // returns whether that of an owned particle is another one than before

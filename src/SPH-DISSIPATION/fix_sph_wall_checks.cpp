@@ -195,7 +195,8 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
   };
 
   double worst[2] = {0.0, 0.0}, worst_all[2];    // spacing - depth, spacing over depth of bad ones
-  double sum[2] = {0.0, 0.0}, sum_all[2];        // of particles, of nearest particle over spacing
+  double sum[2] = {0.0, 0.0},
+         sum_all[2];    // numbers of particles, distances of the nearest ones over spacings
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double rho0 = fluid->model->coeffs[atom->type[i]].eos.rho0;

@@ -349,7 +349,7 @@ GridCompute::~GridCompute()
 }
 
 /* ----------------------------------------------------------------------
-   commands such as replicate change the sub-domains without a word
+   Make the grid anew where the sub-domains have changed: replicate does not call reset_grid().
 ------------------------------------------------------------------------- */
 
 void GridCompute::init()
@@ -367,7 +367,7 @@ void GridCompute::init()
 }
 
 /* ----------------------------------------------------------------------
-   looked up at every use, for the pair style may have been replaced since
+   Look the fluid up at every use, for the pair style may have been replaced.
 ------------------------------------------------------------------------- */
 
 Fluid *GridCompute::fluid() const
@@ -376,7 +376,7 @@ Fluid *GridCompute::fluid() const
 }
 
 /* ----------------------------------------------------------------------
-   the sub-domains have changed
+   Make the grid anew, after a change of the sub-domains.
 ------------------------------------------------------------------------- */
 
 void GridCompute::reset_grid()

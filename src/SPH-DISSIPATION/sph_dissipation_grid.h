@@ -70,9 +70,9 @@ namespace SPHDissipation {
     Grid2d *grid2d;
     Grid3d *grid3d;
 
-    double origin[3], spacing[3];    // of the points, as the box is now
+    double origin[3], spacing[3];    // places of the points, as the box is now
     std::vector<std::vector<double>> moments, fields;
-    std::vector<double> weight, offset;    // of the points of one row around a particle
+    std::vector<double> weight, offset;    // points of one row around a particle
 
     template <class Function> void near_rows(const double *, double, Function &&);
     template <class KernelShape, class Function>
@@ -115,7 +115,7 @@ namespace SPHDissipation {
     std::vector<std::string> names;
     std::vector<Value> getters;
     int nmax;
-    double **values;    // of owned and ghost particles: volume (0: not mapped), then those to map
+    double **values;    // owned and ghost particles: volume (0: not mapped), then the values to map
 
     template <int DIM> double velocity(int) const;
     template <int DIM> double spin(int) const;

@@ -89,7 +89,7 @@ namespace SPHDissipation {
     const std::string owner;
     std::string region_id;
     Region *region;
-    double tangent[2][3];    // of the plane; in 2d only the first one counts
+    double tangent[2][3];    // directions of the plane; in 2d only the first one counts
     double lo[2], step[2];
     int count[2];
     bool periodic[2];
@@ -164,7 +164,7 @@ namespace SPHDissipation {
     OpenWave wave(const Spot &, double time) const;                          // at a time before
     double distance(const Spot &) const;    // from the plane to the middle of what is measured
 
-    void mean_at_plane(double *p, double *u) const;    // of all nodes, now
+    void mean_at_plane(double *p, double *u) const;    // mean over all nodes, now
     bool any() const { return !history.empty(); }
 
     double memory_usage() const;    // bytes
@@ -185,7 +185,7 @@ namespace SPHDissipation {
     };
 
     struct Node {
-      double weight, distance;    // of what is measured from the plane
+      double weight, distance;    // of the measured fluid: its weight, its distance from the plane
       double value[NVALUE];       // at the node and that distance
       double slope[NVALUE];       // along the normal
       double mean[NVALUE];        // over time
@@ -194,7 +194,7 @@ namespace SPHDissipation {
 
     struct Past {
       double time;
-      std::vector<double> wave;    // of the nodes, NWAVE each
+      std::vector<double> wave;    // NWAVE values per node
     };
 
     const OpenPlane &plane;
@@ -236,7 +236,7 @@ namespace SPHDissipation {
     bool is_given[NQUANTITY];
     bool any_variable, needs_heat;
 
-    const char *fault(int k, double) const;    // what a value must not be; nullptr: nothing
+    const char *fault(int k, double) const;    // says why a value is refused; nullptr: it is not
   };
 
   // State of a particle of a zone: pressure, density, heat per mass
@@ -266,7 +266,7 @@ namespace SPHDissipation {
     bool given_state() const;                 // density or pressure
     bool has_heat() const { return warm; }    // states include the heat
 
-    // of an owned particle of the zone
+    // Functions of an owned particle of the zone
 
     void prescribed_velocity(int i, double *u) const;
     void velocity(int i, double *u) const;
@@ -284,7 +284,7 @@ namespace SPHDissipation {
 
     double &density_of_energy(int i) const;
 
-    // of an owned particle of the fluid near the plane; more = its pressure beyond the equation of state
+    // Functions of an owned particle of the fluid near the plane; more = its pressure beyond the equation of state
 
     OpenSample sample(int i, const Particle &, double more) const;
     bool is_supersonic(int i, const Particle &) const;    // on its way out
@@ -301,7 +301,7 @@ namespace SPHDissipation {
     const Fields *fields;
     bool warm;
     Kind kind;
-    int order;    // of values from inside, kind fixed
+    int order;    // extrapolation of values from inside, kind fixed
 
     // The state from which waves are counted at a particle of zone or fluid: what is prescribed, else the
     // average over time of what the fluid had
@@ -313,7 +313,7 @@ namespace SPHDissipation {
       OpenSample mean;     // over time
       double p, rho, c;    // pressure, density, sound speed
       double q;            // heat per mass
-      bool at_heat;        // which is known, and not the entropy
+      bool at_heat;        // the heat is prescribed, not the entropy
       double out;          // velocity out of the fluid
     };
 
@@ -350,7 +350,7 @@ namespace SPHDissipation {
     // Measure distance and width of the rows of a zone that is new: until the first renew().
     void init(double support, int fluid_bit);
     bool are_new() const { return unknown_sides; }
-    double width() const { return 2.0 * half_width; }    // of a row
+    double width() const { return 2.0 * half_width; }    // width of a row
     double largest_spacing() const;                      // now, of all processors
 
     // Note that particles have moved along the normal, by this at most.

@@ -217,7 +217,7 @@ const EosParams &OpenCondition::eos(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   of waves that leave: between those of slow and fast ones, where processes relax
+   Return the speed of waves that leave: where processes relax, it lies between those of slow and fast waves.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::sound(int i, double rho, double q) const
@@ -247,7 +247,7 @@ bool OpenCondition::enters(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   in the place of a rate, which particles of a zone do not have
+   The field is that of a rate, which particles of a zone do not have.
 ------------------------------------------------------------------------- */
 
 double &OpenCondition::density_of_energy(int i) const
@@ -286,7 +286,7 @@ double OpenCondition::heat(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   what is given holds for the whole zone, so that heat is conducted against a stream that leaves, too
+   A given temperature holds for the whole zone, so that heat is conducted against a stream that leaves, too.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::temperature(int i, const OpenState &state) const

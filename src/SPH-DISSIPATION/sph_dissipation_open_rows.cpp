@@ -46,7 +46,7 @@ class SPHDissipation::OpenBand : protected Pointers {
   const OpenPlane &plane;
   std::vector<double> place;    // 3 each
   std::vector<char> of_zone;
-  std::vector<std::vector<int>> at_node;    // of the plane
+  std::vector<std::vector<int>> at_node;    // particles next to each node of the plane
 
   int nearest_node(const double *x) const;
   template <class Function> bool any(const double *x, double reach, Function &&function) const;
@@ -126,8 +126,9 @@ bool OpenBand::has_near(const double *x, double distance, bool other) const
 }
 
 static constexpr double FAR = 1.0e300;
-static constexpr double ROUND_OFF = 1.0e-9;    // of lengths
-static constexpr double STRAIGHT = 0.01;       // of a row, sideways, over the size of a particle
+static constexpr double ROUND_OFF = 1.0e-9;    // tolerance of lengths
+static constexpr double STRAIGHT =
+    0.01;    // sideways tolerance of a row, over the size of a particle
 
 /* ---------------------------------------------------------------------- */
 
@@ -414,7 +415,7 @@ void OpenRows::check_alone(const OpenBand &band) const
 void OpenRows::check_lattice(const OpenBand &band, double largest) const
 {
   constexpr double GAP = 1.5, FIRST = 1.2, LAST = 1.5;    // distances of particles in a row
-  constexpr double APART = 1.5;    // of half the width of a row, which is more than is between rows
+  constexpr double APART = 1.5;    // over half the width of a row: farther than the next row
   enum { NUMBER, IN_ROWS, GAPS, BARE, NSUM };
   bigint sum[NSUM] = {0, 0, 0, 0}, all[NSUM];
   const double straight = STRAIGHT * 2.0 * half_width;
@@ -452,7 +453,7 @@ void OpenRows::check_lattice(const OpenBand &band, double largest) const
 
 void OpenRows::check_seat(const double *x, const OpenBand &band) const
 {
-  constexpr double APART = 0.5;    // of the width of a row
+  constexpr double APART = 0.5;    // over half the width of a row
   if (!in_box(lmp, x))
     error->one(FLERR,
                "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",

@@ -29,8 +29,8 @@ namespace SPHDissipation {
     double force[3], torque[3];    // torque about the origin, of forces and couples
     double power;                  // work and heat
 
-    // what acts on a particle of the fluid
-    void add(const Particle &, const ForceSum &, double heat);    // of all other channels
+    // Add what acts on a particle of the fluid; heat = that of all other channels.
+    void add(const Particle &, const ForceSum &, double heat);
     void add(const Spin &, const double *couple);
   };
 
@@ -44,16 +44,16 @@ namespace SPHDissipation {
     void add(OpenZone *);       // no effect if it is there
     void remove(OpenZone *);    // no effect if it is not there
     bool empty() const { return zones.empty(); }
-    int bits() const { return zone_bits; }    // of the groups of all zones
-    int bits_of(int fluid_bit) const;         // of those whose fluid has this bit
-    double strain_energy(int i) const;        // of relaxing processes, at the last densities
+    int bits() const { return zone_bits; }    // groups of all zones
+    int bits_of(int fluid_bit) const;         // groups of the zones whose fluid has this bit
+    double strain_energy(int i) const;        // energy of relaxing processes at the last densities
 
     // from OpenZone::set_states(): density and pressure of a particle, which keeps its bulk term; with which temperature it
     // conducts heat, if the fluid does
     void set_state(int i, double rho, double pressure);
     void set_temperature(int i, double temperature);
     const Particle &particle(int i) const { return engine.particle[i]; }
-    double strain_pressure(int i) const    // of relaxing processes
+    double strain_pressure(int i) const    // pressure of relaxing processes
     {
       return engine.parameters().nprocess ? engine.strain_pressure[i] : 0.0;
     }
@@ -72,11 +72,11 @@ namespace SPHDissipation {
     // neighbor lists, and with them only the masks of owned particles.
     std::vector<double> zone_of;
 
-    std::vector<std::vector<int>> rows;    // of the neighbor list, near the plane of each zone
+    std::vector<std::vector<int>> rows;    // rows of the neighbor list near the plane of each zone
 
-    PairSubset pairs;    // of fluid and one zone
+    PairSubset pairs;    // pairs of fluid and one zone
 
-    // of these pairs; all zero but within impact(), which works in proportion to the pairs
+    // Sums over these pairs, which are zero outside of impact(): it works in proportion to the pairs.
     std::vector<ForceSum> forces;
     ChannelSums side;
     std::vector<double> divergence, flow;

@@ -42,14 +42,15 @@ namespace SPHDissipation {
     double mask;      // bits of its groups
     double volume;    // now
     double most;      // volume that a merge may give it
-    double family;    // of the daughters of one split, the lowest of their new IDs; 0: none
+    double family;    // lowest new ID of the daughters of the split that it comes from; 0: none
     Lump lump;
 
     // partner of a merge: ID of the particle that it would merge with, or the family that does as a
     // whole; nonzero once that is settled
 
     double choice, settled;
-    double withheld;    // of the lowest ID of those that merge, or of one that splits: not now
+    double
+        withheld;    // nonzero: the event is over the limit of this step; set for who splits or leads a merge
 
     // The particle as its neighbors will meet it: a pair that merges is a point in its centre of
     // mass, whose mass the lower ID has, the other none
@@ -86,7 +87,7 @@ namespace SPHDissipation {
    private:
     Fix *fix;
     std::vector<RefineItem> items;
-    int first, count;    // of the doubles of an item that are sent
+    int first, count;    // which numbers of an item are sent
   };
 
   // Finds the partners of merges.  Each particle that is to merge chooses the nearest one that may be
@@ -106,7 +107,7 @@ namespace SPHDissipation {
     void find(NeighList *full, double farthest);
     int mate(int i) const { return mates[i]; }    // owned or ghost particle; -1: none
     bool leads(int i) const;                      // owned, of a pair: it is the one that stays
-    std::vector<int> members(int i) const;        // of the merge that i leads
+    std::vector<int> members(int i) const;        // particles of the merge that i leads
 
    private:
     RefineItems &items;

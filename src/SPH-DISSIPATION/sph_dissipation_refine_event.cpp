@@ -33,8 +33,9 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-static constexpr double FARTHEST = 0.35;          // distance of two that merge, over the support
-static constexpr double RESIDUAL_RADIUS = 0.5;    // of those that take angular momentum, the same
+static constexpr double FARTHEST = 0.35;    // distance of two that merge, over the support
+static constexpr double RESIDUAL_RADIUS =
+    0.5;    // distance of those that take angular momentum, over the support
 static constexpr double STRETCHED = 1.4;    // spacing over the mean one, that splits in two only
 static constexpr double NEXT = 1.6;         // distance of neighbors that split together, over it
 
@@ -121,7 +122,7 @@ void RefineEvent::set_lump(int i, const Lump &one)
 }
 
 /* ----------------------------------------------------------------------
-   of a particle that has split or merged, whose density changes with that
+   Set the states of a particle that has split or merged, whose density changes with that.
 ------------------------------------------------------------------------- */
 
 void RefineEvent::set_relaxing(int i, const Lump &one)

@@ -140,7 +140,7 @@ void SurfaceStage::find(int bits)
 }
 
 /* ----------------------------------------------------------------------
-   a vector toward the fluid, as the normal of a boundary particle; zero out of its reach
+   Set the normal of a boundary particle to a vector toward the fluid; zero out of its reach.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_sides(const BoundaryPairs &pairs)

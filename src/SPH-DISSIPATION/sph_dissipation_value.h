@@ -38,7 +38,7 @@ namespace SPHDissipation {
     // Evaluate the variable at this step; if it is of atom style, for owned particles of the group.
     void evaluate(LAMMPS *, int igroup);
 
-    const std::string &name() const { return variable_name; }    // of the variable
+    const std::string &name() const { return variable_name; }    // name of the variable
     bool varies() const { return is_variable; }
     bool is_by_atom() const { return by_atom; }
     bool is_zero() const { return !varies() && number == 0.0; }    // at all times
@@ -85,7 +85,7 @@ namespace SPHDissipation {
     const std::string owner;
     const int narg;
     char **const arg;
-    int at, end;            // of its words
+    int at, end;            // range of its words
     std::string keyword;    // empty: in front of the first one
     bool known;
   };
