@@ -53,8 +53,8 @@ static constexpr int FORMAT = 1004;
 enum {
   SIZE = 1,
   BALANCE,
-  ROWS = BALANCE + OpenBalance::NVALUE,
-  CLOCK = ROWS + OpenRows::NSTATE,
+  LATTICE = BALANCE + OpenBalance::NVALUE,
+  CLOCK = LATTICE + ZoneLattice::NSTATE,
   PLANE,
   NHEAD = PLANE + 6
 };
@@ -88,7 +88,7 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   values.reset(new OpenValues(lmp, owner));
   samples.reset(new OpenSamples(lmp, *plane));
   condition.reset(new OpenCondition(lmp, owner, *plane, *values, *samples));
-  rows.reset(new OpenRows(lmp, owner, *plane, groupbit));
+  lattice.reset(new ZoneLattice(lmp, owner, *plane, groupbit));
   balance.reset(new OpenBalance(lmp));
 
   fluid_name = arg[3];
@@ -100,11 +100,11 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
     condition->read(key);
     if (key.is("region")) plane->set_region(key.word());
     if (key.is("area")) area = key.positive();
-    if (key.is("spacing")) rows->set_spacing(key.positive());
+    if (key.is("spacing")) lattice->set_spacing(key.positive());
   }
   values->check();
   condition->check();
-  if (area > 0.0 && rows->has_spacing())
+  if (area > 0.0 && lattice->has_spacing())
     error->all(FLERR, "Fix {}: area and spacing cannot both be given", style);
   if (area > 0.0 && !values->given(OpenValues::RHO))
     error->all(FLERR, "Fix {} area needs a density, from which the distance of particles follows",
@@ -182,16 +182,16 @@ void FixSPHOpen::init()
   check_heat();
   condition->init(*fluid->model);
   if (area > 0.0)
-    rows->set_distance([this](int i) {
+    lattice->set_distance([this](int i) {
       return atom->rmass[i] / (area * (*values)(OpenValues::RHO, i));
     });
-  rows->init(support, fluidbit);
-  if (rows->are_new()) warn_of_styles();
+  lattice->init(support, fluidbit);
+  if (lattice->are_new()) warn_of_styles();
 
   // a small radius, because it smooths the profile, but large enough for a few particles
 
   constexpr double PART = 0.6, WIDTHS = 2.2;
-  radius = std::min(support, std::max(PART * support, WIDTHS * rows->width()));
+  radius = std::min(support, std::max(PART * support, WIDTHS * lattice->width()));
   plane->set_nodes(radius / NODES);
 
   samples->init();
@@ -254,10 +254,10 @@ bool FixSPHOpen::zone_near(const double *x, double reach) const
 
 void FixSPHOpen::setup_pre_exchange()
 {
-  if (update->whichflag == 0 && rows->are_new()) return;
+  if (update->whichflag == 0 && lattice->are_new()) return;
   set_up = true;
   states.clear();
-  condition->is_new = rows->are_new();
+  condition->is_new = lattice->are_new();
   if (condition->is_new && condition->has_heat())
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) condition->density_of_energy(i) = atom->rho[i];
@@ -269,7 +269,7 @@ void FixSPHOpen::setup_pre_exchange()
       if (atom->mask[i] & groupbit) set_velocity(i);
   }
   check_length();
-  is_new = rows->are_new();
+  is_new = lattice->are_new();
   if (is_new && integrator->has_set_masses()) warn_of_masses();
   pre_exchange();
 }
@@ -367,7 +367,7 @@ void FixSPHOpen::post_integrate()
       if (height < 0.0 && height >= -plane->length && !plane->beside(x)) leave(i);
     }
   }
-  rows->note_motion(farthest);
+  lattice->note_motion(farthest);
   states.clear();
   totals_known = false;
 }
@@ -452,7 +452,7 @@ void FixSPHOpen::set_spin(int i)
 void FixSPHOpen::pre_exchange()
 {
   check_region();
-  rows->renew([this](const std::vector<int> &created) {
+  lattice->renew([this](const std::vector<int> &created) {
     if (!values->vary()) return;
     values->evaluate(igroup);
     for (const int i : created) set_velocity(i);
@@ -596,7 +596,7 @@ void FixSPHOpen::write_restart(FILE *fp)
 {
   std::vector<double> state(NHEAD);
   balance->total(&state[BALANCE]);
-  rows->pack(&state[ROWS]);
+  lattice->pack(&state[LATTICE]);
   state[CLOCK] = condition->clock;
   std::copy_n(plane->point, 3, &state[PLANE]);
   std::copy_n(plane->normal, 3, &state[PLANE + 3]);
@@ -622,7 +622,7 @@ void FixSPHOpen::restart(char *buf)
   balance->restart(state + BALANCE);
   condition->clock = state[CLOCK];
   if (plane->is_at(state + PLANE)) {
-    rows->unpack(state + ROWS);
+    lattice->unpack(state + LATTICE);
     waves_before.assign(state + NHEAD, state + static_cast<int>(state[SIZE]));
   } else
     warn_of_other_plane();

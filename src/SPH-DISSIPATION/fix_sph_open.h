@@ -36,7 +36,7 @@ namespace SPHDissipation {
   class OpenCondition;
   class OpenBalance;
   class OpenPlane;
-  class OpenRows;
+  class ZoneLattice;
   class OpenSamples;
   class OpenValues;
   struct OpenState;
@@ -78,7 +78,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::unique_ptr<SPHDissipation::OpenValues> values;
   std::unique_ptr<SPHDissipation::OpenSamples> samples;
   std::unique_ptr<SPHDissipation::OpenCondition> condition;
-  std::unique_ptr<SPHDissipation::OpenRows> rows;
+  std::unique_ptr<SPHDissipation::ZoneLattice> lattice;
   std::unique_ptr<SPHDissipation::OpenBalance> balance;
   SPHDissipation::Fluid *fluid;
   class FixSPHBulk *integrator;    // moves the fluid

@@ -156,7 +156,7 @@ void FixSPHOpen::check_region()
 {
   if (!plane->limited()) return;
   const double play = 1.0e-6 * plane->length;
-  const double beside = std::max(rows->are_new() ? 0.0 : 0.5 * rows->width(), play);
+  const double beside = std::max(lattice->are_new() ? 0.0 : 0.5 * lattice->width(), play);
   bigint number[2] = {0, 0}, all[2];    // particles outside, particles without a region in front
   for (int i = 0; i < atom->nlocal; i++) {
     double x[3], front[3];
@@ -371,7 +371,7 @@ bool FixSPHOpen::warn_of_gap()
   constexpr int PARTS = 58;
   constexpr double GAP = 2.0;    // sizes of a particle; layers of lattices are one apart
   if (fluid->model->choice.eos == Eos::IDEAL) return false;
-  const double spacing = rows->largest_spacing();
+  const double spacing = lattice->largest_spacing();
   const int nodes = plane->nnodes(), sides = 2 * (domain->dimension - 1);
   const double depth = 2.0 * fluid->support_radius(), part = depth / PARTS;
   std::vector<Bits> mine(2 * nodes, 0), all(2 * nodes);    // parts, then sides, of the nodes
@@ -421,7 +421,7 @@ bool FixSPHOpen::warn_of_gap()
 
 void FixSPHOpen::check_length()
 {
-  const double least = 2.0 * fluid->support_radius() + rows->largest_spacing() + neighbor->skin;
+  const double least = 2.0 * fluid->support_radius() + lattice->largest_spacing() + neighbor->skin;
   if (plane->length < least)
     error->all(FLERR,
                "Fix {}: the zone must be at least {:g} long, not {:g}: two support radii, the "

@@ -396,7 +396,7 @@ void FixSPHRefine::set_items()
   event->begin();
   const StrainRows strains = fluid->strains();
   for (int i = 0; i < atom->nlocal; i++) {
-    RefineState state = is_fluid(i) ? KEEPS : APART;
+    RefineState state = is_fluid(i) ? KEEPS : NOT_FLUID;
     double goal = 0.0;
     if (state == KEEPS && (atom->mask[i] & groupbit)) {
       goal = target_volume((*target)(i));

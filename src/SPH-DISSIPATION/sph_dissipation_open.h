@@ -335,9 +335,9 @@ namespace SPHDissipation {
   // behind it as it moves on, those beyond the end are deleted.  Results do not depend on the number of
   // processors.
 
-  class OpenRows : protected Pointers {
+  class ZoneLattice : protected Pointers {
    public:
-    OpenRows(class LAMMPS *, const std::string &owner, const OpenPlane &, int groupbit);
+    ZoneLattice(class LAMMPS *, const std::string &owner, const OpenPlane &, int groupbit);
 
     void set_spacing(double a) { given_spacing = a; }
     bool has_spacing() const { return given_spacing > 0.0; }

@@ -33,7 +33,7 @@ namespace SPHDissipation {
 
   // What a particle does in an event
 
-  enum RefineState { APART, KEEPS, SPLITS, MERGES };    // APART: no fluid
+  enum RefineState { NOT_FLUID, KEEPS, SPLITS, MERGES };
 
   // A particle and what its neighbors need of it in an event.  All doubles, to be sent as rows.
 
@@ -50,7 +50,7 @@ namespace SPHDissipation {
 
     double choice, settled;
     double
-        withheld;    // nonzero: the event is over the limit of this step; set for who splits or leads a merge
+        postponed;    // nonzero: the event is over the limit of this step; set for who splits or leads a merge
 
     // The particle as its neighbors will meet it: a pair that merges is a point in its centre of
     // mass, whose mass the lower ID has, the other none
@@ -207,7 +207,7 @@ namespace SPHDissipation {
     bool merging(int i) const;
     bool families() const;    // all daughters of one split can merge as a whole
     bool find_stencil(NeighList *full, int i, Stencil &) const;
-    bigint withhold(bigint most);
+    bigint postpone(bigint most);
     void give_residual(NeighList *full);
     void move_others(const std::vector<char> &own_event);
     void create(const std::vector<tagint> &first, const Changed &changed);

@@ -140,7 +140,7 @@ void RefineEvent::set_relaxing(int i, const Lump &one)
 bool RefineEvent::merging(int i) const
 {
   if (pairs.mate(i) < 0) return false;
-  return items[pairs.leads(i) ? i : pairs.mate(i)].withheld == 0.0;
+  return items[pairs.leads(i) ? i : pairs.mate(i)].postponed == 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -164,7 +164,7 @@ bigint RefineEvent::plan(NeighList *full, bigint most)
     Split one = {i, Stencil()};
     if (items[i].is(SPLITS) && find_stencil(full, i, one.stencil)) splits.push_back(one);
   }
-  return withhold(most);
+  return postpone(most);
 }
 
 /* ----------------------------------------------------------------------
@@ -208,7 +208,7 @@ bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
    Drop the events of the highest IDs if there are more than the most.  Return how many take place.
 ------------------------------------------------------------------------- */
 
-bigint RefineEvent::withhold(bigint most)
+bigint RefineEvent::postpone(bigint most)
 {
   std::vector<tagint> mine;
   for (const Split &one : splits) mine.push_back(atom->tag[one.i]);
@@ -221,8 +221,8 @@ bigint RefineEvent::withhold(bigint most)
   std::vector<tagint> tags = gather_all(world, mine, MPI_LMP_TAGINT);
   std::nth_element(tags.begin(), tags.begin() + most, tags.end());
   const tagint end = tags[most];
-  for (int i = 0; i < atom->nlocal; i++) items[i].withheld = (atom->tag[i] >= end) ? 1.0 : 0.0;
-  items.forward(&RefineItem::withheld);
+  for (int i = 0; i < atom->nlocal; i++) items[i].postponed = (atom->tag[i] >= end) ? 1.0 : 0.0;
+  items.forward(&RefineItem::postponed);
   splits.erase(std::remove_if(splits.begin(), splits.end(),
                               [&](const Split &one) {
                                 return atom->tag[one.i] >= end;
@@ -239,7 +239,7 @@ bigint RefineEvent::withhold(bigint most)
 void RefineEvent::give_residual(NeighList *full)
 {
   for (int i = 0; i < atom->nlocal; i++)
-    if (items[i].is(APART) || (merging(i) && !pairs.leads(i))) items[i].mass = 0.0;
+    if (items[i].is(NOT_FLUID) || (merging(i) && !pairs.leads(i))) items[i].mass = 0.0;
   for (const Merge &one : merges) {
     RefineItem &item = items[one.i];
     item.mass = one.whole.mass;
@@ -253,10 +253,10 @@ void RefineEvent::give_residual(NeighList *full)
     if (residual.give(full, one.i, one.residual))
       taken.push_back(one);
     else
-      items[one.i].withheld = 1.0;
+      items[one.i].postponed = 1.0;
   }
   merges = taken;
-  items.forward(&RefineItem::withheld);
+  items.forward(&RefineItem::postponed);
   items.forward(&RefineItem::gives, 0);
   residual.take(full);
 }

@@ -302,7 +302,7 @@ void RefineResidual::take(NeighList *full)
   clear();
   for (int ii = 0; ii < full->inum; ii++) {
     const int i = full->ilist[ii];
-    if (items[i].is(APART)) continue;
+    if (items[i].is(NOT_FLUID)) continue;
     const int point = (items[i].mass > 0.0) ? i : pairs.mate(i);
     const int *const neighbors = full->firstneigh[i];
     for (int k = 0; k < full->numneigh[i]; k++) {

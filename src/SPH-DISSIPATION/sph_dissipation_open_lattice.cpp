@@ -132,16 +132,17 @@ static constexpr double STRAIGHT =
 
 /* ---------------------------------------------------------------------- */
 
-OpenRows::OpenRows(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane, int groupbit) :
-    Pointers(lmp), owner(owner), plane(plane), groupbit(groupbit), fluidbit(0), given_spacing(0.0),
-    spacing(0.0), half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true),
-    unknown_sides(true)
+ZoneLattice::ZoneLattice(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane,
+                         int groupbit) :
+    Pointers(lmp),
+    owner(owner), plane(plane), groupbit(groupbit), fluidbit(0), given_spacing(0.0), spacing(0.0),
+    half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true), unknown_sides(true)
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::init(double support_in, int fluid_bit)
+void ZoneLattice::init(double support_in, int fluid_bit)
 {
   support = support_in;
   fluidbit = fluid_bit;
@@ -162,7 +163,7 @@ void OpenRows::init(double support_in, int fluid_bit)
    that such IDs do not change while their number is the same (Dump::init() and Dump::sort()).
 ------------------------------------------------------------------------- */
 
-void OpenRows::interrupt_ids()
+void ZoneLattice::interrupt_ids()
 {
   if (!atom->tag_consecutive()) return;
   tagint mine = 0, last;
@@ -179,7 +180,7 @@ void OpenRows::interrupt_ids()
 
 /* ---------------------------------------------------------------------- */
 
-double OpenRows::step(int i) const
+double ZoneLattice::step(int i) const
 {
   if (!by_distance()) return spacing;
   const double length = distance(i);
@@ -194,7 +195,7 @@ double OpenRows::step(int i) const
    is on the same side of it as a whole, on any number of processors.
 ------------------------------------------------------------------------- */
 
-double OpenRows::end() const
+double ZoneLattice::end() const
 {
   return -(1.0 + ROUND_OFF) * plane.length;
 }
@@ -204,7 +205,7 @@ double OpenRows::end() const
    one straight behind it, and that of the nearest row.
 ------------------------------------------------------------------------- */
 
-void OpenRows::find_rows()
+void ZoneLattice::find_rows()
 {
   struct {
     double height;
@@ -251,7 +252,7 @@ void OpenRows::find_rows()
 
 /* ---------------------------------------------------------------------- */
 
-double OpenRows::my_largest_spacing() const
+double ZoneLattice::my_largest_spacing() const
 {
   if (!by_distance()) return spacing;
   double largest = 0.0;
@@ -262,7 +263,7 @@ double OpenRows::my_largest_spacing() const
   return largest;
 }
 
-double OpenRows::largest_spacing() const
+double ZoneLattice::largest_spacing() const
 {
   if (!by_distance()) return spacing;
   const double largest = my_largest_spacing();
@@ -273,7 +274,7 @@ double OpenRows::largest_spacing() const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::renew(const Refresh &refresh)
+void ZoneLattice::renew(const Refresh &refresh)
 {
   const int nbefore = atom->nlocal;
   begin_change(lmp);
@@ -308,7 +309,7 @@ void OpenRows::renew(const Refresh &refresh)
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::remove_beyond()
+void ZoneLattice::remove_beyond()
 {
   for (int i = atom->nlocal - 1; i >= 0; i--) {
     highest = std::max(highest, atom->tag[i]);
@@ -320,7 +321,7 @@ void OpenRows::remove_beyond()
    Return the owned particles that move into the fluid and have none behind them in their row.
 ------------------------------------------------------------------------- */
 
-std::vector<int> OpenRows::last_ones(const OpenBand &band) const
+std::vector<int> ZoneLattice::last_ones(const OpenBand &band) const
 {
   std::vector<int> last;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -340,8 +341,8 @@ std::vector<int> OpenRows::last_ones(const OpenBand &band) const
    new particle is as far away as the harmonic mean of the two, to second order.
 ------------------------------------------------------------------------- */
 
-bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh,
-                    bigint &removed, bigint &change)
+bool ZoneLattice::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh,
+                       bigint &removed, bigint &change)
 {
   constexpr int CORRECTIONS = 3;
   last.erase(std::remove_if(last.begin(), last.end(),
@@ -390,7 +391,7 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
    Refuse other particles in the zone.
 ------------------------------------------------------------------------- */
 
-void OpenRows::check_alone(const OpenBand &band) const
+void ZoneLattice::check_alone(const OpenBand &band) const
 {
   bigint count = 0, all;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -412,7 +413,7 @@ void OpenRows::check_alone(const OpenBand &band) const
    lattice, such as one that the fluid has filled, has no rows.
 ------------------------------------------------------------------------- */
 
-void OpenRows::check_lattice(const OpenBand &band, double largest) const
+void ZoneLattice::check_lattice(const OpenBand &band, double largest) const
 {
   constexpr double GAP = 1.5, FIRST = 1.2, LAST = 1.5;    // distances of particles in a row
   constexpr double APART = 1.5;    // over half the width of a row: farther than the next row
@@ -451,7 +452,7 @@ void OpenRows::check_lattice(const OpenBand &band, double largest) const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::check_seat(const double *x, const OpenBand &band) const
+void ZoneLattice::check_seat(const double *x, const OpenBand &band) const
 {
   constexpr double APART = 0.5;    // over half the width of a row
   if (!in_box(lmp, x))
@@ -465,7 +466,7 @@ void OpenRows::check_seat(const double *x, const OpenBand &band) const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::pack(double *buf) const
+void ZoneLattice::pack(double *buf) const
 {
   tagint all;
   MPI_Allreduce(&highest, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
@@ -474,7 +475,7 @@ void OpenRows::pack(double *buf) const
   buf[2] = static_cast<double>(all);
 }
 
-void OpenRows::unpack(const double *buf)
+void ZoneLattice::unpack(const double *buf)
 {
   spacing = buf[0];
   half_width = buf[1];
