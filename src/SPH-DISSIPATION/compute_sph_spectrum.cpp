@@ -19,7 +19,6 @@
 #include "error.h"
 #include "group.h"
 #include "memory.h"
-#include "sph_dissipation_fft.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"

@@ -22,13 +22,7 @@ ComputeStyle(sph/spectrum,ComputeSPHSpectrum);
 
 #include "sph_dissipation_grid.h"
 
-#include <complex>
-#include <memory>
-
 namespace LAMMPS_NS {
-namespace SPHDissipation {
-  class FourierGrid;
-}
 
 // Spectra of the solenoidal and the dilatational motion, of vorticity and density, by FFT of the fields
 // on a grid; their sums, and the power that they dissipate.

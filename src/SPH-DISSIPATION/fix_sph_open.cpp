@@ -18,7 +18,6 @@
 #include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
-#include "force.h"
 #include "group.h"
 #include "math_extra.h"
 #include "modify.h"

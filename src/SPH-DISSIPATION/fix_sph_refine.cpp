@@ -17,7 +17,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
 #include "math_const.h"
 #include "memory.h"
 #include "modify.h"

@@ -18,7 +18,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
 #include "group.h"
 #include "math_extra.h"
 #include "memory.h"

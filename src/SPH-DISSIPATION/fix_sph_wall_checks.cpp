@@ -24,7 +24,6 @@
 #include "pair_hybrid.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_create.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 

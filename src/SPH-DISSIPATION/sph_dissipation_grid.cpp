@@ -17,7 +17,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
 #include "grid2d.h"
 #include "grid3d.h"
 #include "memory.h"
@@ -387,6 +386,26 @@ void GridCompute::reset_grid()
 
 /* ---------------------------------------------------------------------- */
 
+template <int DIM> static double velocity(const Atom *atom, int i)
+{
+  return atom->v[i][DIM];
+}
+
+template <int DIM> static double spin(const Atom *atom, int i)
+{
+  return atom->omega[i][DIM];
+}
+
+static double density(const Atom *atom, int i)
+{
+  return atom->rho[i];
+}
+
+static double energy(const Atom *atom, int i)
+{
+  return atom->esph[i] / atom->vfrac[i];
+}
+
 bool GridCompute::add_value(const std::string &name)
 {
   static const struct {
@@ -394,10 +413,9 @@ bool GridCompute::add_value(const std::string &name)
     Value getter;
     bool spin;
   } KNOWN[] = {
-      {"vx", &GridCompute::velocity<0>, false}, {"vy", &GridCompute::velocity<1>, false},
-      {"vz", &GridCompute::velocity<2>, false}, {"rho", &GridCompute::density, false},
-      {"esph", &GridCompute::energy, false},    {"omegax", &GridCompute::spin<0>, true},
-      {"omegay", &GridCompute::spin<1>, true},  {"omegaz", &GridCompute::spin<2>, true},
+      {"vx", velocity<0>, false}, {"vy", velocity<1>, false}, {"vz", velocity<2>, false},
+      {"rho", density, false},    {"esph", energy, false},    {"omegax", spin<0>, true},
+      {"omegay", spin<1>, true},  {"omegaz", spin<2>, true},
   };
   for (const auto &value : KNOWN) {
     if (name != value.name) continue;
@@ -416,28 +434,6 @@ bool GridCompute::add_value(const std::string &name)
 void GridCompute::read_order(Keywords &key)
 {
   if (key.is("order")) linear = (key.choice({"0", "1"}) == 1);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <int DIM> double GridCompute::velocity(int i) const
-{
-  return atom->v[i][DIM];
-}
-
-template <int DIM> double GridCompute::spin(int i) const
-{
-  return atom->omega[i][DIM];
-}
-
-double GridCompute::density(int i) const
-{
-  return atom->rho[i];
-}
-
-double GridCompute::energy(int i) const
-{
-  return atom->esph[i] / atom->vfrac[i];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -464,7 +460,7 @@ bigint GridCompute::map()
   }
   for (int i = 0; i < atom->nlocal; i++) {
     values[i][0] = is_mapped(mapped, i) ? atom->vfrac[i] : 0.0;
-    for (int k = 0; k < nvalue(); k++) values[i][1 + k] = (this->*getters[k])(i);
+    for (int k = 0; k < nvalue(); k++) values[i][1 + k] = getters[k](atom, i);
   }
 
   // a fix may have changed the box at the end of the step, and with it the places of owned particles

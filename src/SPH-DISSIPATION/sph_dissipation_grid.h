@@ -17,6 +17,8 @@
 #include "compute.h"
 #include "sph_dissipation_kernel.h"
 
+#include <complex>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -83,6 +85,27 @@ namespace SPHDissipation {
     bigint solve(bool linear);
   };
 
+  // Fourier transform of a field on the points of a grid, by the distributed FFT of LAMMPS's KSPACE
+  // package, if LAMMPS is built with it.
+
+  class FourierGrid : protected Pointers {
+   public:
+    FourierGrid(class LAMMPS *, const ParticleGrid &);
+    ~FourierGrid() override;
+
+    static bool available();
+
+    // amplitudes a_k of f = sum_k a_k exp(i k.x), x from the first point: mode (i,j,k) of the box is
+    // where the point (i,j,k) is, i.e. on the processor and at the place in the array
+
+    void transform(const double *field, std::complex<double> *modes);
+    double memory_usage() const;
+
+   private:
+    struct Plan;    // knows LAMMPS's FFTs
+    std::unique_ptr<Plan> plan;
+  };
+
   // A compute of the fluid on a grid: compute ID group style Nx Ny Nz ... order 0|1.  It makes the grid
   // and maps values of the particles to it.
 
@@ -110,17 +133,12 @@ namespace SPHDissipation {
     bigint map();    // all values, to ParticleGrid::field(); points without particles, of all ranks
 
    private:
-    using Value = double (GridCompute::*)(int) const;
+    using Value = double (*)(const Atom *, int);
 
     std::vector<std::string> names;
     std::vector<Value> getters;
     int nmax;
     double **values;    // owned and ghost particles: volume (0: not mapped), then the values to map
-
-    template <int DIM> double velocity(int) const;
-    template <int DIM> double spin(int) const;
-    double density(int) const;
-    double energy(int) const;
   };
 
 }    // namespace SPHDissipation

@@ -23,7 +23,6 @@
 #include "sph_dissipation_create.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
-#include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
 #include "update.h"
 
