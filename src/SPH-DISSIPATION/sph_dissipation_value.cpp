@@ -94,6 +94,7 @@ bool Keywords::is(const std::string &name, int nwords)
 {
   if (keyword != name) return false;
   known = true;
+  end = at;
   more(nwords);
   return true;
 }
