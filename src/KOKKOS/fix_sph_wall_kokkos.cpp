@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "fix_sph_wall_kokkos.h"
 
 #include "atom_kokkos.h"
@@ -166,16 +170,16 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::pre_force(int vflag)
 {
-  if (!heat_value.varies() && !gravity_varies()) return;
+  if (!heat_value->varies() && !gravity_varies()) return;
   atomKK->sync(Host, ALL_MASK);    // variables may be of any particles
   FixSPHWall::pre_force(vflag);
-  if (!heat_value.is_by_atom()) return;
+  if (!heat_value->is_by_atom()) return;
   if ((int) heat_values.extent(0) < atom->nlocal) {
     heat_values = {};
     heat_values = decltype(heat_values)(Kokkos::NoInit("sph/wall:heat"), atom->nmax);
   }
   const auto on_host = Kokkos::create_mirror_view(heat_values);
-  for (int i = 0; i < atom->nlocal; i++) on_host(i) = heat_value(i);
+  for (int i = 0; i < atom->nlocal; i++) on_host(i) = (*heat_value)(i);
   Kokkos::deep_copy(heat_values, on_host);
 }
 
@@ -220,8 +224,8 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
   auto *const spin = data.spin;
   const int bit = groupbit;
   const WallHeat kind = heat;
-  const bool with_heat = data.par.conducts, by_atom = heat_value.is_by_atom();
-  const double value = heat_value.now();
+  const bool with_heat = data.par.conducts, by_atom = heat_value->is_by_atom();
+  const double value = heat_value->now();
   auto values = heat_values;
   auto heat_sums = boundary.heat_sum;
 

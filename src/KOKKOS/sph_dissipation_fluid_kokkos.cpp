@@ -30,14 +30,25 @@
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_sums_kokkos.h"
-#include "sph_dissipation_threads_kokkos.h"
+#include "sph_dissipation_threads.h"
 
 #include <algorithm>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// the device is the host
+// The threads of the KOKKOS package on the host
+
+class ThreadsKokkos : public Threads {
+ public:
+  int size() const override { return LMPHostType().concurrency(); }
+  void run(const std::function<void(int)> &task) override
+  {
+    Kokkos::parallel_for("sph:threads", Kokkos::RangePolicy<LMPHostType>(0, size()), [&](int k) {
+      task(k);
+    });
+  }
+};
 
 /* ---------------------------------------------------------------------- */
 

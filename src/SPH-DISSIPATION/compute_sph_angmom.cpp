@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "compute_sph_angmom.h"
 
 #include "atom.h"
@@ -18,9 +22,8 @@
 #include "error.h"
 #include "group.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
-
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -35,14 +38,11 @@ ComputeSPHAngmom::ComputeSPHAngmom(LAMMPS *lmp, int narg, char **arg) :
   if (!Fields::with_spins(atom))
     error->all(FLERR, "Compute {} requires atom style sph/micropolar", style);
 
-  if (narg > 3) {
-    if (strcmp(arg[3], "point") != 0)
-      error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
-    if (narg < 7) utils::missing_cmd_args(FLERR, fmt::format("compute {} point", style), error);
-    if (narg > 7) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[7]);
-    fixed_point = 1;
-    for (int d = 0; d < 3; d++) point[d] = utils::numeric(FLERR, arg[4 + d], false, lmp);
-  }
+  for (Keywords key(lmp, fmt::format("Compute {}", style), 3, narg, arg); key.next();)
+    if (key.is("point", 3)) {
+      fixed_point = 1;
+      for (int d = 0; d < 3; d++) point[d] = key.number(d);
+    }
 
   vector_flag = 1;
   size_vector = NVALUE;

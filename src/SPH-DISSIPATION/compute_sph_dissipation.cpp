@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "compute_sph_dissipation.h"
 
 #include "atom.h"
@@ -58,7 +62,7 @@ void ComputeSPHDissipation::init()
 }
 
 /* ----------------------------------------------------------------------
-   heat of each particle (not if nullptr), and total power by channel; the fluid is looked up at every use,
+   Get the heat of each particle (not if nullptr) and the total power by channel; the fluid is looked up at every use,
    for the pair style may have been replaced since
 ------------------------------------------------------------------------- */
 

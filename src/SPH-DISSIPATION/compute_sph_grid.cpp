@@ -11,12 +11,16 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "compute_sph_grid.h"
 
 #include "domain.h"
 #include "error.h"
 #include "memory.h"
-#include "sph_dissipation_grid.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -30,9 +34,8 @@ ComputeSPHGrid::ComputeSPHGrid(LAMMPS *lmp, int narg, char **arg) :
 {
   int iarg = 6;
   while (iarg < narg && add_value(arg[iarg])) iarg++;
-  while (iarg < narg)
-    if (!order_keyword(iarg, narg, arg))
-      error->all(FLERR, "Unknown compute {} value or keyword: {}", style, arg[iarg]);
+  for (Keywords key(lmp, fmt::format("Compute {}", style), iarg, narg, arg); key.next();)
+    read_order(key);
   if (nvalue() == 0) error->all(FLERR, "Compute {} needs at least one value", style);
   allocate();
 }
@@ -45,7 +48,7 @@ ComputeSPHGrid::~ComputeSPHGrid()
 }
 
 /* ----------------------------------------------------------------------
-   in the layout of LAMMPS's grids
+   Allocate arrays in the layout of LAMMPS's grids.
 ------------------------------------------------------------------------- */
 
 void ComputeSPHGrid::allocate()
@@ -113,7 +116,7 @@ void ComputeSPHGrid::compute_pergrid()
 }
 
 /* ----------------------------------------------------------------------
-   one grid with the name "grid", and one set of data on it with the name "data"
+   There is one grid with the name "grid", and one set of data on it with the name "data".
 ------------------------------------------------------------------------- */
 
 int ComputeSPHGrid::get_grid_by_name(const std::string &name, int &dim)

@@ -20,7 +20,7 @@ ComputeStyle(sph/grid,ComputeSPHGrid);
 #ifndef LMP_COMPUTE_SPH_GRID_H
 #define LMP_COMPUTE_SPH_GRID_H
 
-#include "sph_dissipation_grid_compute.h"
+#include "sph_dissipation_grid.h"
 
 namespace LAMMPS_NS {
 

@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "compute_sph_spectrum.h"
 
 #include "atom.h"
@@ -19,20 +23,68 @@
 #include "error.h"
 #include "group.h"
 #include "memory.h"
-#include "sph_dissipation_fft.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
-#include "sph_dissipation_grid.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_spectrum.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+// Spectra of a periodic flow.
+//
+// A velocity field u = sum_k u_k exp(i k.x) is the sum of a solenoidal part, u_k at right angles to k,
+// and a dilatational one, u_k along k (Helmholtz); a uniform flow, k = 0, counts as solenoidal.  The
+// mean of the product of two real fields is the sum of a_k b_k^* over all modes (Parseval).  Notation:
+// P. Sagaut, C. Cambon, Homogeneous Turbulence Dynamics (Springer, 2018).
+
+using Amplitude = std::complex<double>;
+
+// wave number of mode i of n points along a length: -n/2 to (n-1)/2 wave lengths in it
+
+static double wave_number(int i, int n, double length)
+{
+  return 2.0 * KERNEL_PI / length * (i <= (n - 1) / 2 ? i : i - n);
+}
+
+// one mode of a velocity field: energies |u|^2/2 of both parts, squares of curl and divergence
+
+struct ModeEnergies {
+  double solenoidal, dilatational, curl2, div2;
+};
+
+static ModeEnergies split(const double *k, const Amplitude *u)
+{
+  const double ksq = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
+  if (ksq == 0.0)
+    return {0.5 * (std::norm(u[0]) + std::norm(u[1]) + std::norm(u[2])), 0.0, 0.0, 0.0};
+  const double div2 = std::norm(k[0] * u[0] + k[1] * u[1] + k[2] * u[2]);
+  const double curl2 = std::norm(k[1] * u[2] - k[2] * u[1]) + std::norm(k[2] * u[0] - k[0] * u[2]) +
+      std::norm(k[0] * u[1] - k[1] * u[0]);
+  return {0.5 * curl2 / ksq, 0.5 * div2 / ksq, curl2, div2};
+}
+
+// Power per volume that a Newtonian fluid of uniform viscosities dissipates in a periodic box:
+// mu <curl^2> + (kappa + 2 mu (1 - 1/n)) <div^2>, exact, as the cross terms of the strain rates are
+// divergences.  Coefficient of <div^2>, also called lambda + 2 mu.
+
+static double longitudinal_viscosity(double mu, double kappa, int n)
+{
+  return kappa + 2.0 * mu * (1.0 - 1.0 / n);
+}
+
+// Factor by which the squared amplitude of a mode is to be multiplied to undo the smoothing by the
+// kernel, 1/W_k^2; where less than half of the amplitude is left, it is not raised any more.
+
+static double deconvolution(Kernel kernel, int n, double k, double support)
+{
+  const double transform = kernel_transform(kernel, n, k, support);
+  return 1.0 / (transform > 0.5 ? transform * transform : 0.25);
+}
 
 // columns of the array, elements of the vector
 
@@ -66,20 +118,13 @@ ComputeSPHSpectrum::ComputeSPHSpectrum(LAMMPS *lmp, int narg, char **arg) :
                "SPH-DISSIPATION",
                style);
 
-  int iarg = 6;
-  while (iarg < narg) {
-    if (order_keyword(iarg, narg, arg)) continue;
-    if (strcmp(arg[iarg], "deconvolve") != 0 && strcmp(arg[iarg], "shells") != 0)
-      error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[iarg]);
-    if (iarg + 2 > narg)
-      utils::missing_cmd_args(FLERR, fmt::format("compute {} {}", style, arg[iarg]), error);
-    if (strcmp(arg[iarg], "deconvolve") == 0)
-      deconvolve = utils::logical(FLERR, arg[iarg + 1], false, lmp);
-    else {
-      nshell = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-      if (nshell < 1) error->all(FLERR, "Compute {} shells must be at least 1", style);
+  for (Keywords key(lmp, fmt::format("Compute {}", style), 6, narg, arg); key.next();) {
+    read_order(key);
+    if (key.is("deconvolve")) deconvolve = utils::logical(FLERR, key.word(), false, lmp);
+    if (key.is("shells")) {
+      nshell = key.whole_number();
+      key.demand(nshell >= 1, "at least 1");
     }
-    iarg += 2;
   }
 
   for (const char *name : {"vx", "vy", "vz", "rho"}) add_value(name);
@@ -143,7 +188,7 @@ void ComputeSPHSpectrum::reset_grid()
 }
 
 /* ----------------------------------------------------------------------
-   shell s has the wave numbers from (s - 1/2) to (s + 1/2) shell widths
+   Return the width of a shell: shell s has the wave numbers from (s - 1/2) to (s + 1/2) widths.
 ------------------------------------------------------------------------- */
 
 double ComputeSPHSpectrum::shell_width() const
@@ -178,7 +223,7 @@ void ComputeSPHSpectrum::compute_array()
 }
 
 /* ----------------------------------------------------------------------
-   vector and array at once, valid for both
+   Calculate vector and array at once.
 ------------------------------------------------------------------------- */
 
 void ComputeSPHSpectrum::calculate()
@@ -242,7 +287,7 @@ void ComputeSPHSpectrum::set_raise()
 }
 
 /* ----------------------------------------------------------------------
-   totals, and sums of each shell over its width
+   Sum up the totals, and each shell over its width.
 ------------------------------------------------------------------------- */
 
 void ComputeSPHSpectrum::sum_modes()

@@ -20,15 +20,9 @@ ComputeStyle(sph/spectrum,ComputeSPHSpectrum);
 #ifndef LMP_COMPUTE_SPH_SPECTRUM_H
 #define LMP_COMPUTE_SPH_SPECTRUM_H
 
-#include "sph_dissipation_grid_compute.h"
-
-#include <complex>
-#include <memory>
+#include "sph_dissipation_grid.h"
 
 namespace LAMMPS_NS {
-namespace SPHDissipation {
-  class FourierGrid;
-}
 
 // Spectra of the solenoidal and the dilatational motion, of vorticity and density, by FFT of the fields
 // on a grid; their sums, and the power that they dissipate.
@@ -48,7 +42,7 @@ class ComputeSPHSpectrum : public SPHDissipation::GridCompute {
   int nshell;    // shells asked for, 0: all
   bool micropolar, checked;
   std::unique_ptr<SPHDissipation::FourierGrid> fourier;
-  std::vector<std::vector<std::complex<double>>> modes;    // of each field, see calculate()
+  std::vector<std::vector<std::complex<double>>> modes;    // one array per field, see calculate()
   std::vector<double> raise;                               // factor of each mode
   std::vector<double> raised_for;                          // box, support radius, kernel
 

@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "compute_sph_temp.h"
 
 #include "atom.h"
@@ -59,7 +63,7 @@ void ComputeSPHTemp::init()
 }
 
 /* ----------------------------------------------------------------------
-   of each direction, relative to the mean velocity of the group: so there are N-1 degrees of
+   Set the temperature of each direction, relative to the mean velocity of the group: so there are N-1 degrees of
    freedom, whether the momentum of the group is constant or not
 ------------------------------------------------------------------------- */
 
@@ -114,7 +118,7 @@ double ComputeSPHTemp::rotational() const
 }
 
 /* ----------------------------------------------------------------------
-   of the heat of the particles, sum of Q_i over sum of C_i
+   Return the temperature of the heat of the particles, sum of Q_i over sum of C_i.
 ------------------------------------------------------------------------- */
 
 double ComputeSPHTemp::internal() const
@@ -141,7 +145,7 @@ double ComputeSPHTemp::internal() const
 }
 
 /* ----------------------------------------------------------------------
-   mean of the directions in which particles move
+   Return the mean of the directions in which particles move.
 ------------------------------------------------------------------------- */
 
 double ComputeSPHTemp::compute_scalar()

@@ -35,7 +35,7 @@ class ComputeSPHTemp : public Compute {
   void compute_vector() override;
 
  private:
-  void translational(double *) const;    // of each direction
+  void translational(double *) const;    // three directions
   double rotational() const;
   double internal() const;
 };

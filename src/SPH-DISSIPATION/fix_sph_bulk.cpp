@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "fix_sph_bulk.h"
 
 #include "atom.h"
@@ -30,11 +34,11 @@
 #include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_rows.h"
 #include "sph_dissipation_shift_terms.h"
+#include "sph_dissipation_solvers.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_threads.h"
 #include "sph_dissipation_value.h"
 #include "sph_dissipation_viscous.h"
-#include "sph_dissipation_viscous_keywords.h"
 #include "update.h"
 
 #include <algorithm>
@@ -134,16 +138,15 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), diffuses(false), exact(false), shift_speed(0.0),
     remap_v_flag(0), integrated_groups(0), first_instance(false), fluid(nullptr),
     fluid_style(without_suffix(style)), spins(Fields::with_spins(atom)), dt_of_forces(0.0),
-    dt_of_strain(0.0), extrapolation(1.0), balanced(false),
-    viscous(new ViscousKeywords(lmp, style)), temperature(nullptr), temperature_done(false), last(),
-    inertia_flag(0), factor(0.0), offset(0.0), inertia_done(false), density_done(0),
-    density_flag(0), set_up(false), energy_extrapolated(false), setup_step(0), last_instance(false),
-    not_integrated(0)
+    dt_of_strain(0.0), extrapolation(1.0), balanced(false), viscous(new ViscousSettings),
+    temperature(nullptr), temperature_done(false), last(), inertia_flag(0), factor(0.0),
+    offset(0.0), inertia_done(false), density_done(0), density_flag(0), set_up(false),
+    energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
-  for (int iarg = 3; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
+  read_keywords(narg, arg);
   if (lmp->citeme && shift_speed > 0.0) lmp->citeme->add(cite_shift);
-  if (lmp->citeme && viscous->settings().mode == Viscous::RKL2) lmp->citeme->add(cite_rkl2);
+  if (lmp->citeme && viscous->mode == Viscous::RKL2) lmp->citeme->add(cite_rkl2);
 
   time_integrate = 1;
   create_attribute = 1;
@@ -165,42 +168,54 @@ FixSPHBulk::~FixSPHBulk()
 
 /* ---------------------------------------------------------------------- */
 
-int FixSPHBulk::keyword_argument(int iarg, int narg, char **arg)
+void FixSPHBulk::read_keywords(int narg, char **arg)
 {
-  if (strcmp(arg[iarg], "density") == 0) {
-    if (iarg + 2 > narg)
-      utils::missing_cmd_args(FLERR, fmt::format("fix {} density", style), error);
-    if (strcmp(arg[iarg + 1], "rho0") != 0 && strcmp(arg[iarg + 1], "keep") != 0)
-      error->all(FLERR, "Fix {} density must be rho0 or keep, not {}", style, arg[iarg + 1]);
-    density_flag = (strcmp(arg[iarg + 1], "rho0") == 0);
-    return 2;
+  std::string rkl2_only, implicit_only;    // a keyword that was given
+  for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
+    if (key.is("density"))
+      density_flag = (key.choice({"rho0", "keep"}) == 0);
+    else if (spins && key.is("inertia", 2)) {
+      inertia_flag = 1;
+      factor = key.number(0);
+      offset = key.number(1);
+      if (!(factor >= 0.0) || !(offset >= 0.0) || !(factor + offset > 0.0))
+        error->all(FLERR, "Fix {} inertia needs two numbers >= 0, one of them > 0, not {} {}",
+                   style, key.word(0), key.word(1));
+    } else if (key.is("temperature")) {
+      if (!temperature) temperature = new Value;
+      temperature->set(lmp, key.word());
+    } else if (key.is("shift")) {
+      shift_speed = key.number();
+      key.demand(shift_speed >= 0.0, ">= 0");
+    } else if (key.is("viscous")) {
+      viscous->mode = static_cast<Viscous>(key.choice({"explicit", "rkl2", "implicit"}));
+    } else if (key.is("stages")) {
+      rkl2_only = key.name();
+      const bool automatic = (strcmp(key.word(), "auto") == 0);
+      const int stages = viscous->stages = automatic ? 0 : key.whole_number();
+      key.demand(automatic || (stages >= RKL2::FEWEST && stages <= RKL2::MOST && stages % 2 == 1),
+                 fmt::format("auto or an odd number from {} to {}", +RKL2::FEWEST, +RKL2::MOST));
+    } else if (key.is("scheme")) {
+      implicit_only = key.name();
+      viscous->scheme = static_cast<Scheme>(key.choice({"trapezoidal", "sdirk2", "euler"}));
+    } else if (key.is("tolerance")) {
+      implicit_only = key.name();
+      viscous->tolerance = key.number();
+      key.demand(viscous->tolerance > 0.0 && viscous->tolerance < 1.0, "> 0 and < 1");
+    } else if (key.is("iterations", 2)) {
+      implicit_only = key.name();
+      viscous->iterations = key.whole_number();
+      key.demand(viscous->iterations >= 1, ">= 1");
+      viscous->must_converge = (strcmp(key.word(1), "error") == 0);
+      if (!viscous->must_converge && strcmp(key.word(1), "warn") != 0)
+        error->all(FLERR, "Fix {} iterations must end with warn or error, not {}", style,
+                   key.word(1));
+    }
   }
-  if (spins && strcmp(arg[iarg], "inertia") == 0) {
-    if (iarg + 3 > narg)
-      utils::missing_cmd_args(FLERR, fmt::format("fix {} inertia", style), error);
-    inertia_flag = 1;
-    factor = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    offset = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-    if (!(factor >= 0.0) || !(offset >= 0.0) || !(factor + offset > 0.0))
-      error->all(FLERR, "Fix {} inertia needs two numbers >= 0, one of them > 0, not {} {}", style,
-                 arg[iarg + 1], arg[iarg + 2]);
-    return 3;
-  }
-  if (strcmp(arg[iarg], "temperature") == 0) {
-    if (iarg + 2 > narg)
-      utils::missing_cmd_args(FLERR, fmt::format("fix {} temperature", style), error);
-    if (!temperature) temperature = new Value;
-    temperature->set(lmp, arg[iarg + 1]);
-    return 2;
-  }
-  if (const int nwords = viscous->argument(iarg, narg, arg)) return nwords;
-  if (strcmp(arg[iarg], "shift") != 0)
-    error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[iarg]);
-  if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, fmt::format("fix {} shift", style), error);
-  shift_speed = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  if (!(shift_speed >= 0.0))
-    error->all(FLERR, "Fix {} shift must be >= 0, not {}", style, arg[iarg + 1]);
-  return 2;
+  if (viscous->mode != Viscous::RKL2 && !rkl2_only.empty())
+    error->all(FLERR, "Fix {} {} is for viscous rkl2 only", style, rkl2_only);
+  if (viscous->mode != Viscous::IMPLICIT && !implicit_only.empty())
+    error->all(FLERR, "Fix {} {} is for viscous implicit only", style, implicit_only);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -230,7 +245,7 @@ void FixSPHBulk::init()
 
   fluid = find_own_fluid();
   const bool noise = fluid && fluid->model->choice.thermal;
-  extrapolation = viscous->settings().extrapolation(noise);
+  extrapolation = viscous->extrapolation(noise);
   balanced = fluid && fluid->model->choice.own_temperatures && fluid->pair->compute_flag;
   exact = balanced || has_viscous_stage();
   if (noise && shift_speed > 0.0)
@@ -285,10 +300,10 @@ Fluid *FixSPHBulk::find_own_fluid() const
 
 void FixSPHBulk::init_viscous()
 {
-  const ViscousSettings &settings = viscous->settings();
+  const ViscousSettings &settings = *viscous;
   for (const auto &ifix : modify->get_fix_by_style("^" + fluid_style)) {
     const auto *other = dynamic_cast<FixSPHBulk *>(ifix);
-    if (other && other->viscous->settings() != settings)
+    if (other && *other->viscous != settings)
       error->all(FLERR,
                  "Fixes {} and {} treat the viscous terms in different ways: keyword viscous, and "
                  "those that belong to it, must be the same in all fixes {}",
@@ -328,7 +343,7 @@ void FixSPHBulk::init_viscous()
 
 bool FixSPHBulk::has_viscous_stage() const
 {
-  return viscous->settings().mode != Viscous::EXPLICIT;
+  return viscous->mode != Viscous::EXPLICIT;
 }
 
 /* ----------------------------------------------------------------------
@@ -794,8 +809,7 @@ void FixSPHBulk::check_set_up()
 void FixSPHBulk::warn_of_jump() const
 {
   constexpr double MOST = 2.0;
-  if (!(dtv > MOST * dt_of_forces) || !first_instance || !viscous->settings().force_is_a_mean())
-    return;
+  if (!(dtv > MOST * dt_of_forces) || !first_instance || !viscous->force_is_a_mean()) return;
   if (comm->me == 0)
     error->warning(
         FLERR,

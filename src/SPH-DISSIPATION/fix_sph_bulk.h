@@ -28,7 +28,7 @@ namespace SPHDissipation {
   class Fields;
   class Fluid;
   class Value;
-  class ViscousKeywords;
+  struct ViscousSettings;
   struct TimeStep;
 }    // namespace SPHDissipation
 
@@ -101,12 +101,12 @@ class FixSPHBulk : public Fix {
   double dt_of_strain;              // time step for which the strain of relaxing processes holds
   double extrapolation;             // of velocities over half a step: 1, with thermal noise 0
   bool balanced;                    // heat gets half of its rate at each end of a step, temp energy
-  SPHDissipation::ViscousKeywords *viscous;
+  SPHDissipation::ViscousSettings *viscous;
   SPHDissipation::Value *temperature;    // at the start, nullptr without
   bool temperature_done;    // the particles have got it, in this run or before a restart
 
   SPHDissipation::Fields &fields() const;
-  int keyword_argument(int iarg, int narg, char **arg);    // # of words of the keyword at arg[iarg]
+  void read_keywords(int narg, char **arg);
   void integrate(Half);
   void change_volume(const SPHDissipation::Fields &, int i, double change) const;
 

@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "fix_sph_dt.h"
 
 #include "error.h"
@@ -23,6 +27,7 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_steps.h"
+#include "sph_dissipation_value.h"
 #include "sph_dissipation_viscous.h"
 #include "update.h"
 
@@ -37,7 +42,7 @@ using namespace SPHDissipation;
 
 static constexpr double GROWTH = 1.25;
 
-// of a time that may be without end
+// Return a part of a time, which may be unlimited.
 
 static double part_of(double part, double time)
 {
@@ -56,23 +61,14 @@ FixSPHDt::FixSPHDt(LAMMPS *lmp, int narg, char **arg) :
   if (nevery < 1) error->all(FLERR, "Fix {} N must be >= 1, not {}", style, arg[3]);
 
   const char *const names[NLIMIT] = {"acoustic", "viscous", "force"};
-  for (int iarg = 4; iarg < narg; iarg += 2) {
-    const std::string keyword = arg[iarg];
-    if (iarg + 2 > narg)
-      utils::missing_cmd_args(FLERR, fmt::format("fix {} {}", style, keyword), error);
-    const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    if (!(value > 0.0))
-      error->all(FLERR, "Fix {} {} must be > 0, not {}", style, keyword, arg[iarg + 1]);
-    const auto *const found = std::find(names, names + NLIMIT, keyword);
-    if (found != names + NLIMIT) {
-      part[found - names] = value;
-      given[found - names] = true;
-    } else if (keyword == "min")
-      smallest = value;
-    else if (keyword == "max")
-      largest = value;
-    else
-      error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
+  for (Keywords key(lmp, fmt::format("Fix {}", style), 4, narg, arg); key.next();) {
+    for (int k = 0; k < NLIMIT; k++)
+      if (key.is(names[k])) {
+        part[k] = key.positive();
+        given[k] = true;
+      }
+    if (key.is("min")) smallest = key.positive();
+    if (key.is("max")) largest = key.positive();
   }
   if (smallest > largest)
     error->all(FLERR, "Fix {} min {:g} is larger than max {:g}", style, smallest, largest);
@@ -162,7 +158,7 @@ double FixSPHDt::allowed_step(const CoeffTable &table)
 }
 
 /* ----------------------------------------------------------------------
-   as fix dt/reset does
+   Set the time step, as fix dt/reset does.
 ------------------------------------------------------------------------- */
 
 void FixSPHDt::reset_step(double dt)

@@ -44,7 +44,7 @@ class FixSPHDt : public Fix {
  private:
   enum { ACOUSTIC, VISCOUS, FORCE, NLIMIT };
   SPHDissipation::Fluid *fluid;
-  double part[NLIMIT];         // of the limits
+  double part[NLIMIT];         // factors of the limits
   bool given[NLIMIT];          // by the keyword
   double smallest, largest;    // time steps
   double limits[NLIMIT];       // time steps; the last ones

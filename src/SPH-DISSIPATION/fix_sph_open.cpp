@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "fix_sph_open.h"
 
 #include "atom.h"
@@ -18,7 +22,6 @@
 #include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
-#include "force.h"
 #include "group.h"
 #include "math_extra.h"
 #include "modify.h"
@@ -30,10 +33,8 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_open_checks.h"
-#include "sph_dissipation_open_condition.h"
-#include "sph_dissipation_open_plane.h"
-#include "sph_dissipation_open_rows.h"
+#include "sph_dissipation_open.h"
+#include "sph_dissipation_open_stage.h"
 #include "update.h"
 
 #include <algorithm>
@@ -44,7 +45,8 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
 
-static constexpr double NODES = 3.0;          // of the plane, per radius of what is measured there
+static constexpr double NODES =
+    3.0;    // nodes of the plane per radius in which the fluid is measured
 static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
 // in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves.
@@ -54,8 +56,8 @@ static constexpr int FORMAT = 1004;
 enum {
   SIZE = 1,
   BALANCE,
-  ROWS = BALANCE + OpenBalance::NVALUE,
-  CLOCK = ROWS + OpenRows::NSTATE,
+  LATTICE = BALANCE + OpenBalance::NVALUE,
+  CLOCK = LATTICE + ZoneLattice::NSTATE,
   PLANE,
   NHEAD = PLANE + 6
 };
@@ -89,17 +91,23 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   values.reset(new OpenValues(lmp, owner));
   samples.reset(new OpenSamples(lmp, *plane));
   condition.reset(new OpenCondition(lmp, owner, *plane, *values, *samples));
-  rows.reset(new OpenRows(lmp, owner, *plane, groupbit));
+  lattice.reset(new ZoneLattice(lmp, owner, *plane, groupbit));
   balance.reset(new OpenBalance(lmp));
 
   fluid_name = arg[3];
   const int fluid_group = group->find(fluid_name);
   if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, fluid_name);
   plane->set(arg + 4);
-  for (int iarg = 11; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
+  for (Keywords key(lmp, owner, 11, narg, arg); key.next();) {
+    values->read(key);
+    condition->read(key);
+    if (key.is("region")) plane->set_region(key.word());
+    if (key.is("area")) area = key.positive();
+    if (key.is("spacing")) lattice->set_spacing(key.positive());
+  }
   values->check();
   condition->check();
-  if (area > 0.0 && rows->has_spacing())
+  if (area > 0.0 && lattice->has_spacing())
     error->all(FLERR, "Fix {}: area and spacing cannot both be given", style);
   if (area > 0.0 && !values->given(OpenValues::RHO))
     error->all(FLERR, "Fix {} area needs a density, from which the distance of particles follows",
@@ -120,33 +128,6 @@ FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
   extvector = 0;    // sums are not to be scaled by the number of atoms
 
   if (lmp->citeme) lmp->citeme->add(cite_open);
-}
-
-/* ---------------------------------------------------------------------- */
-
-int FixSPHOpen::keyword_argument(int iarg, int narg, char **arg)
-{
-  int words = values->keyword_argument(iarg, narg, arg);
-  if (!words) words = condition->keyword_argument(iarg, narg, arg);
-  if (words) return words;
-
-  const std::string keyword = arg[iarg];
-  if (keyword != "spacing" && keyword != "area" && keyword != "region")
-    error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
-  if (iarg + 2 > narg)
-    utils::missing_cmd_args(FLERR, fmt::format("fix {} {}", style, keyword), error);
-  if (keyword == "region") {
-    plane->set_region(arg[iarg + 1]);
-    return 2;
-  }
-  const double number = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  if (!(number > 0.0))
-    error->all(FLERR, "Fix {} {} must be > 0, not {}", style, keyword, arg[iarg + 1]);
-  if (keyword == "area")
-    area = number;
-  else
-    rows->set_spacing(number);
-  return 2;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -190,9 +171,9 @@ void FixSPHOpen::init()
   const int fluid_group = group->find(fluid_name);
   if (fluid_group < 0) error->all(FLERR, "Fix {}: group {} does not exist", style, fluid_name);
   fluidbit = group->bitmask[fluid_group];
-  check_open_groups(lmp, this, fluid, fluid_group);
-  check_open_lists(lmp, this, fluidbit);
-  integrator = find_open_integrator(lmp, this, fluid_group);
+  check_groups(fluid_group);
+  check_lists();
+  integrator = find_integrator(fluid_group);
 
   const double support = fluid->support_radius();
   plane->init();
@@ -202,19 +183,19 @@ void FixSPHOpen::init()
       if (fluid->has_type(i))
         error->all(FLERR, "Fix {} cannot be used with {} of pair_coeff, which type {} has", style,
                    keyword, i);
-  check_open_heat(lmp, this, fluid, *values);
+  check_heat();
   condition->init(*fluid->model);
   if (area > 0.0)
-    rows->set_distance([this](int i) {
+    lattice->set_distance([this](int i) {
       return atom->rmass[i] / (area * (*values)(OpenValues::RHO, i));
     });
-  rows->init(support, fluidbit);
-  if (rows->are_new()) check_open_styles(lmp, this, fluid, fluidbit);
+  lattice->init(support, fluidbit);
+  if (lattice->are_new()) warn_of_styles();
 
   // a small radius, because it smooths the profile, but large enough for a few particles
 
   constexpr double PART = 0.6, WIDTHS = 2.2;
-  radius = std::min(support, std::max(PART * support, WIDTHS * rows->width()));
+  radius = std::min(support, std::max(PART * support, WIDTHS * lattice->width()));
   plane->set_nodes(radius / NODES);
 
   samples->init();
@@ -277,28 +258,28 @@ bool FixSPHOpen::zone_near(const double *x, double reach) const
 
 void FixSPHOpen::setup_pre_exchange()
 {
-  if (update->whichflag == 0 && rows->are_new()) return;
+  if (update->whichflag == 0 && lattice->are_new()) return;
   set_up = true;
   states.clear();
-  condition->is_new = rows->are_new();
+  condition->is_new = lattice->are_new();
   if (condition->is_new && condition->has_heat())
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) condition->density_of_energy(i) = atom->rho[i];
-  check_open_places(lmp, this, *plane, fluidbit);
+  check_places();
   values->evaluate(igroup);
   if (condition->given_velocity() && !samples->any()) {
     fluid->note_change();
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & groupbit) set_velocity(i);
   }
-  check_open_length(lmp, this, *plane, fluid->support_radius(), rows->largest_spacing());
-  is_new = rows->are_new();
-  if (is_new && integrator->has_set_masses()) check_open_masses(lmp, this, fluidbit);
+  check_length();
+  is_new = lattice->are_new();
+  if (is_new && integrator->has_set_masses()) warn_of_masses();
   pre_exchange();
 }
 
 /* ----------------------------------------------------------------------
-   the internal energies of the zone follow the forces, which may be computed several times in a step
+   Set the internal energies of the zone after the forces, which may be computed several times in a step.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup(int /*vflag*/)
@@ -390,7 +371,7 @@ void FixSPHOpen::post_integrate()
       if (height < 0.0 && height >= -plane->length && !plane->beside(x)) leave(i);
     }
   }
-  rows->note_motion(farthest);
+  lattice->note_motion(farthest);
   states.clear();
   totals_known = false;
 }
@@ -475,8 +456,8 @@ void FixSPHOpen::set_spin(int i)
 
 void FixSPHOpen::pre_exchange()
 {
-  check_open_region(lmp, this, *plane, radius, rows->are_new() ? 0.0 : 0.5 * rows->width());
-  rows->renew([this](const std::vector<int> &created) {
+  check_region();
+  lattice->renew([this](const std::vector<int> &created) {
     if (!values->vary()) return;
     values->evaluate(igroup);
     for (const int i : created) set_velocity(i);
@@ -507,8 +488,8 @@ void FixSPHOpen::set_states(OpenStage &stage, const double *all)
   samples->finish(condition->clock, all + 3);
   warn(all[0]);
   if (is_new) {
-    check_density();
-    warn_of_cold_zone(lmp, this, fluid, *condition, members);
+    warn_of_density();
+    warn_of_cold_zone();
   }
   is_new = false;
   states.clear();
@@ -516,20 +497,6 @@ void FixSPHOpen::set_states(OpenStage &stage, const double *all)
   for (const int i : members)
     if (atom->mask[i] & groupbit) set_state(stage, i);
   totals_known = false;
-}
-
-/* ----------------------------------------------------------------------
-   Compare the density of the zone with the prescribed one, at particles with a full support.
-------------------------------------------------------------------------- */
-
-void FixSPHOpen::check_density() const
-{
-  std::vector<double> ratios;
-  for (const int i : members)
-    if ((atom->mask[i] & groupbit) &&
-        plane->height(atom->x[i]) > fluid->support_radius() - plane->length)
-      ratios.push_back(atom->rho[i] / condition->prescribed_density(i));
-  check_open_density(lmp, this, ratios);
 }
 
 /* ----------------------------------------------------------------------
@@ -556,7 +523,7 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
                  condition->sample(i, particle, stage.strain_pressure(i)),
                  fluid->model->choice.kernel, radius);
   }
-  double fast = 0.0;    // of use with new neighbor lists only
+  double fast = 0.0;    // counted with new neighbor lists only
   for (const int i : near)
     if (neighbor->ago == 0 && condition->is_supersonic(i, stage.particle(i))) fast += 1.0;
   mine.push_back(fast);
@@ -565,16 +532,22 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
 }
 
 /* ----------------------------------------------------------------------
-   with each new neighbor list; nsupersonic = particles of all processors that leave faster than sound
+   Warn, with each new neighbor list until the first time, of a gap, and of fluid that leaves faster than
+   sound, from where no wave comes back, so that nothing can be prescribed.  nsupersonic = such particles
+   of all processors.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn(double nsupersonic)
 {
   if (neighbor->ago > 0) return;
-  if (!gap) gap = warn_of_gap(lmp, this, *plane, fluid, fluidbit, radius, rows->largest_spacing());
-  if (supersonic) return;
-  if (!condition->given_velocity() && !condition->given_state()) return;
-  supersonic = warn_of_supersonic(lmp, this, static_cast<bigint>(nsupersonic));
+  if (!gap) gap = warn_of_gap();
+  if (supersonic || !(condition->given_velocity() || condition->given_state())) return;
+  supersonic = nsupersonic > 0.0;
+  if (supersonic && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {} {}: {} particles leave faster than sound at step {}, where only "
+                   "condition fixed with velocity, density and pressure from inside is right",
+                   style, id, static_cast<bigint>(nsupersonic), update->ntimestep);
 }
 
 /* ----------------------------------------------------------------------
@@ -628,7 +601,7 @@ void FixSPHOpen::write_restart(FILE *fp)
 {
   std::vector<double> state(NHEAD);
   balance->total(&state[BALANCE]);
-  rows->pack(&state[ROWS]);
+  lattice->pack(&state[LATTICE]);
   state[CLOCK] = condition->clock;
   std::copy_n(plane->point, 3, &state[PLANE]);
   std::copy_n(plane->normal, 3, &state[PLANE + 3]);
@@ -654,7 +627,7 @@ void FixSPHOpen::restart(char *buf)
   balance->restart(state + BALANCE);
   condition->clock = state[CLOCK];
   if (plane->is_at(state + PLANE)) {
-    rows->unpack(state + ROWS);
+    lattice->unpack(state + LATTICE);
     waves_before.assign(state + NHEAD, state + static_cast<int>(state[SIZE]));
   } else
     warn_of_other_plane();

@@ -22,7 +22,7 @@ FixStyle(sph/open,FixSPHOpen);
 
 #include "fix.h"
 
-#include "sph_dissipation_open_stage.h"
+#include "sph_dissipation_boundary.h"
 
 #include <memory>
 #include <string>
@@ -36,7 +36,7 @@ namespace SPHDissipation {
   class OpenCondition;
   class OpenBalance;
   class OpenPlane;
-  class OpenRows;
+  class ZoneLattice;
   class OpenSamples;
   class OpenValues;
   struct OpenState;
@@ -78,15 +78,15 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::unique_ptr<SPHDissipation::OpenValues> values;
   std::unique_ptr<SPHDissipation::OpenSamples> samples;
   std::unique_ptr<SPHDissipation::OpenCondition> condition;
-  std::unique_ptr<SPHDissipation::OpenRows> rows;
+  std::unique_ptr<SPHDissipation::ZoneLattice> lattice;
   std::unique_ptr<SPHDissipation::OpenBalance> balance;
   SPHDissipation::Fluid *fluid;
-  class FixSPHBulk *integrator;    // of the fluid
+  class FixSPHBulk *integrator;    // moves the fluid
   SPHDissipation::Fields *fields;
-  std::string fluid_name;    // of its group
+  std::string fluid_name;    // group of the fluid
   int fluidbit;
-  double radius;                 // of the fluid that is measured at the plane
-  double area;                   // of the cross section of a row; 0: rows have a spacing
+  double radius;                 // the fluid within it is measured at the plane
+  double area;                   // cross section of a row; 0: rows have a spacing
   double my_longest, longest;    // time in which sound crosses a support radius near the plane
   std::vector<int> members;      // owned particles of the zone, and fluid that may come to it
   bool is_new;                   // no forces have been computed with this zone
@@ -96,12 +96,11 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
 
-  // of owned particles of a zone with heat, in ascending order: their states in the last forces, and their sums over
+  // Owned particles of a zone with heat, in ascending order: their states in the last forces, and their sums over
   // the neighbors; until they move on
   std::vector<std::pair<int, SPHDissipation::OpenState>> states;
   std::vector<double> sums;
 
-  int keyword_argument(int, int, char **);
   void set_times(const double *crossings);
   void measure_sound(std::vector<double> &);
   void find_members();
@@ -112,10 +111,24 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void leave(int i);
   void set_velocity(int i);
   void set_spin(int i);
-  void check_density() const;
   void keep_states();
   void warn(double nsupersonic);
   void set_state(SPHDissipation::OpenStage &, int i);
+
+  // in fix_sph_open_checks.cpp
+
+  void check_groups(int fluid_group);
+  class FixSPHBulk *find_integrator(int fluid_group);
+  void check_places();
+  void check_region();
+  void check_lists();
+  void check_heat();
+  void check_length();
+  void warn_of_cold_zone();
+  void warn_of_styles();
+  void warn_of_masses();
+  void warn_of_density();
+  bool warn_of_gap();
 };
 
 }    // namespace LAMMPS_NS

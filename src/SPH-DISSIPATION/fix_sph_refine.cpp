@@ -11,13 +11,16 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "fix_sph_refine.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
 #include "math_const.h"
 #include "memory.h"
 #include "modify.h"
@@ -32,7 +35,8 @@
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
-#include "sph_dissipation_refine_event.h"
+#include "sph_dissipation_refine.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <algorithm>
@@ -47,7 +51,7 @@ static constexpr double SPLIT = 1.6, MERGE = 0.6;    // defaults: volume over ta
 static constexpr double WIDEST = 1.0 / 1.5;          // target spacing over the support radius
 static constexpr double NEVER = -INFINITY;           // step of the last event
 
-// what each particle has of its last event: the step; and, if that was a split that its daughters can
+// Each particle keeps the step of its last event; and, if that was a split that its daughters can
 // undo as a whole, the lowest of their new IDs, else 0
 
 enum { STEP, FAMILY, NPAST };
@@ -61,10 +65,10 @@ enum { BALANCE = 1, HIGHEST = BALANCE + RefineBalance::NVALUE, NSTATE };
 /* ---------------------------------------------------------------------- */
 
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), by_spacing(false), largest_volume(0.0), fluid(nullptr), list(nullptr),
-    split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr), not_fluid(0),
-    last_step(-1), event_step(-1), postponed(false), totals_known(false), set_up(false),
-    totals(RefineBalance::NVALUE)
+    Fix(lmp, narg, arg), by_spacing(false), target(new Value), largest_volume(0.0), fluid(nullptr),
+    list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr),
+    not_fluid(0), last_step(-1), event_step(-1), postponed(false), totals_known(false),
+    set_up(false), totals(RefineBalance::NVALUE)
 {
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
@@ -75,8 +79,23 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
   event.reset(new RefineEvent(lmp, this, *balance));
   by_spacing = (strcmp(arg[4], "spacing") == 0);
   target_word = arg[5];
-  target.set(lmp, target_word);
-  for (int iarg = 6; iarg < narg;) iarg += keyword_argument(iarg, narg, arg);
+  target->set(lmp, target_word);
+  for (Keywords key(lmp, fmt::format("Fix {}", style), 6, narg, arg); key.next();) {
+    if (key.is("split")) {
+      split_above = (strcmp(key.word(), "no") == 0) ? INFINITY : key.number();
+      key.demand(split_above > 1.0, "> 1");
+    } else if (key.is("merge")) {
+      const bool no = (strcmp(key.word(), "no") == 0);
+      merge_below = no ? 0.0 : key.number();
+      key.demand(no || (merge_below > 0.0 && merge_below < 1.0), "between 0 and 1");
+    } else if (key.is("wait")) {
+      wait = key.number();
+      key.demand(wait >= 0.0, ">= 0");
+    } else if (key.is("fraction")) {
+      fraction = key.number();
+      key.demand(fraction > 0.0 && fraction <= 1.0, "> 0 and at most 1");
+    }
+  }
   if (split_above < 2.0 * merge_below)
     error->all(FLERR,
                "Fix {}: split must be at least twice merge, not {} and {}: what has split would "
@@ -102,44 +121,6 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
 
 /* ---------------------------------------------------------------------- */
 
-int FixSPHRefine::keyword_argument(int iarg, int narg, char **arg)
-{
-  const std::string keyword = arg[iarg];
-  if (keyword != "split" && keyword != "merge" && keyword != "wait" && keyword != "fraction")
-    error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
-  if (iarg + 2 > narg)
-    utils::missing_cmd_args(FLERR, fmt::format("fix {} {}", style, keyword), error);
-  const std::string word = arg[iarg + 1];
-  if (keyword == "split" && word == "no") {
-    split_above = INFINITY;
-    return 2;
-  }
-  if (keyword == "merge" && word == "no") {
-    merge_below = 0.0;
-    return 2;
-  }
-  const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  auto demand = [&](bool good, const char *what) {
-    if (!good) error->all(FLERR, "Fix {} {} must be {}, not {}", style, keyword, what, word);
-  };
-  if (keyword == "split") {
-    demand(value > 1.0, "> 1");
-    split_above = value;
-  } else if (keyword == "merge") {
-    demand(value > 0.0 && value < 1.0, "between 0 and 1");
-    merge_below = value;
-  } else if (keyword == "wait") {
-    demand(value >= 0.0, ">= 0");
-    wait = value;
-  } else {
-    demand(value > 0.0 && value <= 1.0, "> 0 and at most 1");
-    fraction = value;
-  }
-  return 2;
-}
-
-/* ---------------------------------------------------------------------- */
-
 void FixSPHRefine::check_setup()
 {
   if (!Fields::of(atom))
@@ -159,6 +140,7 @@ FixSPHRefine::~FixSPHRefine()
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(past);
+  delete target;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -196,10 +178,10 @@ void FixSPHRefine::init()
 
   const double support = fluid->support_radius();
   largest_volume = pow(WIDEST * support, domain->dimension);
-  if (!target.init(lmp, fmt::format("Fix {}", style), true))
+  if (!target->init(lmp, fmt::format("Fix {}", style), true))
     error->all(FLERR, "Variable {} for Fix {} is neither of equal style nor of atom style",
-               target.name(), style);
-  if (!target.varies()) check_target(target.now(), 0);
+               target->name(), style);
+  if (!target->varies()) check_target(target->now(), 0);
   event->init(*fluid, merge_below);
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
   set_up = true;
@@ -241,12 +223,12 @@ void FixSPHRefine::check_target(double value, tagint tag) const
 
 void FixSPHRefine::evaluate_target()
 {
-  if (!target.varies()) return;
+  if (!target->varies()) return;
   modify->clearstep_compute();
-  target.evaluate(lmp, igroup);
-  if (!target.is_by_atom()) check_target(target.now(), 0);
-  for (int i = 0; i < atom->nlocal && target.is_by_atom(); i++)
-    if (atom->mask[i] & groupbit) check_target(target(i), atom->tag[i]);
+  target->evaluate(lmp, igroup);
+  if (!target->is_by_atom()) check_target(target->now(), 0);
+  for (int i = 0; i < atom->nlocal && target->is_by_atom(); i++)
+    if (atom->mask[i] & groupbit) check_target((*target)(i), atom->tag[i]);
   modify->addstep_compute(update->ntimestep + 1);
 }
 
@@ -386,10 +368,10 @@ bool FixSPHRefine::wanted(bigint &nfluid)
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !is_fluid(i)) continue;
     sum[FLUID] += 1.0;
-    const double ratio = atom->vfrac[i] / target_volume(target(i));
+    const double ratio = atom->vfrac[i] / target_volume((*target)(i));
     if (ratio > split_above) {
       sum[DAUGHTERS] += ratio;
-      if (target_volume(target(i)) < smallest) sum[CROWDED] += 1.0;
+      if (target_volume((*target)(i)) < smallest) sum[CROWDED] += 1.0;
     }
     if ((ratio > split_above || ratio < merge_below) && may_change(strains, i)) sum[EVENTS] += 1.0;
   }
@@ -418,10 +400,10 @@ void FixSPHRefine::set_items()
   event->begin();
   const StrainRows strains = fluid->strains();
   for (int i = 0; i < atom->nlocal; i++) {
-    RefineState state = is_fluid(i) ? KEEPS : APART;
+    RefineState state = is_fluid(i) ? KEEPS : NOT_FLUID;
     double goal = 0.0;
     if (state == KEEPS && (atom->mask[i] & groupbit)) {
-      goal = target_volume(target(i));
+      goal = target_volume((*target)(i));
       const double ratio = atom->vfrac[i] / goal;
       const bool splits = ratio > split_above;
       if ((splits || ratio < merge_below) && may_change(strains, i))

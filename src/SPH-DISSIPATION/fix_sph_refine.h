@@ -22,8 +22,6 @@ FixStyle(sph/refine,FixSPHRefine);
 
 #include "fix.h"
 
-#include "sph_dissipation_value.h"
-
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +31,7 @@ namespace SPHDissipation {
   class Fluid;
   class RefineEvent;
   class RefineBalance;
+  class Value;
   struct StrainRows;
 }    // namespace SPHDissipation
 
@@ -67,7 +66,7 @@ class FixSPHRefine : public Fix {
  private:
   bool by_spacing;            // the target is a spacing, else a volume
   std::string target_word;    // as it was given
-  SPHDissipation::Value target;
+  SPHDissipation::Value *target;
   double largest_volume;    // target that leaves enough neighbors
   std::unique_ptr<SPHDissipation::RefineBalance> balance;
   std::unique_ptr<SPHDissipation::RefineEvent> event;
@@ -75,17 +74,16 @@ class FixSPHRefine : public Fix {
   class NeighList *list;
   double split_above, merge_below;    // volume over target
   double wait;                        // time between two events of a particle; < 0: R/c0
-  double fraction;                    // of the particles, that may have an event at once
+  double fraction;                    // part of the particles that may have an event at once
   double **past;                      // last event of each particle
   int not_fluid;                      // bits of the groups of walls and open zones
-  bigint last_step;                   // that this fix has seen
-  bigint event_step;                  // of the last events
-  bool postponed;                     // the last check
+  bigint last_step;                   // step of the last call of this fix
+  bigint event_step;                  // step of the last events
+  bool postponed;                     // the last check waits for the next step
   bool totals_known;
   bool set_up;    // since it was defined
   std::vector<double> totals;
 
-  int keyword_argument(int, int, char **);
   void check_setup();
   void check_overlap();
   double target_volume(double value) const;

@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "fix_sph_torque.h"
 
 #include "atom.h"
@@ -21,6 +25,7 @@
 #include "modify.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <cstring>
@@ -32,8 +37,8 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), total{0.0, 0.0, 0.0}, power(0.0), work(0.0), receiving_groups(0),
-    not_receiving(0), set_up(false)
+    Fix(lmp, narg, arg), value(new Value[3]), total{0.0, 0.0, 0.0}, power(0.0), work(0.0),
+    receiving_groups(0), not_receiving(0), set_up(false)
 {
   if (!Fields::with_spins(atom))
     error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);
@@ -51,6 +56,13 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
 
 /* ---------------------------------------------------------------------- */
 
+FixSPHTorque::~FixSPHTorque()
+{
+  delete[] value;
+}
+
+/* ---------------------------------------------------------------------- */
+
 int FixSPHTorque::setmask()
 {
   return POST_FORCE;
@@ -62,9 +74,9 @@ void FixSPHTorque::init()
 {
   if (domain->dimension == 2 && !(value[0].is_zero() && value[1].is_zero()))
     error->all(FLERR, "Fix {}: torque must be along z in 2d", style);
-  for (auto &one : value)
-    if (!one.init(lmp, fmt::format("fix {}", style), true))
-      error->all(FLERR, "Variable {} for fix {} is of invalid style", one.name(), style);
+  for (int d = 0; d < 3; d++)
+    if (!value[d].init(lmp, fmt::format("fix {}", style), true))
+      error->all(FLERR, "Variable {} for fix {} is of invalid style", value[d].name(), style);
 
   receiving_groups = 0;
   for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar"))
@@ -93,7 +105,8 @@ void FixSPHTorque::check_receivers()
     dynamic_cast<FixSPHBulk *>(ifix)->set_inertia();
 
   const double *const inertia = Fields::of(atom)->inertia;
-  bigint count[2] = {0, 0}, all[2];    // of the group; of them, without integrator or inertia
+  bigint count[2] = {0, 0},
+         all[2];    // particles of the group; those without integrator or inertia
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     count[0]++;
@@ -123,7 +136,7 @@ void FixSPHTorque::post_force(int /*vflag*/)
   check_set_up(lmp, this, set_up);
   const bool any_variable = value[0].varies() || value[1].varies() || value[2].varies();
   if (any_variable) modify->clearstep_compute();
-  for (auto &one : value) one.evaluate(lmp, igroup);
+  for (int d = 0; d < 3; d++) value[d].evaluate(lmp, igroup);
   if (any_variable) modify->addstep_compute(update->ntimestep + 1);
 
   const Fields &fields = *Fields::of(atom);
@@ -166,7 +179,7 @@ double FixSPHTorque::compute_vector(int d)
 }
 
 /* ----------------------------------------------------------------------
-   restart files hold the work
+   Restart files hold the work.
 ------------------------------------------------------------------------- */
 
 void FixSPHTorque::write_restart(FILE *fp)

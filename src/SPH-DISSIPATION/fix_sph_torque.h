@@ -22,9 +22,10 @@ FixStyle(sph/torque,FixSPHTorque);
 
 #include "fix.h"
 
-#include "sph_dissipation_value.h"
-
 namespace LAMMPS_NS {
+namespace SPHDissipation {
+  class Value;
+}
 
 // Torque on every particle of a group from numbers or variables, and its work: the body torque m G
 // of a micropolar fluid, P3 (15).
@@ -32,6 +33,7 @@ namespace LAMMPS_NS {
 class FixSPHTorque : public Fix {
  public:
   FixSPHTorque(class LAMMPS *, int, char **);
+  ~FixSPHTorque() override;
   int setmask() override;
   void init() override;
   void setup(int) override;
@@ -43,10 +45,10 @@ class FixSPHTorque : public Fix {
   double memory_usage() override;
 
  private:
-  SPHDissipation::Value value[3];
-  double total[3];    // torque on all particles in the last step, of this rank
-  double power;       // of the last step, of this rank
-  double work;        // since the fix was defined, of this rank
+  SPHDissipation::Value *value;    // three
+  double total[3];                 // torque on all particles in the last step, of this rank
+  double power;                    // on this rank in the last step
+  double work;                     // since the fix was defined, of this rank
 
   int receiving_groups;    // bits of the groups whose spin is integrated
   bigint not_receiving;    // # of particles that the last warning was about

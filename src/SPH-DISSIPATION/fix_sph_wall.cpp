@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "fix_sph_wall.h"
 
 #include "atom.h"
@@ -18,7 +22,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
 #include "group.h"
 #include "math_extra.h"
 #include "memory.h"
@@ -26,17 +29,15 @@
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
-#include "sph_dissipation_exclusions.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_wall_checks.h"
+#include "sph_dissipation_value.h"
 #include "sph_dissipation_wall_motion.h"
 #include "sph_dissipation_wall_terms.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <set>
 #include <vector>
 
@@ -65,84 +66,37 @@ static const char cite_wall[] =
 
 FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), motion(new WallMotion(lmp, fmt::format("Fix {}", style))),
-    exclusions(new Exclusions(lmp)),
     condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}), move(true),
     noise(false), checked(false), total(), total_all(), total_summed(false),
-    heat(WallHeat::ADIABATIC), heat_rate(0.0), heat_given(0.0)
+    heat(WallHeat::ADIABATIC), heat_value(new Value), gravity(new Value[3]), heat_rate(0.0),
+    heat_given(0.0)
 {
-  for (int iarg = 3; iarg < narg;) {
-    const std::string keyword = arg[iarg];
-    auto needs = [&](int n) {
-      if (iarg + n >= narg)
-        utils::missing_cmd_args(FLERR, fmt::format("fix {} {}", style, keyword), error);
-    };
-    auto unknown = [&](const char *word) {
-      error->all(FLERR, "Unknown fix {} {} value: {}", style, keyword, word);
-    };
-
-    if (keyword == "velocity") {
-      needs(3);
-      motion->set_velocity(arg + iarg + 1);
-      iarg += 4;
-    } else if (keyword == "rotate") {
-      needs(7);
-      motion->set_rotation(arg + iarg + 1);
-      iarg += 8;
-    } else if (keyword == "move") {
-      needs(1);
-      move = utils::logical(FLERR, arg[iarg + 1], false, lmp);
-      iarg += 2;
-    } else if (keyword == "slip") {
-      needs(1);
-      if (strcmp(arg[iarg + 1], "no") == 0)
-        condition->slip = false;
-      else if (strcmp(arg[iarg + 1], "free") == 0)
-        condition->slip = true;
-      else
-        unknown(arg[iarg + 1]);
-      iarg += 2;
-    } else if (keyword == "spin") {
-      needs(1);
-      if (strcmp(arg[iarg + 1], "zero") == 0) {
-        condition->spin = WallSpin::ZERO;
-      } else if (strcmp(arg[iarg + 1], "free") == 0) {
-        condition->spin = WallSpin::FREE;
-      } else if (strcmp(arg[iarg + 1], "rate") == 0) {
-        needs(2);
-        condition->spin = WallSpin::RATE;
-        condition->alpha = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-        iarg++;
-      } else
-        unknown(arg[iarg + 1]);
-      iarg += 2;
-    } else if (keyword == "heat") {
-      needs(1);
-      const char *const word = arg[iarg + 1];
-      heat_value = Value();
-      if (strcmp(word, "adiabatic") == 0)
-        heat = WallHeat::ADIABATIC;
-      else if (strcmp(word, "temp") == 0)
-        heat = WallHeat::TEMPERATURE;
-      else if (strcmp(word, "flux") == 0)
-        heat = WallHeat::FLUX;
-      else
-        unknown(word);
-      if (gives_heat()) {
-        needs(2);
-        heat_value.set(lmp, arg[iarg + 2]);
-        iarg++;
+  for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
+    if (key.is("velocity", 3)) motion->set_velocity(key.words());
+    if (key.is("rotate", 7)) motion->set_rotation(key.words());
+    if (key.is("move")) move = utils::logical(FLERR, key.word(), false, lmp);
+    if (key.is("slip")) condition->slip = (key.choice({"no", "free"}) == 1);
+    if (key.is("spin")) {
+      condition->spin = static_cast<WallSpin>(key.choice({"zero", "rate", "free"}));
+      if (condition->spin == WallSpin::RATE) {
+        key.more(1);
+        condition->alpha = key.number(1);
       }
-      iarg += 2;
-    } else if (keyword == "gravity") {
-      needs(3);
+    }
+    if (key.is("heat")) {
+      heat = static_cast<WallHeat>(key.choice({"adiabatic", "temp", "flux"}));
+      *heat_value = Value();
+      if (gives_heat()) {
+        key.more(1);
+        heat_value->set(lmp, key.word(1));
+      }
+    }
+    if (key.is("gravity", 3))
       for (int d = 0; d < 3; d++) {
         gravity[d] = Value();
-        gravity[d].set(lmp, arg[iarg + 1 + d]);
+        gravity[d].set(lmp, key.word(d));
         condition->gravity[d] = gravity[d].now();
       }
-      iarg += 4;
-    } else
-      error->all(FLERR, "Unknown fix {} keyword: {}", style, keyword);
   }
 
   if (domain->dimension == 2 && !gravity[2].is_zero())
@@ -172,9 +126,11 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
 FixSPHWall::~FixSPHWall()
 {
   if (auto *fluid = find_fluid(force)) fluid->boundary->remove(this);
+  include_walls();
   atom->delete_callback(id, Atom::GROW);
   memory->destroy(array_atom);
-  delete exclusions;
+  delete heat_value;
+  delete[] gravity;
   delete condition;
   delete motion;
 }
@@ -183,8 +139,9 @@ FixSPHWall::~FixSPHWall()
 
 int FixSPHWall::setmask()
 {
-  return PRE_EXCHANGE | INITIAL_INTEGRATE | (heat_value.varies() || gravity_varies() ? PRE_FORCE : 0) | POST_FORCE |
-      MIN_PRE_EXCHANGE | MIN_POST_FORCE;
+  return PRE_EXCHANGE | INITIAL_INTEGRATE |
+      (heat_value->varies() || gravity_varies() ? PRE_FORCE : 0) | POST_FORCE | MIN_PRE_EXCHANGE |
+      MIN_POST_FORCE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -216,25 +173,19 @@ void FixSPHWall::init()
                style);
 
   motion->init();
-  if (!heat_value.init(lmp, fmt::format("fix {} heat", style), true))
+  if (!heat_value->init(lmp, fmt::format("fix {} heat", style), true))
     error->all(FLERR, "Variable {} for fix {} heat is neither of equal style nor of atom style",
-               heat_value.name(), style);
-  if (!heat_value.varies()) check_heat();
-  for (auto &one : gravity)
-    if (!one.init(lmp, fmt::format("fix {} gravity", style), false))
-      error->all(FLERR, "Variable {} for fix {} gravity is not an equal-style variable", one.name(),
-                 style);
+               heat_value->name(), style);
+  if (!heat_value->varies()) check_heat();
+  for (int d = 0; d < 3; d++)
+    if (!gravity[d].init(lmp, fmt::format("fix {} gravity", style), false))
+      error->all(FLERR, "Variable {} for fix {} gravity is not an equal-style variable",
+                 gravity[d].name(), style);
   fluid->boundary->add(this);
 
-  // no pairs of wall particles in the neighbor lists
-
-  std::vector<Exclusions::Groups> walls;
-  for (const auto &ifix : modify->get_fix_by_style("^sph/wall"))
-    walls.push_back({igroup, ifix->igroup});
-  exclusions->set(walls);
-
-  check_wall_particles(lmp, this);
-  const std::set<int> felt = check_wall_interacts(lmp, this, fluid, !checked);
+  exclude_walls();
+  check_particles();
+  const std::set<int> felt = interacting_types(fluid);
   const auto conducts = [&](int type) {
     return fluid->model->coeffs[type].keywords.conductivity() > 0.0;
   };
@@ -272,7 +223,7 @@ bool FixSPHWall::is_wrong(double value) const
 }
 
 /* ----------------------------------------------------------------------
-   when the particles are where the forces are computed
+   Evaluate the variable of keyword heat when the particles are where the forces are computed.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::setup_pre_force(int vflag)
@@ -282,9 +233,9 @@ void FixSPHWall::setup_pre_force(int vflag)
 
 void FixSPHWall::pre_force(int /*vflag*/)
 {
-  if (!heat_value.varies() && !gravity_varies()) return;
+  if (!heat_value->varies() && !gravity_varies()) return;
   modify->clearstep_compute();
-  if (heat_value.varies()) heat_value.evaluate(lmp, igroup);
+  if (heat_value->varies()) heat_value->evaluate(lmp, igroup);
   for (int d = 0; d < 3; d++) {
     gravity[d].evaluate(lmp, igroup);
     condition->gravity[d] = gravity[d].now();
@@ -292,7 +243,7 @@ void FixSPHWall::pre_force(int /*vflag*/)
       error->all(FLERR, "Fix {} gravity must be finite, not {}", style, condition->gravity[d]);
   }
   modify->addstep_compute(update->ntimestep + 1);
-  if (heat_value.varies()) check_heat();
+  if (heat_value->varies()) check_heat();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -308,19 +259,19 @@ void FixSPHWall::check_heat() const
 {
   const char *const what = (heat == WallHeat::TEMPERATURE) ? "temp must be >= 0"
                                                            : "flux must be finite";
-  if (!heat_value.is_by_atom()) {
-    if (is_wrong(heat_value.now()))
-      error->all(FLERR, "Fix {} heat {}, not {}", style, what, heat_value.now());
+  if (!heat_value->is_by_atom()) {
+    if (is_wrong(heat_value->now()))
+      error->all(FLERR, "Fix {} heat {}, not {}", style, what, heat_value->now());
     return;
   }
   for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && is_wrong(heat_value(i)))
-      error->one(FLERR, "Fix {} heat {}, not {} for particle {}", style, what, heat_value(i),
+    if ((atom->mask[i] & groupbit) && is_wrong((*heat_value)(i)))
+      error->one(FLERR, "Fix {} heat {}, not {} for particle {}", style, what, (*heat_value)(i),
                  atom->tag[i]);
 }
 
 /* ----------------------------------------------------------------------
-   before the exchange of atoms, so that ghost atoms get the velocity with their borders;
+   Set the velocity before the exchange of atoms, so that ghost atoms get it with their borders;
    in a minimization nothing moves
 ------------------------------------------------------------------------- */
 
@@ -339,7 +290,7 @@ void FixSPHWall::setup_pre_exchange()
 
 void FixSPHWall::setup(int vflag)
 {
-  if (!checked) check_wall_thickness(lmp, this, find_fluid(force));
+  if (!checked) check_thickness(find_fluid(force));
   checked = true;
   post_force(vflag);
 }
@@ -352,7 +303,7 @@ void FixSPHWall::min_setup(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   rigid motion by the mean velocity of the step; fix sph/bulk then copies the velocity
+   Move the wall by the mean velocity of the step; fix sph/bulk then copies the velocity
    to the extrapolated one
 ------------------------------------------------------------------------- */
 
@@ -397,7 +348,7 @@ bool FixSPHWall::set_velocity()
 }
 
 /* ----------------------------------------------------------------------
-   by the motion of the last step
+   Tell whether the normals turn with the motion of the last step.
 ------------------------------------------------------------------------- */
 
 bool FixSPHWall::turns_surface(bool before) const
@@ -423,7 +374,7 @@ void FixSPHWall::move_surface(BoundaryStage &stage, Surface *surface, bool befor
 }
 
 /* ----------------------------------------------------------------------
-   values of the wall particles in the pair forces.  An extrapolated pressure has no energy: in a
+   Set the values of the wall particles in the pair forces.  An extrapolated pressure has no energy: in a
    minimization it is zero, and the forces are the gradient of the energy of the fluid.
 ------------------------------------------------------------------------- */
 
@@ -465,7 +416,7 @@ void FixSPHWall::set_heat(BoundaryStage &stage, const Surface *surfaces, bool in
   if (update->whichflag == 2) return;
   stage.for_each(atom->nlocal, [&](int i) {
     if (atom->mask[i] & groupbit)
-      stage.set_heat(i, heat, increments ? 0.0 : heat_value(i), surfaces[i]);
+      stage.set_heat(i, heat, increments ? 0.0 : (*heat_value)(i), surfaces[i]);
   });
 }
 
@@ -496,7 +447,7 @@ void FixSPHWall::post_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   the heat of a step is that of the mean rate at both ends, as in the internal energies of the fluid
+   The heat of a step is that of the mean rate at both ends, as in the internal energies of the fluid
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::book_heat()
@@ -509,7 +460,7 @@ void FixSPHWall::book_heat()
 }
 
 /* ----------------------------------------------------------------------
-   warn if the wall has taken heat from particles that have none
+   Warn if the wall has taken heat from particles that have none.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::post_run()
@@ -534,7 +485,7 @@ void FixSPHWall::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   the minimizer moves particles along their forces, but must not move the wall
+   The minimizer moves particles along their forces, but must not move the wall.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::min_post_force(int vflag)
@@ -545,7 +496,7 @@ void FixSPHWall::min_post_force(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   force and torque of the fluid on the wall; heat per time that the wall gives the fluid, and heat
+   Return force and torque of the fluid on the wall; heat per time that the wall gives the fluid, and heat.
 ------------------------------------------------------------------------- */
 
 double FixSPHWall::compute_vector(int n)
@@ -561,7 +512,7 @@ double FixSPHWall::compute_vector(int n)
 }
 
 /* ----------------------------------------------------------------------
-   vector from the point on the axis to a particle
+   Set r to the vector from the point on the axis to a particle.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::from_point(int i, const WallVelocity &now, double *r) const
@@ -571,7 +522,7 @@ void FixSPHWall::from_point(int i, const WallVelocity &now, double *r) const
 }
 
 /* ----------------------------------------------------------------------
-   the point on the axis has moved with the wall, and the wall has given heat
+   Write the point on the axis, which has moved with the wall, and the heat that the wall has given.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::write_restart(FILE *fp)
@@ -596,7 +547,7 @@ void FixSPHWall::restart(char *buf)
 }
 
 /* ----------------------------------------------------------------------
-   force and couple on each particle; only those of the wall have some to take along
+   Force and couple on each particle: only those of the wall have some to take along.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::grow_arrays(int nmax)
@@ -633,5 +584,5 @@ int FixSPHWall::unpack_exchange(int i, double *buf)
 
 double FixSPHWall::memory_usage()
 {
-  return 6.0 * atom->nmax * sizeof(double) + heat_value.memory_usage();
+  return 6.0 * atom->nmax * sizeof(double) + heat_value->memory_usage();
 }

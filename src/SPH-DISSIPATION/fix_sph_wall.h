@@ -23,11 +23,14 @@ FixStyle(sph/wall,FixSPHWall);
 #include "fix.h"
 
 #include "sph_dissipation_boundary.h"
-#include "sph_dissipation_value.h"
+
+#include <set>
+#include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-  class Exclusions;
+  class Fluid;
+  class Value;
   class WallMotion;
   struct WallCondition;
   enum class WallHeat;
@@ -73,18 +76,17 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
  protected:
   SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
-  SPHDissipation::Exclusions *exclusions;
   SPHDissipation::WallCondition *condition;
   bool move;
-  bool noise;      // of the fluid
+  bool noise;      // the fluid has thermal noise
   bool checked;    // thickness checked, in the first run; false: not set up since defined
 
   double total[6], total_all[6];    // force and torque, of this rank and of all
   bool total_summed;
 
   SPHDissipation::WallHeat heat;
-  SPHDissipation::Value heat_value;    // temperature, or heat per area and time
-  SPHDissipation::Value gravity[3];    // acceleration of the fluid by a body force
+  SPHDissipation::Value *heat_value;    // temperature, or heat per area and time
+  SPHDissipation::Value *gravity;       // acceleration of the fluid by a body force along x, y, z
 
   bool turns_surface(bool before) const;
   void book_heat();
@@ -95,11 +97,22 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   double heat_rate;     // heat per time in the last step
   double heat_given;    // heat since the fix was defined
 
-  bool is_wrong(double value) const;    // of heat_value
+  bool is_wrong(double value) const;    // as the value of keyword heat
   bool gravity_varies() const;
   void check_heat() const;
   void from_point(int, const SPHDissipation::WallVelocity &, double *) const;
   bool set_velocity();    // returns whether that of an owned particle is another one than before
+
+  // in fix_sph_wall_checks.cpp
+
+  std::vector<int> excluded;    // groups whose pairs with the wall this fix has excluded
+
+  void exclude_walls();
+  void include_walls();
+  int find_excluded(int first, int second) const;
+  void check_particles() const;
+  std::set<int> interacting_types(const SPHDissipation::Fluid *) const;
+  void check_thickness(const SPHDissipation::Fluid *) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -11,6 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
 #include "pair_sph_bulk.h"
 
 #include "atom.h"
@@ -23,7 +27,6 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_stress.h"
 
 #include <algorithm>
 
@@ -67,21 +70,32 @@ static const char cite_sdpd[] =
     " doi =     {10.1103/PhysRevE.67.026705},\n"
     "}\n\n";
 
-// adds the virial of each pair to the accumulators of the pair style
+// Adds the virial of each pair to the accumulators of the pair style; and, if there is such an array,
+// the dyad r_ij f_ij, half to each particle, to all nine components of the stress per atom in LAMMPS's
+// order xx yy zz xy xz yz yx zx zy: first index of r, second of f.  The forces are not central in
+// general, nor is the stress symmetric: xy - yx is the torque on the spins.
 
 class PairSPHBulk::StressTally : public PairTally {
  public:
-  StressTally(PairSPHBulk *pair, int nlocal, int newton_pair) :
-      pair(pair), nlocal(nlocal), newton_pair(newton_pair)
+  StressTally(PairSPHBulk *pair, double **stress, int nlocal, int newton_pair) :
+      pair(pair), stress(stress), nlocal(nlocal), newton_pair(newton_pair)
   {
   }
   void tally(int i, int j, const double *f, const double *r) override
   {
+    static constexpr int POSITION[9] = {0, 1, 2, 0, 0, 1, 1, 2, 2};
+    static constexpr int FORCE[9] = {0, 1, 2, 1, 2, 2, 0, 0, 1};
+    for (int k = 0; k < 9 && stress; k++) {
+      const double half = 0.5 * r[POSITION[k]] * f[FORCE[k]];
+      if (newton_pair || i < nlocal) stress[i][k] += half;
+      if (newton_pair || j < nlocal) stress[j][k] += half;
+    }
     pair->ev_tally_xyz(i, j, nlocal, newton_pair, 0.0, 0.0, f[0], f[1], f[2], r[0], r[1], r[2]);
   }
 
  private:
   PairSPHBulk *pair;
+  double **stress;
   int nlocal, newton_pair;
 };
 
@@ -149,12 +163,8 @@ void PairSPHBulk::compute(int eflag, int vflag)
   fluid->adopt();
   sum_virial_by_pairs();
   ev_init(eflag, vflag);
-  StressTally stress(this, atom->nlocal, force->newton_pair);
-  CentroidTally centroid(stress, cvatom, atom->nlocal, force->newton_pair);
-  PairTally *tally = vflag_either ? &stress : nullptr;
-  if (cvflag_atom) tally = &centroid;
-
-  pvector[0] = static_cast<double>(fluid->compute(tally));
+  StressTally stress(this, cvflag_atom ? cvatom : nullptr, atom->nlocal, force->newton_pair);
+  pvector[0] = static_cast<double>(fluid->compute(vflag_either ? &stress : nullptr));
   if (eflag_either) {
     const double energy = fluid->energy(eflag_atom ? eatom : nullptr);
     if (eflag_global) eng_vdwl += energy;

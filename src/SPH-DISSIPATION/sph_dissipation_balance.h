@@ -59,7 +59,7 @@ namespace SPHDissipation {
     // an owned particle changes sides with this velocity and internal energy
     void carry(Direction, int i, const double *v, double esph, const Fields &);
 
-    void set_impact(const OpenImpact &);    // of the present forces
+    void set_impact(const OpenImpact &);    // by the present forces
     void advance(double time);              // those act for this time
 
    private:
@@ -76,7 +76,7 @@ namespace SPHDissipation {
       NUMBER,
       ELASTIC = NUMBER + NCOUNTED,    // energy of the equation of state
       INTERNAL,
-      HEAT,        // of merges, in the internal energy
+      HEAT,        // heat of merges, in the internal energy
       ROTATION,    // energy that the rotation of neighbors took, out of the internal one
       COLDEST,     // smallest heat of a merge
       NVALUE

@@ -14,11 +14,15 @@
 #ifndef LMP_SPH_DISSIPATION_BOUNDARY_H
 #define LMP_SPH_DISSIPATION_BOUNDARY_H
 
+#include <vector>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   class BoundaryStage;
+  class OpenStage;
   struct BoundarySum;
+  struct OpenImpact;
   struct Surface;
 
   // Interface of a fix whose particles are not fluid, but represent what lies beyond its edge: what
@@ -48,6 +52,31 @@ namespace SPHDissipation {
 
    protected:
     ~Boundary() = default;    // nobody deletes a fix through this
+  };
+
+  // A buffer zone, as a fix provides it between the two passes: its particles are fluid with a prescribed
+  // state, as it enters or leaves.  The fix hands itself to OpenStage::add() in its init() and takes itself
+  // back when it is deleted.
+
+  class OpenZone {
+   public:
+    virtual int zone_bit() const = 0;     // bit of the group of its particles
+    virtual int fluid_bit() const = 0;    // bit of the group of the fluid that ends there
+    // whether a particle at x may have pairs across the border of zone and fluid, of this length
+    virtual bool zone_near(const double *x, double reach) const = 0;
+
+    // Append numbers of this processor, equally many on each; set_states() gets their sums over all
+    // processors, in one message for all zones
+    virtual void measure(const OpenStage &, std::vector<double> &mine) = 0;
+
+    // set density and pressure of its owned particles by OpenStage::set_state()
+    virtual void set_states(OpenStage &, const double *sums) = 0;
+
+    // sums of this processor, for each force computation
+    virtual void set_impact(const OpenImpact &) = 0;
+
+   protected:
+    ~OpenZone() = default;    // nobody deletes a fix through this
   };
 
 }    // namespace SPHDissipation

@@ -58,7 +58,8 @@ void SPHDissipation::begin_change(LAMMPS *lmp)
 int SPHDissipation::create_copy(LAMMPS *lmp, int i, tagint id, const double *x)
 {
   Atom *const atom = lmp->atom;
-  const double place[3] = {x[0], x[1], x[2]};    // which may be that of an atom
+  const double place[3] = {x[0], x[1],
+                           x[2]};    // x may be the place of an atom, which moves in memory
   const int j = atom->nlocal;
   if (j == atom->nmax) atom->avec->grow(0);
   atom->avec->copy(i, j, 0);

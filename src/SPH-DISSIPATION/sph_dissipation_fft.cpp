@@ -11,10 +11,9 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_fft.h"
+#include "sph_dissipation_grid.h"
 
 #include "error.h"
-#include "sph_dissipation_grid.h"
 
 // LAMMPS has this file only with the KSPACE package
 

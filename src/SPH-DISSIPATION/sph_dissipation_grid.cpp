@@ -14,9 +14,17 @@
 #include "sph_dissipation_grid.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
+#include "error.h"
 #include "grid2d.h"
 #include "grid3d.h"
+#include "memory.h"
+#include "pair_sph_bulk.h"
+#include "sph_dissipation_fields.h"
+#include "sph_dissipation_fluid.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_value.h"
 
 #include <algorithm>
 #include <cmath>
@@ -306,4 +314,186 @@ void ParticleGrid::sum_fields(const Smoothing &smoothing, double **values, int n
 double ParticleGrid::memory_usage() const
 {
   return (double) points * (moments.size() + fields.size()) * sizeof(double);
+}
+
+/* ---------------------------------------------------------------------- */
+
+GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), count(), linear(true), grid(nullptr), nmax(0), values(nullptr)
+{
+  if (!domain->box_exist)
+    error->all(FLERR, "Compute {} requires a simulation box, which comes later", style);
+  if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("compute {}", style), error);
+  for (int d = 0; d < 3; d++) {
+    count[d] = utils::inumeric(FLERR, arg[3 + d], false, lmp);
+    if (count[d] < 1)
+      error->all(FLERR, "Compute {}: the grid must have at least one point per direction", style);
+  }
+  if (domain->dimension == 2 && count[2] != 1)
+    error->all(FLERR, "Compute {}: Nz must be 1 in 2d", style);
+  if (!Fields::of(atom))
+    error->all(FLERR, "Compute {} requires atom style sph/bulk or sph/micropolar", style);
+
+  pergrid_flag = 1;    // asks for reset_grid() when sub-domains change in a run
+  comm_forward = 1;
+  grid = new ParticleGrid(lmp, count);
+}
+
+/* ---------------------------------------------------------------------- */
+
+GridCompute::~GridCompute()
+{
+  delete grid;
+  memory->destroy(values);
+}
+
+/* ----------------------------------------------------------------------
+   Make the grid anew where the sub-domains have changed: replicate does not call reset_grid().
+------------------------------------------------------------------------- */
+
+void GridCompute::init()
+{
+  const int moved = grid->fits() ? 0 : 1;
+  int any_moved;
+  MPI_Allreduce(&moved, &any_moved, 1, MPI_INT, MPI_MAX, world);
+  if (any_moved) reset_grid();
+
+  if (domain->triclinic)
+    error->all(FLERR, "Compute {} needs an orthogonal box, not a triclinic one", style);
+  if (fluid()->dimension() != domain->dimension)
+    error->all(FLERR, "Compute {} needs a kernel of the dimension of the simulation, not dim {}",
+               style, fluid()->dimension());
+}
+
+/* ----------------------------------------------------------------------
+   Look the fluid up at every use, for the pair style may have been replaced.
+------------------------------------------------------------------------- */
+
+Fluid *GridCompute::fluid() const
+{
+  return find_fluid(lmp, fmt::format("Compute {}", style));
+}
+
+/* ----------------------------------------------------------------------
+   Make the grid anew, after a change of the sub-domains.
+------------------------------------------------------------------------- */
+
+void GridCompute::reset_grid()
+{
+  delete grid;
+  grid = new ParticleGrid(lmp, count);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <int DIM> static double velocity(const Atom *atom, int i)
+{
+  return atom->v[i][DIM];
+}
+
+template <int DIM> static double spin(const Atom *atom, int i)
+{
+  return atom->omega[i][DIM];
+}
+
+static double density(const Atom *atom, int i)
+{
+  return atom->rho[i];
+}
+
+static double energy(const Atom *atom, int i)
+{
+  return atom->esph[i] / atom->vfrac[i];
+}
+
+bool GridCompute::add_value(const std::string &name)
+{
+  static const struct {
+    const char *name;
+    Value getter;
+    bool spin;
+  } KNOWN[] = {
+      {"vx", velocity<0>, false}, {"vy", velocity<1>, false}, {"vz", velocity<2>, false},
+      {"rho", density, false},    {"esph", energy, false},    {"omegax", spin<0>, true},
+      {"omegay", spin<1>, true},  {"omegaz", spin<2>, true},
+  };
+  for (const auto &value : KNOWN) {
+    if (name != value.name) continue;
+    if (value.spin && !Fields::with_spins(atom))
+      error->all(FLERR, "Compute {} {} requires atom style sph/micropolar", style, name);
+    names.push_back(name);
+    getters.push_back(value.getter);
+    comm_forward = 1 + nvalue();
+    return true;
+  }
+  return false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void GridCompute::read_order(Keywords &key)
+{
+  if (key.is("order")) linear = (key.choice({"0", "1"}) == 1);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool GridCompute::is_mapped(const Fluid *mapped, int i) const
+{
+  return (atom->mask[i] & groupbit) && mapped->has_type(atom->type[i]) && !mapped->is_boundary(i);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bigint GridCompute::map()
+{
+  const Fluid *const mapped = fluid();
+  if (!mapped->has_forces())
+    error->all(FLERR,
+               "Compute {} needs the volumes of the particles that are there now: use run 0 first",
+               style);
+
+  if (atom->nmax > nmax) {
+    nmax = atom->nmax;
+    memory->destroy(values);
+    memory->create(values, nmax, comm_forward, "sph/grid:values");
+  }
+  for (int i = 0; i < atom->nlocal; i++) {
+    values[i][0] = is_mapped(mapped, i) ? atom->vfrac[i] : 0.0;
+    for (int k = 0; k < nvalue(); k++) values[i][1 + k] = getters[k](atom, i);
+  }
+
+  // a fix may have changed the box at the end of the step, and with it the places of owned particles
+
+  if (domain->box_change) comm->forward_comm();
+  comm->forward_comm(this);
+
+  return grid->map({mapped->model->choice.kernel, mapped->support_radius(), linear}, values,
+                   nvalue());
+}
+
+/* ---------------------------------------------------------------------- */
+
+int GridCompute::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  int m = 0;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < comm_forward; k++) buf[m++] = values[list[i]][k];
+  return m;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void GridCompute::unpack_forward_comm(int n, int nfirst, double *buf)
+{
+  int m = 0;
+  for (int i = nfirst; i < nfirst + n; i++)
+    for (int k = 0; k < comm_forward; k++) values[i][k] = buf[m++];
+}
+
+/* ---------------------------------------------------------------------- */
+
+double GridCompute::memory_usage()
+{
+  return (double) nmax * comm_forward * sizeof(double) + grid->memory_usage();
 }

@@ -14,9 +14,12 @@
 #ifndef LMP_SPH_DISSIPATION_GRID_H
 #define LMP_SPH_DISSIPATION_GRID_H
 
-#include "pointers.h"
+#include "compute.h"
 #include "sph_dissipation_kernel.h"
 
+#include <complex>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -24,6 +27,8 @@ class Grid2d;
 class Grid3d;
 
 namespace SPHDissipation {
+  class Fluid;
+  class Keywords;
 
   // Values of points from those of particles: averages weighted by V W, or the weighted linear
   // regression through the particles, which is exact for linear fields (moving least squares: P.
@@ -67,9 +72,9 @@ namespace SPHDissipation {
     Grid2d *grid2d;
     Grid3d *grid3d;
 
-    double origin[3], spacing[3];    // of the points, as the box is now
+    double origin[3], spacing[3];    // places of the points, as the box is now
     std::vector<std::vector<double>> moments, fields;
-    std::vector<double> weight, offset;    // of the points of one row around a particle
+    std::vector<double> weight, offset;    // points of one row around a particle
 
     template <class Function> void near_rows(const double *, double, Function &&);
     template <class KernelShape, class Function>
@@ -78,6 +83,62 @@ namespace SPHDissipation {
     template <class KernelShape> void sum_fields(const Smoothing &, double **, int);
     template <class KernelShape> void weigh_row(const Smoothing &, double, double, double, int);
     bigint solve(bool linear);
+  };
+
+  // Fourier transform of a field on the points of a grid, by the distributed FFT of LAMMPS's KSPACE
+  // package, if LAMMPS is built with it.
+
+  class FourierGrid : protected Pointers {
+   public:
+    FourierGrid(class LAMMPS *, const ParticleGrid &);
+    ~FourierGrid() override;
+
+    static bool available();
+
+    // amplitudes a_k of f = sum_k a_k exp(i k.x), x from the first point: mode (i,j,k) of the box is
+    // where the point (i,j,k) is, i.e. on the processor and at the place in the array
+
+    void transform(const double *field, std::complex<double> *modes);
+    double memory_usage() const;
+
+   private:
+    struct Plan;    // knows LAMMPS's FFTs
+    std::unique_ptr<Plan> plan;
+  };
+
+  // A compute of the fluid on a grid: compute ID group style Nx Ny Nz ... order 0|1.  It makes the grid
+  // and maps values of the particles to it.
+
+  class GridCompute : public Compute {
+   public:
+    GridCompute(class LAMMPS *, int, char **);
+    ~GridCompute() override;
+    void init() override;
+    void reset_grid() override;
+    int pack_forward_comm(int, int *, double *, int, int *) override;
+    void unpack_forward_comm(int, int, double *) override;
+    double memory_usage() override;
+
+   protected:
+    int count[3];    // points
+    bool linear;     // order 1
+    ParticleGrid *grid;
+
+    bool add_value(const std::string &);    // a value of the particles to map; false if unknown
+    int nvalue() const { return static_cast<int>(names.size()); }
+    void read_order(Keywords &);    // keyword order, if it is that one
+
+    Fluid *fluid() const;
+    bool is_mapped(const Fluid *, int) const;    // owned particle
+    bigint map();    // all values, to ParticleGrid::field(); points without particles, of all ranks
+
+   private:
+    using Value = double (*)(const Atom *, int);
+
+    std::vector<std::string> names;
+    std::vector<Value> getters;
+    int nmax;
+    double **values;    // owned and ghost particles: volume (0: not mapped), then the values to map
   };
 
 }    // namespace SPHDissipation

@@ -11,7 +11,7 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_open_condition.h"
+#include "sph_dissipation_open.h"
 
 #include "atom.h"
 #include "domain.h"
@@ -42,7 +42,7 @@ OpenValues::OpenValues(LAMMPS *lmp, const std::string &owner) :
 
 /* ---------------------------------------------------------------------- */
 
-int OpenValues::keyword_argument(int iarg, int narg, char **arg)
+void OpenValues::read(Keywords &key)
 {
   struct Keyword {
     const char *name;
@@ -57,23 +57,15 @@ int OpenValues::keyword_argument(int iarg, int narg, char **arg)
                                          {"temperature", TEMPERATURE, 1, false},
                                          {"spin", WX, 3, false}};
   for (const auto &keyword : KEYWORDS) {
-    if (strcmp(arg[iarg], keyword.name) != 0) continue;
-    auto needs = [&](int n) {
-      if (iarg + n >= narg)
-        utils::missing_cmd_args(FLERR, fmt::format("{} {}", utils::lowercase(owner), keyword.name),
-                                error);
-    };
-    needs(1);
+    if (!key.is(keyword.name)) continue;
     for (int k = 0; k < keyword.n; k++) is_given[keyword.first + k] = false;
-    if (keyword.or_inside && strcmp(arg[iarg + 1], "inside") == 0) return 2;
-    needs(keyword.n);
+    if (keyword.or_inside && strcmp(key.word(), "inside") == 0) return;
+    key.more(keyword.n - 1);
     for (int k = 0; k < keyword.n; k++) {
-      value[keyword.first + k].set(lmp, arg[iarg + 1 + k]);
+      value[keyword.first + k].set(lmp, key.word(k));
       is_given[keyword.first + k] = true;
     }
-    return keyword.n + 1;
   }
-  return 0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -172,30 +164,12 @@ OpenCondition::OpenCondition(LAMMPS *lmp, const std::string &owner, const OpenPl
 
 /* ---------------------------------------------------------------------- */
 
-int OpenCondition::keyword_argument(int iarg, int narg, char **arg)
+void OpenCondition::read(Keywords &key)
 {
-  const std::string keyword = arg[iarg];
-  if (keyword != "condition" && keyword != "order" && keyword != "average") return 0;
-  if (iarg + 2 > narg)
-    utils::missing_cmd_args(FLERR, fmt::format("{} {}", utils::lowercase(owner), keyword), error);
-  const std::string word = arg[iarg + 1];
-
-  if (keyword == "average") {
-    averaging_time = utils::numeric(FLERR, word, false, lmp);
-    if (!(averaging_time > 0.0)) error->all(FLERR, "{} average must be > 0, not {}", owner, word);
-  } else if (keyword == "order") {
-    order = utils::inumeric(FLERR, word, false, lmp);
-    if (order != 0 && order != 1)
-      error->all(FLERR, "{} order must be 0 or 1, not {}", owner, order);
-  } else if (word == "lagged")
-    kind = LAGGED;
-  else if (word == "characteristic")
-    kind = CHARACTERISTIC;
-  else if (word == "fixed")
-    kind = FIXED;
-  else
-    error->all(FLERR, "Unknown {} condition: {}", utils::lowercase(owner), word);
-  return 2;
+  if (key.is("average")) averaging_time = key.positive();
+  if (key.is("order")) order = key.choice({"0", "1"});
+  if (key.is("condition"))
+    kind = static_cast<Kind>(key.choice({"lagged", "characteristic", "fixed"}));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -243,7 +217,7 @@ const EosParams &OpenCondition::eos(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   of waves that leave: between those of slow and fast ones, where processes relax
+   Return the speed of waves that leave: where processes relax, it lies between those of slow and fast waves.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::sound(int i, double rho, double q) const
@@ -273,7 +247,7 @@ bool OpenCondition::enters(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   in the place of a rate, which particles of a zone do not have
+   The field is that of a rate, which particles of a zone do not have.
 ------------------------------------------------------------------------- */
 
 double &OpenCondition::density_of_energy(int i) const
@@ -312,7 +286,7 @@ double OpenCondition::heat(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   what is given holds for the whole zone, so that heat is conducted against a stream that leaves, too
+   A given temperature holds for the whole zone, so that heat is conducted against a stream that leaves, too.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::temperature(int i, const OpenState &state) const

@@ -11,7 +11,7 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_open_plane.h"
+#include "sph_dissipation_open.h"
 
 #include "domain.h"
 #include "error.h"

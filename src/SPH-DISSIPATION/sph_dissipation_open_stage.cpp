@@ -104,7 +104,7 @@ void OpenStage::run()
 void OpenStage::set_states()
 {
   std::vector<double> mine;
-  std::vector<std::size_t> first;    // of the numbers of each zone
+  std::vector<std::size_t> first;    // index of the first number of each zone
   for (auto *zone : zones) {
     first.push_back(mine.size());
     zone->measure(*this, mine);

@@ -14,6 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_OPEN_STAGE_H
 #define LMP_SPH_DISSIPATION_OPEN_STAGE_H
 
+#include "sph_dissipation_boundary.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_stages.h"
 
@@ -28,36 +29,9 @@ namespace SPHDissipation {
     double force[3], torque[3];    // torque about the origin, of forces and couples
     double power;                  // work and heat
 
-    // what acts on a particle of the fluid
-    void add(const Particle &, const ForceSum &, double heat);    // of all other channels
+    // Add what acts on a particle of the fluid; heat = that of all other channels.
+    void add(const Particle &, const ForceSum &, double heat);
     void add(const Spin &, const double *couple);
-  };
-
-  class OpenStage;
-
-  // A buffer zone, as a fix provides it between the two passes: its particles are fluid with a prescribed
-  // state, as it enters or leaves.  The fix hands itself to OpenStage::add() in its init() and takes itself
-  // back when it is deleted.
-
-  class OpenZone {
-   public:
-    virtual int zone_bit() const = 0;     // bit of the group of its particles
-    virtual int fluid_bit() const = 0;    // bit of the group of the fluid that ends there
-    // whether a particle at x may have pairs across the border of zone and fluid, of this length
-    virtual bool zone_near(const double *x, double reach) const = 0;
-
-    // Append numbers of this processor, equally many on each; set_states() gets their sums over all
-    // processors, in one message for all zones
-    virtual void measure(const OpenStage &, std::vector<double> &mine) = 0;
-
-    // set density and pressure of its owned particles by OpenStage::set_state()
-    virtual void set_states(OpenStage &, const double *sums) = 0;
-
-    // sums of this processor, for each force computation
-    virtual void set_impact(const OpenImpact &) = 0;
-
-   protected:
-    ~OpenZone() = default;    // nobody deletes a fix through this
   };
 
   // Gives the particles of buffer zones the density and pressure that act in the pair forces, and sums
@@ -70,16 +44,16 @@ namespace SPHDissipation {
     void add(OpenZone *);       // no effect if it is there
     void remove(OpenZone *);    // no effect if it is not there
     bool empty() const { return zones.empty(); }
-    int bits() const { return zone_bits; }    // of the groups of all zones
-    int bits_of(int fluid_bit) const;         // of those whose fluid has this bit
-    double strain_energy(int i) const;        // of relaxing processes, at the last densities
+    int bits() const { return zone_bits; }    // groups of all zones
+    int bits_of(int fluid_bit) const;         // groups of the zones whose fluid has this bit
+    double strain_energy(int i) const;        // energy of relaxing processes at the last densities
 
     // from OpenZone::set_states(): density and pressure of a particle, which keeps its bulk term; with which temperature it
     // conducts heat, if the fluid does
     void set_state(int i, double rho, double pressure);
     void set_temperature(int i, double temperature);
     const Particle &particle(int i) const { return engine.particle[i]; }
-    double strain_pressure(int i) const    // of relaxing processes
+    double strain_pressure(int i) const    // pressure of relaxing processes
     {
       return engine.parameters().nprocess ? engine.strain_pressure[i] : 0.0;
     }
@@ -98,11 +72,11 @@ namespace SPHDissipation {
     // neighbor lists, and with them only the masks of owned particles.
     std::vector<double> zone_of;
 
-    std::vector<std::vector<int>> rows;    // of the neighbor list, near the plane of each zone
+    std::vector<std::vector<int>> rows;    // rows of the neighbor list near the plane of each zone
 
-    PairSubset pairs;    // of fluid and one zone
+    PairSubset pairs;    // pairs of fluid and one zone
 
-    // of these pairs; all zero but within impact(), which works in proportion to the pairs
+    // Sums over these pairs, which are zero outside of impact(): it works in proportion to the pairs.
     std::vector<ForceSum> forces;
     ChannelSums side;
     std::vector<double> divergence, flow;

@@ -20,7 +20,6 @@
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
-#include "sph_dissipation_extension.h"
 
 #include <algorithm>
 #include <cmath>
@@ -141,7 +140,7 @@ void SurfaceStage::find(int bits)
 }
 
 /* ----------------------------------------------------------------------
-   a vector toward the fluid, as the normal of a boundary particle; zero out of its reach
+   Set the normal of a boundary particle to a vector toward the fluid; zero out of its reach.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_sides(const BoundaryPairs &pairs)

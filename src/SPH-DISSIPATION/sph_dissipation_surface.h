@@ -28,7 +28,7 @@ namespace SPHDissipation {
 
   struct BoundaryPair {
     int fluid, wall;
-    bigint entry;    // of the pairs of the engine
+    bigint entry;    // index of the pair in the engine
   };
 
   // those of each thread; until the neighbor list is built anew, the rows of the list that may hold them, and of the
@@ -58,13 +58,13 @@ namespace SPHDissipation {
     // of these bits, from their volumes; omega is for the boundary to set
     void run(int bits, const BoundaryPairs &);
 
-    // the same with vectors toward the fluid that are known, of the owned ones in their order
+    // Do the same with known vectors toward the fluid, those of the owned particles in their order.
     void run(int bits, const std::vector<double> &sides);
 
     double memory_usage() const override;
 
-    Surface *surface;    // of owned and ghost atoms
-    bool has_flux;       // of heat: what that needs is found, too
+    Surface *surface;    // by owned and ghost atom
+    bool has_flux;       // walls have a flux of heat, which needs curvatures
 
    private:
     int nmax;

@@ -14,6 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_VALUE_H
 #define LMP_SPH_DISSIPATION_VALUE_H
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,7 @@ namespace SPHDissipation {
     // Evaluate the variable at this step; if it is of atom style, for owned particles of the group.
     void evaluate(LAMMPS *, int igroup);
 
-    const std::string &name() const { return variable_name; }    // of the variable
+    const std::string &name() const { return variable_name; }    // name of the variable
     bool varies() const { return is_variable; }
     bool is_by_atom() const { return by_atom; }
     bool is_zero() const { return !varies() && number == 0.0; }    // at all times
@@ -52,6 +53,41 @@ namespace SPHDissipation {
     bool by_atom = false;
     double number = 0.0;
     std::vector<double> column;    // by owned particle
+  };
+
+  // The keywords at the end of a command: each is a name and a number of words.
+  //
+  //   for (Keywords key(lmp, "Fix sph/dt", 4, narg, arg); key.next();)
+  //     if (key.is("min")) smallest = key.positive();
+  //
+  // A keyword that is none of those that is() compares it with, and one with too few words, is an error.
+
+  class Keywords {
+   public:
+    // Begin in front of arg[first]; owner: for messages.
+    Keywords(LAMMPS *, const std::string &owner, int first, int narg, char **arg);
+
+    bool next();    // Go to the next keyword; false if there is none.
+    bool is(const std::string &name, int nwords = 1);    // it is this one; go behind its words
+    void more(int nwords);                               // It has so many words more.
+
+    const std::string &name() const { return keyword; }
+    char **words() const { return arg + at; }
+    const char *word(int k = 0) const { return arg[at + k]; }
+    double number(int k = 0) const;
+    int whole_number() const;
+    double positive() const;                                        // > 0
+    int choice(std::initializer_list<const char *> words) const;    // index of the one that it is
+    void demand(bool good, const std::string &what) const;    // "must be what, not word": an error
+
+   private:
+    LAMMPS *const lmp;
+    const std::string owner;
+    const int narg;
+    char **const arg;
+    int at, end;            // range of its words
+    std::string keyword;    // empty: in front of the first one
+    bool known;
   };
 
 }    // namespace SPHDissipation

@@ -26,7 +26,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-enum { OMEGA = 3 };    // of the values, after the velocity
+enum { OMEGA = 3 };    // index of the angular velocity, after the velocity
 
 /* ---------------------------------------------------------------------- */
 

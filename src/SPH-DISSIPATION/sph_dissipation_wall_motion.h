@@ -35,10 +35,10 @@ namespace SPHDissipation {
     void set_velocity(char **);    // vx vy vz
     void set_rotation(char **);    // px py pz ax ay az omega
 
-    void init();       // of a run: find the variables
-    void start();      // of a run: values now, and the rates at which they change
-    void stop();       // until the next start the wall stands still
-    void advance();    // to the end of a step
+    void init();       // Find the variables, before a run.
+    void start();      // Evaluate them, and their rates of change, at the start of a run.
+    void stop();       // Let the wall stand still until the next start().
+    void advance();    // Go to the end of a step.
 
     WallVelocity velocity() const;    // at the end of the last step
     WallStep last_step() const;       // for r from the point on the axis
@@ -57,8 +57,8 @@ namespace SPHDissipation {
     struct Component {
       Value value;
       double now = 0.0;     // at the end of the last step
-      double mean = 0.0;    // of its values at both ends of this step
-      double rate = 0.0;    // of its change
+      double mean = 0.0;    // mean of its values at both ends of this step
+      double rate = 0.0;    // rate of its change
     };
     static constexpr int NVALUES = 4;
 

@@ -450,7 +450,7 @@ def test_hot_fluid_rises(lammps):
 @pytest.mark.parametrize("heat, keywords, words", [
     ("heat", "cv 1.0 conductivity 1.0", "[Mm]issing"),
     ("heat temp", "cv 1.0 conductivity 1.0", "[Mm]issing"),
-    ("heat warm 1.0", "cv 1.0 conductivity 1.0", "Unknown fix sph/wall heat value: warm"),
+    ("heat warm 1.0", "cv 1.0 conductivity 1.0", "heat must be adiabatic, temp, or flux, not warm"),
     ("heat temp hot", "cv 1.0 conductivity 1.0", "[Ee]xpected floating point parameter|hot"),
     ("heat temp -1.0", "cv 1.0 conductivity 1.0", "Fix sph/wall heat temp must be >= 0, not -1"),
     ("heat temp nan", "cv 1.0 conductivity 1.0", "heat temp must be >= 0, not nan|nan"),

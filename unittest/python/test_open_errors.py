@@ -38,7 +38,7 @@ def refused(lammps, message, inlet=INLET, outlet=OUTLET, ranks=(1, 4), run="run 
     ("velocity 0.1 0 0 spin 0 0 1", "spin requires atom style sph/micropolar"),
     ("velocity 0.1 0 0 spacing 0", "spacing must be > 0"),
     ("velocity 0.1 0 0 average -1", "average must be > 0"),
-    ("velocity 0.1 0 0 condition sideways", "Unknown fix sph/open condition: sideways"),
+    ("velocity 0.1 0 0 condition sideways", "condition must be lagged, characteristic, or fixed, not sideways"),
     ("velocity 0.1 0 0 order 2", "order must be 0 or 1"),
     ("velocity 0.1 0 0 region nowhere", "region nowhere does not exist"),
     ("velocity v_none 0 0", "Variable none for .*sph/open does not exist"),

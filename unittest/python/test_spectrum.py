@@ -473,8 +473,8 @@ ERRORS = [
     ("compute S all sph/spectrum 8 8 8 deconvolve maybe", "Expected boolean parameter instead of 'maybe'"),
     ("compute S all sph/spectrum 8 8 8 shells 5\nrun 0", "the grid is too coarse for 5 shells, it has 4"),
     ("compute S all sph/grid 8 8 8", "needs at least one value"),
-    ("compute S all sph/grid 8 8 8 vx nonsense", "Unknown compute sph/grid value or keyword: nonsense"),
-    ("compute S all sph/grid 8 8 8 vx order 0 vy", "Unknown compute sph/grid value or keyword: vy"),
+    ("compute S all sph/grid 8 8 8 vx nonsense", "Unknown compute sph/grid keyword: nonsense"),
+    ("compute S all sph/grid 8 8 8 vx order 0 vy", "Unknown compute sph/grid keyword: vy"),
     ("compute S all sph/grid 8 8 8 omegax", "requires atom style sph/micropolar"),
     ("pair_style none\ncompute S all sph/grid 8 8 8 vx\nrun 0", "requires pair style sph/bulk or sph/micropolar"),
     ("compute S all sph/spectrum 8 8 8\nvariable s equal c_S[1]\nrun 0\n"

@@ -11,20 +11,46 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_open_rows.h"
+#include "sph_dissipation_open.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "math_extra.h"
 #include "sph_dissipation_create.h"
-#include "sph_dissipation_open_plane.h"
 
 #include <algorithm>
 #include <cmath>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+// The particles near the far end of a buffer zone, of all processors, also those not of the zone
+
+class SPHDissipation::OpenBand : protected Pointers {
+ public:
+  // Collect the particles between two heights.
+  OpenBand(class LAMMPS *, const OpenPlane &, int groupbit, double lo, double hi);
+
+  // Tell whether one of the zone, or of any kind, is behind x, not farther beside it than this.
+  bool has_behind(const double *x, double beside, bool any_kind = false) const;
+
+  // Return the distance of the nearest one of the zone behind x, or in front of it, not farther beside it
+  // than this; infinite if there is none.
+  double next(const double *x, double beside, bool behind) const;
+
+  // Tell whether any one, or one that is not of the zone, is closer to x than this.
+  bool has_near(const double *x, double distance, bool other = false) const;
+
+ private:
+  const OpenPlane &plane;
+  std::vector<double> place;    // 3 each
+  std::vector<char> of_zone;
+  std::vector<std::vector<int>> at_node;    // particles next to each node of the plane
+
+  int nearest_node(const double *x) const;
+  template <class Function> bool any(const double *x, double reach, Function &&function) const;
+};
 
 /* ---------------------------------------------------------------------- */
 
@@ -74,17 +100,10 @@ bool OpenBand::any(const double *x, double reach, Function &&function) const
 
 /* ---------------------------------------------------------------------- */
 
-bool OpenBand::has_behind(const double *x, double beside) const
+bool OpenBand::has_behind(const double *x, double beside, bool any_kind) const
 {
   return any(x, beside, [&](int k, const OpenPlane::Offset &to) {
-    return of_zone[k] && to.beside < beside && to.ahead < 0.0;
-  });
-}
-
-bool OpenBand::has_any_behind(const double *x, double beside) const
-{
-  return any(x, beside, [&](int, const OpenPlane::Offset &to) {
-    return to.beside < beside && to.ahead < 0.0;
+    return (any_kind || of_zone[k]) && to.beside < beside && to.ahead < 0.0;
   });
 }
 
@@ -99,36 +118,31 @@ double OpenBand::next(const double *x, double beside, bool behind) const
   return nearest;
 }
 
-bool OpenBand::has_near(const double *x, double distance) const
-{
-  return any(x, distance, [&](int, const OpenPlane::Offset &to) {
-    return to.distance() < distance;
-  });
-}
-
-bool OpenBand::has_other_near(const double *x, double distance) const
+bool OpenBand::has_near(const double *x, double distance, bool other) const
 {
   return any(x, distance, [&](int k, const OpenPlane::Offset &to) {
-    return !of_zone[k] && to.distance() < distance;
+    return !(other && of_zone[k]) && to.distance() < distance;
   });
 }
 
 static constexpr double FAR = 1.0e300;
-static constexpr double ROUND_OFF = 1.0e-9;    // of lengths
-static constexpr double STRAIGHT = 0.01;       // of a row, sideways, over the size of a particle
+static constexpr double ROUND_OFF = 1.0e-9;    // tolerance of lengths
+static constexpr double STRAIGHT =
+    0.01;    // sideways tolerance of a row, over the size of a particle
 
 /* ---------------------------------------------------------------------- */
 
-OpenRows::OpenRows(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane, int groupbit) :
-    Pointers(lmp), owner(owner), plane(plane), groupbit(groupbit), fluidbit(0), given_spacing(0.0),
-    spacing(0.0), half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true),
-    unknown_sides(true)
+ZoneLattice::ZoneLattice(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane,
+                         int groupbit) :
+    Pointers(lmp),
+    owner(owner), plane(plane), groupbit(groupbit), fluidbit(0), given_spacing(0.0), spacing(0.0),
+    half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true), unknown_sides(true)
 {
 }
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::init(double support_in, int fluid_bit)
+void ZoneLattice::init(double support_in, int fluid_bit)
 {
   support = support_in;
   fluidbit = fluid_bit;
@@ -149,7 +163,7 @@ void OpenRows::init(double support_in, int fluid_bit)
    that such IDs do not change while their number is the same (Dump::init() and Dump::sort()).
 ------------------------------------------------------------------------- */
 
-void OpenRows::interrupt_ids()
+void ZoneLattice::interrupt_ids()
 {
   if (!atom->tag_consecutive()) return;
   tagint mine = 0, last;
@@ -166,7 +180,7 @@ void OpenRows::interrupt_ids()
 
 /* ---------------------------------------------------------------------- */
 
-double OpenRows::step(int i) const
+double ZoneLattice::step(int i) const
 {
   if (!by_distance()) return spacing;
   const double length = distance(i);
@@ -181,7 +195,7 @@ double OpenRows::step(int i) const
    is on the same side of it as a whole, on any number of processors.
 ------------------------------------------------------------------------- */
 
-double OpenRows::end() const
+double ZoneLattice::end() const
 {
   return -(1.0 + ROUND_OFF) * plane.length;
 }
@@ -191,7 +205,7 @@ double OpenRows::end() const
    one straight behind it, and that of the nearest row.
 ------------------------------------------------------------------------- */
 
-void OpenRows::find_rows()
+void ZoneLattice::find_rows()
 {
   struct {
     double height;
@@ -238,7 +252,7 @@ void OpenRows::find_rows()
 
 /* ---------------------------------------------------------------------- */
 
-double OpenRows::my_largest_spacing() const
+double ZoneLattice::my_largest_spacing() const
 {
   if (!by_distance()) return spacing;
   double largest = 0.0;
@@ -249,7 +263,7 @@ double OpenRows::my_largest_spacing() const
   return largest;
 }
 
-double OpenRows::largest_spacing() const
+double ZoneLattice::largest_spacing() const
 {
   if (!by_distance()) return spacing;
   const double largest = my_largest_spacing();
@@ -260,7 +274,7 @@ double OpenRows::largest_spacing() const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::renew(const Refresh &refresh)
+void ZoneLattice::renew(const Refresh &refresh)
 {
   const int nbefore = atom->nlocal;
   begin_change(lmp);
@@ -295,7 +309,7 @@ void OpenRows::renew(const Refresh &refresh)
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::remove_beyond()
+void ZoneLattice::remove_beyond()
 {
   for (int i = atom->nlocal - 1; i >= 0; i--) {
     highest = std::max(highest, atom->tag[i]);
@@ -307,7 +321,7 @@ void OpenRows::remove_beyond()
    Return the owned particles that move into the fluid and have none behind them in their row.
 ------------------------------------------------------------------------- */
 
-std::vector<int> OpenRows::last_ones(const OpenBand &band) const
+std::vector<int> ZoneLattice::last_ones(const OpenBand &band) const
 {
   std::vector<int> last;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -327,8 +341,8 @@ std::vector<int> OpenRows::last_ones(const OpenBand &band) const
    new particle is as far away as the harmonic mean of the two, to second order.
 ------------------------------------------------------------------------- */
 
-bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh,
-                    bigint &removed, bigint &change)
+bool ZoneLattice::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh,
+                       bigint &removed, bigint &change)
 {
   constexpr int CORRECTIONS = 3;
   last.erase(std::remove_if(last.begin(), last.end(),
@@ -377,12 +391,12 @@ bool OpenRows::fill(std::vector<int> &last, const OpenBand &band, const Refresh 
    Refuse other particles in the zone.
 ------------------------------------------------------------------------- */
 
-void OpenRows::check_alone(const OpenBand &band) const
+void ZoneLattice::check_alone(const OpenBand &band) const
 {
   bigint count = 0, all;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    if (band.has_other_near(atom->x[i], half_width)) count++;
+    if (band.has_near(atom->x[i], half_width, true)) count++;
   }
   MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all)
@@ -399,10 +413,10 @@ void OpenRows::check_alone(const OpenBand &band) const
    lattice, such as one that the fluid has filled, has no rows.
 ------------------------------------------------------------------------- */
 
-void OpenRows::check_lattice(const OpenBand &band, double largest) const
+void ZoneLattice::check_lattice(const OpenBand &band, double largest) const
 {
   constexpr double GAP = 1.5, FIRST = 1.2, LAST = 1.5;    // distances of particles in a row
-  constexpr double APART = 1.5;    // of half the width of a row, which is more than is between rows
+  constexpr double APART = 1.5;    // over half the width of a row: farther than the next row
   enum { NUMBER, IN_ROWS, GAPS, BARE, NSUM };
   bigint sum[NSUM] = {0, 0, 0, 0}, all[NSUM];
   const double straight = STRAIGHT * 2.0 * half_width;
@@ -410,7 +424,7 @@ void OpenRows::check_lattice(const OpenBand &band, double largest) const
     const double *const x = atom->x[i];
     const double height = plane.height(x);
     if ((atom->mask[i] & fluidbit) && height >= 0.0 && height < largest && !plane.beside(x) &&
-        !band.has_any_behind(x, APART * half_width))
+        !band.has_behind(x, APART * half_width, true))
       sum[BARE]++;
     if (!(atom->mask[i] & groupbit)) continue;
     const double one = step(i);
@@ -438,9 +452,9 @@ void OpenRows::check_lattice(const OpenBand &band, double largest) const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::check_seat(const double *x, const OpenBand &band) const
+void ZoneLattice::check_seat(const double *x, const OpenBand &band) const
 {
-  constexpr double APART = 0.5;    // of the width of a row
+  constexpr double APART = 0.5;    // over half the width of a row
   if (!in_box(lmp, x))
     error->one(FLERR,
                "{}: the zone reaches beyond the box, where a particle enters at {:g} {:g} {:g}",
@@ -452,7 +466,7 @@ void OpenRows::check_seat(const double *x, const OpenBand &band) const
 
 /* ---------------------------------------------------------------------- */
 
-void OpenRows::pack(double *buf) const
+void ZoneLattice::pack(double *buf) const
 {
   tagint all;
   MPI_Allreduce(&highest, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
@@ -461,7 +475,7 @@ void OpenRows::pack(double *buf) const
   buf[2] = static_cast<double>(all);
 }
 
-void OpenRows::unpack(const double *buf)
+void ZoneLattice::unpack(const double *buf)
 {
   spacing = buf[0];
   half_width = buf[1];

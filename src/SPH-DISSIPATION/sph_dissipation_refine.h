@@ -11,12 +11,13 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_SPH_DISSIPATION_REFINE_PAIRS_H
-#define LMP_SPH_DISSIPATION_REFINE_PAIRS_H
+#ifndef LMP_SPH_DISSIPATION_REFINE_H
+#define LMP_SPH_DISSIPATION_REFINE_H
 
 #include "pointers.h"
 #include "sph_dissipation_split.h"
 
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -26,9 +27,13 @@ class NeighList;
 
 namespace SPHDissipation {
 
+  class Fields;
+  class Fluid;
+  class RefineBalance;
+
   // What a particle does in an event
 
-  enum RefineState { APART, KEEPS, SPLITS, MERGES };    // APART: no fluid
+  enum RefineState { NOT_FLUID, KEEPS, SPLITS, MERGES };
 
   // A particle and what its neighbors need of it in an event.  All doubles, to be sent as rows.
 
@@ -37,14 +42,15 @@ namespace SPHDissipation {
     double mask;      // bits of its groups
     double volume;    // now
     double most;      // volume that a merge may give it
-    double family;    // of the daughters of one split, the lowest of their new IDs; 0: none
+    double family;    // lowest new ID of the daughters of the split that it comes from; 0: none
     Lump lump;
 
     // partner of a merge: ID of the particle that it would merge with, or the family that does as a
     // whole; nonzero once that is settled
 
     double choice, settled;
-    double withheld;    // of the lowest ID of those that merge, or of one that splits: not now
+    double
+        postponed;    // nonzero: the event is over the limit of this step; set for who splits or leads a merge
 
     // The particle as its neighbors will meet it: a pair that merges is a point in its centre of
     // mass, whose mass the lower ID has, the other none
@@ -67,16 +73,12 @@ namespace SPHDissipation {
     RefineItem &operator[](int i) { return items[i]; }
     const RefineItem &operator[](int i) const { return items[i]; }
 
-    // Send members of the items to the ghosts.  The positions of ghosts are not sent but those that
-    // they have: of periodic images.
+    // Send so many numbers of the items, from this one on, to the ghosts; 0: all that follow.  The
+    // positions of ghosts are not sent but those that they have: of periodic images.
 
     static constexpr int SIZE = sizeof(RefineItem) / sizeof(double);
+    void forward(double RefineItem::*first, int number = 1);
     void forward_all();
-    void forward_choice();
-    void forward_settled();
-    void forward_withheld();
-    void forward_point();
-    void forward_rotation();
 
     int pack(int n, const int *list, double *buf) const;
     void unpack(int n, int from, const double *buf);
@@ -85,9 +87,7 @@ namespace SPHDissipation {
    private:
     Fix *fix;
     std::vector<RefineItem> items;
-    int first, count;    // of the doubles of an item that are sent
-
-    void forward(int first, int count);
+    int first, count;    // which numbers of an item are sent
   };
 
   // Finds the partners of merges.  Each particle that is to merge chooses the nearest one that may be
@@ -107,7 +107,7 @@ namespace SPHDissipation {
     void find(NeighList *full, double farthest);
     int mate(int i) const { return mates[i]; }    // owned or ghost particle; -1: none
     bool leads(int i) const;                      // owned, of a pair: it is the one that stays
-    std::vector<int> members(int i) const;        // of the merge that i leads
+    std::vector<int> members(int i) const;        // particles of the merge that i leads
 
    private:
     RefineItems &items;
@@ -153,6 +153,65 @@ namespace SPHDissipation {
     std::vector<double> du, works;
 
     void offset(int from, int to, double *r) const;
+  };
+
+  // Does all splits and merges of one time step, on all processors at once: plan() decides with the
+  // particles as they are, carry_out() changes them.
+
+  class RefineEvent : protected Pointers {
+   public:
+    RefineEvent(class LAMMPS *, Fix *, RefineBalance &);
+
+    void init(const Fluid &, double smallest_share);
+
+    // Set what each owned particle is to do, its volume now and that of its target.
+    void begin();
+    void set(int i, RefineState, double volume, double most, double target, double family);
+
+    // Decide who merges with whom and who splits how, in at most so many events.  Changes the items
+    // only.  Returns the number of events on all processors.
+    bigint plan(NeighList *full, bigint most);
+
+    // Split and merge.  Calls changed(i, family) for each owned particle that has come from an event.
+    typedef std::function<void(int i, double family)> Changed;
+    void carry_out(NeighList *full, const Changed &changed);
+
+    RefineItems items;
+    tagint highest;    // ID that was ever given
+
+   private:
+    RefineBalance &balance;
+    RefinePairs pairs;
+    RefineResidual residual;
+    double support;
+    double smallest;    // volume of a daughter over the target
+    Fields *fields;
+
+    struct Split {
+      int i;
+      Stencil stencil;
+    };
+    struct Merge {
+      int i;
+      std::vector<Lump> parts;
+      double volume = 0.0;
+      Lump whole;
+      double heat, residual[3];
+    };
+    std::vector<double> targets;
+    std::vector<Split> splits;
+    std::vector<Merge> merges;
+
+    Lump lump(int i) const;
+    void set_lump(int i, const Lump &);
+    void set_relaxing(int i, const Lump &);
+    bool merging(int i) const;
+    bool families() const;    // all daughters of one split can merge as a whole
+    bool find_stencil(NeighList *full, int i, Stencil &) const;
+    bigint postpone(bigint most);
+    void give_residual(NeighList *full);
+    void move_others(const std::vector<char> &own_event);
+    void create(const std::vector<tagint> &first, const Changed &changed);
   };
 
 }    // namespace SPHDissipation

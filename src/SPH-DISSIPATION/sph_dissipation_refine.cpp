@@ -11,9 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_refine_event.h"
+#include "sph_dissipation_refine.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
@@ -23,7 +24,6 @@
 #include "sph_dissipation_create.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
-#include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
 #include "update.h"
 
@@ -33,10 +33,308 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
+static constexpr int ROUNDS = 30;
+static constexpr double EQUAL = 1.0e-9;           // tolerance of squares of distances
+static constexpr double ONE_CLASS = 2.5;          // ratio of the volumes of two that may merge
 static constexpr double FARTHEST = 0.35;          // distance of two that merge, over the support
-static constexpr double RESIDUAL_RADIUS = 0.5;    // of those that take angular momentum, the same
+static constexpr double RESIDUAL_RADIUS = 0.5;    // over the support: who takes angular momentum
 static constexpr double STRETCHED = 1.4;    // spacing over the mean one, that splits in two only
 static constexpr double NEXT = 1.6;         // distance of neighbors that split together, over it
+
+/* ---------------------------------------------------------------------- */
+
+void RefineItems::resize()
+{
+  items.assign(atom->nlocal + atom->nghost, RefineItem());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineItems::forward(double RefineItem::*member, int number)
+{
+  const RefineItem one = RefineItem();
+  first = static_cast<int>(&(one.*member) - reinterpret_cast<const double *>(&one));
+  count = number ? number : SIZE - first;
+  comm->forward_comm(fix, count);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineItems::forward_all()
+{
+  forward(&RefineItem::state, SIZE);
+  const int nall = atom->nlocal + atom->nghost;
+  for (int i = atom->nlocal; i < nall; i++) std::copy_n(atom->x[i], 3, items[i].lump.x);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int RefineItems::pack(int n, const int *list, double *buf) const
+{
+  for (int k = 0; k < n; k++) {
+    const double *const row = reinterpret_cast<const double *>(&items[list[k]]) + first;
+    buf = std::copy_n(row, count, buf);
+  }
+  return n * count;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineItems::unpack(int n, int from, const double *buf)
+{
+  for (int i = from; i < from + n; i++, buf += count)
+    std::copy_n(buf, count, reinterpret_cast<double *>(&items[i]) + first);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool RefinePairs::leads(int i) const
+{
+  return mates[i] >= 0 && atom->tag[i] < atom->tag[mates[i]];
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::vector<int> RefinePairs::members(int i) const
+{
+  const auto found = families.find(i);
+  if (found != families.end()) return found->second;
+  return {i, mates[i]};
+}
+
+/* ---------------------------------------------------------------------- */
+
+double RefinePairs::distance_sq(int i, int j) const
+{
+  double rsq = 0.0;
+  for (int d = 0; d < 3; d++) {
+    const double r = atom->x[j][d] - atom->x[i][d];
+    rsq += r * r;
+  }
+  return rsq;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool RefinePairs::fits(int i, int j) const
+{
+  const RefineItem &a = items[i], &b = items[j];
+  return b.is(MERGES) && b.settled == 0.0 && atom->type[i] == atom->type[j] && a.mask == b.mask &&
+      a.volume <= ONE_CLASS * b.volume && b.volume <= ONE_CLASS * a.volume &&
+      a.volume + b.volume <= std::min(a.most, b.most) && atom->tag[i] != atom->tag[j];
+}
+
+/* ----------------------------------------------------------------------
+   Tell whether j is nearer to i than the other one.  At equal distances the IDs decide, for two images
+   of one particle, in a narrow box, the positions.
+------------------------------------------------------------------------- */
+
+bool RefinePairs::nearer(int i, int j, int other) const
+{
+  const double rsq = distance_sq(i, j), other_sq = distance_sq(i, other);
+  if (rsq < (1.0 - EQUAL) * other_sq) return true;
+  if (rsq > (1.0 + EQUAL) * other_sq) return false;
+  const tagint *const tag = atom->tag;
+  if (tag[j] != tag[other]) return std::minmax(tag[i], tag[j]) < std::minmax(tag[i], tag[other]);
+  for (int d = 0; d < 3; d++) {
+    const double ahead = atom->x[j][d] - atom->x[other][d];
+    if (ahead * ahead > EQUAL * rsq) return ahead > 0.0;
+  }
+  return false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int RefinePairs::nearest(int i, const int *neighbors, int n, double farthest_sq) const
+{
+  int best = -1;
+  for (int k = 0; k < n; k++) {
+    const int j = neighbors[k] & NEIGHMASK;
+    if (!fits(i, j) || distance_sq(i, j) > (1.0 + EQUAL) * farthest_sq) continue;
+    if (best < 0 || nearer(i, j, best)) best = j;
+  }
+  return best;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefinePairs::clear()
+{
+  mates.assign(atom->nlocal, -1);
+  families.clear();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefinePairs::settle()
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    if (mates[i] >= 0) items[i].settled = 1.0;
+  items.forward(&RefineItem::settled);
+}
+
+/* ----------------------------------------------------------------------
+   Tell the leader of a family: the first daughter has the ID of the parent, below the new ones.
+------------------------------------------------------------------------- */
+
+bool RefinePairs::is_first(int i) const
+{
+  return items[i].family > static_cast<double>(atom->tag[i]);
+}
+
+/* ----------------------------------------------------------------------
+   Return the members of the family that i leads, in the order of their IDs, each once, in its nearest
+   image.  Empty if the whole would be too large.
+------------------------------------------------------------------------- */
+
+std::vector<int> RefinePairs::family(int i, const int *neighbors, int n, double farthest_sq) const
+{
+  std::vector<int> found = {i};
+  double volume = items[i].volume, most = items[i].most;
+  for (int k = 0; k < n; k++) {
+    const int j = neighbors[k] & NEIGHMASK;
+    if (items[j].family != items[i].family || !fits(i, j)) continue;
+    if (distance_sq(i, j) > farthest_sq) continue;
+    const auto image = std::find_if(found.begin(), found.end(), [&](int other) {
+      return atom->tag[other] == atom->tag[j];
+    });
+    if (image != found.end()) {
+      if (nearer(i, j, *image)) *image = j;
+      continue;
+    }
+    found.push_back(j);
+    volume += items[j].volume;
+    most = std::min(most, items[j].most);
+  }
+  if (volume > most) return {};
+  std::sort(found.begin(), found.end(), [&](int a, int b) {
+    return atom->tag[a] < atom->tag[b];
+  });
+  return found;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefinePairs::find_families(NeighList *full, double farthest, int size)
+{
+  auto may_merge = [&](int i) {
+    return items[i].is(MERGES) && items[i].family != 0.0;
+  };
+  for (int ii = 0; ii < full->inum; ii++) {
+    const int i = full->ilist[ii];
+    if (!may_merge(i) || !is_first(i)) continue;
+    const std::vector<int> found =
+        family(i, full->firstneigh[i], full->numneigh[i], farthest * farthest);
+    if (static_cast<int>(found.size()) != size) continue;
+    items[i].choice = items[i].family;
+    mates[i] = found[1];
+    families[i] = found;
+  }
+  items.forward(&RefineItem::choice);
+
+  for (int ii = 0; ii < full->inum; ii++) {
+    const int i = full->ilist[ii];
+    if (!may_merge(i) || is_first(i)) continue;
+    const int *const neighbors = full->firstneigh[i];
+    for (int k = 0; k < full->numneigh[i]; k++) {
+      const int j = neighbors[k] & NEIGHMASK;
+      if (items[j].choice == items[i].family && is_first(j)) mates[i] = j;
+    }
+  }
+  settle();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefinePairs::find(NeighList *full, double farthest)
+{
+  std::vector<int> choice(atom->nlocal, -1);
+  for (int round = 0; round < ROUNDS; round++) {
+    for (int ii = 0; ii < full->inum; ii++) {
+      const int i = full->ilist[ii];
+      choice[i] = -1;
+      if (items[i].is(MERGES) && items[i].settled == 0.0)
+        choice[i] = nearest(i, full->firstneigh[i], full->numneigh[i], farthest * farthest);
+      items[i].choice = choice[i] < 0 ? 0.0 : static_cast<double>(atom->tag[choice[i]]);
+    }
+    items.forward(&RefineItem::choice);
+
+    int found = 0, found_all;
+    for (int i = 0; i < atom->nlocal; i++) {
+      const int j = choice[i];
+      if (j < 0 || items[j].choice != static_cast<double>(atom->tag[i])) continue;
+      mates[i] = j;
+      found = 1;
+    }
+    settle();
+    MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MAX, world);
+    if (!found_all) break;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Set r to the way from the point of one item to that of another one.
+------------------------------------------------------------------------- */
+
+void RefineResidual::offset(int from, int to, double *r) const
+{
+  const RefineItem &a = items[from], &b = items[to];
+  for (int d = 0; d < 3; d++) r[d] = (b.lump.x[d] - a.lump.x[d]) + (b.center[d] - a.center[d]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool RefineResidual::give(NeighList *full, int i, const double *angmom)
+{
+  Shell shell;
+  const int *const neighbors = full->firstneigh[i];
+  for (int k = 0; k < full->numneigh[i]; k++) {
+    const int j = neighbors[k] & NEIGHMASK;
+    if (!(items[j].mass > 0.0)) continue;
+    double r[3];
+    offset(i, j, r);
+    const double weight = shell_weight(dot(r, r), radius);
+    if (weight > 0.0) shell.add(weight * items[j].mass, r, items[j].u);
+  }
+  const bool taken = shell.take(angmom, domain->dimension, items[i].rotation);
+  items[i].gives = taken ? 1.0 : 0.0;
+  return taken;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineResidual::clear()
+{
+  du.assign(3 * atom->nlocal, 0.0);
+  works.assign(atom->nlocal, 0.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RefineResidual::take(NeighList *full)
+{
+  clear();
+  for (int ii = 0; ii < full->inum; ii++) {
+    const int i = full->ilist[ii];
+    if (items[i].is(NOT_FLUID)) continue;
+    const int point = (items[i].mass > 0.0) ? i : pairs.mate(i);
+    const int *const neighbors = full->firstneigh[i];
+    for (int k = 0; k < full->numneigh[i]; k++) {
+      const int j = neighbors[k] & NEIGHMASK;
+      if (items[j].gives == 0.0 || j == point) continue;
+      double r[3], one[3] = {0.0, 0.0, 0.0};
+      offset(j, point, r);
+      const double weight = shell_weight(dot(r, r), radius);
+      if (!(weight > 0.0)) continue;
+      items[j].rotation.velocity(weight, r, one);
+      for (int d = 0; d < 3; d++) {
+        du[3 * i + d] += one[d];
+        works[i] += items[i].mass * (items[i].u[d] - items[j].rotation.mean[d]) * one[d];
+      }
+    }
+    works[i] += 0.5 * items[i].mass * dot(&du[3 * i], &du[3 * i]);
+  }
+}
 
 /* ---------------------------------------------------------------------- */
 
@@ -122,7 +420,7 @@ void RefineEvent::set_lump(int i, const Lump &one)
 }
 
 /* ----------------------------------------------------------------------
-   of a particle that has split or merged, whose density changes with that
+   Set the states of a particle that has split or merged, whose density changes with that.
 ------------------------------------------------------------------------- */
 
 void RefineEvent::set_relaxing(int i, const Lump &one)
@@ -140,7 +438,7 @@ void RefineEvent::set_relaxing(int i, const Lump &one)
 bool RefineEvent::merging(int i) const
 {
   if (pairs.mate(i) < 0) return false;
-  return items[pairs.leads(i) ? i : pairs.mate(i)].withheld == 0.0;
+  return items[pairs.leads(i) ? i : pairs.mate(i)].postponed == 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -164,7 +462,7 @@ bigint RefineEvent::plan(NeighList *full, bigint most)
     Split one = {i, Stencil()};
     if (items[i].is(SPLITS) && find_stencil(full, i, one.stencil)) splits.push_back(one);
   }
-  return withhold(most);
+  return postpone(most);
 }
 
 /* ----------------------------------------------------------------------
@@ -204,13 +502,11 @@ bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
   return true;
 }
 
-/* ---------------------------------------------------------------------- */
-
 /* ----------------------------------------------------------------------
    Drop the events of the highest IDs if there are more than the most.  Return how many take place.
 ------------------------------------------------------------------------- */
 
-bigint RefineEvent::withhold(bigint most)
+bigint RefineEvent::postpone(bigint most)
 {
   std::vector<tagint> mine;
   for (const Split &one : splits) mine.push_back(atom->tag[one.i]);
@@ -223,8 +519,8 @@ bigint RefineEvent::withhold(bigint most)
   std::vector<tagint> tags = gather_all(world, mine, MPI_LMP_TAGINT);
   std::nth_element(tags.begin(), tags.begin() + most, tags.end());
   const tagint end = tags[most];
-  for (int i = 0; i < atom->nlocal; i++) items[i].withheld = (atom->tag[i] >= end) ? 1.0 : 0.0;
-  items.forward_withheld();
+  for (int i = 0; i < atom->nlocal; i++) items[i].postponed = (atom->tag[i] >= end) ? 1.0 : 0.0;
+  items.forward(&RefineItem::postponed);
   splits.erase(std::remove_if(splits.begin(), splits.end(),
                               [&](const Split &one) {
                                 return atom->tag[one.i] >= end;
@@ -241,25 +537,25 @@ bigint RefineEvent::withhold(bigint most)
 void RefineEvent::give_residual(NeighList *full)
 {
   for (int i = 0; i < atom->nlocal; i++)
-    if (items[i].is(APART) || (merging(i) && !pairs.leads(i))) items[i].mass = 0.0;
+    if (items[i].is(NOT_FLUID) || (merging(i) && !pairs.leads(i))) items[i].mass = 0.0;
   for (const Merge &one : merges) {
     RefineItem &item = items[one.i];
     item.mass = one.whole.mass;
     for (int d = 0; d < 3; d++) item.center[d] = one.whole.x[d] - item.lump.x[d];
     std::copy_n(one.whole.u, 3, item.u);
   }
-  items.forward_point();
+  items.forward(&RefineItem::mass, 7);
 
   std::vector<Merge> taken;
   for (const Merge &one : merges) {
     if (residual.give(full, one.i, one.residual))
       taken.push_back(one);
     else
-      items[one.i].withheld = 1.0;
+      items[one.i].postponed = 1.0;
   }
   merges = taken;
-  items.forward_withheld();
-  items.forward_rotation();
+  items.forward(&RefineItem::postponed);
+  items.forward(&RefineItem::gives, 0);
   residual.take(full);
 }
 

@@ -1,0 +1,243 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "fix_sph_wall.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "group.h"
+#include "math_extra.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "pair_hybrid.h"
+#include "sph_dissipation_cells.h"
+#include "sph_dissipation_checks.h"
+#include "sph_dissipation_fluid.h"
+#include "sph_dissipation_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <vector>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+// Checks of a wall of particles, called by all ranks, and the pairs that it has in the neighbor lists.
+
+/* ----------------------------------------------------------------------
+   Take pairs of this wall with itself and with other walls out of the neighbor lists, as neigh_modify
+   exclude group does; but take back what an earlier run has excluded and this one does not.  Those of the
+   input stay.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::exclude_walls()
+{
+  include_walls();
+  for (const auto &wall : modify->get_fix_by_style("^sph/wall")) {
+    const int other = wall->igroup;
+    if (find_excluded(igroup, other) >= 0 || find_excluded(other, igroup) >= 0) continue;
+    neighbor->modify_params(
+        fmt::format("exclude group {} {}", group->names[igroup], group->names[other]));
+    excluded.push_back(other);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Take back what exclude_walls() has done.  The group bits of the lists in use do not change until
+   Neighbor::init() sets them anew.  (Neighbor::exclusion_group_group_delete() would write past their end
+   if groups have been excluded since then.)  The command clear, and the end of LAMMPS, delete the neighbor
+   lists before the fixes.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::include_walls()
+{
+  for (std::size_t k = 0; k < excluded.size() && neighbor; k++) {
+    const int n = find_excluded(igroup, excluded[k]);
+    if (n < 0) continue;    // neigh_modify exclude none
+    const int last = neighbor->nex_group--;
+    std::copy(neighbor->ex1_group + n + 1, neighbor->ex1_group + last, neighbor->ex1_group + n);
+    std::copy(neighbor->ex2_group + n + 1, neighbor->ex2_group + last, neighbor->ex2_group + n);
+  }
+  excluded.clear();
+}
+
+/* ----------------------------------------------------------------------
+   Return the index of two groups in the list of Neighbor, -1 if they are not there.
+------------------------------------------------------------------------- */
+
+int FixSPHWall::find_excluded(int first, int second) const
+{
+  for (int n = 0; n < neighbor->nex_group; n++)
+    if (neighbor->ex1_group[n] == first && neighbor->ex2_group[n] == second) return n;
+  return -1;
+}
+
+/* ----------------------------------------------------------------------
+   Check that the wall has particles, which no other fix moves.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::check_particles() const
+{
+  const char *const group_name = group->names[igroup];
+  if (group->count(igroup) == 0)
+    error->all(FLERR, "Fix {} group {} has no particles", style, group_name);
+
+  for (const auto &other : modify->get_fix_list()) {
+    if (!other->time_integrate || other == this) continue;
+    const auto shared = first_particle(lmp, [&](int i) {
+      return (atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit);
+    });
+    if (!shared.empty())
+      error->all(FLERR, "Fix {}: {} of the wall of fix {} {} is also moved by fix {} {}", style,
+                 shared, id, style, other->id, other->style);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Tell whether the pair style of the fluid gets the pairs of two kinds of particles: also pair style hybrid
+   must let them through.
+------------------------------------------------------------------------- */
+
+static bool have_pairs(LAMMPS *lmp, const Fluid *fluid, const Kind &a, const Kind &b)
+{
+  if (!in_neighbor_lists(lmp, a, b)) return false;
+  auto *const hybrid = dynamic_cast<PairHybrid *>(lmp->force->pair);
+  if (!hybrid) return true;
+  char *const name = lmp->force->pair_match_ptr(fluid->pair);
+  return hybrid->check_ijtype(std::min(a.first, b.first), std::max(a.first, b.first), name);
+}
+
+/* ----------------------------------------------------------------------
+   Check that pair coefficients, exclusions, and neigh_modify include let fluid and wall interact; warn, in
+   the first run, if only a part of the fluid does.  Return the types of the fluid that do.
+------------------------------------------------------------------------- */
+
+std::set<int> FixSPHWall::interacting_types(const Fluid *fluid) const
+{
+  int walls = 0;
+  for (const auto &wall : modify->get_fix_by_style("^sph/wall")) walls |= wall->groupbit;
+
+  std::vector<Kind> solid, liquid;
+  for (const Kind &kind : all_kinds(lmp)) {
+    const bool has_coefficients = fluid->has_type(kind.first);
+    if (kind.second & groupbit) {
+      if (!has_coefficients)
+        error->all(FLERR,
+                   "The wall of fix {} {} has particles of type {}, for which there are no "
+                   "coefficients of the pair style of the fluid",
+                   id, style, kind.first);
+      solid.push_back(kind);
+    } else if (has_coefficients && !(kind.second & walls))
+      liquid.push_back(kind);
+  }
+
+  std::set<int> felt, ignored;    // types of the fluid
+  for (const Kind &f : liquid) {
+    const bool feels = std::any_of(solid.begin(), solid.end(), [&](const Kind &wall) {
+      return have_pairs(lmp, fluid, f, wall);
+    });
+    (feels ? felt : ignored).insert(f.first);
+  }
+  if (ignored.empty()) return felt;
+  const char *const reason =
+      "no pair coefficients of the fluid's style between their types, neigh_modify exclude, or "
+      "neigh_modify include";
+  if (felt.empty())
+    error->all(FLERR, "The fluid does not interact with the wall of fix {} {}: {}", id, style,
+               reason);
+  if (!checked && comm->me == 0)
+    error->warning(FLERR,
+                   "A part of the fluid, of type {}, does not interact with the wall of fix "
+                   "{} {}: {}",
+                   *ignored.begin(), id, style, reason);
+  return felt;
+}
+
+/* ----------------------------------------------------------------------
+   Warn if the wall does not fill the support of the fluid at its surface, with ghost atoms.  The first layer has fluid at
+   the distance of the particle spacing; below it, the wall must go as deep as the support radius minus
+   one spacing.  The neighbor lists have no pairs of wall particles, hence the cells.
+   Warn if the masses do not fit the distances, for the spacing is that of the masses.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::check_thickness(const Fluid *fluid) const
+{
+  double **x = atom->x;
+  const int nall = atom->nlocal + atom->nghost;
+  const double support = fluid->support_radius();
+  const int dim = fluid->dimension();
+
+  std::vector<int> everything(nall);
+  std::iota(everything.begin(), everything.end(), 0);
+  const Cells cells(x, everything, support);
+
+  // for each particle j within the support radius of particle i
+
+  auto for_neighbors = [&](int i, auto &&function) {
+    cells.near(x[i], support, [&](int j, const double *r, double rsq) {
+      if (j != i) function(j, r, sqrt(rsq));
+    });
+  };
+
+  double worst[2] = {0.0, 0.0}, worst_all[2];    // spacing - depth, spacing over depth of bad ones
+  double sum[2] = {0.0, 0.0},
+         sum_all[2];    // numbers of particles, distances of the nearest ones over spacings
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double rho0 = fluid->model->coeffs[atom->type[i]].eos.rho0;
+    const double spacing = pow(atom->rmass[i] / rho0, 1.0 / dim);
+
+    double nearest = support, normal[3] = {0.0, 0.0, 0.0}, closest = support;
+    for_neighbors(i, [&](int j, const double *r, double distance) {
+      closest = std::min(closest, distance);
+      if (fluid->is_boundary(j)) return;
+      nearest = std::min(nearest, distance);
+      const double weight = (support - distance) * (support - distance) / distance;
+      for (int d = 0; d < 3; d++) normal[d] += weight * r[d];
+    });
+    sum[0] += 1.0;
+    sum[1] += closest / spacing;
+    if (nearest > 1.25 * spacing || !(MathExtra::len3(normal) > 0.0)) continue;
+    MathExtra::norm3(normal);
+
+    double depth = 0.0;
+    for_neighbors(i, [&](int j, const double *r, double) {
+      if (fluid->is_boundary(j)) depth = std::max(depth, -MathExtra::dot3(normal, r));
+    });
+    const double missing = support - (depth + spacing);
+    if (missing > 0.5 * spacing) {
+      worst[0] = std::max(worst[0], missing);
+      worst[1] = std::max(worst[1], ceil(support / spacing - 1.0e-6));
+    }
+  }
+  MPI_Allreduce(worst, worst_all, 2, MPI_DOUBLE, MPI_MAX, world);
+  if (worst_all[0] > 0.0 && comm->me == 0)
+    error->warning(FLERR,
+                   "The wall of fix {} {} is thinner than the support radius {:g}, by {:.3g}: it "
+                   "needs {:g} layers of particles",
+                   id, style, support, worst_all[0], worst_all[1]);
+
+  // on lattices the nearest particle is 1 to 1.12 spacings away
+
+  MPI_Allreduce(sum, sum_all, 2, MPI_DOUBLE, MPI_SUM, world);
+  const double ratio = sum_all[1] / sum_all[0];
+  if ((ratio < 0.6 || ratio > 1.6) && comm->me == 0)
+    error->warning(FLERR,
+                   "The masses of the wall of fix {} {} are those of particles {:.2g} times as "
+                   "far apart as they are: a mass should be rho0 of its type times the volume",
+                   id, style, 1.0 / ratio);
+}

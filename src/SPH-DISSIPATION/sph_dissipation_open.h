@@ -1,0 +1,398 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_OPEN_H
+#define LMP_SPH_DISSIPATION_OPEN_H
+
+#include "pointers.h"
+#include "sph_dissipation_kernel.h"
+#include "sph_dissipation_value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class Region;
+
+namespace SPHDissipation {
+
+  class Fields;
+  class FluidModel;
+  struct EosParams;
+  struct Particle;
+
+  // The plane between the fluid and a buffer zone, the space behind it, and a grid of nodes on it.
+  // Periodic directions lie in the plane, or the zone has a region.
+
+  class OpenPlane : protected Pointers {
+   public:
+    OpenPlane(class LAMMPS *, const std::string &owner);    // owner: for messages
+
+    void set(char **arg);    // x y z nx ny nz length
+    void set_region(const char *id) { region_id = id; }
+    const std::string &region_name() const { return region_id; }
+    void init();                             // region and directions, which must fit the box
+    void set_nodes(double node_distance);    // grid of nodes, as far as box and region reach
+
+    // distance of a place from the plane, > 0 in the fluid
+    double height(const double *x) const
+    {
+      return (x[0] - point[0]) * normal[0] + (x[1] - point[1]) * normal[1] +
+          (x[2] - point[2]) * normal[2];
+    }
+    bool beside(const double *x) const;                  // beyond the sides of the zone
+    bool beside(const double *x, double slack) const;    // ... and no place so near is within them
+
+    // Distance of a place from the line along the normal through another one, and along that line, with
+    // periodic images
+    struct Offset {
+      double beside, ahead;
+      double distance() const { return std::sqrt(beside * beside + ahead * ahead); }
+    };
+    Offset offset(const double *from, const double *to) const;
+
+    bool is_at(const double *) const;    // this point, with this normal after it
+    bool limited() const { return region; }
+
+    int nnodes() const { return count[0] * count[1]; }
+    double node_distance() const { return std::max(step[0], count[1] > 1 ? step[1] : 0.0); }
+
+    // Call function(node, l) for the nodes within the radius of x in both directions of the plane; l[2] =
+    // how far x is from the node in each.
+    template <class Function> void near(const double *x, double radius, Function &&function) const;
+
+    // The nodes around the place of x on the plane, and their weights, whose sum is 1
+    struct Spot {
+      int n;
+      int node[4];
+      double weight[4];
+    };
+    Spot spot(const double *x) const;
+
+    double point[3], normal[3], length;
+
+   private:
+    const std::string owner;
+    std::string region_id;
+    Region *region;
+    double tangent[2][3];    // directions of the plane; in 2d only the first one counts
+    double lo[2], step[2];
+    int count[2];
+    bool periodic[2];
+
+    void check_box() const;
+    void set_tangents();
+    double along(int k, const double *x) const;
+    int wrap(int k, int n) const;
+  };
+
+  template <class Function>
+  void OpenPlane::near(const double *x, double radius, Function &&function) const
+  {
+    double at[2];
+    int from[2], to[2];
+    for (int k = 0; k < 2; k++) {
+      at[k] = along(k, x);
+      from[k] = static_cast<int>(std::ceil((at[k] - radius) / step[k]));
+      to[k] = static_cast<int>(std::floor((at[k] + radius) / step[k]));
+      if (count[k] == 1) from[k] = to[k] = 0, at[k] = 0.0;
+      if (!periodic[k]) {
+        from[k] = std::max(from[k], 0);
+        to[k] = std::min(to[k], count[k] - 1);
+      }
+    }
+    for (int m = from[1]; m <= to[1]; m++)
+      for (int n = from[0]; n <= to[0]; n++) {
+        const double r[2] = {at[0] - n * step[0], at[1] - m * step[1]};
+        function(wrap(1, m) * count[0] + wrap(0, n), r);
+      }
+  }
+
+  // What is measured of the fluid
+
+  struct OpenWave {
+    double j;         // rho c u' + p', see sph_dissipation_characteristics.h
+    double strain;    // pressure of relaxing processes
+  };
+
+  struct OpenSample {
+    double wave;      // J
+    double strain;    // part of p
+    double p;         // pressure
+    double u[3];      // velocity
+  };
+
+  // Measures the fluid at the nodes of the plane: linear fits to the fluid within a radius, weighted with
+  // the kernel and the volumes; averages over time; the waves that have left.  The same on all
+  // processors.
+
+  class OpenSamples : protected Pointers {
+   public:
+    typedef OpenPlane::Spot Spot;
+
+    OpenSamples(class LAMMPS *, const OpenPlane &);
+
+    void init();
+    void set_times(double averaging_time, double memory);    // memory: longest lag, time units
+
+    // Measure at this time: begin(); add() each owned particle of the fluid; finish() with the sums over all
+    // processors of the numbers that append() gives.  Until then, what is asked for below is of the step before.
+    void begin(double time);
+    void add(const double *x, double height, double volume, const OpenSample &, Kernel,
+             double radius);
+    void append(std::vector<double> &mine) const;
+    void finish(double time, const double *all);
+
+    // Interpolate between the nodes; false if there is no fluid.
+
+    bool now(const Spot &, double height, int order, OpenSample &) const;    // order 1: with slope
+    bool average(const Spot &, OpenSample &) const;                          // over time
+    OpenWave wave(const Spot &, double time) const;                          // at a time before
+    double distance(const Spot &) const;    // from the plane to the middle of what is measured
+
+    void mean_at_plane(double *p, double *u) const;    // mean over all nodes, now
+    bool any() const { return !history.empty(); }
+
+    double memory_usage() const;    // bytes
+
+    // state in a restart file
+    std::vector<double> pack() const;
+    bool unpack(const std::vector<double> &);    // false if it is of other nodes
+
+   private:
+    static constexpr int NVALUE = sizeof(OpenSample) / sizeof(double);
+    static constexpr int NWAVE = sizeof(OpenWave) / sizeof(double);    // the first values
+
+    // weighted sums of a node over the fluid; l = place along the plane from there, d = height
+
+    struct Sums {
+      double weight, l[2], ll[3], d, dd;    // ll: l0 l0, l1 l1, l0 l1
+      double value[NVALUE], value_l[NVALUE][2], value_d[NVALUE];
+    };
+
+    struct Node {
+      double weight, distance;    // of the measured fluid: its weight, its distance from the plane
+      double value[NVALUE];       // at the node and that distance
+      double slope[NVALUE];       // along the normal
+      double mean[NVALUE];        // over time
+      double known;               // > 0: there has been fluid
+    };
+
+    struct Past {
+      double time;
+      std::vector<double> wave;    // NWAVE values per node
+    };
+
+    const OpenPlane &plane;
+    double averaging_time, memory;
+    std::vector<Sums> my_sums, sums;
+    std::vector<Node> nodes, before;    // before: without the last time
+    std::deque<Past> history;           // the oldest first
+
+    void fit(const Sums &, Node &) const;
+    template <class Function>
+    bool interpolate(const Spot &, int nvalue, double *value, Function &&of_node) const;
+  };
+
+  // What a buffer zone prescribes: velocity, density or pressure, internal energy or temperature, and spin
+
+  class OpenValues : protected Pointers {
+   public:
+    enum Quantity { VX, VY, VZ, RHO, P, ENERGY, TEMPERATURE, WX, WY, WZ, NQUANTITY };
+
+    OpenValues(class LAMMPS *, const std::string &owner);    // owner: for messages
+
+    void read(Keywords &);    // Set the quantities of the keyword, if it is one of them.
+    void check() const;
+    void init(bool needs_heat);    // finds the variables; heat must then be > 0
+
+    bool given(Quantity k) const { return is_given[k]; }
+    bool vary() const { return any_variable; }
+
+    // Evaluate the variables now, for owned particles of the group; others have 0.
+    void evaluate(int igroup);
+
+    double memory_usage() const;    // bytes
+
+    double operator()(Quantity k, int i) const { return value[k](i); }
+
+   private:
+    const std::string owner;
+    Value value[NQUANTITY];
+    bool is_given[NQUANTITY];
+    bool any_variable, needs_heat;
+
+    const char *fault(int k, double) const;    // says why a value is refused; nullptr: it is not
+  };
+
+  // State of a particle of a zone: pressure, density, heat per mass
+
+  struct OpenState {
+    double p, rho, q;
+  };
+
+  // Boundary condition of a buffer zone: velocity, pressure, density, and heat of its particles, from what is
+  // prescribed and from what the fluid does.
+  // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
+
+  class OpenCondition : protected Pointers {
+   public:
+    OpenCondition(class LAMMPS *, const std::string &owner, const OpenPlane &, const OpenValues &,
+                  const OpenSamples &);    // owner: for messages
+
+    double averaging_time;    // 0: by the support radius
+    double clock;             // time of the zone, which reset_timestep does not change
+    bool is_new;              // no particle has a state yet: the heat of each is that without waves
+
+    void read(Keywords &);    // Set what the keyword says, if it is one of a condition.
+    void check();             // errors for keywords without an effect, and for too few of them
+
+    void init(const FluidModel &);
+    bool given_velocity() const;
+    bool given_state() const;                 // density or pressure
+    bool has_heat() const { return warm; }    // states include the heat
+
+    // Functions of an owned particle of the zone
+
+    void prescribed_velocity(int i, double *u) const;
+    void velocity(int i, double *u) const;
+    OpenState state(int i) const;
+    double prescribed_density(int i) const { return reference(i, ZONE).rho; }    // without waves
+    double heat(int i) const;                              // per mass, without waves
+    double temperature(int i, const OpenState &) const;    // with which it conducts heat
+    double sound_at_rest(int i, bool of_zone) const;       // at the density rho0; also of the fluid
+
+    OpenState at_density(int i, const OpenState &, double rho) const;    // and the same entropy
+    void keep(int i, const OpenState &) const;    // the particle has this state
+
+    // Density at which a particle has its internal energy, 0: not known.  No force computation changes it, and it
+    // moves to other processors and into restart files with the particle.
+
+    double &density_of_energy(int i) const;
+
+    // Functions of an owned particle of the fluid near the plane; more = its pressure beyond the equation of state
+
+    OpenSample sample(int i, const Particle &, double more) const;
+    bool is_supersonic(int i, const Particle &) const;    // on its way out
+
+   private:
+    enum Kind { LAGGED, CHARACTERISTIC, FIXED };
+    enum Side { ZONE, FLUID };
+
+    const std::string owner;
+    const OpenPlane &plane;
+    const OpenValues &values;
+    const OpenSamples &samples;
+    const FluidModel *fluid;
+    const Fields *fields;
+    bool warm;
+    Kind kind;
+    int order;    // extrapolation of values from inside, kind fixed
+
+    // The state from which waves are counted at a particle of zone or fluid: what is prescribed, else the
+    // average over time of what the fluid had
+
+    struct Reference {
+      OpenPlane::Spot spot;
+      double height;
+      bool known;          // there is an average, or none is needed
+      OpenSample mean;     // over time
+      double p, rho, c;    // pressure, density, sound speed
+      double q;            // heat per mass
+      bool at_heat;        // the heat is prescribed, not the entropy
+      double out;          // velocity out of the fluid
+    };
+
+    const EosParams &eos(int i) const;
+    double sound(int i, double rho, double q) const;
+    bool enters(int i) const;
+    bool gets_heat(int i, Side) const;
+    OpenState own_state(int i, Side) const;
+    Reference reference(int i, Side) const;
+    OpenState at_pressure(int i, const Reference &, double p, double strain) const;
+    OpenWave wave(const Reference &) const;
+    double changes(const Reference &, double wave) const;
+  };
+
+  class OpenBand;
+
+  // Creates and deletes the particles at the far end of a buffer zone, before neighbor lists are built
+  // anew.  Particles stand in rows along the normal of the plane: a copy of the last one of a row comes
+  // behind it as it moves on, those beyond the end are deleted.  Results do not depend on the number of
+  // processors.
+
+  class ZoneLattice : protected Pointers {
+   public:
+    ZoneLattice(class LAMMPS *, const std::string &owner, const OpenPlane &, int groupbit);
+
+    void set_spacing(double a) { given_spacing = a; }
+    bool has_spacing() const { return given_spacing > 0.0; }
+
+    // distance of an owned particle from the next one of its row; instead of a spacing
+    typedef std::function<double(int i)> Distance;
+    void set_distance(Distance f) { distance = std::move(f); }
+    bool by_distance() const { return static_cast<bool>(distance); }
+
+    // Measure distance and width of the rows of a zone that is new: until the first renew().
+    void init(double support, int fluid_bit);
+    bool are_new() const { return unknown_sides; }
+    double width() const { return 2.0 * half_width; }    // width of a row
+    double largest_spacing() const;                      // now, of all processors
+
+    // Note that particles have moved along the normal, by this at most.
+    void note_motion(double most) { moved += most; }
+
+    // Delete and create particles.  Calls refresh(those) with owned particles that are new or have moved,
+    // to set their velocities and to make their distances known.
+    typedef std::function<void(const std::vector<int> &)> Refresh;
+    void renew(const Refresh &refresh);
+
+    static constexpr int NSTATE = 3;
+    void pack(double *) const;    // for the restart file
+    void unpack(const double *);
+
+   private:
+    const std::string owner;
+    const OpenPlane &plane;
+    const int groupbit;
+    int fluidbit;
+    double given_spacing, spacing, half_width, support;
+    double moved;
+    tagint highest;        // tag that was ever given
+    bool unknown_end;      // it is not known how far the rows reach
+    bool unknown_sides;    // nor whether there is something else among them
+    Distance distance;
+
+    double step(int i) const;    // from an owned particle to the next one of its row
+    double my_largest_spacing() const;
+    double end() const;    // height where the zone ends
+    void interrupt_ids();
+    void find_rows();
+    void remove_beyond();
+    std::vector<int> last_ones(const OpenBand &) const;
+    // removed = particles of this processor that nobody has counted yet, change = of all processors
+    bool fill(std::vector<int> &last, const OpenBand &, const Refresh &, bigint &removed,
+              bigint &change);
+    void check_alone(const OpenBand &) const;
+    void check_lattice(const OpenBand &, double largest) const;
+    void check_seat(const double *x, const OpenBand &) const;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
