@@ -38,8 +38,8 @@ using namespace SPHDissipation;
 // the surface and at least 0.96 full inside of lattices: 32 kT.
 
 static constexpr double HARDNESS = 150.0;
-static constexpr double HARDNESS_OF_SOUND = 0.5;     // where particles have temperatures: of m c0^2
-static constexpr double HARDNESS_OF_SURFACE = 0.05;  // where there is no noise: of m c0^2
+static constexpr double HARDNESS_OF_SOUND = 0.5;    // where particles have temperatures: of m c0^2
+static constexpr double HARDNESS_OF_SURFACE = 0.05;    // where there is no noise: of m c0^2
 static constexpr double CONTACT = 1.7;
 typedef WendlandC2 ContactKernel;
 

@@ -106,14 +106,14 @@ namespace SPHDissipation {
   // relative: to the velocity that the rigid body of w has at f; d: distance of f from the surface
 
   struct BoundarySum {
-    double weight;        // 1
-    double r[3];          // x_w - x_f
-    double rho;           // density
-    double pressure;      // p + zeta cdot/c (bulk density), p (otherwise)
-    double zeta_term;     // zeta cdot/c
-    double filled;        // fluid particles only
-    double occupied;      // the same of a smaller support, where surfaces repel; fluid particles only
-    double d, d3;         // d, d^3
+    double weight;       // 1
+    double r[3];         // x_w - x_f
+    double rho;          // density
+    double pressure;     // p + zeta cdot/c (bulk density), p (otherwise)
+    double zeta_term;    // zeta cdot/c
+    double filled;       // fluid particles only
+    double occupied;    // the same of a smaller support, where surfaces repel; fluid particles only
+    double d, d3;       // d, d^3
     double d4, d5, d6;    // d^4, d^5, d^6
     double u[3];          // relative velocity
     double ud3[3];        // relative velocity times d^3
@@ -464,8 +464,7 @@ namespace SPHDissipation {
   {
     const double norm = 1.0 / sum.weight;
     const double pressure = wall_pressure(sum, condition.gravity, acceleration);
-    rows.set_state(i, sum.rho * norm,
-                   (pressure > 0.0 || rows.par.tension) ? pressure : 0.0);
+    rows.set_state(i, sum.rho * norm, (pressure > 0.0 || rows.par.tension) ? pressure : 0.0);
     rows.zeta_term[i] = sum.zeta_term * norm;
     extend_motion(condition, surface, sum, rows.particle[i].u, spin);
   }
