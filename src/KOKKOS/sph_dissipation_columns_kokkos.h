@@ -27,8 +27,8 @@ namespace SPHDissipation {
   // number c of particle i is at base[c][i * stride[c]]
 
   struct ColumnsKokkos {
-    // own fields that migrate: esph, vest, desph_before, inertia, omegaest, rho_relaxed, tvib; or a message of a stage
-    static constexpr int OWN = 1 + 3 + 1 + 1 + 3 + MOST_PROCESSES + 1;
+    // own fields that migrate: esph, vest, desph_before, inertia, omegaest, states; or a message of a stage
+    static constexpr int OWN = 1 + 3 + 1 + 1 + 3 + States::MOST;
     static constexpr int MOST = (OWN > Exchange::ROOM) ? OWN : Exchange::ROOM;
     int n = 0;
     double *base[MOST];

@@ -29,7 +29,7 @@ namespace LAMMPS_NS {
 // Per-atom arrays of a particle fluid: mass (rmass), internal energy (esph) and its rate (desph),
 // velocity extrapolated to the end of the step (vest); from the last force computation, density
 // rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.  Where particles spin, also spin (omega,
-// angular velocity) and torque.  Class Fields has the others.  Argument: relax N, room for N relaxing processes.
+// angular velocity) and torque.  Class Fields has the others.  Arguments: keywords that make room for states, see StateList.
 
 class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
  public:
@@ -60,13 +60,14 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
 
   class Atom *const owner;    // of the arrays
   const bool in_views;        // all arrays, by a derived class
-  void add_processes(int narg, char **arg);
+  void add_states(int narg, char **arg);
   void show_custom_vectors();    // as custom properties, where they are now
 
  private:
   void add_spins();
+  void share_columns(int, bool) const;
   void check_data_line(int) const;
-  std::vector<double> temperatures(bool of_vibrations) const;    // of owned particles
+  std::vector<double> temperatures() const;    // of owned particles
 
   struct OwnArray {
     std::string name;

@@ -198,9 +198,11 @@ void FixSPHOpen::init()
   plane->init();
   values->init(fluid->model->choice.eos == Eos::IDEAL);
   for (int i = 1; i <= atom->ntypes; i++)
-    if (fluid->has_type(i) && fluid->model->coeffs[i].keywords.a[VIBRATION] > 0.0)
-      error->all(FLERR, "Fix {} cannot be used with vibration of pair_coeff, which type {} has",
-                 style, i);
+    States::visit([&](auto one) {
+      if (!one.OPEN && fluid->has_type(i) && one.in_use(fluid->model->coeffs[i].keywords))
+        error->all(FLERR, "Fix {} cannot be used with {} of pair_coeff, which type {} has", style,
+                   one.NAME, i);
+    });
   check_open_heat(lmp, this, fluid, *values);
   condition->init(*fluid->model);
   if (area > 0.0)
@@ -435,7 +437,7 @@ void FixSPHOpen::leave(int i)
   balance->carry(OpenBalance::OUT, i, atom->v[i], atom->esph[i], *fields);
   integrator->depart(i);
   if (!condition->has_heat()) return;
-  atom->esph[i] -= fluid->open->strain_energy(i);
+  atom->esph[i] -= fluid->open->state_energy(i);
   condition->density_of_energy(i) = atom->rho[i] + 0.5 * update->dt * atom->drho[i];
 }
 
@@ -551,7 +553,7 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
   for (const int i : near) {
     const Particle &particle = stage.particle(i);
     samples->add(particle.x, plane->height(particle.x), particle.vol,
-                 condition->sample(i, particle, stage.strain_pressure(i)),
+                 condition->sample(i, particle, stage.state_pressure(i)),
                  fluid->model->choice.kernel, radius);
   }
   double fast = 0.0;    // of use with new neighbor lists only

@@ -96,7 +96,7 @@ template <class Function> void with_form(Shear shear, Function &&function)
 #ifndef LMP_SPH_DISSIPATION_CHANNELS_H
 #define LMP_SPH_DISSIPATION_CHANNELS_H
 
-#include "sph_dissipation_function.h"
+#include "sph_dissipation_states.h"
 
 #include <algorithm>
 #include <cmath>
@@ -295,6 +295,10 @@ namespace SPHDissipation {
   using Channels = ChannelList<BaseChannel
 #include "sph_dissipation_channel_list.h"
                                >;
+  // those with a state
+  using States = WithState<StateList<>
+#include "sph_dissipation_channel_list.h"
+                           >::type;
 #undef ChannelClass
 #undef CHANNEL_CLASS
   // clang-format on

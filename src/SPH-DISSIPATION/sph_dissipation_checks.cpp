@@ -107,12 +107,15 @@ void SPHDissipation::check_rerun(LAMMPS *lmp, const std::string &style, const Fl
           style, HeatChannel::in_use(type) ? "conductivity" : "gruneisen", i);
   }
   for (int i = 1; i <= lmp->atom->ntypes; i++)
-    if (RelaxChannel::in_use(model.coeffs[i].keywords) && lmp->comm->me == 0)
-      lmp->error->warning(
-          FLERR,
-          "Pair style {} with rerun: snapshots have no strain of relaxing processes, "
-          "which for type {} is taken to be zero",
-          style, i);
+    States::visit([&](auto one) {
+      if (one.KIND == StateKind::STRAIN && one.in_use(model.coeffs[i].keywords) &&
+          lmp->comm->me == 0)
+        lmp->error->warning(
+            FLERR,
+            "Pair style {} with rerun: snapshots have no strains of {}, which for type {} are "
+            "taken to be zero",
+            style, one.NAME, i);
+    });
   if (Fields::with_spins(lmp->atom) && lmp->comm->me == 0)
     lmp->error->warning(FLERR,
                         "Pair style {} with rerun: snapshots have no spins, forces are those of "
@@ -350,36 +353,44 @@ void SPHDissipation::check_fluid_lists(LAMMPS *lmp, const std::string &style,
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_processes(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+void SPHDissipation::check_room(LAMMPS *lmp, const std::string &style, const FluidModel &model)
 {
-  const int room = Fields::of(lmp->atom)->nprocess;
-  for (int i = 1; i <= lmp->atom->ntypes; i++) {
-    const TypeCoeff &type = model.coeffs[i];
-    const int count = RelaxChannel::count(type.keywords) + VibrationChannel::in_use(type.keywords);
-    if (!type.other && count > room)
+  const Fields &fields = *Fields::of(lmp->atom);
+  for (int i = 1; i <= lmp->atom->ntypes; i++)
+    for (const StateInfo &one : States::table()) {
+      int count = 0;
+      States::visit([&](auto channel) {
+        if (one.first == States::first<States::Owner<decltype(channel)>>())
+          count += channel.count(model.coeffs[i].keywords);
+      });
+      if (model.coeffs[i].other || count <= fields.room(one)) continue;
       lmp->error->all(FLERR, Error::NOLASTLINE,
-                      "Pair style {}: the relaxing processes of type {} are {}, but particles have "
-                      "room for {}; use atom_style {} relax {}",
-                      style, i, count, room, style, count);
-  }
+                      "Pair style {}: the states of {} of type {} are {}, but particles have room "
+                      "for {}; use atom_style {} {}{}",
+                      style, one.keyword, i, count, fields.room(one), style, one.keyword,
+                      (one.most > 1) ? fmt::format(" {}", count) : "");
+    }
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_relaxation(LAMMPS *lmp, const std::string &style,
-                                      const FluidModel &model)
+void SPHDissipation::check_state_times(LAMMPS *lmp, const std::string &style,
+                                       const FluidModel &model)
 {
-  constexpr double SHORT = 1.0e-3;    // tau over the time step
+  constexpr double SHORT = 1.0e-3;    // over the time step
   if (lmp->comm->me != 0) return;
   for (int i = 1; i <= lmp->atom->ntypes; i++) {
     const TypeCoeffs &type = model.coeffs[i].keywords;
-    for (int k = 0; k < RelaxChannel::count(type) && !model.coeffs[i].other; k++)
-      if (RelaxChannel::tau(type, k) < SHORT * lmp->update->dt)
-        lmp->error->warning(
-            FLERR,
-            "Pair style {}: the relaxation time {:g} of type {} is far below the time "
-            "step {:g}; a kappa that is larger by {:g} does the same",
-            style, RelaxChannel::tau(type, k), i, lmp->update->dt, type.a[RELAX + 2 * k]);
+    States::visit([&](auto one) {
+      if constexpr (one.INSTEAD != nullptr)
+        for (int k = 0; k < one.count(type) && !model.coeffs[i].other; k++)
+          if (one.time(type, k) < SHORT * lmp->update->dt)
+            lmp->error->warning(FLERR,
+                                "Pair style {}: the time {:g} of {} of type {} is far below the "
+                                "time step {:g}; {} does the same",
+                                style, one.time(type, k), one.NAME, i, lmp->update->dt,
+                                one.INSTEAD);
+    });
   }
 }
 
@@ -462,7 +473,7 @@ void SPHDissipation::check_sizes(LAMMPS *lmp, const std::string &style, const Fl
 /* ---------------------------------------------------------------------- */
 
 void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const FluidModel &model,
-                                    const StrainRows &strains, int boundary_bits)
+                                    const StateRows &states, int boundary_bits)
 {
   Atom *atom = lmp->atom;
   const bool gas = (model.choice.eos == Eos::IDEAL);
@@ -472,7 +483,7 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
     if (type.other || (atom->mask[i] & boundary_bits)) continue;
     if (type.eos.gruneisen == 0.0 && !HeatChannel::in_use(type.keywords)) continue;
     number[0]++;
-    if (atom->esph[i] == 0.0 || !(strains.thermal_energy(i) > 0.0)) number[1]++;
+    if (atom->esph[i] == 0.0 || !(states.thermal_energy(i) > 0.0)) number[1]++;
   }
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
   if (all[1] && !gas && lmp->comm->me == 0)

@@ -243,7 +243,7 @@ const EosParams &OpenCondition::eos(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   of waves that leave: between those of slow and fast ones, where processes relax
+   of waves that leave: between those of slow and fast ones, where states add to it
 ------------------------------------------------------------------------- */
 
 double OpenCondition::sound(int i, double rho, double q) const
@@ -253,7 +253,7 @@ double OpenCondition::sound(int i, double rho, double q) const
   const double e = warm ? elastic_energy(form, eos(i), rho) + q : 0.0;
   const double c = sound_speed(form, eos(i), rho, e);
   const double more =
-      RelaxChannel::stiffness(fluid->coeffs[type].keywords, eos(i).rho0, fluid->parameters().step);
+      States::stiffness(fluid->coeffs[type].keywords, eos(i).rho0, fluid->parameters().step);
   return (more > 0.0) ? sqrt(c * c + 0.5 * more) : c;
 }
 
@@ -475,7 +475,7 @@ OpenState OpenCondition::state(int i) const
 
 /* ----------------------------------------------------------------------
    Return the state at another pressure and the same entropy.  Its density is that of the fluid, in which
-   this part of the pressure is of relaxing processes.
+   this part of the pressure is of states.
 ------------------------------------------------------------------------- */
 
 OpenState OpenCondition::at_pressure(int i, const Reference &ref, double p, double strain) const

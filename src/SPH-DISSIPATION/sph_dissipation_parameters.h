@@ -63,10 +63,7 @@ namespace SPHDissipation {
     double heat_capacity = 0.0;    // per mass
     TypeCoeffs keywords;           // of the channels
     int other = 1;                 // its particles belong to another style of pair_style hybrid
-    int nprocess = 0;              // relaxing processes: strains, then vibration
-    int nstrain = 0;
-    Relaxation process[MOST_PROCESSES] = {};    // of the strains
-    Vibration vibration = {};
+    States::Numbers states;        // in a time step
   };
 
   // what belongs to all types: a device copies it as a whole
@@ -84,8 +81,8 @@ namespace SPHDissipation {
     bool conducts = false;            // any type
     bool conducts_alike = true;       // all types
     bool shared = false;              // there are types of other styles
-    int nprocess = 0;                 // most relaxing processes of a type
-    double step = 0.0;                // time step that the strain of these processes is of
+    bool states = false;              // any type has some
+    double step = 0.0;                // time step that their numbers are of
 
     bool spins() const { return shear == Shear::MICROPOLAR; }
     void set_kernel(Kernel, int dim, double support);
@@ -100,7 +97,7 @@ namespace SPHDissipation {
 
     void set_uniform();          // uniform and inviscid, from pair
     void set_heat();             // what belongs to heat, from type
-    void set_step(double dt);    // the time step of the relaxing processes
+    void set_step(double dt);    // the time step of the states
   };
 
   inline void Constants::set_kernel(Kernel kernel_in, int dim_in, double support_in)
@@ -146,16 +143,11 @@ namespace SPHDissipation {
   inline void Parameters::set_step(double dt)
   {
     step = dt;
-    nprocess = 0;
+    states = false;
     for (TypeParameters &one : type) {
-      one.nprocess = one.nstrain = one.other ? 0 : RelaxChannel::count(one.keywords);
-      for (int k = 0; k < one.nstrain; k++)
-        one.process[k] = RelaxChannel::process(one.keywords, k, one.eos.rho0, dt);
-      if (!one.other && VibrationChannel::in_use(one.keywords)) {
-        one.nprocess++;
-        one.vibration = VibrationChannel::process(one.keywords, one.heat_capacity, dt);
-      }
-      nprocess = std::max(nprocess, one.nprocess);
+      one.states = one.other ? States::Numbers()
+                             : States::numbers(one.keywords, one.eos.rho0, one.heat_capacity, dt);
+      states = states || one.states.any();
     }
   }
 

@@ -304,7 +304,7 @@ def test_short_relaxation_is_a_constant_viscosity(lammps):
             u, _ = wave.run(state, processes, timestep, 40 * every, every, kappa=constant)
             found.append(fitted(u[2:], every * timestep))
             assert found[-1] == pytest.approx(root, rel=1e-7)
-        warned = [any("relaxation time 1e-05 of type 1 is far below the time step" in line for line in result.warnings) for result in lammps.results[-2:]]
+        warned = [any("time 1e-05 of relax of type 1 is far below the time step" in line for line in result.warnings) for result in lammps.results[-2:]]
         assert warned == [True, False]
         errors.append(found[0].real / exact.real - 1.0)
         differences.append(found[0].real / found[1].real - 1.0)
@@ -915,7 +915,7 @@ MISSING = "Illegal pair_coeff relax command: missing argument"
     (f"{GOOD} 2.0", ODD), (f"{GOOD} 2.0 0.1 3.0", ODD), (f"{GOOD} 2.0 pb 1.0", ODD), (GOOD + 9 * " 2.0 0.1", "relax has more than 8 groups of numbers"),
     (f"{GOOD} 1 1 1 1 1 1 1 1 relax 1 1 1 1 1 1 1 1 1 1", "relax has more than 8 groups of numbers"), (f"{GOOD} nan 0.1", "relax|nan"), (f"{GOOD} 1e999 0.1", "1e999.*out of range"),
     (f"{GOOD} 2.0 0.1 x", "Unknown pair_coeff keyword for pair_style sph/bulk: x"),
-    (f"{GOOD} 1 1 2 2 3 3", "the relaxing processes of type 1 are 3, but particles have room for 2; use atom_style sph/bulk relax 3"),
+    (f"{GOOD} 1 1 2 2 3 3", "the states of relax of type 1 are 3, but particles have room for 2; use atom_style sph/bulk relax 3"),
     ("pair_coeff 1 2 relax 2.0 0.1", "Pair_coeff keyword relax belongs to a type, not to a pair of types"),
 ])
 def test_bad_coefficients(lammps, line, message):
@@ -931,7 +931,7 @@ def test_no_room(lammps):
     particles = disordered(2, 6)
     particles.write(lammps.path("box.data"))
     result = lammps(header(2) + f"read_data box.data\npair_style sph/bulk\n{GOOD} 2.0 0.1\nfix 1 all sph/bulk\nrun 0\n", check=False)
-    assert result.code and "the relaxing processes of type 1 are 1, but particles have room for 0; use atom_style sph/bulk relax 1" in result.error
+    assert result.code and "the states of relax of type 1 are 1, but particles have room for 0; use atom_style sph/bulk relax 1" in result.error
     result = lammps(room(2) + "read_data box.data\n", check=False)
     assert result.code and "Incorrect format in Atoms section of data file" in result.error
 
