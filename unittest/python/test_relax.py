@@ -518,11 +518,11 @@ def test_sudden_compression_at_rest(lammps, a):
 
 
 def test_strain_that_is_set_and_read(lammps):
-    """The property by its name: 0 and negative numbers become densities with the next forces, positive ones are densities."""
+    """The property by its name, with and without d_: 0 and negative numbers become densities with the next forces, positive ones are densities."""
     particles = disordered(2, 8)
     text = start(lammps, particles, fluid(2, keywords="relax 3.0 0.5 1.0 0.1"), count=2)
     text += ("set atom 1 d_rho_relaxed1 1.5\nset atom 2 d_rho_relaxed2 -0.9\nset atom 3 d_rho_relaxed1 0.0\n"
-             + dump("out.dump", 1, columns(2)) + "compute R all property/atom d_rho_relaxed1 d_rho_relaxed2\n"
+             + dump("out.dump", 1, columns(2)) + "compute R all property/atom d_rho_relaxed1 rho_relaxed2\n"
              "compute S all reduce sum c_R[*]\nthermo_style custom step c_S[*]\n" + FULL + "run 0\n")
     table = lammps(text).thermo()[0]
     frame = lammps.frame("out.dump")
