@@ -83,9 +83,11 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
 void AtomVecSPHBulkKokkos::process_args(int narg, char **arg)
 {
   add_columns(narg, arg);
-  for (int k = 0; k < nprocess; k++)
-    add_own_field(RHO_RELAXED_MASK, k_rho_relaxed[k], rho_relaxed[k], {EXCHANGE});
-  if (nprocess) add_own_field(RHO_RELAXED_MASK, k_tvib, tvib, {EXCHANGE});
+  for (int slot : slots) {
+    std::vector<Occasion> occasions = {EXCHANGE};
+    if (States::info(slot).ghosts) occasions = {COMM, BORDER, EXCHANGE};
+    add_own_field(STATES_MASK, k_state[slot], state[slot], occasions);
+  }
   for (const auto occasion : {COMM, BORDER, EXCHANGE}) datamask_bonus |= sent_mask(occasion);
   setup_fields();
 }
@@ -197,7 +199,7 @@ void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
 {
   if (mask & DVECTOR_MASK) {
     show_custom_vectors();
-    mask |= DESPH_BEFORE_MASK | INERTIA_MASK | RHO_RELAXED_MASK;
+    mask |= DESPH_BEFORE_MASK | INERTIA_MASK | STATES_MASK;
   }
   if (mask & DARRAY_MASK) mask |= OMEGAEST_MASK;
   with_fields(mask, [=](FieldKokkos &field) {

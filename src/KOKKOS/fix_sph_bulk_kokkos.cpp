@@ -82,7 +82,7 @@ static constexpr uint64_t MODIFIED[] = {    // at the beginning and at the end o
 static constexpr uint64_t MOTION = V_MASK | OMEGA_MASK;
 static constexpr uint64_t EXTRAPOLATION = VEST_MASK | OMEGAEST_MASK;
 static constexpr uint64_t IDENTITY = X_MASK | IMAGE_MASK | MASK_MASK | TAG_MASK | TYPE_MASK;
-static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK | RHO_RELAXED_MASK;
+static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK | STATES_MASK;
 
 /* ---------------------------------------------------------------------- */
 

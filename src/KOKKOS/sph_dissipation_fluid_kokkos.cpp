@@ -99,7 +99,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::fun
   atomKK->sync(Host, ALL_MASK);
   if (!on_device) {
     task();
-    return atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK | RHO_RELAXED_MASK);
+    return atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK | STATES_MASK);
   }
   build_host_list();
   NeighList *const device_list = pair->list;
@@ -108,7 +108,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::fun
   task();
   pair->execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
   pair->list = device_list;
-  atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK | RHO_RELAXED_MASK);
+  atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK | STATES_MASK);
 }
 
 /* ----------------------------------------------------------------------
@@ -203,7 +203,7 @@ template <class DeviceType> bool FluidKokkos<DeviceType>::has_own_forces() const
 }
 
 /* ----------------------------------------------------------------------
-   with a full list, no heat is left with ghost atoms; that of relaxing processes is of the energies now
+   with a full list, no heat is left with ghost atoms; that of states is of the energies now
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::heating(double *heat, double *power) const
@@ -211,17 +211,22 @@ template <class DeviceType> void FluidKokkos<DeviceType>::heating(double *heat, 
   if (!on_device) return Fluid::heating(heat, power);
   std::fill(power, power + NCHANNEL, 0.0);
   if (heat) std::fill(heat, heat + atom->nlocal + atom->nghost, 0.0);
-  const bool relaxes = engine->parameters().nprocess;
-  if (relaxes) atomKK->sync(Host, HEAT);
-  const StrainRows strains = engine->strains();
-  for (int k = 0; k < NCHANNEL; k++) {
-    const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
-    for (int i = 0; i < atom->nlocal; i++) {
-      if (atom->mask[i] & not_fluid()) continue;
-      const double one = (relaxes && k == Channels::place<RelaxChannel>()) ? strains.heat(i)
-                                                                           : from(i);
-      power[k] += one;
-      if (heat) heat[i] += one;
+  const bool of_states = engine->parameters().states;
+  if (of_states) atomKK->sync(Host, HEAT);
+  const StateRows states = engine->states();
+  const auto copy = [&](int k) {
+    return Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
+  };
+  std::vector<decltype(copy(0))> from;
+  for (int k = 0; k < NCHANNEL; k++) from.push_back(copy(k));
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (atom->mask[i] & not_fluid()) continue;
+    double channel[NCHANNEL];
+    for (int k = 0; k < NCHANNEL; k++) channel[k] = from[k](i);
+    if (of_states) states.add_heat(i, channel);
+    for (int k = 0; k < NCHANNEL; k++) {
+      power[k] += channel[k];
+      if (heat) heat[i] += channel[k];
     }
   }
 }
@@ -244,50 +249,48 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_step(double dt)
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::advance_strain()
+template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
 {
   if (!on_device) {
     atomKK->sync(Host, HEAT);
-    Fluid::advance_strain();
-    return atomKK->modified(Host, RHO_RELAXED_MASK);
+    Fluid::advance_states();
+    return atomKK->modified(Host, STATES_MASK);
   }
   if (!copied) copy_coeffs();
   atomKK->sync(pair->execution_space, HEAT);
-  set_strains();
+  set_states();
   const ParticleRows rows = *data;
   const int bits = not_fluid();
   Kokkos::parallel_for(
-      "sph:strain", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+      "sph:states", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
         if (rows.is_fluid(i, bits))
-          rows.strains.advance(i, nullptr, 0);
+          rows.states.advance(i, nullptr, 0, 0);
         else
-          rows.strains.forget(i);
+          rows.states.forget(i);
       });
-  atomKK->modified(pair->execution_space, RHO_RELAXED_MASK);
+  atomKK->modified(pair->execution_space, STATES_MASK);
 }
 
 /* ----------------------------------------------------------------------
-   arrays of owned particles that the processes need
+   arrays of owned particles that their states need
 ------------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::set_strains()
+template <class DeviceType> void FluidKokkos<DeviceType>::set_states()
 {
   const auto &avec = AtomVecSPHBulkKokkos::of(atom);
   data->type = atomKK->k_type.template view<DeviceType>().data();
   data->mask = atomKK->k_mask.template view<DeviceType>().data();
-  data->strains = {data->types,
-                   data->type,
-                   atomKK->k_rmass.template view<DeviceType>().data(),
-                   avec.k_rho.template view<DeviceType>().data(),
-                   avec.k_drho.template view<DeviceType>().data(),
-                   model->choice.eos,
-                   avec.k_esph.template view<DeviceType>().data(),
-                   avec.k_desph.template view<DeviceType>().data(),
-                   {},
-                   avec.k_tvib.template view<DeviceType>().data(),
-                   avec.nprocess};
-  for (int k = 0; k < avec.nprocess; k++)
-    data->strains.relaxed[k] = avec.k_rho_relaxed[k].template view<DeviceType>().data();
+  data->states = {data->types,
+                  data->type,
+                  atomKK->k_rmass.template view<DeviceType>().data(),
+                  avec.k_rho.template view<DeviceType>().data(),
+                  avec.k_drho.template view<DeviceType>().data(),
+                  model->choice.eos,
+                  avec.k_esph.template view<DeviceType>().data(),
+                  avec.k_desph.template view<DeviceType>().data(),
+                  {}};
+  for (int slot : avec.slots)
+    data->states.state[slot] = avec.k_state[slot].template view<DeviceType>().data();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -332,7 +335,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
   data->particle = reach(particle, "sph:particle", n);
   data->density = reach(density_sum, "sph:density", n);
   data->zeta_term = reach(zeta_term, "sph:zeta_term", n);
-  data->strain_pressure = reach(strain_pressure, "sph:strain_pressure", n);
+  data->state_pressure = reach(state_pressure, "sph:state_pressure", n);
   data->conductor = reach(conductor, "sph:conductor", engine->parameters().conducts ? n : 1);
   if (boundary->conducts()) reach(heat_flow_of, "sph:heat_flow", n);
   data->spin = engine->has_spin() ? reach(spin, "sph:spin", n) : nullptr;
@@ -378,7 +381,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
   data->numneigh = k_list->d_numneigh;
   data->neighbors = k_list->d_neighbors;
   data->nlocal = atom->nlocal;
-  set_strains();
+  set_states();
   data->rmass = atomKK->k_rmass.template view<DeviceType>().data();
   data->esph = avec.k_esph.template view<DeviceType>().data();
   data->rho = avec.k_rho.template view<DeviceType>().data();
@@ -478,22 +481,22 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
   if (engine->parameters().thermal_pressure)
     energy.array = AtomVecSPHBulkKokkos::of(atom).k_esph.template view<DeviceType>();
   const ParticleRows rows = *data;
-  Part<double> strain = {{}, 0, 1};
+  Part<double> pressure_of_states = {{}, 0, 1};
   Part<Conductor> temperature = {{}, 1, 1};
-  const bool relaxes = engine->parameters().nprocess, conducts = engine->parameters().conducts;
+  const bool states = engine->parameters().states, conducts = engine->parameters().conducts;
   const int bits = not_fluid();
-  if (relaxes) strain.array = strain_pressure;
+  if (states) pressure_of_states.array = state_pressure;
   if (conducts) temperature.array = conductor;
-  if (relaxes || conducts) {
+  if (states || conducts) {
     const bool rest = at_rest();
     Kokkos::parallel_for(
-        "sph:strain", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+        "sph:states", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
           rows.set_density(i);
-          if (relaxes) rows.set_strain_pressure(i, bits, rest);
+          if (states) rows.set_state_pressure(i, bits, rest);
           if (conducts) rows.set_temperature(i);
         });
   }
-  send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy, strain, temperature);
+  send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy, pressure_of_states, temperature);
 
   Kokkos::parallel_for(
       "sph:volume", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
@@ -666,8 +669,8 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
              sizeof(typename std::decay_t<decltype(view)>::non_const_value_type)));
   };
   return Fluid::memory_usage() + boundary_device->memory_usage() +
-      bytes(particle, density_sum, spin, zeta_term, strain_pressure, conductor, heat_flow_of,
-            weight, bound_of, gradient_of) +
+      bytes(particle, density_sum, spin, zeta_term, state_pressure, conductor, heat_flow_of, weight,
+            bound_of, gradient_of) +
       (double) NCHANNEL * bytes(data->heat[0]);
 }
 

@@ -35,10 +35,10 @@ namespace SPHDissipation {
   // does not have
 
   constexpr uint64_t FLUID_READ = X_MASK | F_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK |
-      VEST_MASK | TORQUE_MASK | OMEGAEST_MASK | RHO_RELAXED_MASK;
+      VEST_MASK | TORQUE_MASK | OMEGAEST_MASK | STATES_MASK;
   constexpr uint64_t FLUID_DERIVED = SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK;
   constexpr uint64_t FLUID_MODIFIED =
-      F_MASK | TORQUE_MASK | DESPH_MASK | RHO_RELAXED_MASK | FLUID_DERIVED;
+      F_MASK | TORQUE_MASK | DESPH_MASK | STATES_MASK | FLUID_DERIVED;
 
   // The fluid on the device, with full neighbor lists; or on the host by the loops of the CPU style and
   // half lists, with the threads of KOKKOS.  The reports at the start of a run are made on the host.
@@ -70,7 +70,7 @@ namespace SPHDissipation {
 
     void sum_density() override;
     void set_step(double dt) override;
-    void advance_strain() override;
+    void advance_states() override;
     void sum_bound() override;
     void set_reference_volume() override;
     bigint set_pressure() override;
@@ -82,8 +82,8 @@ namespace SPHDissipation {
     void set_spins();
 
    private:
-    static constexpr uint64_t STRAIN = SPH_RHO_MASK | TYPE_MASK | MASK_MASK | RHO_RELAXED_MASK;
-    static constexpr uint64_t ENERGY = STRAIN | RMASS_MASK;
+    static constexpr uint64_t STATES = SPH_RHO_MASK | TYPE_MASK | MASK_MASK | STATES_MASK;
+    static constexpr uint64_t ENERGY = STATES | RMASS_MASK;
     static constexpr uint64_t HEAT = ENERGY | ESPH_MASK | DESPH_MASK | DRHO_MASK;
 
     bool on_device;
@@ -103,7 +103,7 @@ namespace SPHDissipation {
     Array<Particle> particle;
     Array<DensitySum> density_sum;
     Array<Spin> spin;
-    Array<double> zeta_term, strain_pressure, weight;
+    Array<double> zeta_term, state_pressure, weight;
     Array<Conductor> conductor;
     Array<double> heat_flow_of;    // if boundaries give heat, see HeatStage
     Array<double> bound_of;        // of the limit, see LimitStage
@@ -114,7 +114,7 @@ namespace SPHDissipation {
     void on_host(const std::function<void()> &) override;
     void build_host_list();
     void grow();
-    void set_strains();
+    void set_states();
     void copy_coeffs();
     template <class T> struct Part;
     template <class... T> void send_to_ghosts(const Part<T> &...);

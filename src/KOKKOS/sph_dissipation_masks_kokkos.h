@@ -31,8 +31,8 @@ namespace SPHDissipation {
   constexpr uint64_t VEST_MASK = uint64_t(1) << 57;
   constexpr uint64_t INERTIA_MASK = uint64_t(1) << 56;
   constexpr uint64_t OMEGAEST_MASK = uint64_t(1) << 55;
-  constexpr uint64_t RHO_RELAXED_MASK = uint64_t(1) << 54;    // of all processes
-  constexpr uint64_t OFFSET_MASK = uint64_t(1) << 53;         // rho_sum, vol_rate, ...
+  constexpr uint64_t STATES_MASK = uint64_t(1) << 54;    // all of them
+  constexpr uint64_t OFFSET_MASK = uint64_t(1) << 53;    // rho_sum, vol_rate, ...
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

@@ -33,12 +33,11 @@ using namespace SPHDissipation;
 // names known to compute property/atom, in the order of their index, those of spins last; LAMMPS has a property
 // temperature itself
 
-static constexpr const char *PROPERTY[] = {"numden",    "dnumden",  "vol",   "rho",     "esph",
-                                           "desph",     "tsph",     "tvib",  "offset",  "surface",
-                                           "vestx",     "vesty",    "vestz", "inertia", "omegaestx",
-                                           "omegaesty", "omegaestz"};
-enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, TSPH, TVIB, OFFSET, SURFACE, VESTX };
-enum { INERTIA = VESTX + 3, OMEGAESTX, NPROPERTY = OMEGAESTX + 3 };
+static constexpr const char *PROPERTY[] = {
+    "numden",  "dnumden", "vol",   "rho",   "esph",    "desph",     "tsph",      "offset",
+    "surface", "vestx",   "vesty", "vestz", "inertia", "omegaestx", "omegaesty", "omegaestz"};
+enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, TSPH, OFFSET, SURFACE, VESTX };
+enum { INERTIA = VESTX + 3, OMEGAESTX, NPROPERTY = OMEGAESTX + 3 };    // then the states
 
 static constexpr int CUSTOM_DOUBLE = 1;    // data type of Atom::add_custom()
 
@@ -109,57 +108,73 @@ void AtomVecSPHBulk::process_args(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   room for relaxing processes; a column with the density.  Data files have both before the position: lines of
-   velocities have no room, because the buffer of WriteData::velocities() has a limited width
+   room for states; a column with the density.  Data files have them before the position: lines of velocities have no
+   room, because the buffer of WriteData::velocities() has a limited width
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::add_columns(int narg, char **arg)
 {
   const std::string style = has_spins ? "sph/micropolar" : "sph/bulk";
-  for (int iarg = 0; iarg < narg; iarg++) {
-    if (strcmp(arg[iarg], "rho") == 0)
-      density_in_files = true;
-    else if (strcmp(arg[iarg], "relax") == 0 && !nprocess) {
-      if (++iarg == narg) utils::missing_cmd_args(FLERR, "atom_style " + style + " relax", error);
-      nprocess = utils::inumeric(FLERR, arg[iarg], false, lmp);
-      if (nprocess < 1 || nprocess > MOST_PROCESSES)
-        error->all(FLERR, "Atom_style {} relax must be 1 to {}, not {}", style, MOST_PROCESSES,
-                   arg[iarg]);
-    } else
-      error->all(FLERR, "Unknown atom_style {} keyword: {}", style, arg[iarg]);
-  }
   const auto insert = [this](const std::string &name) {
     fields_data_atom.insert(fields_data_atom.end() - 1, name);
   };
+  for (int iarg = 0; iarg < narg; iarg++)
+    if (strcmp(arg[iarg], "rho") == 0) density_in_files = true;
   if (density_in_files) insert("rho");
-  for (int k = 0; k < nprocess; k++) {
-    const std::string name = fmt::format("rho_relaxed{}", k + 1);
-    add_array(name, &rho_relaxed[k]);
-    for (auto *list : {&fields_copy, &fields_exchange, &fields_restart, &fields_create})
-      list->push_back(name);
-    insert(name);
+  for (int iarg = 0; iarg < narg; iarg++) {
+    const std::string keyword = arg[iarg];
+    if (keyword == "rho") continue;
+    const auto owner =
+        std::find_if(States::table().begin(), States::table().end(), [&](const StateInfo &one) {
+          return one.has_column() && keyword == one.keyword && !room(one);
+        });
+    if (owner == States::table().end())
+      error->all(FLERR, "Unknown atom_style {} keyword: {}", style, keyword);
+    int n = 1;
+    if (owner->most > 1) {
+      if (++iarg == narg)
+        utils::missing_cmd_args(FLERR, "atom_style " + style + " " + keyword, error);
+      n = utils::inumeric(FLERR, arg[iarg], false, lmp);
+      if (n < 1 || n > owner->most)
+        error->all(FLERR, "Atom_style {} {} must be 1 to {}, not {}", style, keyword, owner->most,
+                   arg[iarg]);
+    }
+    for (const StateInfo &one : States::table())
+      for (int slot = one.first; slot < one.first + std::min(n, one.most); slot++) {
+        if (one.owner != owner->first) continue;
+        const std::string name = state_name(slot);
+        slots.push_back(slot);
+        add_array(name, &state[slot]);
+        for (auto *list : {&fields_copy, &fields_exchange, &fields_restart, &fields_create})
+          list->push_back(name);
+        for (auto *list : {&fields_comm, &fields_comm_vel, &fields_border, &fields_border_vel})
+          if (one.ghosts) list->push_back(name);
+        if (one.has_column()) insert(name);
+      }
   }
-  if (!nprocess) return;
-  add_array("tvib", &tvib);
-  for (auto *list : {&fields_copy, &fields_exchange, &fields_restart, &fields_create})
-    list->push_back("tvib");
 }
 
 /* ----------------------------------------------------------------------
-   in data files, the temperature of the vibrations stands in the place of the last relaxed density, which a type with
-   vibrations does not have
+   in data files, a state that has no column of its own stands in the last one of another channel
 ------------------------------------------------------------------------- */
+
+void AtomVecSPHBulk::share_columns(int ilocal, bool used) const
+{
+  for (const StateInfo &one : States::table())
+    if (!one.has_column() && room(one) && state[one.first][ilocal] > 0.0)
+      state[one.owner + room(States::info(one.owner)) - 1][ilocal] = used ? state[one.first][ilocal]
+                                                                          : 0.0;
+}
 
 void AtomVecSPHBulk::pack_data_pre(int ilocal)
 {
-  if (!nprocess) return;
-  if (tvib[ilocal] > 0.0) rho_relaxed[nprocess - 1][ilocal] = tvib[ilocal];
-  check_data_line(ilocal);
+  share_columns(ilocal, true);
+  if (!slots.empty()) check_data_line(ilocal);
 }
 
 void AtomVecSPHBulk::pack_data_post(int ilocal)
 {
-  if (nprocess && tvib[ilocal] > 0.0) rho_relaxed[nprocess - 1][ilocal] = 0.0;
+  share_columns(ilocal, false);
 }
 
 /* ----------------------------------------------------------------------
@@ -172,8 +187,7 @@ void AtomVecSPHBulk::check_data_line(int ilocal) const
   constexpr std::size_t INTEGER = 12;
 
   std::size_t length = 0;
-  for (int k = 0; k < nprocess; k++)
-    length += fmt::formatted_size(" {:.16}", rho_relaxed[k][ilocal]);
+  for (int slot : slots) length += fmt::formatted_size(" {:.16}", state[slot][ilocal]);
   if (length < OTHERS) return;
 
   imageint *const image = &atom->image[ilocal];
@@ -199,8 +213,8 @@ void AtomVecSPHBulk::check_data_line(int ilocal) const
   if (length > MOST_OF_DATA_LINE)
     error->one(FLERR,
                "Cannot write a data file: the line of atom {} has {} characters, and read_data "
-               "takes {}, which is too few for {} relaxing processes; use write_restart",
-               atom->tag ? atom->tag[ilocal] : 0, length, MOST_OF_DATA_LINE, nprocess);
+               "takes {}, which is too few for its states; use write_restart",
+               atom->tag ? atom->tag[ilocal] : 0, length, MOST_OF_DATA_LINE);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -327,7 +341,8 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
       vol_support[ilocal] = 0.0;
   unpack_restart_init(ilocal);
   desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
-  if (nprocess) tvib[ilocal] = -1.0;
+  for (int slot : slots)
+    if (!States::info(slot).has_column()) state[slot][ilocal] = -1.0;
   if (!has_spins) return;
   if (!(inertia[ilocal] >= 0.0))
     error->one(FLERR, "Invalid inertia {} in Atoms section of data file: must be >= 0",
@@ -356,6 +371,8 @@ int AtomVecSPHBulk::property_atom(const std::string &name)
   const int n = has_spins ? NPROPERTY : INERTIA;
   for (int index = 0; index < n; index++)
     if (name == PROPERTY[index]) return index;
+  for (int slot : slots)
+    if (name == state_name(slot)) return NPROPERTY + slot;
   return -1;
 }
 
@@ -368,14 +385,12 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
 {
   const int *mask = atom->mask;
   const int nlocal = atom->nlocal;
-  const bool heat = (index == TSPH || index == TVIB);
   if (index == SURFACE &&
       !(find_fluid(lmp, "Compute property/atom surface")->model->choice.delta > 0.0))
     error->all(FLERR,
                "Compute property/atom surface needs a pair style with density continuity and delta "
                "> 0");
-  const std::vector<double> temperature = heat ? temperatures(index == TVIB)
-                                               : std::vector<double>();
+  const std::vector<double> temperature = (index == TSPH) ? temperatures() : std::vector<double>();
 
   for (int i = 0, n = 0; i < nlocal; i++, n += nvalues) {
     buf[n] = 0.0;
@@ -399,10 +414,6 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
       case DESPH:
         buf[n] = desph[i];
         break;
-      case TSPH:
-      case TVIB:
-        buf[n] = temperature[i];
-        break;
       case OFFSET:
         buf[n] = (rho_sum[i] > 0.0) ? (rho[i] - rho_sum[i]) / rmass[i] : 0.0;
         break;
@@ -412,8 +423,13 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
       case INERTIA:
         buf[n] = inertia[i];
         break;
+      case TSPH:
+        buf[n] = temperature[i];
+        break;
       default:
-        buf[n] = (index < INERTIA) ? vest[i][index - VESTX] : omegaest[i][index - OMEGAESTX];
+        buf[n] = (index >= NPROPERTY) ? std::max(state[index - NPROPERTY][i], 0.0)
+            : (index < INERTIA)       ? vest[i][index - VESTX]
+                                      : omegaest[i][index - OMEGAESTX];
     }
   }
 }
@@ -422,9 +438,9 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
    which the pair style knows, with its heat capacities
 ------------------------------------------------------------------------- */
 
-std::vector<double> AtomVecSPHBulk::temperatures(bool of_vibrations) const
+std::vector<double> AtomVecSPHBulk::temperatures() const
 {
-  const char *const name = PROPERTY[of_vibrations ? TVIB : TSPH];
+  const char *const name = PROPERTY[TSPH];
   const Fluid *const fluid = find_fluid(lmp, fmt::format("Compute property/atom {}", name));
   if (!fluid->is_set_up())
     error->all(FLERR,
@@ -432,10 +448,7 @@ std::vector<double> AtomVecSPHBulk::temperatures(bool of_vibrations) const
                "now: use run 0 first",
                name);
   std::vector<double> result(atom->nlocal);
-  if (of_vibrations)
-    fluid->vibrational_temperatures(result.data());
-  else
-    fluid->temperatures(result.data());
+  fluid->temperatures(result.data());
   return result;
 }
 

@@ -29,8 +29,8 @@ namespace LAMMPS_NS {
 // Per-atom arrays of a particle fluid: mass (rmass), internal energy (esph) and its rate (desph),
 // velocity extrapolated to the end of the step (vest); from the last force computation, density
 // rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.  Where particles spin, also spin (omega,
-// angular velocity) and torque.  Class Fields has the others.  Arguments: relax N,
-// room for N relaxing processes; rho, data files have the density.
+// angular velocity) and torque.  Class Fields has the others.  Arguments: keywords that make room for states, see StateList;
+// rho, data files have the density.
 
 class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
  public:
@@ -66,8 +66,9 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
 
  private:
   void add_spins();
+  void share_columns(int, bool) const;
   void check_data_line(int) const;
-  std::vector<double> temperatures(bool of_vibrations) const;    // of owned particles
+  std::vector<double> temperatures() const;    // of owned particles
 
   struct OwnArray {
     std::string name;

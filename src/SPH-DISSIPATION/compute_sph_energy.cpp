@@ -28,7 +28,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-enum { KINETIC, INTERNAL, ROTATIONAL, STRAIN, NENERGY };    // strain: a part of internal
+enum { KINETIC, INTERNAL, ROTATIONAL, STATES, NENERGY };    // states: a part of internal
 
 /* ---------------------------------------------------------------------- */
 
@@ -89,6 +89,6 @@ void ComputeSPHEnergy::compute_vector()
     }
     energy[ROTATIONAL] *= 0.5 * force->mvv2e;
   }
-  if (const Fluid *fluid = find_fluid(force)) energy[STRAIN] = fluid->strain_energy(groupbit);
+  if (const Fluid *fluid = find_fluid(force)) energy[STATES] = fluid->state_energy(groupbit);
   MPI_Allreduce(energy, vector, NENERGY, MPI_DOUBLE, MPI_SUM, world);
 }

@@ -138,7 +138,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), diffuses(false), exact(false), shift_speed(0.0),
     remap_v_flag(0), integrated_groups(0), first_instance(false), fluid(nullptr),
     fluid_style(without_suffix(style)), spins(Fields::with_spins(atom)), dt_of_forces(0.0),
-    dt_of_strain(0.0), extrapolation(1.0), balanced(false), viscous(new ViscousSettings),
+    dt_of_states(0.0), extrapolation(1.0), balanced(false), viscous(new ViscousSettings),
     temperature(nullptr), temperature_done(false), last(), inertia_flag(0), factor(0.0),
     offset(0.0), inertia_done(false), density_done(0), density_flag(0), set_up(false),
     energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0)
@@ -441,8 +441,8 @@ void FixSPHBulk::setup_pre_exchange()
   const bool continued = is_continued();
   if (first_instance) reset_extrapolation();
   if (fluid) fluid->continued = continued && (first_instance || fluid->continued);
-  if (!continued || !(dt_of_strain > 0.0)) dt_of_strain = dtv;
-  if (fluid && first_instance) fluid->begin_run(dt_of_strain);
+  if (!continued || !(dt_of_states > 0.0)) dt_of_states = dtv;
+  if (fluid && first_instance) fluid->begin_run(dt_of_states);
   double *const desph_before = fields().desph_before;
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
@@ -472,7 +472,8 @@ void FixSPHBulk::change_volume(const Fields &kept, int i, double change) const
 {
   const double part = -change * atom->rho[i] / atom->rmass[i];
   atom->rho[i] *= 1.0 + part;
-  for (int k = 0; k < kept.nprocess; k++) kept.rho_relaxed[k][i] *= 1.0 + part;
+  for (int slot : kept.slots)
+    if (States::info(slot).kind == StateKind::STRAIN) kept.state[slot][i] *= 1.0 + part;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -731,7 +732,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
 
 void FixSPHBulk::begin_step()
 {
-  dt_of_strain = dtv;
+  dt_of_states = dtv;
   if (first_instance && fluid && fluid->pair->compute_flag) fluid->begin_step(dtv);
 }
 
@@ -915,7 +916,7 @@ void FixSPHBulk::write_restart(FILE *fp)
   for (const bigint number : {bigint(density_done), motion.known, motion.sum[0], motion.sum[1]})
     state.push_back(static_cast<double>(number));
   state.push_back(motion.dt);
-  state.push_back(dt_of_strain);
+  state.push_back(dt_of_states);
   state.push_back(static_cast<double>(temperature_done));
   state.push_back(temperature && !temperature->varies() ? temperature->now() : 0.0);
   const int size = static_cast<int>(state.size() * sizeof(double));
@@ -935,7 +936,7 @@ void FixSPHBulk::restart(char *buf)
   }
   density_done = static_cast<int>(state[0]);
   last = {static_cast<bigint>(state[1]), {0, 0}, state[4]};
-  dt_of_strain = state[5];
+  dt_of_states = state[5];
   const bool other = temperature && !temperature->varies() && temperature->now() != state[7];
   temperature_done = state[6] != 0.0 && !other;
   if (comm->me == 0)

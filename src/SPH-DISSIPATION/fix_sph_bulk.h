@@ -98,7 +98,7 @@ class FixSPHBulk : public Fix {
   const std::string fluid_style;    // also of the atom style and the pair style, without suffix
   const bool spins;                 // the particles have them
   double dt_of_forces;              // time step that the forces are of
-  double dt_of_strain;              // time step for which the strain of relaxing processes holds
+  double dt_of_states;              // time step for which the states hold
   double extrapolation;             // of velocities over half a step: 1, with thermal noise 0
   bool balanced;                    // heat gets half of its rate at each end of a step, temp energy
   SPHDissipation::ViscousSettings *viscous;

@@ -418,7 +418,7 @@ void FixSPHOpen::leave(int i)
   balance->carry(OpenBalance::OUT, i, atom->v[i], atom->esph[i], *fields);
   integrator->depart(i);
   if (!condition->has_heat()) return;
-  atom->esph[i] -= fluid->open->strain_energy(i);
+  atom->esph[i] -= fluid->open->state_energy(i);
   condition->density_of_energy(i) = atom->rho[i] + 0.5 * update->dt * atom->drho[i];
 }
 
@@ -520,7 +520,7 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
   for (const int i : near) {
     const Particle &particle = stage.particle(i);
     samples->add(particle.x, plane->height(particle.x), particle.vol,
-                 condition->sample(i, particle, stage.strain_pressure(i)),
+                 condition->sample(i, particle, stage.state_pressure(i)),
                  fluid->model->choice.kernel, radius);
   }
   double fast = 0.0;    // counted with new neighbor lists only

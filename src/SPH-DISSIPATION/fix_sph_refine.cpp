@@ -237,12 +237,11 @@ void FixSPHRefine::evaluate_target()
    of sound of now.
 ------------------------------------------------------------------------- */
 
-double FixSPHRefine::waiting(const StrainRows &strains, int i) const
+double FixSPHRefine::waiting(const StateRows &states, int i) const
 {
   constexpr double ROUNDOFF = 1.0e-6;
   const double rho0 = fluid->model->coeffs[atom->type[i]].eos.rho0;
-  const double time = (wait < 0.0) ? fluid->support_radius() / fluid->sound(strains, i, rho0)
-                                   : wait;
+  const double time = (wait < 0.0) ? fluid->support_radius() / fluid->sound(states, i, rho0) : wait;
   return ceil(time / update->dt - ROUNDOFF);
 }
 
@@ -283,10 +282,10 @@ bool FixSPHRefine::is_fluid(int i) const
    fix existed, it seems to be in the future: such an event does not count.
 ------------------------------------------------------------------------- */
 
-bool FixSPHRefine::may_change(const StrainRows &strains, int i) const
+bool FixSPHRefine::may_change(const StateRows &states, int i) const
 {
   const double since = static_cast<double>(update->ntimestep) - past[i][STEP];
-  return since < 0.0 || since >= waiting(strains, i);
+  return since < 0.0 || since >= waiting(states, i);
 }
 
 /* ----------------------------------------------------------------------
@@ -364,7 +363,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
   enum { FLUID, EVENTS, DAUGHTERS, CROWDED, NSUM };
   double sum[NSUM] = {0.0, 0.0, 0.0, 0.0}, all[NSUM];
   const double smallest = list_volume() / neighbor->oneatom;
-  const StrainRows strains = fluid->strains();
+  const StateRows states = fluid->states();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !is_fluid(i)) continue;
     sum[FLUID] += 1.0;
@@ -373,7 +372,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
       sum[DAUGHTERS] += ratio;
       if (target_volume((*target)(i)) < smallest) sum[CROWDED] += 1.0;
     }
-    if ((ratio > split_above || ratio < merge_below) && may_change(strains, i)) sum[EVENTS] += 1.0;
+    if ((ratio > split_above || ratio < merge_below) && may_change(states, i)) sum[EVENTS] += 1.0;
   }
   MPI_Allreduce(sum, all, NSUM, MPI_DOUBLE, MPI_SUM, world);
   const double room =
@@ -398,7 +397,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
 void FixSPHRefine::set_items()
 {
   event->begin();
-  const StrainRows strains = fluid->strains();
+  const StateRows states = fluid->states();
   for (int i = 0; i < atom->nlocal; i++) {
     RefineState state = is_fluid(i) ? KEEPS : NOT_FLUID;
     double goal = 0.0;
@@ -406,7 +405,7 @@ void FixSPHRefine::set_items()
       goal = target_volume((*target)(i));
       const double ratio = atom->vfrac[i] / goal;
       const bool splits = ratio > split_above;
-      if ((splits || ratio < merge_below) && may_change(strains, i))
+      if ((splits || ratio < merge_below) && may_change(states, i))
         state = splits ? SPLITS : MERGES;
     }
     event->set(i, state, atom->vfrac[i], split_above * goal, goal, past[i][FAMILY]);

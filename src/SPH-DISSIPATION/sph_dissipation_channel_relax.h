@@ -61,7 +61,7 @@ namespace SPHDissipation {
     double delay;            // of w, by which T_v grows, time
   };
 
-  struct RelaxChannel : BaseChannel {
+  struct RelaxChannel : BaseChannel, BaseState {
     static constexpr const char *NAME = "relax";
     static constexpr bool ELASTIC = true, OPTIONAL = true;
     static constexpr int MOST = 8;    // processes
@@ -71,6 +71,10 @@ namespace SPHDissipation {
         {{"relax", NTYPE, GROUP, NOTHING}}};
     static constexpr std::array<TypeVariable, 2> TYPE_VARIABLES = {
         {{"kappa_r", KAPPA_R}, {"tau", TAU}}};
+    static constexpr const char *FIELD = "rho_relaxed", *KEYWORD = "relax";
+    static constexpr const char *INSTEAD = "a kappa that is larger by its kappa_r";
+    static constexpr StateKind KIND = StateKind::STRAIN;
+    typedef Relaxation Numbers;
 
     // number of processes of a type
     static int count(const double *type)
@@ -80,24 +84,44 @@ namespace SPHDissipation {
       return n;
     }
     static double kappa(const double *type, int k) { return type[GROUP * k]; }
-    static double tau(const double *type, int k) { return type[GROUP * k + TAU]; }
+    static double time(const double *type, int k) { return type[GROUP * k + TAU]; }
 
     // process k of a type of the reference density rho0, in a time step dt
-    static Relaxation process(const double *type, int k, double rho0, double dt)
+    static Relaxation process(const double *type, int k, double rho0, double, double dt)
     {
-      const double g_tau = kappa(type, k) / rho0, a = dt / tau(type, k);
+      const double g_tau = kappa(type, k) / rho0, a = dt / time(type, k);
       const double part = -std::expm1(-a);
-      return {g_tau / tau(type, k) * (a > 0.0 ? part / a : 1.0), part, 1.0 / g_tau,
+      return {g_tau / time(type, k) * (a > 0.0 ? part / a : 1.0), part, 1.0 / g_tau,
               std::sqrt(2.0 * dt / g_tau)};
     }
 
-    // what all processes of a type add to the square of the speed of sound, in a time step dt
     static double stiffness(const double *type, double rho0, double dt)
     {
       double sum = 0.0;
-      for (int k = 0; k < count(type); k++) sum += process(type, k, rho0, dt).stiffness;
+      for (int k = 0; k < count(type); k++) sum += process(type, k, rho0, 0.0, dt).stiffness;
       return sum;
     }
+
+    // pressure rho g phi x, energy m g phi x^2/2, heat V p^2/kappa_r
+    template <class Site> SPH_FUNCTION static double pressure(const Site &site)
+    {
+      return site.own.stiffness * site.strain();
+    }
+    template <class Site> SPH_FUNCTION static double energy(const Site &site)
+    {
+      const double x = site.strain();
+      return 0.5 * site.mass() * (site.own.stiffness * x * x);
+    }
+    template <class Site> SPH_FUNCTION static double heat(const Site &site)
+    {
+      const double p = pressure(site);
+      return p * p * site.own.fluidity;
+    }
+    template <class Site> SPH_FUNCTION static void advance(const Site &site, double, double noise)
+    {
+      site.state() *= exp_of(site.own.part * site.strain() + noise);
+    }
+    static double noise(const Relaxation &process) { return -process.noise; }
 
     template <class Add>
     static void add_columns(const PairFluid &, const OwnWords &words, const double *, Add &&add)
@@ -119,7 +143,7 @@ namespace SPHDissipation {
     }
   };
 
-  struct VibrationChannel : BaseChannel {
+  struct VibrationChannel : BaseChannel, BaseState {
     static constexpr const char *NAME = "vibration";
     static constexpr bool ELASTIC = true, OPTIONAL = true;
     static constexpr bool OF_MOTION = false;    // its heat is that of RelaxChannel
@@ -128,15 +152,49 @@ namespace SPHDissipation {
     static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
         {{"vibration", NTYPE, NTYPE, HEAT_CAPACITY | NO_NOISE | EOS_IDEAL | NO_OPEN_ENDS}}};
 
-    static bool in_use(const double *type) { return type[CVIB] > 0.0; }
+    static constexpr const char *FIELD = "tvib";
+    using Room = RelaxChannel;
+    static constexpr bool READS_RATE = true;
+    typedef Vibration Numbers;
+
+    static int count(const double *type) { return (type[CVIB] > 0.0) ? 1 : 0; }
 
     // of a type of the heat capacity cv per mass without vibrations, in a time step dt
-    static Vibration process(const double *type, double cv, double dt)
+    static Vibration process(const double *type, int, double, double cv, double dt)
     {
       const double cvib = type[CVIB], tau_v = type[TAU];
       const double share = cv / (cv + cvib), tau = tau_v * share, a = dt / tau;
       const double part = -std::expm1(-a);
       return {cvib, 1.0 / tau_v, share * part, share * tau * (a - part)};
+    }
+
+    template <class Site> SPH_FUNCTION static double energy(const Site &site)
+    {
+      return site.mass() * site.own.heat_capacity * site.state();
+    }
+    // T times the rate of entropy, m cvib/tau_v (T - T_v)^2/T_v
+    template <class Site> SPH_FUNCTION static double heat(const Site &site)
+    {
+      if (!(site.state() > 0.0)) return 0.0;
+      const double difference = site.rows.temperature(site.i) - site.state();
+      return site.own.heat_capacity * site.own.rate * difference * difference / site.state();
+    }
+    // in equilibrium with the rest of the heat
+    template <class Site> SPH_FUNCTION static void begin(const Site &site, double temperature)
+    {
+      if (site.state() > 0.0) return;
+      site.state() = 0.0;
+      if (temperature < 0.0) {
+        const double cv = site.rows.types[site.rows.type[site.i]].heat_capacity;
+        temperature =
+            site.rows.thermal_energy(site.i) / (site.mass() * (cv + site.own.heat_capacity));
+      }
+      if (temperature > 0.0) site.state() = temperature;
+    }
+    template <class Site> SPH_FUNCTION static void advance(const Site &site, double rate, double)
+    {
+      site.state() +=
+          site.own.part * (site.rows.temperature(site.i) - site.state()) + site.own.delay * rate;
     }
 
     template <class Add>

@@ -117,7 +117,7 @@ template <class Function> void with_form(const Terms &terms, Function &&function
 #ifndef LMP_SPH_DISSIPATION_CHANNELS_H
 #define LMP_SPH_DISSIPATION_CHANNELS_H
 
-#include "sph_dissipation_function.h"
+#include "sph_dissipation_states.h"
 
 #include <algorithm>
 #include <array>
@@ -334,12 +334,15 @@ namespace SPHDissipation {
   using Channels = ChannelList<BaseChannel
 #include "sph_dissipation_channel_list.h"
                                >;
+  // those with a state
+  using States = WithState<StateList<>
+#include "sph_dissipation_channel_list.h"
+                           >::type;
 #undef ChannelClass
 #undef CHANNEL_CLASS
   // clang-format on
 
   constexpr int NCHANNEL = Channels::NUMBER;    // of those that turn motion into heat
-  constexpr int MOST_PROCESSES = RelaxChannel::MOST;
 
   // Coefficients of the terms of two types, one channel after the other:
   //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]

@@ -110,12 +110,15 @@ void SPHDissipation::check_rerun(LAMMPS *lmp, const std::string &style, const Fl
                     "densities of the particles",
                     style);
   for (int i = 1; i <= lmp->atom->ntypes; i++)
-    if (RelaxChannel::count(model.coeffs[i].keywords.of<RelaxChannel>()) && lmp->comm->me == 0)
-      lmp->error->warning(
-          FLERR,
-          "Pair style {} with rerun: snapshots have no strain of relaxing processes, "
-          "which for type {} is taken to be zero",
-          style, i);
+    States::visit([&](auto one) {
+      if (one.KIND == StateKind::STRAIN && States::count(one, model.coeffs[i].keywords) &&
+          lmp->comm->me == 0)
+        lmp->error->warning(
+            FLERR,
+            "Pair style {} with rerun: snapshots have no strains of {}, which for type {} are "
+            "taken to be zero",
+            style, one.NAME, i);
+    });
   if (Fields::with_spins(lmp->atom) && lmp->comm->me == 0)
     lmp->error->warning(FLERR,
                         "Pair style {} with rerun: snapshots have no spins, forces are those of "
@@ -353,37 +356,46 @@ void SPHDissipation::check_fluid_lists(LAMMPS *lmp, const std::string &style,
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_processes(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+void SPHDissipation::check_room(LAMMPS *lmp, const std::string &style, const FluidModel &model)
 {
-  const int room = Fields::of(lmp->atom)->nprocess;
-  for (int i = 1; i <= lmp->atom->ntypes; i++) {
-    const TypeCoeff &type = model.coeffs[i];
-    const int count = RelaxChannel::count(type.keywords.of<RelaxChannel>()) +
-        VibrationChannel::in_use(type.keywords.of<VibrationChannel>());
-    if (!type.other && count > room)
+  const Fields &fields = *Fields::of(lmp->atom);
+  for (int i = 1; i <= lmp->atom->ntypes; i++)
+    for (const StateInfo &one : States::table()) {
+      int count = 0;
+      States::visit([&](auto channel) {
+        if (one.first == States::first<States::Owner<decltype(channel)>>())
+          count += States::count(channel, model.coeffs[i].keywords);
+      });
+      if (model.coeffs[i].other || count <= fields.room(one)) continue;
       lmp->error->all(FLERR, Error::NOLASTLINE,
-                      "Pair style {}: the relaxing processes of type {} are {}, but particles have "
-                      "room for {}; use atom_style {} relax {}",
-                      style, i, count, room, style, count);
-  }
+                      "Pair style {}: the states of {} of type {} are {}, but particles have room "
+                      "for {}; use atom_style {} {}{}",
+                      style, one.keyword, i, count, fields.room(one), style, one.keyword,
+                      (one.most > 1) ? fmt::format(" {}", count) : "");
+    }
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_relaxation(LAMMPS *lmp, const std::string &style,
-                                      const FluidModel &model)
+void SPHDissipation::check_state_times(LAMMPS *lmp, const std::string &style,
+                                       const FluidModel &model)
 {
-  constexpr double SHORT = 1.0e-3;    // tau over the time step
+  constexpr double SHORT = 1.0e-3;    // over the time step
   if (lmp->comm->me != 0) return;
   for (int i = 1; i <= lmp->atom->ntypes; i++) {
-    const double *const type = model.coeffs[i].keywords.of<RelaxChannel>();
-    for (int k = 0; k < RelaxChannel::count(type) && !model.coeffs[i].other; k++)
-      if (RelaxChannel::tau(type, k) < SHORT * lmp->update->dt)
-        lmp->error->warning(
-            FLERR,
-            "Pair style {}: the relaxation time {:g} of type {} is far below the time "
-            "step {:g}; a kappa that is larger by {:g} does the same",
-            style, RelaxChannel::tau(type, k), i, lmp->update->dt, RelaxChannel::kappa(type, k));
+    const TypeCoeffs &keywords = model.coeffs[i].keywords;
+    States::visit([&](auto one) {
+      if constexpr (one.INSTEAD != nullptr) {
+        const double *const type = keywords.of<decltype(one)>();
+        for (int k = 0; k < one.count(type) && !model.coeffs[i].other; k++)
+          if (one.time(type, k) < SHORT * lmp->update->dt)
+            lmp->error->warning(FLERR,
+                                "Pair style {}: the time {:g} of {} of type {} is far below the "
+                                "time step {:g}; {} does the same",
+                                style, one.time(type, k), one.NAME, i, lmp->update->dt,
+                                one.INSTEAD);
+      }
+    });
   }
 }
 
@@ -491,7 +503,7 @@ void SPHDissipation::check_sizes(LAMMPS *lmp, const std::string &style, const Fl
 /* ---------------------------------------------------------------------- */
 
 void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const FluidModel &model,
-                                    const StrainRows &strains, int boundary_bits)
+                                    const StateRows &states, int boundary_bits)
 {
   Atom *atom = lmp->atom;
   const bool gas = (model.choice.eos == Eos::IDEAL);
@@ -501,7 +513,7 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
     if (type.other || (atom->mask[i] & boundary_bits)) continue;
     if (type.eos.gruneisen == 0.0 && type.keywords.conductivity() == 0.0) continue;
     number[0]++;
-    if (atom->esph[i] == 0.0 || !(strains.thermal_energy(i) > 0.0)) number[1]++;
+    if (atom->esph[i] == 0.0 || !(states.thermal_energy(i) > 0.0)) number[1]++;
   }
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
   if (all[1] && !gas && lmp->comm->me == 0)

@@ -26,7 +26,7 @@ class LAMMPS;
 namespace SPHDissipation {
   class Engine;
   class FluidModel;
-  struct StrainRows;
+  struct StateRows;
 
   // Particles alike in all that decides whether they have pairs: type and bits of groups
 
@@ -83,10 +83,10 @@ namespace SPHDissipation {
   // warnings about a free surface that the settings press outward or turn
   void check_surface(class LAMMPS *, const std::string &style, const FluidModel &);
 
-  // particles have room for the relaxing processes of their type; warning about times far below the time step
+  // particles have room for the states of their type; warning about times far below the time step
 
-  void check_processes(LAMMPS *, const std::string &style, const FluidModel &);
-  void check_relaxation(LAMMPS *, const std::string &style, const FluidModel &);
+  void check_room(LAMMPS *, const std::string &style, const FluidModel &);
+  void check_state_times(LAMMPS *, const std::string &style, const FluidModel &);
 
   // all masses of fluid and of integrated particles are positive; also during a run, for fixes that
   // insert particles, whose mass is zero at first
@@ -105,7 +105,7 @@ namespace SPHDissipation {
   // with an equation of state that needs it, no neighbors inside the support.  Particles with one of boundary_bits in their mask are
   // no fluid.
 
-  void check_energies(LAMMPS *, const std::string &style, const FluidModel &, const StrainRows &,
+  void check_energies(LAMMPS *, const std::string &style, const FluidModel &, const StateRows &,
                       int boundary_bits);
   void check_neighbors(LAMMPS *, const std::string &style, const FluidModel &, const Engine &,
                        int boundary_bits, int dim, double support);

@@ -34,7 +34,7 @@ static const Parameters NO_PARAMETERS;    // of an engine before its setup()
 
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
-    strain_pressure(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
+    state_pressure(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
     par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
     noisy_loop(nullptr), drag_noise(nullptr), data(), atom_rows(), threads(&one_thread),
     weights(nullptr), not_fluid(0), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0),
@@ -52,7 +52,7 @@ Engine::~Engine()
   memory->sfree(force);
   memory->sfree(spin);
   memory->sfree(zeta_term);
-  memory->sfree(strain_pressure);
+  memory->sfree(state_pressure);
   memory->sfree(divergence);
   memory->destroy(weights);
   memory->sfree(data.first);
@@ -124,8 +124,8 @@ void Engine::grow_atoms()
     memory->sfree(spin);
     spin = (Spin *) memory->smalloc(nrow * sizeof(Spin), "sph:spin");
   }
-  memory->sfree(strain_pressure);
-  strain_pressure = (double *) memory->smalloc(nrow * sizeof(double), "sph:strain_pressure");
+  memory->sfree(state_pressure);
+  state_pressure = (double *) memory->smalloc(nrow * sizeof(double), "sph:state_pressure");
   memory->sfree(zeta_term);
   zeta_term = (double *) memory->smalloc(nrow * sizeof(double), "sph:zeta_term");
   memory->sfree(divergence);
@@ -204,10 +204,10 @@ void Engine::set_rows()
 {
   static constexpr double ONE = 1.0;
   double *energies = atom->esph;
-  StrainRows with_strains = strains();
+  StateRows with_states = states();
   if (par->own_temperatures) {
     energy.assign(atom->esph, atom->esph + atom->nlocal + atom->nghost);
-    with_strains.esph = energies = energy.data();
+    with_states.esph = energies = energy.data();
   }
   atom_rows = {*par,
                par->type.data(),
@@ -225,22 +225,19 @@ void Engine::set_rows()
                atom->drho,
                atom->vfrac,
                atom->desph,
-               with_strains,
-               strain_pressure,
+               with_states,
+               state_pressure,
                conductor.data(),
                Fields::of(atom)->rho_sum};
 }
 
 /* ---------------------------------------------------------------------- */
 
-StrainRows Engine::strains() const
+StateRows Engine::states() const
 {
-  StrainRows rows = {par->type.data(), atom->type,  atom->rmass, atom->rho, atom->drho, par->eos,
-                     atom->esph,       atom->desph, {},          nullptr,   0};
-  const Fields *const fields = Fields::of(atom);
-  std::copy_n(fields->rho_relaxed, fields->nprocess, rows.relaxed);
-  rows.tvib = fields->tvib;
-  rows.room = fields->nprocess;
+  StateRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho, atom->drho,
+                    par->eos,         atom->esph, atom->desph, {}};
+  std::copy_n(Fields::of(atom)->state, States::MOST, rows.state);
   if (!wall_energy.empty()) {
     follow_atoms();
     rows.by_walls = wall_energy.data();

@@ -295,7 +295,7 @@ namespace SPHDissipation {
     const Parameters &parameters() const { return *par; }
     // what is between the passes, of owned and ghost atoms; from pass 1 until atoms move to other processors
     const ParticleRows &rows() const { return atom_rows; }
-    StrainRows strains() const;    // of the owned atoms as they are
+    StateRows states() const;    // of the owned atoms as they are
     // reference volume of a particle, owned or ghost
     double weight(int i) const { return data.weight ? data.weight[i] : 1.0; }
     bool has_spin() const { return par->spins(); }
@@ -310,8 +310,8 @@ namespace SPHDissipation {
     {
       return {side.torque(0), (std::size_t) side.width, 3};
     }
-    double *zeta_term;          // zeta cdot/c, set by the caller on owned and ghost atoms
-    double *strain_pressure;    // of relaxing processes, as zeta_term; set if there are any
+    double *zeta_term;                   // zeta cdot/c, set by the caller on owned and ghost atoms
+    double *state_pressure;              // of their states, as zeta_term; set if there are any
     std::vector<Conductor> conductor;    // the same, if any type conducts heat
     std::vector<double>
         energy;    // the same, internal energy, if particles have the noise of their temperatures

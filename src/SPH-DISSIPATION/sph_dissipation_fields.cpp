@@ -16,6 +16,8 @@
 #include "atom.h"
 #include "atom_vec.h"
 
+#include <algorithm>
+
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
@@ -35,4 +37,21 @@ Fields *Fields::with_spins(Atom *atom)
 {
   Fields *const fields = of(atom);
   return fields && fields->has_spins ? fields : nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int Fields::room(const StateInfo &one) const
+{
+  return std::count_if(slots.begin(), slots.end(), [&](int slot) {
+    return slot >= one.first && slot < one.first + one.most;
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string Fields::state_name(int slot)
+{
+  const StateInfo &one = States::info(slot);
+  return (one.most > 1) ? one.field + std::to_string(slot - one.first + 1) : one.field;
 }

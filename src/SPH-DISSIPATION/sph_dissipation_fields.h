@@ -16,6 +16,9 @@
 
 #include "sph_dissipation_channels.h"
 
+#include <string>
+#include <vector>
+
 namespace LAMMPS_NS {
 class Atom;
 
@@ -48,14 +51,14 @@ namespace SPHDissipation {
     double *inertia;      // moment of inertia per mass, length^2; nullptr without spins
     double **omegaest;    // spin at the end of the step, extrapolated; nullptr without spins
 
-    // relaxed density of each process that there is room for, mass/length^n, see RelaxChannel; of a new particle
-    // 0, or minus the factor by which it differs from the density that the next forces find
-    int nprocess;
-    double *rho_relaxed[MOST_PROCESSES];
+    // States of channels, by their place in the list States; nullptr where there is no room.  Of a new particle 0; of
+    // StateKind::STRAIN also minus the factor by which it differs from the density that the next forces find; -1 of a particle
+    // from a data file where the file has it in the column of another one
+    double *state[States::MOST];
+    std::vector<int> slots;    // places of those that there is room for
 
-    // temperature of the vibrations, see VibrationChannel; of a new particle 0; of one from a data file negative: the
-    // relaxed density that its type does not have is this temperature.  nullptr without room
-    double *tvib;
+    int room(const StateInfo &) const;    // number of them, of a channel
+    static std::string state_name(int slot);
 
     // Of density continuity: the part of rho that is the sum of the last forces, 0 of a density that waits for its first
     // sum (that of a new particle is 0, which means rho0); of the last evaluation of the diffusion the rate of the volume,
@@ -65,9 +68,9 @@ namespace SPHDissipation {
 
    protected:
     explicit Fields(bool spins) :
-        has_spins(spins), desph_before(nullptr), inertia(nullptr), omegaest(nullptr), nprocess(0),
-        rho_relaxed(), tvib(nullptr), rho_sum(nullptr), vol_rate(nullptr), vol_rate_before(nullptr),
-        vol_heat(nullptr), vol_support(nullptr), density_in_files(false)
+        has_spins(spins), desph_before(nullptr), inertia(nullptr), omegaest(nullptr), state(),
+        rho_sum(nullptr), vol_rate(nullptr), vol_rate_before(nullptr), vol_heat(nullptr),
+        vol_support(nullptr), density_in_files(false)
     {
     }
     ~Fields() = default;

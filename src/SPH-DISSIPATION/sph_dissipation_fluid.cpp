@@ -58,8 +58,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     density(new DensityStage(lmp, *engine, *exchange)),
     limit(new LimitStage(lmp, *engine, *exchange)),
     pressure(new PressureStage(lmp, *engine, *exchange)),
-    forces(new ForceStage(lmp, *engine, *exchange)),
-    relaxation(new RelaxStage(lmp, *engine, *exchange)),
+    forces(new ForceStage(lmp, *engine, *exchange)), state(new StateStage(lmp, *engine, *exchange)),
     conduction(new HeatStage(lmp, *engine, *exchange)),
     diffusion(new DiffusionStage(lmp, *engine, *exchange)),
     open(new OpenStage(lmp, *engine, *exchange)),
@@ -176,7 +175,7 @@ void Fluid::check_setup()
   support = model->common_support(pair->setflag);
   find_own_types();
   check_fluid_lists(lmp, style, *model);
-  check_processes(lmp, style, *model);
+  check_room(lmp, style, *model);
   check_support(lmp, style, *model, dim, support);
   if (spins) check_spins(lmp, style, *model);
 }
@@ -360,8 +359,8 @@ bool Fluid::at_rest() const
 void Fluid::begin_run(double dt)
 {
   set_step(dt);
-  if (!Fields::of(atom)->nprocess) return;
-  const bigint others = relaxation->keep();
+  if (Fields::of(atom)->slots.empty()) return;
+  const bigint others = state->keep();
   if (others && comm->me == 0)
     error->warning(FLERR,
                    "Pair style {}: {} particles have states of processes that their type does not "
@@ -376,9 +375,9 @@ void Fluid::keep_densities()
 
 void Fluid::begin_step(double dt)
 {
-  if (!engine->parameters().nprocess) return;
+  if (!engine->parameters().states) return;
   set_step(dt);
-  advance_strain();
+  advance_states();
 }
 
 void Fluid::set_step(double dt)
@@ -388,11 +387,10 @@ void Fluid::set_step(double dt)
 
 /* ---------------------------------------------------------------------- */
 
-void Fluid::advance_strain()
+void Fluid::advance_states()
 {
-  const bool noise_on = model->choice.thermal;
-  if (noise_on) noise->draw_for_strain();
-  relaxation->advance(not_fluid(), noise_on ? noise->strain_change() : nullptr);
+  state->advance(not_fluid(),
+                 model->choice.thermal ? noise->draw_for_states() : std::vector<double>());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -536,9 +534,9 @@ double Fluid::elastic_energy(Moment moment)
 
 /* ---------------------------------------------------------------------- */
 
-double Fluid::strain_energy(int groupbits) const
+double Fluid::state_energy(int groupbits) const
 {
-  return engine->parameters().nprocess ? relaxation->energy(groupbits, not_fluid()) : 0.0;
+  return engine->parameters().states ? state->energy(groupbits, not_fluid()) : 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -547,16 +545,9 @@ double Fluid::strain_energy(int groupbits) const
 
 void Fluid::temperatures(double *temperature) const
 {
-  const StrainRows strains = engine->strains();
+  const StateRows states = engine->states();
   for (int i = 0; i < atom->nlocal; i++)
-    temperature[i] = (has_type(atom->type[i]) && !is_boundary(i)) ? strains.temperature(i) : 0.0;
-}
-
-void Fluid::vibrational_temperatures(double *temperature) const
-{
-  const StrainRows strains = engine->strains();
-  for (int i = 0; i < atom->nlocal; i++)
-    temperature[i] = strains.vibrates(i) ? strains.vibration(i) : 0.0;
+    temperature[i] = (has_type(atom->type[i]) && !is_boundary(i)) ? states.temperature(i) : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -569,7 +560,7 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
     density->run(neighbors(), nullptr, nullptr, not_fluid());
     if (!boundary->empty() && model->choice.own_temperatures)
       boundary->find_energies_at_rest(neighbors());
-    const StrainRows strains = engine->strains();
+    const StateRows states = engine->states();
     const int zone_bits = open->bits_of(groupbit);
     for (int i = 0; i < atom->nlocal; i++) {
       const int type = atom->type[i];
@@ -586,8 +577,8 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
         atom->esph[i] = atom->rmass[i] * model->heat_capacity(type) * temperature;
         continue;
       }
-      strains.begin(i, temperature);
-      atom->esph[i] = strains.energy_at(i, temperature);
+      states.begin(i, temperature);
+      atom->esph[i] = states.energy_at(i, temperature);
     }
   });
 }
@@ -706,7 +697,7 @@ void Fluid::report()
                      state.table());
     check_all_interact();
     check_sizes(lmp, style, *model, not_fluid());
-    check_relaxation(lmp, style, *model);
+    check_state_times(lmp, style, *model);
     check_surface(lmp, style, *model);
     state.warn(style, shift->wanted);
   }
@@ -714,7 +705,7 @@ void Fluid::report()
   if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
 
   if (!step_follows()) check_time_step(table);
-  check_energies(lmp, style, *model, engine->strains(), not_fluid());
+  check_energies(lmp, style, *model, engine->states(), not_fluid());
   check_neighbors(lmp, style, *model, *engine, not_fluid(), dim, support);
 }
 
@@ -743,7 +734,7 @@ void Fluid::announce_noise(double rate)
                    "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
                    "step {:.3g}\n",
                    style, temperature, model->choice.seed, rate * update->dt);
-  const bool other = model->parameters().nprocess || model->parameters().conducts;
+  const bool other = model->parameters().states || model->parameters().conducts;
   if (rate == 0.0 && !other &&
       (model->choice.own_temperatures || model->choice.temperature > 0.0) && comm->me == 0)
     error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", style);
@@ -800,12 +791,12 @@ CoeffTable Fluid::coeff_table()
   // in the place of type 0, which does not exist: of all types
 
   double &fastest = most(mine, MOTION, 0);
-  const StrainRows strains = engine->strains();
+  const StateRows states = engine->states();
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
     const TypeCoeff &coeff = model->coeffs[type];
     if (coeff.other) continue;
-    const double rho = atom->rho[i], c = sound(strains, i, rho), v = MathExtra::len3(atom->v[i]);
+    const double rho = atom->rho[i], c = sound(states, i, rho), v = MathExtra::len3(atom->v[i]);
     fastest = std::max(fastest, v);
     const double values[NMOST] = {c + v, c, v, is_boundary(i) ? 0.0 : coeff.eos.rho0 / rho};
     for (int k = 0; k < NMOST; k++) most(mine, k, type) = std::max(most(mine, k, type), values[k]);
@@ -823,8 +814,7 @@ CoeffTable Fluid::coeff_table()
     const TypeCoeff &one = model->coeffs[type];
     const double speed = most(all, SPEED, type), c = most(all, SOUND, type);
     return acoustic_step(h, speed, [&](double dt) {
-      const double more =
-          RelaxChannel::stiffness(one.keywords.of<RelaxChannel>(), one.eos.rho0, dt);
+      const double more = States::stiffness(one.keywords, one.eos.rho0, dt);
       return (more > 0.0) ? most(all, MOTION, type) + sqrt(c * c + more) - speed : 0.0;
     });
   };
@@ -856,23 +846,22 @@ CoeffTable Fluid::coeff_table()
 
 /* ---------------------------------------------------------------------- */
 
-StrainRows Fluid::strains() const
+StateRows Fluid::states() const
 {
-  return engine->strains();
+  return engine->states();
 }
 
 /* ----------------------------------------------------------------------
-   with the heat that it has now; of fast sound, in which vibrations stay as they are.  Walls of a liquid
+   with the heat that it has now; of fast sound, in which states stay as they are.  Walls of a liquid
    have no heat.
 ------------------------------------------------------------------------- */
 
-double Fluid::sound(const StrainRows &strains, int i, double rho) const
+double Fluid::sound(const StateRows &states, int i, double rho) const
 {
   const Eos eos = model->choice.eos;
   const EosParams &par = model->coeffs[atom->type[i]].eos;
   if (is_boundary(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
-  const double held = strains.energy(i) + strains.vibrational_energy(i);
-  const double q = (atom->esph[i] - held) / atom->rmass[i] -
+  const double q = (atom->esph[i] - states.energy(i)) / atom->rmass[i] -
       SPHDissipation::elastic_energy(eos, par, atom->rho[i]);
   return sound_speed(eos, par, rho, SPHDissipation::elastic_energy(eos, par, rho) + q);
 }

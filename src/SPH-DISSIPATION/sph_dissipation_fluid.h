@@ -35,7 +35,7 @@ namespace SPHDissipation {
   class Exchange;
   class FluidModel;
   struct ForceSum;
-  struct StrainRows;
+  struct StateRows;
   class ForceStage;
   class HeatStage;
   class LimitStage;
@@ -44,7 +44,7 @@ namespace SPHDissipation {
   class OpenStage;
   class PairTally;
   class PressureStage;
-  class RelaxStage;
+  class StateStage;
   class TemperatureStage;
   class Threads;
   class ViscousStage;
@@ -75,7 +75,7 @@ namespace SPHDissipation {
     const std::unique_ptr<LimitStage> limit;
     const std::unique_ptr<PressureStage> pressure;
     const std::unique_ptr<ForceStage> forces;
-    const std::unique_ptr<RelaxStage> relaxation;
+    const std::unique_ptr<StateStage> state;
     const std::unique_ptr<HeatStage> conduction;
     const std::unique_ptr<DiffusionStage> diffusion;
 
@@ -107,7 +107,7 @@ namespace SPHDissipation {
 
     virtual bigint compute(PairTally *);
 
-    // From the integrator: a run begins, with the strain of relaxing processes as a step of dt has left it; such a
+    // From the integrator: a run begins, with the states as a step of dt has left them; such a
     // step begins
 
     void begin_run(double dt);
@@ -131,17 +131,16 @@ namespace SPHDissipation {
     enum Moment { LAST_FORCES, NOW };
     virtual double elastic_energy(Moment);
 
-    // energy of relaxing strains and of vibrations on this processor, of particles of these groups
+    // energy that states hold on this processor, of particles of these groups
 
-    double strain_energy(int groupbits) const;
+    double state_energy(int groupbits) const;
 
     // Temperatures of owned particles, with their densities and energies as they are now; 0 of those that have no heat
     // capacity, and of walls.  Give a temperature to those of a group and of its open zones, where particles, with their
     // ghosts, are now, by function(particle); errors, in the name of the user, if it is negative or there is no heat
-    // capacity.  Those of the vibrations of owned particles; 0 of those that have none
+    // capacity.
 
     void temperatures(double *) const;
-    void vibrational_temperatures(double *) const;
     void set_temperature(int groupbit, const std::function<double(int)> &, const std::string &user);
 
     // of the last forces: see ForceStage::heating(); forces and torques on owned particles, without
@@ -176,9 +175,9 @@ namespace SPHDissipation {
     int not_fluid() const;            // bits of the groups of all boundaries and open zones
     bool is_boundary(int i) const;    // owned or ghost particle
     bool has_type(int type) const;    // its particles are of this fluid
-    // speed of sound of an owned particle that had this density; with the strains of all of them
-    double sound(const StrainRows &, int i, double rho) const;
-    StrainRows strains() const;
+    // speed of sound of an owned particle that had this density; with the states of all of them
+    double sound(const StateRows &, int i, double rho) const;
+    StateRows states() const;
     int dimension() const { return dim; }    // of the kernel
     Threads &team() const;                   // that share its work
     double support_radius() const { return support; }
@@ -206,8 +205,8 @@ namespace SPHDissipation {
     // returns the number of owned particles that are beyond the bound of the limit
 
     virtual void sum_density();
-    virtual void set_step(double dt);    // of relaxing processes
-    virtual void advance_strain();
+    virtual void set_step(double dt);    // of the states
+    virtual void advance_states();
     virtual void sum_bound();
     virtual void set_reference_volume();    // of boundary particles
     virtual bigint set_pressure();
@@ -220,8 +219,8 @@ namespace SPHDissipation {
     virtual bool has_own_forces() const;    // on this processor
     void report();
     double missing_time() const;
-    bool at_rest()
-        const;    // strains have relaxed: in a minimization; in a rerun, which does not know them
+    bool
+    at_rest() const;    // strains are zero: in a minimization; in a rerun, which does not know them
     double **extrapolated_spin() const;    // nullptr without spins
 
    private:

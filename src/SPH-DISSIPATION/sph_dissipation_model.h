@@ -75,7 +75,7 @@ namespace SPHDissipation {
     void derive(int dim, double support);
     const Parameters &parameters() const { return par; }
     double diffusion_rate() const;    // of volume, its fastest mode at the reference densities
-    void set_step(double dt) { par.set_step(dt); }    // of the strain of relaxing processes
+    void set_step(double dt) { par.set_step(dt); }    // of the states
 
     // of a pair of types: what its coefficients follow from, the bulk viscosity that its pair terms give
 

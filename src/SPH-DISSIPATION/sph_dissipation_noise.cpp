@@ -129,7 +129,7 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
   const bool spins = engine.has_spin();
-  const StrainRows &strains = engine.rows().strains;
+  const StateRows &states = engine.rows().states;
   const double *const inertia = Fields::of(atom)->inertia;
   constexpr double SMALLEST = 1.0e-300;    // not 0, for walls have a negative one
   row.resize(nall + BLOCK);
@@ -155,7 +155,7 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
     row[i].softness = boltz * capacity_inv;
     if (i >= nlocal) return;
     if (spins && inertia[i] > 0.0) row[i].spin_mobility = mobility[i] / inertia[i];
-    const double heat = strains.thermal_energy(i);
+    const double heat = states.thermal_energy(i);
     if (!(heat > 0.0)) count++;
     row[i].temperature = std::max(heat, 0.0) * capacity_inv;
   });
@@ -300,30 +300,35 @@ void NoiseStage::add_drag(double factor, int not_fluid)
 
 /* ---------------------------------------------------------------------- */
 
-void NoiseStage::draw_for_strain()
+const std::vector<double> &NoiseStage::draw_for_states()
 {
   const Parameters &par = engine.parameters();
   const int nlocal = atom->nlocal, n = nlocal + BLOCK;
   constexpr int AT_ONCE = 4;    // numbers of a counter
-  const StrainRows strains = engine.strains();
+  const StateRows states = engine.states();
+  int end = 0;    // of the places of states that have some
+  for (const TypeParameters &type : par.type)
+    for (int slot = 0; slot < States::MOST; slot++)
+      if (States::noise(type.states, slot) != 0.0) end = std::max(end, slot + 1);
   data.step = static_cast<std::uint64_t>(clock.step + 1 + clock.offset);
   numbers.resize(AT_ONCE * static_cast<std::size_t>(n));
-  change.assign(par.nprocess * static_cast<std::size_t>(nlocal), 0.0);
-  for (int first = 0; first < par.nprocess; first += AT_ONCE) {
-    const int count = std::min(par.nprocess - first, AT_ONCE);
-    const int channel = static_cast<int>(NoiseChannel::STRAIN) + first / AT_ONCE;
+  change.assign(end * static_cast<std::size_t>(nlocal), 0.0);
+  for (int first = 0; first < end; first += AT_ONCE) {
+    const int count = std::min(end - first, AT_ONCE);
+    const int channel = static_cast<int>(NoiseChannel::STATE) + first / AT_ONCE;
     engine.draw_numbers(data, static_cast<NoiseChannel>(channel), nlocal, count, numbers.data());
     engine.for_each(nlocal, [&](int i) {
-      const TypeParameters &type = par.type[atom->type[i]];
-      if (type.nprocess <= first) return;
+      const States::Numbers &own = states.numbers(i);
+      if (!own.any()) return;
       double temperature = par.temperature;
-      if (par.own_temperatures) temperature = std::max(strains.temperature(i), 0.0);
+      if (par.own_temperatures) temperature = std::max(states.temperature(i), 0.0);
       const double strength = sqrt(force->boltz * temperature / atom->rmass[i]);
-      for (int k = first; k < std::min(type.nprocess, first + count); k++)
+      for (int k = first; k < first + count; k++)
         change[k * static_cast<std::size_t>(nlocal) + i] =
-            -strength * type.process[k].noise * numbers[(k - first) * static_cast<bigint>(n) + i];
+            strength * States::noise(own, k) * numbers[(k - first) * static_cast<bigint>(n) + i];
     });
   }
+  return change;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -60,11 +60,10 @@ namespace SPHDissipation {
     bool shares_work() const { return data.unequal; }
     void find_masses(int not_fluid);    // whether they differ; before run()
 
-    // The noise of the relaxing processes of owned particles, for RelaxStage::advance(), after the forces of the last
-    // step, in the next one
+    // The noise of the states of owned particles, for StateStage::advance(), after the forces of the last step, in the
+    // next one
 
-    void draw_for_strain();
-    const double *strain_change() const { return change.data(); }
+    const std::vector<double> &draw_for_states();
 
     double memory_usage() const override;
 

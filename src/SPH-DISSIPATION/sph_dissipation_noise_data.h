@@ -28,7 +28,7 @@ namespace SPHDissipation {
     PRESSURE,
     PAIR,
     DRAG,
-    STRAIN    // and those that follow, one for every four processes
+    STATE    // and those that follow, one for every four states
   };
 
   // the step of the last random numbers, and what is added to a step to get numbers that no step before had

@@ -126,7 +126,7 @@ namespace SPHDissipation {
 
   struct OpenWave {
     double j;         // rho c u' + p', see sph_dissipation_characteristics.h
-    double strain;    // pressure of relaxing processes
+    double strain;    // pressure of states
   };
 
   struct OpenSample {

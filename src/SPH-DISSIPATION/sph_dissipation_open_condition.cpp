@@ -217,7 +217,7 @@ const EosParams &OpenCondition::eos(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the speed of waves that leave: where processes relax, it lies between those of slow and fast waves.
+   Return the speed of waves that leave: where states add to it, it lies between those of slow and fast waves.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::sound(int i, double rho, double q) const
@@ -226,8 +226,8 @@ double OpenCondition::sound(int i, double rho, double q) const
   const int type = atom->type[i];
   const double e = warm ? elastic_energy(form, eos(i), rho) + q : 0.0;
   const double c = sound_speed(form, eos(i), rho, e);
-  const double more = RelaxChannel::stiffness(fluid->coeffs[type].keywords.of<RelaxChannel>(),
-                                              eos(i).rho0, fluid->parameters().step);
+  const double more =
+      States::stiffness(fluid->coeffs[type].keywords, eos(i).rho0, fluid->parameters().step);
   return (more > 0.0) ? sqrt(c * c + 0.5 * more) : c;
 }
 
@@ -449,7 +449,7 @@ OpenState OpenCondition::state(int i) const
 
 /* ----------------------------------------------------------------------
    Return the state at another pressure and the same entropy.  Its density is that of the fluid, in which
-   this part of the pressure is of relaxing processes.
+   this part of the pressure is of states.
 ------------------------------------------------------------------------- */
 
 OpenState OpenCondition::at_pressure(int i, const Reference &ref, double p, double strain) const

@@ -79,9 +79,9 @@ int OpenStage::bits_of(int fluid_bit) const
 
 /* ---------------------------------------------------------------------- */
 
-double OpenStage::strain_energy(int i) const
+double OpenStage::state_energy(int i) const
 {
-  return engine.parameters().nprocess ? engine.strains().energy(i) : 0.0;
+  return engine.parameters().states ? engine.states().energy(i) : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -46,16 +46,16 @@ namespace SPHDissipation {
     bool empty() const { return zones.empty(); }
     int bits() const { return zone_bits; }    // groups of all zones
     int bits_of(int fluid_bit) const;         // groups of the zones whose fluid has this bit
-    double strain_energy(int i) const;        // energy of relaxing processes at the last densities
+    double state_energy(int i) const;         // energy that states hold, at the last densities
 
     // from OpenZone::set_states(): density and pressure of a particle, which keeps its bulk term; with which temperature it
     // conducts heat, if the fluid does
     void set_state(int i, double rho, double pressure);
     void set_temperature(int i, double temperature);
     const Particle &particle(int i) const { return engine.particle[i]; }
-    double strain_pressure(int i) const    // pressure of relaxing processes
+    double state_pressure(int i) const    // pressure of states
     {
-      return engine.parameters().nprocess ? engine.strain_pressure[i] : 0.0;
+      return engine.parameters().states ? engine.state_pressure[i] : 0.0;
     }
 
     void run();                       // after the pressures, before those of boundaries

@@ -69,12 +69,9 @@ namespace SPHDissipation {
     double zeta = 0.0;             // coefficient of the bulk term
     double heat_capacity = 0.0;    // per mass
     double conductivity = 0.0;
-    TypeCoeffs keywords;    // of the channels
-    int other = 1;          // its particles belong to another style of pair_style hybrid
-    int nprocess = 0;       // relaxing processes: strains, then vibration
-    int nstrain = 0;
-    Relaxation process[MOST_PROCESSES] = {};    // of the strains
-    Vibration vibration = {};
+    TypeCoeffs keywords;       // of the channels
+    int other = 1;             // its particles belong to another style of pair_style hybrid
+    States::Numbers states;    // in a time step
   };
 
   // what belongs to all types: a device copies it as a whole
@@ -94,8 +91,8 @@ namespace SPHDissipation {
     bool conducts_alike = true;       // all types
     bool impedes_alike = true;        // all types have the same rho0 c0
     bool shared = false;              // there are types of other styles
-    int nprocess = 0;                 // most relaxing processes of a type
-    double step = 0.0;                // time step that the strain of these processes is of
+    bool states = false;              // any type has some
+    double step = 0.0;                // time step that their numbers are of
 
     bool spins() const { return shear == Shear::MICROPOLAR; }
     Terms terms() const { return {shear, optional}; }
@@ -111,7 +108,7 @@ namespace SPHDissipation {
 
     void set_uniform();          // uniform, inviscid, and optional, from pair
     void set_alike();            // what belongs to heat and sound, from type
-    void set_step(double dt);    // the time step of the relaxing processes
+    void set_step(double dt);    // the time step of the states
   };
 
   inline void Constants::set_kernel(Kernel kernel_in, int dim_in, double support_in)
@@ -161,18 +158,11 @@ namespace SPHDissipation {
   inline void Parameters::set_step(double dt)
   {
     step = dt;
-    nprocess = 0;
+    states = false;
     for (TypeParameters &one : type) {
-      const double *const strains = one.keywords.of<RelaxChannel>();
-      const double *const heat = one.keywords.of<VibrationChannel>();
-      one.nprocess = one.nstrain = one.other ? 0 : RelaxChannel::count(strains);
-      for (int k = 0; k < one.nstrain; k++)
-        one.process[k] = RelaxChannel::process(strains, k, one.eos.rho0, dt);
-      if (!one.other && VibrationChannel::in_use(heat)) {
-        one.nprocess++;
-        one.vibration = VibrationChannel::process(heat, one.heat_capacity, dt);
-      }
-      nprocess = std::max(nprocess, one.nprocess);
+      one.states = one.other ? States::Numbers()
+                             : States::numbers(one.keywords, one.eos.rho0, one.heat_capacity, dt);
+      states = states || one.states.any();
     }
   }
 

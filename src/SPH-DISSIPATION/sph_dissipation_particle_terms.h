@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_PARTICLE_TERMS_H
 #define LMP_SPH_DISSIPATION_PARTICLE_TERMS_H
 
-// Between the passes: what follows for one particle from its density; its relaxing strain and its heat.  No LAMMPS
+// Between the passes: what follows for one particle from its density; its states and its heat.  No LAMMPS
 // include.
 
 #include "sph_dissipation_parameters.h"
@@ -34,159 +34,77 @@ namespace SPHDissipation {
     return total * c_inv * c_inv;
   }
 
-  // ln(a/b) and e^x where a/b and e^x are mostly near 1: then by their series to rounding errors, without a call
+  // The states and the heat of owned particles, on the host or on a device, with their densities and internal energies,
+  // and the rates of these; energies are those of the last forces.  See StateList and Eos.
 
-  SPH_FUNCTION double log_of_ratio(double a, double b)
-  {
-    const double q = (a - b) / (a + b), s = q * q;
-    if (!(s < 1.0e-4)) return std::log(a / b);
-    return 2.0 * q * (1.0 + s * (1.0 / 3.0 + s * (1.0 / 5.0 + s * (1.0 / 7.0 + s * (1.0 / 9.0)))));
-  }
-
-  SPH_FUNCTION double exp_of(double x)
-  {
-    if (!(std::fabs(x) < 0.01)) return std::exp(x);
-    const double far = 1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0));
-    return 1.0 + x * (1.0 + x * (1.0 / 2.0 + x * (1.0 / 6.0 + x * far)));
-  }
-
-  // The relaxing processes and the heat of owned particles, on the host or on a device, with their densities and
-  // internal energies, and the rates of these; energies are those of the last forces.  The state of a process is the
-  // relaxed density of a strain, that of the vibrations their temperature T_v.  See RelaxChannel and Eos.
-
-  struct StrainRows {
+  struct StateRows {
     const TypeParameters *types;    // by type, from 1
     const int *type;
     const double *rmass, *rho, *drho;
     Eos eos;
     const double *esph, *desph;
-    double *relaxed[MOST_PROCESSES];    // of which there is room for so many
-    double *tvib;
-    int room;
+    double *state[States::MOST];    // nullptr where there is no room
     const double *by_walls =
         nullptr;    // energy that the walls hold of each particle; nullptr: none
 
-    // strain x at a density, of the relaxed density rest; of process k
+    SPH_FUNCTION const States::Numbers &numbers(int i) const { return types[type[i]].states; }
 
-    SPH_FUNCTION static double strain_at(double density, double rest)
+    // Set the states of a new particle; temperature = the one that it gets, negative: it has its energy already.
+    // at_rest: strains are zero, also of others
+
+    SPH_FUNCTION void begin(int i, double temperature = -1.0, bool at_rest = false) const
     {
-      return (rest > 0.0 && density > 0.0) ? log_of_ratio(density, rest) : 0.0;
-    }
-    SPH_FUNCTION double strain(int i, int k) const { return strain_at(rho[i], relaxed[k][i]); }
-
-    // the state of process k for which the next forces find the strain x
-
-    SPH_FUNCTION static double state_of(double x) { return -std::exp(-x); }
-
-    // of the vibrations: whether there are any, temperature, energy
-
-    SPH_FUNCTION bool vibrates(int i) const
-    {
-      const TypeParameters &par = types[type[i]];
-      return par.nprocess > par.nstrain;
-    }
-    SPH_FUNCTION double &vibration(int i) const { return tvib[i]; }
-    SPH_FUNCTION double vibrational_energy(int i) const
-    {
-      if (!vibrates(i)) return 0.0;
-      return rmass[i] * types[type[i]].vibration.heat_capacity * vibration(i);
-    }
-
-    // Set the state of a new particle: its vibrations are in equilibrium with the rest of its heat; or they have the
-    // temperature that the rest gets.
-
-    SPH_FUNCTION void begin(int i) const
-    {
-      begin_strains(i);
-      if (!vibrates(i)) return;
-      if (vibration(i) < 0.0) keep(i);
-      if (vibration(i) > 0.0) return;
-      const TypeParameters &par = types[type[i]];
-      vibration(i) = 0.0;
-      const double heat = thermal_energy(i);
-      if (heat > 0.0)
-        vibration(i) = heat / (rmass[i] * (par.heat_capacity + par.vibration.heat_capacity));
-    }
-    SPH_FUNCTION void begin(int i, double temperature) const
-    {
-      begin_strains(i);
-      if (!vibrates(i)) return;
-      if (vibration(i) < 0.0) keep(i);
-      if (!(vibration(i) > 0.0)) vibration(i) = temperature;
-    }
-    SPH_FUNCTION void begin_strains(int i) const
-    {
-      for (int k = 0; k < types[type[i]].nstrain; k++) {
-        double &rest = relaxed[k][i];
-        if (!(rest > 0.0)) rest = (rest < 0.0) ? -rest * rho[i] : rho[i];
-      }
-    }
-
-    // pressure rho g phi x of all strains
-
-    SPH_FUNCTION double pressure(int i) const
-    {
-      const TypeParameters &par = types[type[i]];
-      double sum = 0.0;
-      for (int k = 0; k < par.nstrain; k++) sum += par.process[k].stiffness * strain(i, k);
-      return rho[i] * sum;
-    }
-
-    // the strains have relaxed
-
-    SPH_FUNCTION void relax(int i) const
-    {
-      for (int k = 0; k < types[type[i]].nstrain; k++) relaxed[k][i] = rho[i];
-    }
-
-    // A particle keeps the states that its type has, and takes the temperature of its vibrations from where a data file
-    // has it: the last relaxed density, or the first one that its type does not have.  Returns whether it had others
-
-    SPH_FUNCTION bool keep(int i) const
-    {
-      const int nstrain = types[type[i]].nstrain;
-      const bool from_file = tvib[i] < 0.0;
-      if (from_file) {
-        tvib[i] = 0.0;
-        if (vibrates(i)) {
-          const double last = relaxed[room - 1][i];
-          tvib[i] = (last > 0.0) ? last : relaxed[nstrain][i];
-          if (tvib[i] < 0.0) tvib[i] = 0.0;
-        }
-      }
-      bool others = false;
-      for (int k = nstrain; k < room; k++) {
-        others = others || (relaxed[k][i] != 0.0 && !(from_file && vibrates(i)));
-        relaxed[k][i] = 0.0;
-      }
-      if (!vibrates(i)) {
-        others = others || tvib[i] > 0.0;
-        tvib[i] = 0.0;
-      }
-      return others;
+      States::each(*this, i, [&](auto channel, const auto &site) {
+        if constexpr (decltype(channel)::KIND == StateKind::STRAIN) {
+          double &rest = site.state();
+          if (at_rest || !(rest > 0.0)) rest = (rest < 0.0 && !at_rest) ? -rest * rho[i] : rho[i];
+        } else
+          channel.begin(site, temperature);
+      });
     }
 
     // particles that are not fluid have no state
 
     SPH_FUNCTION void forget(int i) const
     {
-      for (int k = 0; k < room; k++) relaxed[k][i] = 0.0;
-      tvib[i] = 0.0;
+      for (double *one : state)
+        if (one) one[i] = 0.0;
     }
 
-    // one time step later: ln rho_r grows by (1 - e^-a) x, and by change[k * each] for process k, nullptr: by nothing
-    // else; T_v by that of T - T_v and of the rate of T
+    // one time step later; noise[k * each] = that of the state at place k < end
 
-    SPH_FUNCTION void advance(int i, const double *change, int each) const
+    SPH_FUNCTION void advance(int i, const double *noise, std::size_t each, int end) const
     {
-      const TypeParameters &par = types[type[i]];
-      const double rate = vibrates(i) ? temperature_rate(i) : 0.0;
-      for (int k = 0; k < par.nstrain; k++)
-        relaxed[k][i] *=
-            exp_of(par.process[k].part * strain(i, k) + (change ? change[k * each] : 0.0));
-      if (vibrates(i))
-        vibration(i) +=
-            par.vibration.part * (temperature(i) - vibration(i)) + par.vibration.delay * rate;
+      const double rate = numbers(i).read_rate() ? temperature_rate(i) : 0.0;
+      States::each(*this, i, [&](auto channel, const auto &site) {
+        channel.advance(site, rate, (site.slot < end) ? noise[site.slot * each] : 0.0);
+      });
+    }
+
+    // pressure; energy, and its part that is elastic; energy per time that becomes heat, added to that of channels
+
+    SPH_FUNCTION double pressure(int i) const
+    {
+      double sum = 0.0;
+      States::each(*this, i, [&](auto channel, const auto &site) {
+        sum += channel.pressure(site);
+      });
+      return rho[i] * sum;
+    }
+    SPH_FUNCTION double energy(int i, bool elastic = false) const
+    {
+      double sum = 0.0;
+      States::each(*this, i, [&](auto channel, const auto &site) {
+        if (!elastic || channel.KIND == StateKind::STRAIN) sum += channel.energy(site);
+      });
+      return sum;
+    }
+    void add_heat(int i, double *heat) const
+    {
+      States::each(*this, i, [&](auto channel, const auto &site) {
+        typedef States::Owner<decltype(channel)> Owner;
+        heat[Channels::place<Owner>()] += rmass[i] * channel.heat(site);
+      });
     }
 
     // rate of the temperature at constant states: of what the rate of the internal energy leaves besides the energy
@@ -199,50 +117,13 @@ namespace SPHDissipation {
       return (desph[i] / rmass[i] - p * drho[i] / (rho[i] * rho[i])) / par.heat_capacity;
     }
 
-    // m g phi x^2/2 of all strains
-
-    SPH_FUNCTION double energy(int i) const
-    {
-      const TypeParameters &par = types[type[i]];
-      double sum = 0.0;
-      for (int k = 0; k < par.nstrain; k++) {
-        const double x = strain(i, k);
-        sum += par.process[k].stiffness * x * x;
-      }
-      return 0.5 * rmass[i] * sum;
-    }
-
-    // energy per time that becomes heat, V p^2/kappa_r of all strains; of the vibrations T times the rate of entropy,
-    // m cvib/tau_v (T - T_v)^2/T_v
-
-    SPH_FUNCTION double heat(int i) const
-    {
-      const TypeParameters &par = types[type[i]];
-      double sum = 0.0;
-      for (int k = 0; k < par.nstrain; k++) {
-        const double p = par.process[k].stiffness * strain(i, k);
-        sum += p * p * par.process[k].fluidity;
-      }
-      if (vibrates(i) && vibration(i) > 0.0) {
-        const double difference = temperature(i) - vibration(i);
-        sum += par.vibration.heat_capacity * par.vibration.rate * difference * difference /
-            vibration(i);
-      }
-      return rmass[i] * sum;
-    }
-
-    // what the internal energy has beyond that of the equation of state without heat, of the strains, of the
-    // vibrations, and of walls
+    // what the internal energy has beyond that of the equation of state without heat, of the states, and of walls
 
     SPH_FUNCTION double thermal_energy(int i) const
     {
       return esph[i] - held(i) - rmass[i] * elastic_energy(eos, types[type[i]].eos, rho[i]);
     }
-    SPH_FUNCTION double held(int i) const
-    {
-      const double own = energy(i) + vibrational_energy(i);
-      return by_walls ? own + by_walls[i] : own;
-    }
+    SPH_FUNCTION double held(int i) const { return by_walls ? energy(i) + by_walls[i] : energy(i); }
 
     // temperature, 0 without heat capacity; the internal energy at a temperature
 
@@ -280,8 +161,8 @@ namespace SPHDissipation {
     double *rho, *drho, *vfrac;
     double *desph;    // zero when the step begins
 
-    StrainRows strains;
-    double *strain_pressure;      // of relaxing processes; read if there are any
+    StateRows states;
+    double *state_pressure;       // read if there are states
     Conductor *conductor;         // if any type conducts heat
     double *rho_sum = nullptr;    // see Fields; with density continuity
 
@@ -367,19 +248,18 @@ namespace SPHDissipation {
       return types[type[i]].zeta;
     }
 
-    // Pressure of the relaxing processes of an owned particle, of its density; at_rest: they have relaxed.
+    // Pressure of the states of an owned particle, of its density; at_rest: strains are zero.
     // not_fluid = bits of the groups of particles of walls and open zones
 
-    SPH_FUNCTION void set_strain_pressure(int i, int not_fluid, bool at_rest) const
+    SPH_FUNCTION void set_state_pressure(int i, int not_fluid, bool at_rest) const
     {
-      strain_pressure[i] = 0.0;
+      state_pressure[i] = 0.0;
       if (!is_fluid(i, not_fluid)) return;
-      if (at_rest) strains.relax(i);
-      strains.begin(i);
-      strain_pressure[i] = strains.pressure(i);
-      if (!par.thermal_pressure) return;    // heat is what strains and vibrations do not have
-      const double held = strains.energy(i) + strains.vibrational_energy(i);
-      strain_pressure[i] -= thermal_pressure(types[type[i]].eos, rho[i], held / rmass[i]);
+      states.begin(i, -1.0, at_rest);
+      state_pressure[i] = states.pressure(i);
+      if (!par.thermal_pressure) return;    // heat is what states do not have
+      const double held = states.energy(i);
+      state_pressure[i] -= thermal_pressure(types[type[i]].eos, rho[i], held / rmass[i]);
     }
 
     // The internal energy of an owned particle, which lacks the work of its pressure over this time, gets it.  The
@@ -392,7 +272,7 @@ namespace SPHDissipation {
       const double shrinks = time * particle[i].vol * density[i].cdot / density[i].c;
       const double by_mass = 1.0 / rmass[i];
       double p = pressure(par.eos, eos, rho[i], esph[i] * by_mass);
-      if (par.nprocess) p += strain_pressure[i];
+      if (par.states) p += state_pressure[i];
       esph[i] += shrinks * p / (1.0 - shrinks * thermal_pressure(eos, rho[i], by_mass));
     }
 
@@ -401,7 +281,7 @@ namespace SPHDissipation {
 
     SPH_FUNCTION void set_temperature(int i) const
     {
-      conductor[i].temperature = strains.temperature(i);
+      conductor[i].temperature = states.temperature(i);
     }
     SPH_FUNCTION void set_conductor(int i, int not_fluid) const
     {
@@ -416,7 +296,7 @@ namespace SPHDissipation {
     SPH_FUNCTION double total_pressure(int i) const
     {
       const double p = pressure(par.eos, types[type[i]].eos, rho[i], esph[i] / rmass[i]);
-      return par.nprocess ? p + strain_pressure[i] : p;
+      return par.states ? p + state_pressure[i] : p;
     }
 
     // work per time of that pressure on the particle: what heat adds to it, and all else, which becomes elastic energy
@@ -429,7 +309,7 @@ namespace SPHDissipation {
     {
       const double rate = particle[i].vol * density[i].cdot / density[i].c;
       const double thermal =
-          thermal_pressure(types[type[i]].eos, rho[i], strains.thermal_energy(i) / rmass[i]);
+          thermal_pressure(types[type[i]].eos, rho[i], states.thermal_energy(i) / rmass[i]);
       return {thermal * rate, (total_pressure(i) - thermal) * rate};
     }
 

@@ -24,6 +24,7 @@
 #include "sph_dissipation_create.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_model.h"
 #include "sph_dissipation_particle_terms.h"
 #include "update.h"
 
@@ -388,9 +389,8 @@ Lump RefineEvent::lump(int i) const
   one.energy = atom->esph[i];
   one.energy_rate = fields->desph_before[i];
   const double rho = atom->rho[i] + update->dt * atom->drho[i];    // at the end of the step
-  for (int k = 0; k < fields->nprocess; k++)
-    one.relaxing[k] = StrainRows::strain_at(rho, fields->rho_relaxed[k][i]);
-  if (fields->nprocess) one.relaxing[MOST_PROCESSES] = fields->tvib[i];
+  for (int slot : fields->slots)
+    one.state[slot] = handed_on(States::info(slot).kind, fields->state[slot][i], rho);
   std::copy_n(atom->x[i], 3, one.x);
   std::copy_n(atom->v[i], 3, one.u);
   std::copy_n(atom->vest[i], 3, one.u_end);
@@ -423,12 +423,12 @@ void RefineEvent::set_lump(int i, const Lump &one)
    Set the states of a particle that has split or merged, whose density changes with that.
 ------------------------------------------------------------------------- */
 
-void RefineEvent::set_relaxing(int i, const Lump &one)
+void RefineEvent::set_states(int i, const Lump &one)
 {
-  for (int k = 0; k < fields->nprocess; k++)
-    if (fields->rho_relaxed[k][i] != 0.0)    // its type has this process
-      fields->rho_relaxed[k][i] = StrainRows::state_of(one.relaxing[k]);
-  if (fields->nprocess) fields->tvib[i] = one.relaxing[MOST_PROCESSES];
+  for (int slot : fields->slots) {
+    double &state = fields->state[slot][i];
+    state = taken_over(States::info(slot).kind, state, one.state[slot]);
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -605,7 +605,7 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
     }
     whole.energy += force->mvv2e * (one.heat - residual.work(one.i));
     set_lump(one.i, whole);
-    set_relaxing(one.i, whole);
+    set_states(one.i, whole);
     atom->rho[one.i] = whole.mass / one.volume;
     balance.count(1.0, whole);
     balance.merged(force->mvv2e * one.heat);
@@ -663,7 +663,7 @@ void RefineEvent::create(const std::vector<tagint> &first, const Changed &change
     for (int m = 0; m < n; m++) {
       const int j = (m == 0) ? i : create_copy(lmp, i, first[k] + m - 1, atom->x[i]);
       set_lump(j, daughters[m]);
-      set_relaxing(j, daughters[m]);
+      set_states(j, daughters[m]);
       balance.count(1.0, daughters[m]);
       changed(j, family);
     }

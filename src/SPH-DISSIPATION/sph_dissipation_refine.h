@@ -204,7 +204,7 @@ namespace SPHDissipation {
 
     Lump lump(int i) const;
     void set_lump(int i, const Lump &);
-    void set_relaxing(int i, const Lump &);
+    void set_states(int i, const Lump &);
     bool merging(int i) const;
     bool families() const;    // all daughters of one split can merge as a whole
     bool find_stencil(NeighList *full, int i, Stencil &) const;

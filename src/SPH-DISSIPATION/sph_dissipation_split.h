@@ -126,8 +126,7 @@ namespace SPHDissipation {
     double inertia = 0.0;    // per mass
     double energy = 0.0;     // internal, and its rate
     double energy_rate = 0.0;
-    double relaxing[MOST_PROCESSES + 1] =
-        {};    // strains; the last one, temperature of the vibrations
+    double state[States::MOST] = {};    // handed on, see handed_on()
     double x[3] = {};
     double u[3] = {}, spin[3] = {};
     double u_end[3] = {}, spin_end[3] = {};
@@ -195,6 +194,8 @@ namespace SPHDissipation {
       one.energy = parent.energy / stencil.n;
       one.energy_rate = parent.energy_rate / stencil.n;
       one.inertia = inertia;
+      for (int l = 0; l < States::MOST; l++)
+        if (States::info(l).kind == StateKind::EXTENSIVE) one.state[l] /= stencil.n;
       for (int d = 0; d < 3; d++) one.x[d] += stencil.d[k][d];
       if (!rotate) continue;
       add_cross(1.0, parent.spin, stencil.d[k], one.u);
@@ -249,8 +250,10 @@ namespace SPHDissipation {
       whole.energy_rate += parts[k].energy_rate;
     }
     for (int k = 0; k < n; k++)
-      for (int l = 0; l <= MOST_PROCESSES; l++)
-        whole.relaxing[l] += parts[k].mass / whole.mass * parts[k].relaxing[l];
+      for (int l = 0; l < States::MOST; l++)
+        whole.state[l] += States::info(l).kind == StateKind::EXTENSIVE
+            ? parts[k].state[l]
+            : parts[k].mass / whole.mass * parts[k].state[l];
 
     // relative to one of the parts, for the sake of round-off
 

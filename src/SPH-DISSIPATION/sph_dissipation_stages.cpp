@@ -54,34 +54,34 @@ void DensityStage::sum(NeighList *list, double **vest, double **omegaest, int no
 void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool at_rest,
                        double missing, int not_fluid)
 {
-  const bool relaxes = engine.parameters().nprocess;
+  const bool states = engine.parameters().states;
   const bool completes = engine.parameters().own_temperatures;
   const bool conducts = engine.parameters().conducts && !completes;
-  if (!relaxes && !conducts && !completes) return run(list, vest, omegaest, not_fluid);
+  if (!states && !conducts && !completes) return run(list, vest, omegaest, not_fluid);
   sum(list, vest, omegaest, not_fluid);
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal, [&](int i) {
     rows.set_density(i);
-    if (relaxes) rows.set_strain_pressure(i, not_fluid, at_rest);
+    if (states) rows.set_state_pressure(i, not_fluid, at_rest);
     if (completes) rows.complete_energy(i, missing, not_fluid);
     if (!conducts) return;
     rows.set_temperature(i);
     rows.set_conductor(i, not_fluid);
   });
-  send(relaxes, conducts, not_fluid, atom->nlocal);
+  send(states, conducts, not_fluid, atom->nlocal);
 }
 
 /* ----------------------------------------------------------------------
    what owned particles have to ghosts; then the densities of all but the first ones, which have theirs
 ------------------------------------------------------------------------- */
 
-void DensityStage::send(bool with_strain, bool with_temperature, int not_fluid, int first)
+void DensityStage::send(bool with_states, bool with_temperature, int not_fluid, int first)
 {
   const int energy = engine.parameters().thermal_pressure ? 1 : 0;    // of ghosts, for it
   Conductor *const conductor = engine.conductor.data();
   exchange.forward({field(engine.density, &engine.density->c, 2),
                     {engine.rows().esph, 1, energy},
-                    {engine.strain_pressure, 1, with_strain ? 1 : 0},
+                    {engine.state_pressure, 1, with_states ? 1 : 0},
                     field(conductor, with_temperature ? &conductor->temperature : nullptr,
                           with_temperature ? 1 : 0)});
   const ParticleRows &rows = engine.rows();
@@ -184,13 +184,13 @@ void PressureStage::set_bulk_term(const double *bound, int not_fluid) const
 double PressureStage::elastic_energy(double *each_atom, int not_fluid) const
 {
   const Parameters &par = engine.parameters();
-  const StrainRows strains = engine.strains();
+  const StateRows states = engine.states();
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid)) continue;
     double energy = atom->rmass[i] *
         SPHDissipation::elastic_energy(par.eos, par.type[atom->type[i]].eos, atom->rho[i]);
-    if (par.nprocess) energy += strains.energy(i);
+    if (par.states) energy += states.energy(i, true);
     total += energy;
     if (each_atom) each_atom[i] += energy;
   }
@@ -199,40 +199,39 @@ double PressureStage::elastic_energy(double *each_atom, int not_fluid) const
 
 /* ---------------------------------------------------------------------- */
 
-void RelaxStage::advance(int not_fluid, const double *change) const
+void StateStage::advance(int not_fluid, const std::vector<double> &noise) const
 {
-  const StrainRows strains = engine.strains();
+  const StateRows states = engine.states();
   const Parameters &par = engine.parameters();
-  const int nlocal = atom->nlocal;
+  const int nlocal = atom->nlocal, end = nlocal ? noise.size() / nlocal : 0;
   engine.for_each(nlocal, [&](int i) {
     if (par.type[atom->type[i]].other || (atom->mask[i] & not_fluid))
-      strains.forget(i);
+      states.forget(i);
     else
-      strains.advance(i, change ? change + i : nullptr, nlocal);
+      states.advance(i, noise.data() + i, nlocal, end);
   });
 }
 
 /* ---------------------------------------------------------------------- */
 
-bigint RelaxStage::keep() const
+bigint StateStage::keep() const
 {
-  const StrainRows strains = engine.strains();
+  const StateRows states = engine.states();
   bigint mine = 0, all;
   for (int i = 0; i < atom->nlocal; i++)
-    if (strains.keep(i)) mine++;
+    if (States::keep(states, i)) mine++;
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   return all;
 }
 
 /* ---------------------------------------------------------------------- */
 
-double RelaxStage::energy(int groupbits, int not_fluid) const
+double StateStage::energy(int groupbits, int not_fluid) const
 {
-  const StrainRows strains = engine.strains();
+  const StateRows states = engine.states();
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbits) && !(atom->mask[i] & not_fluid))
-      total += strains.energy(i) + strains.vibrational_energy(i);
+    if ((atom->mask[i] & groupbits) && !(atom->mask[i] & not_fluid)) total += states.energy(i);
   return total;
 }
 
@@ -490,7 +489,7 @@ void ForceStage::add_drag_heat(int i, double *channel) const
 void ForceStage::heating(double *heat, double *power, int not_fluid) const
 {
   std::fill(power, power + NCHANNEL, 0.0);
-  const StrainRows strains = engine.strains();
+  const StateRows states = engine.states();
   const int n = nforce();
   for (int i = 0; i < n; i++) {
     if (heat) heat[i] = 0.0;
@@ -500,7 +499,7 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
     engine.side.add_heat(i, channel);
     if (i < atom->nlocal) {
       add_drag_heat(i, channel);
-      channel[Channels::place<RelaxChannel>()] = strains.heat(i);
+      states.add_heat(i, channel);
     }
     for (int k = 0; k < NCHANNEL; k++) {
       if (heat) heat[i] += channel[k];

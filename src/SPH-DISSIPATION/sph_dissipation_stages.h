@@ -62,7 +62,7 @@ namespace SPHDissipation {
 
     void run(NeighList *, double **vest, double **omegaest, int not_fluid);
 
-    // for forces, with the pressure of relaxing processes: at_rest, they have relaxed; with the temperatures that
+    // for forces, with the pressure of states: at_rest, strains are zero; with the temperatures that
     // conduction needs; and, where particles have the noise of their temperatures, with the internal energies at the end
     // of the step, which lack the work of the pressure over this time.  not_fluid = bits of the groups of particles of
     // walls and open zones
@@ -72,7 +72,7 @@ namespace SPHDissipation {
 
    private:
     void sum(NeighList *, double **vest, double **omegaest, int not_fluid);
-    void send(bool with_strain, bool with_temperature, int not_fluid, int first);
+    void send(bool with_states, bool with_temperature, int not_fluid, int first);
   };
 
   // How negative the coefficient of the bulk term of a particle may be:
@@ -111,26 +111,26 @@ namespace SPHDissipation {
 
     void set_bulk_term(const double *bound, int not_fluid) const;
 
-    // elastic energy of owned particles, with that of relaxing strains; each_atom = what it is added to, or nullptr
+    // elastic energy of owned particles, with that of their strains; each_atom = what it is added to, or nullptr
 
     double elastic_energy(double *each_atom, int not_fluid) const;
   };
 
-  // The state of relaxing processes: see RelaxChannel
+  // The states of particles: see StateList
 
-  class RelaxStage : public Stage {
+  class StateStage : public Stage {
    public:
     using Stage::Stage;
 
-    // Advance it by the time step for which the parameters hold, from the last forces; not_fluid as above.  Of
-    // thermal noise, nullptr without: change[k * nlocal + i] of ln rho_r of process k
+    // Advance them by the time step for which the parameters hold, from the last forces; not_fluid as above.
+    // noise[k * nlocal + i] = thermal noise of the state at place k
 
-    void advance(int not_fluid, const double *change) const;
+    void advance(int not_fluid, const std::vector<double> &noise) const;
 
     // owned particles keep the states that their types have; returns how many particles, of all processors, had others
     bigint keep() const;
 
-    // energy of the strains and vibrations of owned particles of these groups, not_fluid as above
+    // energy that they hold, of owned particles of these groups, not_fluid as above
 
     double energy(int groupbits, int not_fluid) const;
   };

@@ -104,7 +104,7 @@ void FluidState::add_up()
   const int n = (atom->ntypes + 1) * NSET;
   std::vector<Mean> my_means(n, {0.0, 0.0, 0.0, 0.0});
   std::vector<Range> my_ranges(n, {FAR, FAR});
-  const StrainRows strains = engine.strains();
+  const StateRows states = engine.states();
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & group) || (atom->mask[i] & not_fluid)) continue;
@@ -112,9 +112,9 @@ void FluidState::add_up()
     if (model.coeffs[type].other) continue;
     const EosParams &eos = model.coeffs[type].eos;
     const double excess = atom->rho[i] / eos.rho0 - 1.0;
-    const double energy = atom->esph[i] - strains.energy(i) - strains.vibrational_energy(i);
-    const double p = pressure(model.choice.eos, eos, atom->rho[i], energy / atom->rmass[i]) +
-        strains.pressure(i);
+    const double energy = atom->esph[i] - states.energy(i);
+    const double p =
+        pressure(model.choice.eos, eos, atom->rho[i], energy / atom->rmass[i]) + states.pressure(i);
     for (int set = ALL; set <= (full[i] > 0.0 ? FULL : ALL); set++) {
       Mean &mean = my_means[type * NSET + set];
       mean.count += 1.0;
@@ -173,9 +173,9 @@ double FluidState::scale_masses(std::vector<double> &factor, int also) const
     if ((atom->mask[i] & also) || ((atom->mask[i] & group) && !(atom->mask[i] & not_fluid))) {
       const double one = next[atom->type[i]];
       atom->rmass[i] *= one;
-      const int nstrain = engine.parameters().type[atom->type[i]].nstrain;
-      for (int k = 0; k < nstrain && i < atom->nlocal; k++)    // of the same strain
-        if (fields->rho_relaxed[k][i] > 0.0) fields->rho_relaxed[k][i] *= one;
+      if (i >= atom->nlocal) continue;
+      for (int slot : fields->slots)
+        fields->state[slot][i] = rescaled(States::info(slot).kind, fields->state[slot][i], one);
     }
   return largest;
 }

@@ -52,8 +52,8 @@ namespace SPHDissipation {
     return (speed > 0.0) ? ACOUSTIC * h / speed : UNLIMITED_STEP;
   }
 
-  // The same for a speed that grows as the step gets shorter: by extra(dt), which falls with dt, as with relaxing
-  // processes, which are stiff for steps below their times
+  // The same for a speed that grows as the step gets shorter: by extra(dt), which falls with dt, as with states,
+  // which are stiff for steps below their times
 
   template <class Extra> double acoustic_step(double h, double speed, Extra &&extra)
   {

@@ -81,6 +81,16 @@ def test_no_cycle():
         visit(stem, [])
 
 
+def test_a_state_is_one_file():
+    """The header of its channel: no other source file names it."""
+    states = {name: header.name for header in SOURCES.glob("sph_dissipation_channel_*.h")
+              for name in re.findall(r'FIELD = "(\w+)"', header.read_text())}
+    assert set(states) >= {"rho_relaxed", "tvib"}
+    texts = {path: path.read_text() for path in (ROOT / "src").rglob("*") if path.suffix in (".h", ".cpp")}
+    for name, header in states.items():
+        assert [path.name for path, text in texts.items() if name in text] == [header]
+
+
 def walks():
     """The stations (file, names) of each walk, from the tables of the section "A stranger's walk"."""
     section = re.search(r"^A stranger's walk\n-+\n(.*?)^[^\n]+\n-{3,}\n", PAGE.read_text(), re.M | re.S)[1]

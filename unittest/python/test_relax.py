@@ -304,7 +304,7 @@ def test_short_relaxation_is_a_constant_viscosity(lammps):
             u, _ = wave.run(state, processes, timestep, 40 * every, every, kappa=constant)
             found.append(fitted(u[2:], every * timestep))
             assert found[-1] == pytest.approx(root, rel=1e-7)
-        warned = [any("relaxation time 1e-05 of type 1 is far below the time step" in line for line in result.warnings) for result in lammps.results[-2:]]
+        warned = [any("time 1e-05 of relax of type 1 is far below the time step" in line for line in result.warnings) for result in lammps.results[-2:]]
         assert warned == [True, False]
         errors.append(found[0].real / exact.real - 1.0)
         differences.append(found[0].real / found[1].real - 1.0)
@@ -518,11 +518,11 @@ def test_sudden_compression_at_rest(lammps, a):
 
 
 def test_strain_that_is_set_and_read(lammps):
-    """The property by its name: 0 and negative numbers become densities with the next forces, positive ones are densities."""
+    """The property by its name, with and without d_: 0 and negative numbers become densities with the next forces, positive ones are densities."""
     particles = disordered(2, 8)
     text = start(lammps, particles, fluid(2, keywords="relax 3.0 0.5 1.0 0.1"), count=2)
     text += ("set atom 1 d_rho_relaxed1 1.5\nset atom 2 d_rho_relaxed2 -0.9\nset atom 3 d_rho_relaxed1 0.0\n"
-             + dump("out.dump", 1, columns(2)) + "compute R all property/atom d_rho_relaxed1 d_rho_relaxed2\n"
+             + dump("out.dump", 1, columns(2)) + "compute R all property/atom d_rho_relaxed1 rho_relaxed2\n"
              "compute S all reduce sum c_R[*]\nthermo_style custom step c_S[*]\n" + FULL + "run 0\n")
     table = lammps(text).thermo()[0]
     frame = lammps.frame("out.dump")
@@ -754,8 +754,8 @@ def test_warning_of_a_short_relaxation_time(lammps):
     particles = lattice(2, 8)
     for tau, warned in ((4.9e-6, 1), (5.1e-6, 0)):
         text = start(lammps, particles, fluid(2, keywords=f"relax 1.0 0.1 0.5 {tau}"), count=2)
-        warnings = [line for line in lammps(text + "run 1\nrun 1\n").warnings if "relaxation time" in line]
-        assert len(warnings) == warned and all("a kappa that is larger by 0.5 does the same" in line for line in warnings)
+        warnings = [line for line in lammps(text + "run 1\nrun 1\n").warnings if "of relax of type 1 is far below" in line]
+        assert len(warnings) == warned and all("a kappa that is larger by its kappa_r does the same" in line for line in warnings)
 
 
 @pytest.mark.parametrize("fixes", ["fix FLUID one sph/bulk\nfix OTHER two sph/bulk\n", "fix FLUID one sph/bulk\n",
@@ -915,7 +915,7 @@ MISSING = "Illegal pair_coeff relax command: missing argument"
     (f"{GOOD} 2.0", ODD), (f"{GOOD} 2.0 0.1 3.0", ODD), (f"{GOOD} 2.0 pb 1.0", ODD), (GOOD + 9 * " 2.0 0.1", "relax has more than 8 groups of numbers"),
     (f"{GOOD} 1 1 1 1 1 1 1 1 relax 1 1 1 1 1 1 1 1 1 1", "relax has more than 8 groups of numbers"), (f"{GOOD} nan 0.1", "relax|nan"), (f"{GOOD} 1e999 0.1", "1e999.*out of range"),
     (f"{GOOD} 2.0 0.1 x", "Unknown pair_coeff keyword for pair_style sph/bulk: x"),
-    (f"{GOOD} 1 1 2 2 3 3", "the relaxing processes of type 1 are 3, but particles have room for 2; use atom_style sph/bulk relax 3"),
+    (f"{GOOD} 1 1 2 2 3 3", "the states of relax of type 1 are 3, but particles have room for 2; use atom_style sph/bulk relax 3"),
     ("pair_coeff 1 2 relax 2.0 0.1", "Pair_coeff keyword relax belongs to a type, not to a pair of types"),
 ])
 def test_bad_coefficients(lammps, line, message):
@@ -931,7 +931,7 @@ def test_no_room(lammps):
     particles = disordered(2, 6)
     particles.write(lammps.path("box.data"))
     result = lammps(header(2) + f"read_data box.data\npair_style sph/bulk\n{GOOD} 2.0 0.1\nfix 1 all sph/bulk\nrun 0\n", check=False)
-    assert result.code and "the relaxing processes of type 1 are 1, but particles have room for 0; use atom_style sph/bulk relax 1" in result.error
+    assert result.code and "the states of relax of type 1 are 1, but particles have room for 0; use atom_style sph/bulk relax 1" in result.error
     result = lammps(room(2) + "read_data box.data\n", check=False)
     assert result.code and "Incorrect format in Atoms section of data file" in result.error
 

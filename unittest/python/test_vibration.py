@@ -456,7 +456,7 @@ POSITIVE = "vibration must have cvib > 0 and tau_v > 0, not "
     (f"{PAIR}", "Illegal pair_coeff vibration command: missing argument"), (f"{PAIR} 1.0 1.0 2.0 2.0", "vibration has more than 1 groups"),
     (f"{PAIR} 1.0 1.0 vibration 1.0 1.0", "vibration has more than 1 groups"),
     (f"{PAIR} 1.0 0.1".replace("cv 1.0", ""), "Pair_coeff vibration of type 1 needs its heat capacity, keyword cv"),
-    (f"{PAIR} 1.0 0.1 relax 1.0 1.0", "the relaxing processes of type 1 are 2, but particles have room for 1; use atom_style sph/bulk relax 2"),
+    (f"{PAIR} 1.0 0.1 relax 1.0 1.0", "the states of relax of type 1 are 2, but particles have room for 1; use atom_style sph/bulk relax 2"),
     ("pair_coeff 1 1 vibration 2.0 0.1", "belongs to a type")])
 def test_bad_coefficients(lammps, line, message):
     write(lammps, disordered(2, 6))

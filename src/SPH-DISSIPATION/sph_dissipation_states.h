@@ -1,0 +1,269 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_STATES_H
+#define LMP_SPH_DISSIPATION_STATES_H
+
+// The states of a particle: numbers that channels keep of it from one step to the next.  A channel that has some derives
+// from BaseState as well; StateList has all of them, and all other code goes through it.  Forces only read states; the
+// integrator advances them at the beginning of a step.  No LAMMPS include.
+
+#include "sph_dissipation_function.h"
+
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // what becomes of a state where particles split, merge, or get another mass
+  enum class StateKind {
+    STRAIN,    // a density at rest, mass/length^n: the strain ln(rho/state) stays, and is merged by mass
+    PER_MASS,    // it stays, and is merged by mass
+    EXTENSIVE    // it is shared, added up, and goes with the mass
+  };
+
+  // ln(a/b) and e^x where a/b and e^x are mostly near 1: then by their series to rounding errors, without a call
+
+  SPH_FUNCTION double log_of_ratio(double a, double b)
+  {
+    const double q = (a - b) / (a + b), s = q * q;
+    if (!(s < 1.0e-4)) return std::log(a / b);
+    return 2.0 * q * (1.0 + s * (1.0 / 3.0 + s * (1.0 / 5.0 + s * (1.0 / 7.0 + s * (1.0 / 9.0)))));
+  }
+
+  SPH_FUNCTION double exp_of(double x)
+  {
+    if (!(std::fabs(x) < 0.01)) return std::exp(x);
+    const double far = 1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0));
+    return 1.0 + x * (1.0 + x * (1.0 / 2.0 + x * (1.0 / 6.0 + x * far)));
+  }
+
+  // strain at a density, of the density at rest
+
+  SPH_FUNCTION double strain_at(double density, double rest)
+  {
+    return (rest > 0.0 && density > 0.0) ? log_of_ratio(density, rest) : 0.0;
+  }
+
+  // A state of a particle as its channel sees it: own = its numbers in a time step, rows = StateRows
+
+  template <class Rows, class Channel> struct Site {
+    const Rows &rows;
+    int i, slot;    // particle; place of the state among all
+    const typename Channel::Numbers &own;
+
+    SPH_FUNCTION double &state() const { return rows.state[slot][i]; }
+    SPH_FUNCTION double strain() const { return strain_at(rho(), state()); }
+    SPH_FUNCTION double mass() const { return rows.rmass[i]; }
+    SPH_FUNCTION double rho() const { return rows.rho[i]; }
+  };
+
+  // Defaults for what a state does not have.  Its channel says FIELD, the name of the custom property, with a number
+  // behind it if MOST > 1; KEYWORD or Room; and count(type), how many of its states a type has, of which
+  // process(type, k, rho0, cv, dt) returns the Numbers of state k in a time step.
+
+  struct BaseState {
+    static constexpr int MOST = 1;    // of a particle
+    static constexpr StateKind KIND = StateKind::PER_MASS;
+    // The keyword of the atom style that makes room, with a number N if MOST > 1.  Or the channel, earlier in the list, whose
+    // keyword does; data files then have the state in the last of the N columns of that one.
+    static constexpr const char *KEYWORD = nullptr;
+    using Room = void;
+    static constexpr bool GHOSTS = false;        // ghosts have it
+    static constexpr bool READS_RATE = false;    // advance() reads the rate of the temperature
+    // what does the same as a state whose time(type, k) is far below the time step; nullptr: nothing does
+    static constexpr const char *INSTEAD = nullptr;
+
+    // pressure over density; energy, elastic for StateKind::STRAIN; heat per mass that it turns into, per time
+    template <class Site> SPH_FUNCTION static double pressure(const Site &) { return 0.0; }
+    template <class Site> SPH_FUNCTION static double energy(const Site &) { return 0.0; }
+    template <class Site> SPH_FUNCTION static double heat(const Site &) { return 0.0; }
+    // Set the state of a particle that may be new, with state 0; not called for StateKind::STRAIN.  temperature = the one
+    // that the particle gets; negative: it has its internal energy already
+    template <class Site> SPH_FUNCTION static void begin(const Site &, double) {}
+    // one time step later; rate of the temperature at constant states; noise = of strength noise(), or 0
+    template <class Site> SPH_FUNCTION static void advance(const Site &, double, double) {}
+    template <class Numbers> static double noise(const Numbers &)
+    {
+      return 0.0;
+    }    // of sqrt(kB T/m) xi
+    // what all states of a type add to the square of the speed of sound in a time step
+    static double stiffness(const double *, double, double) { return 0.0; }
+  };
+
+  // of a channel, of a type in a time step
+  template <class Channel> struct Slots {
+    int count = 0;
+    typename Channel::Numbers of[Channel::MOST] = {};
+  };
+
+  // the states of a channel as data, for code that is not about what they do
+  struct StateInfo {
+    const char *field, *keyword;
+    StateKind kind;
+    int first, most;    // places of its states
+    int owner;          // first place of the channel whose keyword makes room
+    bool ghosts;
+    bool has_column() const { return owner == first; }    // of its own in data files
+  };
+
+  template <class... One> struct StateList {
+    static constexpr int MOST = (One::MOST + ...);    // states of a particle
+
+    struct Numbers : Slots<One>... {
+      SPH_FUNCTION bool any() const { return ((Slots<One>::count > 0) || ...); }
+      SPH_FUNCTION bool read_rate() const
+      {
+        return ((One::READS_RATE && Slots<One>::count > 0) || ...);
+      }
+    };
+
+    // place of the first state of a channel
+    template <class Channel> SPH_FUNCTION static constexpr int first()
+    {
+      int before = 0;
+      bool found = false;
+      ((found = found || std::is_same<One, Channel>::value, before += found ? 0 : One::MOST), ...);
+      return before;
+    }
+    template <class Channel>
+    using Owner = std::conditional_t<std::is_void<typename Channel::Room>::value, Channel,
+                                     typename Channel::Room>;
+
+    static const auto &table()
+    {
+      static constexpr std::array<StateInfo, sizeof...(One)> infos = {
+          {{One::FIELD, One::KEYWORD, One::KIND, first<One>(), One::MOST, first<Owner<One>>(),
+            One::GHOSTS}...}};
+      return infos;
+    }
+    static const StateInfo &info(int slot)
+    {
+      int k = 0;
+      while (slot >= table()[k].first + table()[k].most) k++;
+      return table()[k];
+    }
+
+    // call function(channel) of each channel; function(channel, site) of each state that a particle has
+    template <class Function> static void visit(Function &&function) { (function(One()), ...); }
+    template <class Rows, class Function>
+    SPH_FUNCTION static void each(const Rows &rows, int i, Function &&function)
+    {
+      (each_of<One>(rows.numbers(i), rows, i, function), ...);
+    }
+
+    template <class Coeffs>
+    static Numbers numbers(const Coeffs &type, double rho0, double cv, double dt)
+    {
+      Numbers result;
+      (set(type, rho0, cv, dt, static_cast<Slots<One> &>(result)), ...);
+      return result;
+    }
+    // how many states of a channel a type has
+    template <class Channel, class Coeffs> static int count(Channel, const Coeffs &type)
+    {
+      return Channel::count(type.template of<Channel>());
+    }
+    template <class Coeffs> static double stiffness(const Coeffs &type, double rho0, double dt)
+    {
+      return (One::stiffness(type.template of<One>(), rho0, dt) + ...);
+    }
+    // strength of the noise of the state at a place
+    static double noise(const Numbers &numbers, int slot)
+    {
+      return (noise_of<One>(numbers, slot - first<One>()) + ...);
+    }
+
+    // Drop the states that the type of a particle does not have; return whether there were any.  One that is -1, from a
+    // data file, is in the column of another one: in the last one that is > 0 and that its type does not need.
+    template <class Rows> static bool keep(const Rows &rows, int i)
+    {
+      bool others = false;
+      double spare = 0.0;
+      (keep_of<One>(rows.numbers(i), rows, i, spare, others), ...);
+      return others;
+    }
+
+   private:
+    template <class Channel, class Rows, class Function>
+    SPH_FUNCTION static void each_of(const Slots<Channel> &own, const Rows &rows, int i,
+                                     Function &&function)
+    {
+      for (int k = 0; k < own.count; k++)
+        function(Channel(), Site<Rows, Channel>{rows, i, first<Channel>() + k, own.of[k]});
+    }
+    template <class Channel, class Coeffs>
+    static void set(const Coeffs &type, double rho0, double cv, double dt, Slots<Channel> &own)
+    {
+      const double *const words = type.template of<Channel>();
+      own.count = Channel::count(words);
+      for (int k = 0; k < own.count; k++) own.of[k] = Channel::process(words, k, rho0, cv, dt);
+    }
+    template <class Channel> static double noise_of(const Slots<Channel> &own, int k)
+    {
+      return (k >= 0 && k < own.count) ? Channel::noise(own.of[k]) : 0.0;
+    }
+    template <class Channel, class Rows>
+    static void keep_of(const Slots<Channel> &own, const Rows &rows, int i, double &spare,
+                        bool &others)
+    {
+      double *const *const state = rows.state + first<Channel>();
+      if (!std::is_void<typename Channel::Room>::value && state[0] && state[0][i] < 0.0) {
+        state[0][i] = own.count ? spare : 0.0;
+        if (own.count) others = false;
+      }
+      for (int k = own.count; k < Channel::MOST && state[k]; k++) {
+        if (state[k][i] != 0.0) others = true;
+        if (state[k][i] > 0.0) spare = state[k][i];
+        state[k][i] = 0.0;
+      }
+    }
+  };
+
+  // What a particle of this density hands on of a state where it splits or merges; the state of one that gets this, as
+  // minus the factor by which a density at rest differs from the density that the next forces find; the state of one
+  // whose mass is multiplied with a factor, at the same volume
+
+  inline double handed_on(StateKind kind, double state, double rho)
+  {
+    return (kind == StateKind::STRAIN) ? strain_at(rho, state) : state;
+  }
+  inline double taken_over(StateKind kind, double state, double value)
+  {
+    if (kind != StateKind::STRAIN) return value;
+    return (state != 0.0) ? -std::exp(-value) : 0.0;    // 0: its type does not have it
+  }
+  inline double rescaled(StateKind kind, double state, double factor)
+  {
+    const bool waits = (kind == StateKind::STRAIN && state < 0.0);
+    return (waits || kind == StateKind::PER_MASS) ? state : state * factor;
+  }
+
+  // the StateList of those channels of a list that have states
+
+  template <class List, class... Rest> struct WithState {
+    typedef List type;
+  };
+  template <class... Found, class One, class... Rest>
+  struct WithState<StateList<Found...>, One, Rest...> :
+      std::conditional_t<std::is_base_of<BaseState, One>::value,
+                         WithState<StateList<Found..., One>, Rest...>,
+                         WithState<StateList<Found...>, Rest...>> {
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
