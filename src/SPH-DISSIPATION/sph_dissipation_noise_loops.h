@@ -18,7 +18,7 @@
 
 // Numbers of a pair:
 //   forms along e only: 0 = along e, 1 = back
-//   2d: 0 = along e, 1 = across e, 2 = spin, 3 = back
+//   1d, 2d: 0 = along e, 1 = across e, 2 = spin, 3 = back
 //   3d: 0 to 2 = vector
 //   3d with more, 16 bits each: 0 to 2 = vector, 3 = along e, 4 to 6 = vector of the spin, 7 = back
 // "Back" is the number of the particle with the higher ID, if each of both has its own along e, then "along e" is that

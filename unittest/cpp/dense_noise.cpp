@@ -45,7 +45,8 @@ Noise System::noise(const std::string &form, bool has_bulk, bool limited, Real k
   const bool spins = (form == "micropolar");
   const int s = (n == 3) ? 3 : 1;
   const int dof = N * n + (spins ? N * s : 0);
-  const bool across = (n > 1 && form != "mg" && form != "mg/fr" && form != "none");
+  const bool along_alone = (form == "mg" || form == "mg/fr" || form == "none");
+  const bool across = (n > 1 && !along_alone);
   std::vector<Eigen::Triplet<Real>> entries;
   Noise result;
   auto add = [&](int low, int high, int index) {
@@ -92,7 +93,7 @@ Noise System::noise(const std::string &form, bool has_bulk, bool limited, Real k
   const bool vector = (across && n == 3);
   const int base = (vector && (spins || directed)) ? NoiseNumber::HALVES : 0;
   const int first = vector ? base + 3 : 0;
-  const int last = !across ? 1 : vector ? base + 7 : 3;
+  const int last = along_alone ? 1 : vector ? base + 7 : 3;
   std::vector<std::vector<std::pair<const Pair *, int>>> own(
       N);    // pairs of i and the column of its number
   for (const auto &p : pairs) {
