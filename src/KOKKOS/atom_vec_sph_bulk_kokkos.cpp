@@ -57,8 +57,10 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
   add_own_field(VEST_MASK, k_vest, atoms.vest, {COMM, BORDER, EXCHANGE});
   add_own_field(DESPH_BEFORE_MASK, k_desph_before, desph_before, {EXCHANGE});
   add_own_field(OFFSET_MASK, k_rho_sum, rho_sum, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_rho_rate, rho_rate, {});
-  add_own_field(OFFSET_MASK, k_rho_rate_before, rho_rate_before, {EXCHANGE});
+  add_own_field(OFFSET_MASK, k_vol_rate, vol_rate, {EXCHANGE});
+  add_own_field(OFFSET_MASK, k_vol_rate_before, vol_rate_before, {EXCHANGE});
+  add_own_field(OFFSET_MASK, k_vol_heat, vol_heat, {EXCHANGE});
+  add_own_field(OFFSET_MASK, k_vol_support, vol_support, {EXCHANGE});
   if (has_spins) {
     add_field(OMEGA_MASK, atoms.k_omega, atoms.omega);
     add_field(TORQUE_MASK, atoms.k_torque, atoms.torque);

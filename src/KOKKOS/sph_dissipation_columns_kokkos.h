@@ -27,9 +27,9 @@ namespace SPHDissipation {
   // number c of particle i is at base[c][i * stride[c]]
 
   struct ColumnsKokkos {
-    // own fields that migrate: rho, esph, vest, desph_before, rho_sum, rho_rate_before, inertia, omegaest, rho_relaxed,
+    // own fields that migrate: rho, esph, vest, desph_before, rho_sum, vol_rate, vol_rate_before, vol_heat, vol_support, inertia, omegaest, rho_relaxed,
     // tvib; or a message of a stage
-    static constexpr int OWN = 1 + 1 + 3 + 1 + 1 + 1 + 1 + 3 + MOST_PROCESSES + 1;
+    static constexpr int OWN = 1 + 1 + 3 + 1 + 5 + 1 + 3 + MOST_PROCESSES + 1;
     static constexpr int MOST = (OWN > Exchange::ROOM) ? OWN : Exchange::ROOM;
     int n = 0;
     double *base[MOST];

@@ -32,7 +32,7 @@ namespace SPHDissipation {
   constexpr uint64_t INERTIA_MASK = uint64_t(1) << 56;
   constexpr uint64_t OMEGAEST_MASK = uint64_t(1) << 55;
   constexpr uint64_t RHO_RELAXED_MASK = uint64_t(1) << 54;    // of all processes
-  constexpr uint64_t OFFSET_MASK = uint64_t(1) << 53;         // rho_sum, rho_rate, rho_rate_before
+  constexpr uint64_t OFFSET_MASK = uint64_t(1) << 53;         // rho_sum, vol_rate, ...
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

@@ -18,6 +18,7 @@
 #include "memory.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_model.h"
 
 #include <algorithm>
 #include <cstring>
@@ -62,8 +63,10 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
                  "sph/micropolar has all that sph/bulk has");
   add_array("desph_before", &desph_before);
   add_array("rho_sum", &rho_sum);
-  add_array("rho_rate", &rho_rate);
-  add_array("rho_rate_before", &rho_rate_before);
+  add_array("vol_rate", &vol_rate);
+  add_array("vol_rate_before", &vol_rate_before);
+  add_array("vol_heat", &vol_heat);
+  add_array("vol_support", &vol_support);
 
   // strings with peratom variables to include in each AtomVec method
   // strings cannot contain fields in corresponding AtomVec default strings
@@ -74,14 +77,17 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
   // desph_before of restart files are those of the last step
 
   fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
-  fields_copy = {"rmass", "rho",          "drho",    "vfrac",    "esph",           "desph",
-                 "vest",  "desph_before", "rho_sum", "rho_rate", "rho_rate_before"};
+  const std::vector<std::string> kept = {"rho_sum", "vol_rate", "vol_rate_before", "vol_heat",
+                                         "vol_support"};
+  fields_copy = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest", "desph_before"};
   fields_comm = {"vest"};
   fields_comm_vel = {"vest"};
   fields_reverse = {"desph"};
   fields_border = {"rmass", "esph", "vest"};
   fields_border_vel = {"rmass", "esph", "vest"};
-  fields_exchange = {"rmass", "rho", "esph", "vest", "desph_before", "rho_sum", "rho_rate_before"};
+  fields_exchange = {"rmass", "rho", "esph", "vest", "desph_before"};
+  for (auto *list : {&fields_copy, &fields_exchange})
+    list->insert(list->end(), kept.begin(), kept.end());
   fields_restart = fields_exchange;
   fields_create = fields_copy;
   fields_data_atom = {"id", "type", "rmass", "esph", "x"};
@@ -313,7 +319,8 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
     error->one(FLERR, "Invalid density {} in Atoms section of data file: must be >= 0",
                rho[ilocal]);
   if (!density_in_files) rho[ilocal] = 0.0;
-  rho_sum[ilocal] = rho_rate_before[ilocal] = 0.0;
+  rho_sum[ilocal] = vol_rate[ilocal] = vol_rate_before[ilocal] = vol_heat[ilocal] =
+      vol_support[ilocal] = 0.0;
   unpack_restart_init(ilocal);
   desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
   if (nprocess) tvib[ilocal] = -1.0;
@@ -330,7 +337,7 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
 
 void AtomVecSPHBulk::unpack_restart_init(int ilocal)
 {
-  drho[ilocal] = vfrac[ilocal] = desph[ilocal] = rho_rate[ilocal] = 0.0;
+  drho[ilocal] = vfrac[ilocal] = desph[ilocal] = 0.0;
   if (!has_spins) return;
   for (int d = 0; d < 3; d++) atom->torque[ilocal][d] = 0.0;
 }
@@ -358,9 +365,13 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
   const int *mask = atom->mask;
   const int nlocal = atom->nlocal;
   const bool heat = (index == TSPH || index == TVIB);
+  if (index == SURFACE &&
+      !(find_fluid(lmp, "Compute property/atom surface")->model->choice.delta > 0.0))
+    error->all(FLERR,
+               "Compute property/atom surface needs a pair style with density continuity and delta "
+               "> 0");
   const std::vector<double> temperature = heat ? temperatures(index == TVIB)
                                                : std::vector<double>();
-  const std::vector<double> support = (index == SURFACE) ? supports() : std::vector<double>();
 
   for (int i = 0, n = 0; i < nlocal; i++, n += nvalues) {
     buf[n] = 0.0;
@@ -392,7 +403,7 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
         buf[n] = (rho_sum[i] > 0.0) ? (rho[i] - rho_sum[i]) / rmass[i] : 0.0;
         break;
       case SURFACE:
-        buf[n] = support[i];
+        buf[n] = vol_support[i];
         break;
       case INERTIA:
         buf[n] = inertia[i];
@@ -421,22 +432,6 @@ std::vector<double> AtomVecSPHBulk::temperatures(bool of_vibrations) const
     fluid->vibrational_temperatures(result.data());
   else
     fluid->temperatures(result.data());
-  return result;
-}
-
-/* ----------------------------------------------------------------------
-   of the last forces
-------------------------------------------------------------------------- */
-
-std::vector<double> AtomVecSPHBulk::supports() const
-{
-  const Fluid *const fluid = find_fluid(lmp, "Compute property/atom surface");
-  if (!fluid->has_surface())
-    error->all(FLERR,
-               "Compute property/atom surface needs forces of a pair style with density continuity "
-               "and delta > 0");
-  std::vector<double> result(atom->nlocal);
-  fluid->surface(result.data());
   return result;
 }
 

@@ -68,7 +68,6 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
   void add_spins();
   void check_data_line(int) const;
   std::vector<double> temperatures(bool of_vibrations) const;    // of owned particles
-  std::vector<double> supports() const;                          // the same, see DiffusionStage
 
   struct OwnArray {
     std::string name;

@@ -374,13 +374,14 @@ void FixSPHBulk::setup(int /*vflag*/)
   set_up = true;
   dt_of_forces = dtv;
   const double *const desph_before = fields().desph_before;
-  const double *const rho_before = fields().rho_rate_before;
   if (energy_extrapolated)
-    for (int i = 0; i < atom->nlocal; i++) {
-      if (!(atom->mask[i] & groupbit)) continue;
-      atom->esph[i] += desph_before[i];
-      change_density(i, rho_before[i]);
-    }
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) atom->esph[i] += desph_before[i];
+  if (diffuses && !last.known) {
+    const Fields &kept = fields();
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) kept.vol_rate_before[i] = kept.vol_rate[i];
+  }
   energy_extrapolated = false;
   if (!fluid || !last_instance) return;
   fluid->announce();
@@ -430,17 +431,16 @@ void FixSPHBulk::setup_pre_exchange()
   double *const desph_before = fields().desph_before;
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
-  double *const rho_before = fields().rho_rate_before;
+  double *const vol_rate_before = fields().vol_rate_before;
   if (!continued && fluid && first_instance) fluid->keep_densities();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     if (!continued) {
       step.follow(particles, i);
-      desph_before[i] = rho_before[i] = 0.0;
+      desph_before[i] = vol_rate_before[i] = 0.0;
     } else if (remap_v_flag)
       for (int d = 0; d < 3; d++) atom->vest[i][d] -= atom->v[i][d];
     atom->esph[i] -= desph_before[i];
-    change_density(i, -rho_before[i]);
   }
   energy_extrapolated = true;
   last.known = continued;
@@ -448,16 +448,15 @@ void FixSPHBulk::setup_pre_exchange()
 }
 
 /* ----------------------------------------------------------------------
-   of an owned particle, by the diffusion of volume, at constant strains
+   of an owned particle, by diffusion, at constant strains.  As internal energies, volumes get the old rate in a step, and
+   at its end half of the change of this rate; but this half only when the next step begins, so that between steps
+   densities are those of the forces
 ------------------------------------------------------------------------- */
 
-void FixSPHBulk::change_density(int i, double change)
+void FixSPHBulk::change_volume(const Fields &kept, int i, double change) const
 {
-  if (change == 0.0) return;
-  const Fields &kept = fields();
-  const double part = change / atom->rho[i];
-  atom->rho[i] += change;
-  atom->vfrac[i] = atom->rmass[i] / atom->rho[i];
+  const double part = -change * atom->rho[i] / atom->rmass[i];
+  atom->rho[i] *= 1.0 + part;
   for (int k = 0; k < kept.nprocess; k++) kept.rho_relaxed[k][i] *= 1.0 + part;
 }
 
@@ -562,7 +561,7 @@ void FixSPHBulk::set_arrays(int i)
 
 void FixSPHBulk::arrive(int i)
 {
-  fields().desph_before[i] = fields().rho_rate_before[i] = 0.0;
+  fields().desph_before[i] = fields().vol_rate[i] = fields().vol_rate_before[i] = 0.0;
   if (inertia_flag) set_inertia_of(i, fields().inertia[i]);
   if (!has_viscous_stage()) return;
   fluid->viscous->carry_force(i, time_step().keep);
@@ -728,6 +727,8 @@ void FixSPHBulk::integrate(Half half)
   const int nlocal = nlocal_group();
   const bool carries = half == BEGIN && has_viscous_stage();
   if (carries) fluid->viscous->begin_carrying();
+  const bool is_new = diffuses && fluid->diffusion_is_new();
+  const double interval = diffuses ? fluid->diffusion_interval() * dt_of_forces : 0.0;
 
   Threads one_thread;
   (fluid ? fluid->team() : one_thread).in_parts(nlocal, [&](int, int from, int to) {
@@ -751,13 +752,13 @@ void FixSPHBulk::integrate(Half half)
         step.begin(particles, i);
       else
         step.end(particles, i);
-      if (diffuses) {
-        double change = 0.0, &before = kept.rho_rate_before[i];
-        if (half == BEGIN)
-          step.begin_energy(kept.rho_rate[i], change, before);
-        else
-          step.end_energy(kept.rho_rate[i], before, change);
-        change_density(i, change);
+      if (diffuses && half == BEGIN) {
+        double change = dtv * kept.vol_rate[i];
+        if (is_new) {
+          change += 0.5 * interval * (kept.vol_rate[i] - kept.vol_rate_before[i]);
+          kept.vol_rate_before[i] = kept.vol_rate[i];
+        }
+        change_volume(kept, i, change);
       }
       if (exact)
         for (const double heat : rest) {

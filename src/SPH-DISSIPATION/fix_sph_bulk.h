@@ -108,7 +108,7 @@ class FixSPHBulk : public Fix {
   SPHDissipation::Fields &fields() const;
   int keyword_argument(int iarg, int narg, char **arg);    // # of words of the keyword at arg[iarg]
   void integrate(Half);
-  void change_density(int i, double change);
+  void change_volume(const SPHDissipation::Fields &, int i, double change) const;
 
   void reset_extrapolation();    // of particles that no such fix integrates
 

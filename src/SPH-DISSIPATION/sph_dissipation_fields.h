@@ -57,17 +57,17 @@ namespace SPHDissipation {
     // relaxed density that its type does not have is this temperature.  nullptr without room
     double *tvib;
 
-    // Of density continuity, mass/length^n: the part of rho that is the sum of the last forces, 0 of a density that waits
-    // for its first sum (that of a new particle is 0, which means rho0); the rate of rho by the diffusion of volume, and
-    // what it was when the step began, as desph_before
-    double *rho_sum, *rho_rate, *rho_rate_before;
+    // Of density continuity: the part of rho that is the sum of the last forces, 0 of a density that waits for its first
+    // sum (that of a new particle is 0, which means rho0); of the last evaluation of the diffusion the rate of the volume,
+    // that of the internal energy, and how full the support is; the rate of the volume of the evaluation before
+    double *rho_sum, *vol_rate, *vol_rate_before, *vol_heat, *vol_support;
     bool density_in_files;    // data files have a column rho
 
    protected:
     explicit Fields(bool spins) :
         has_spins(spins), desph_before(nullptr), inertia(nullptr), omegaest(nullptr), nprocess(0),
-        rho_relaxed(), tvib(nullptr), rho_sum(nullptr), rho_rate(nullptr), rho_rate_before(nullptr),
-        density_in_files(false)
+        rho_relaxed(), tvib(nullptr), rho_sum(nullptr), vol_rate(nullptr), vol_rate_before(nullptr),
+        vol_heat(nullptr), vol_support(nullptr), density_in_files(false)
     {
     }
     ~Fields() = default;

@@ -483,23 +483,39 @@ void Fluid::find_temperature()
 }
 
 /* ----------------------------------------------------------------------
-   a minimization leaves the offsets of the densities alone
+   a minimization leaves the offsets of the densities alone.  A run that continues the last one has its rates
 ------------------------------------------------------------------------- */
 
 void Fluid::sum_diffusion()
 {
-  if (update->whichflag != 2) diffusion->run(not_fluid());
+  if (update->whichflag == 2) return;
+  int &age = model->diffusion_age;
+  if (!update->setupflag)
+    age = (age + 1 < diffusion_interval()) ? age + 1 : 0;
+  else if (!continued)
+    age = 0;
+  if (age == 0) diffusion->evaluate(not_fluid());
+  diffusion->add_heat(not_fluid());
 }
 
-bool Fluid::has_surface() const
+/* ----------------------------------------------------------------------
+   which keeps the fastest mode stable: rates that are extrapolated are, below one per interval.  The rate is that of the
+   reference densities
+------------------------------------------------------------------------- */
+
+int Fluid::diffusion_interval() const
 {
-  return model->parameters().delta > 0.0 && has_forces() &&
-      diffusion->support().size() == static_cast<std::size_t>(atom->nlocal);
+  constexpr int MOST = 3;
+  constexpr double CHANGE = 0.6;
+  const double change = model->diffusion_rate() * update->dt;
+  for (int n = MOST; n > 1; n--)
+    if (n * change <= CHANGE) return n;
+  return 1;
 }
 
-void Fluid::surface(double *support_of) const
+bool Fluid::diffusion_is_new() const
 {
-  std::copy_n(diffusion->support().begin(), atom->nlocal, support_of);
+  return model->diffusion_age == 0;
 }
 
 /* ---------------------------------------------------------------------- */

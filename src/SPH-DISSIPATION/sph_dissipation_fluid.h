@@ -114,6 +114,11 @@ namespace SPHDissipation {
     // with density continuity: owned particles keep their densities where sums change that are not due to motion, of
     // particles that come, go, split, or merge, and at the start of a run that does not continue the last one
     void keep_densities();
+
+    // with the diffusion of volume: steps from one evaluation of its rates to the next one; the last forces have evaluated
+    // them
+    int diffusion_interval() const;
+    bool diffusion_is_new() const;
     void begin_step(double dt);
 
     // Potential energy of the last forces, on this processor, added to those of the particles (nullptr: to none)
@@ -146,8 +151,6 @@ namespace SPHDissipation {
     has_forces() const;    // on all processors, for the particles that are there now; asked by all
     virtual void heating(double *heat, double *power) const;
     virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank
-    bool has_surface() const;        // the last forces have found how full supports are
-    void surface(double *) const;    // how full, of owned particles: see DiffusionStage::support()
     const ForceSum *own_forces() const;
     const double *own_torque(int i) const;
 

@@ -40,8 +40,8 @@ TypeCoeff::TypeCoeff() :
 /* ---------------------------------------------------------------------- */
 
 FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
-    Pointers(lmp), hash_of_forces(0), simd("auto"), coeffs(nullptr), shared(false), style(style),
-    spins(spins), pair_viscosity(nullptr), viscosity_set(nullptr)
+    Pointers(lmp), hash_of_forces(0), diffusion_age(0), simd("auto"), coeffs(nullptr),
+    shared(false), style(style), spins(spins), pair_viscosity(nullptr), viscosity_set(nullptr)
 {
   for (int k = 0; k < nviscosity(); k++)
     variables.push_back({VISCOSITY_NAMES[k], nullptr, nullptr});

@@ -74,6 +74,7 @@ namespace SPHDissipation {
 
     void derive(int dim, double support);
     const Parameters &parameters() const { return par; }
+    double diffusion_rate() const;    // of volume, its fastest mode at the reference densities
     void set_step(double dt) { par.set_step(dt); }    // of the strain of relaxing processes
 
     // of a pair of types: what its coefficients follow from, the bulk viscosity that its pair terms give
@@ -104,6 +105,7 @@ namespace SPHDissipation {
 
     Settings choice;
     NoiseClock clock;
+    int diffusion_age;    // steps since the diffusion of volume was evaluated
     std::string simd;    // pair loops to use; not in restart files, which may go to another machine
     TypeCoeff *coeffs;    // by type, from 1
     bool shared;          // there are types of other styles

@@ -113,6 +113,7 @@ void FluidModel::write_settings(FILE *fp) const
   put(fp, static_cast<int>(choice.tension));
   put(fp, static_cast<double>(clock.step));
   put(fp, static_cast<double>(clock.offset));
+  put(fp, diffusion_age);
   put(fp, static_cast<int>(hash_of_forces));
   put(fp, static_cast<int>(hash_of_forces >> 32));
 }
@@ -152,6 +153,7 @@ void FluidModel::read_settings(FILE *fp)
   choice.tension = read.integer("flag of tension", 0, 1);
   clock.step = static_cast<bigint>(read.number("step of the noise"));
   clock.offset = static_cast<bigint>(read.number("offset of the noise"));
+  diffusion_age = read.integer("age of the diffusion", 0, MAXSMALLINT);
   constexpr int LOWEST = std::numeric_limits<int>::min(), HIGHEST = std::numeric_limits<int>::max();
   hash_of_forces = static_cast<std::uint32_t>(read.integer("hash", LOWEST, HIGHEST));
   hash_of_forces |= static_cast<std::uint64_t>(read.integer("hash", LOWEST, HIGHEST)) << 32;

@@ -17,6 +17,8 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "sph_dissipation_diffusion_terms.h"
+#include "sph_dissipation_steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,6 +108,28 @@ PairFluid FluidModel::pair_fluid(int i, int j) const
   for (int k = 0; k < nviscosity(); k++) fluid.viscosity[k] = viscosity(k, i, j);
   return fluid;
 }
+
+/* ---------------------------------------------------------------------- */
+
+double FluidModel::diffusion_rate() const
+{
+  const double hsq =
+      stability_length_squared(kernel_slope_integral(par.kernel, par.dim, par.support));
+  double rate = 0.0;
+  for (int i = 1; i < par.ntypes_1; i++)
+    for (int j = 1; j <= i; j++) {
+      const EosParams &a = par.type[i].eos, &b = par.type[j].eos;
+      if (par.type[i].other || par.type[j].other) continue;
+      rate = std::max(
+          rate,
+          SPHDissipation::diffusion_rate(par.delta, 0.5 * par.support, hsq,
+                                         std::max(a.impedance() * a.c0, b.impedance() * b.c0),
+                                         0.5 * (a.impedance() + b.impedance())));
+    }
+  return rate;
+}
+
+/* ---------------------------------------------------------------------- */
 
 double FluidModel::intrinsic_kappa(int i, int j) const
 {

@@ -107,7 +107,8 @@ Lump RefineEvent::lump(int i) const
 
 void RefineEvent::set_lump(int i, const Lump &one)
 {
-  atom->vfrac[i] *= one.mass / atom->rmass[i];
+  for (double *volume : {atom->vfrac, fields->vol_rate, fields->vol_rate_before, fields->vol_heat})
+    volume[i] *= one.mass / atom->rmass[i];
   atom->rmass[i] = one.mass;
   atom->esph[i] = one.energy;
   fields->desph_before[i] = one.energy_rate;

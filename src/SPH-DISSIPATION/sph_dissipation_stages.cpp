@@ -269,12 +269,13 @@ double HeatStage::memory_usage() const
    The pressure is that of the equation of state: strains stay as they are
 ------------------------------------------------------------------------- */
 
-void DiffusionStage::run(int not_fluid)
+void DiffusionStage::evaluate(int not_fluid)
 {
   const Parameters &par = engine.parameters();
   const int dim = par.dim, nsum = number_of_sums(dim), width = width_of_sums(dim);
   const int vol = place_of_volume(dim), p = vol + 1;
   constexpr std::size_t WIDTH = sizeof(DiffusionRow) / sizeof(double);
+  const Fields &fields = *Fields::of(atom);
   set_rows(not_fluid);
   const DiffusionData data = {rows.data(), impedances.data()};
   engine.accumulate_diffusion(DiffusionPart::SUMS, data, width, sums);
@@ -283,8 +284,8 @@ void DiffusionStage::run(int not_fluid)
   engine.for_each(atom->nlocal, [&](int i) {
     double *const row = rows[i].a;
     const double scale = par.impedes_alike ? 1.0 : impedances[i];
-    supports[i] = (row[vol] > 0.0) ? pressure_gradient(dim, sum + width * i, scale, row + p + 1)
-                                   : 0.0;
+    fields.vol_support[i] =
+        (row[vol] > 0.0) ? pressure_gradient(dim, sum + width * i, scale, row + p + 1) : 0.0;
   });
   exchange.forward({{rows[0].a + p + 1, WIDTH, dim}});
   engine.accumulate_diffusion(DiffusionPart::FLOW, data, 2, flow);
@@ -294,12 +295,24 @@ void DiffusionStage::run(int not_fluid)
   // with the factor of a_ij that the loops leave out
 
   const double factor = par.delta * par.support / (par.impedes_alike ? impedances[0] : 1.0);
-  double *const rho_rate = Fields::of(atom)->rho_rate, *const desph = atom->desph;
   engine.for_each(atom->nlocal, [&](int i) {
     const double *const row = rows[i].a;
-    const double expansion = factor * flow_of[2 * i], residual = factor * flow_of[2 * i + 1];
-    rho_rate[i] = -atom->rho[i] * expansion;
-    desph[i] += row[vol] * (0.5 * residual - row[p] * expansion);
+    const double rate = row[vol] * factor * flow_of[2 * i];
+    fields.vol_rate[i] = rate;
+    fields.vol_heat[i] = 0.5 * row[vol] * factor * flow_of[2 * i + 1] - row[p] * rate;
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DiffusionStage::add_heat(int not_fluid) const
+{
+  const ParticleRows &of = engine.rows();
+  const Fields &fields = *Fields::of(atom);
+  double *const desph = atom->desph;
+  engine.for_each(atom->nlocal, [&](int i) {
+    if (!of.is_fluid(i, not_fluid)) fields.vol_rate[i] = fields.vol_heat[i] = 0.0;
+    desph[i] += fields.vol_heat[i];
   });
 }
 
@@ -312,7 +325,6 @@ void DiffusionStage::set_rows(int not_fluid)
   const int nall = atom->nlocal + atom->nghost, vol = place_of_volume(par.dim);
   rows.resize(nall + BLOCK);
   impedances.resize(nall + BLOCK);
-  supports.resize(atom->nlocal);
   engine.for_each(nall, [&](int i) {
     double *const row = rows[i].a;
     const EosParams &eos = par.type[atom->type[i]].eos;
@@ -333,7 +345,7 @@ void DiffusionStage::set_rows(int not_fluid)
 double DiffusionStage::memory_usage() const
 {
   return (double) rows.capacity() * sizeof(DiffusionRow) +
-      (double) (impedances.capacity() + supports.capacity()) * sizeof(double) +
+      (double) impedances.capacity() * sizeof(double) +
       (double) (sums.capacity() + flow.capacity()) * sizeof(SumBlock);
 }
 

@@ -156,19 +156,21 @@ namespace SPHDissipation {
     int nheat() const;    // atoms that heat goes to
   };
 
-  // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h: rates of the densities of owned particles,
-  // Fields::rho_rate, and of their internal energies
+  // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h.  The rates of volumes and energies are kept
+  // with the particles: between two evaluations they stay as they are, with which no sum changes.
 
   class DiffusionStage : public Stage {
    public:
     using Stage::Stage;
 
-    void run(int not_fluid);
+    // find the rates; how full the support of a particle is: the smallest eigenvalue of its tensor, 1 inside of the fluid,
+    // about 1/2 at a plane surface, 0 of particles that have no neighbors or are not fluid
 
-    // Smallest eigenvalue of the tensor of each owned particle in run(): 1 inside of the fluid, about 1/2 at a plane
-    // surface, 0 of particles that have no neighbors or are not fluid
+    void evaluate(int not_fluid);
 
-    const std::vector<double> &support() const { return supports; }
+    // onto the heating
+
+    void add_heat(int not_fluid) const;
 
     double memory_usage() const override;
 
@@ -176,7 +178,6 @@ namespace SPHDissipation {
     std::vector<DiffusionRow> rows;    // of owned, ghost, and spare particles, as the next three
     std::vector<double> impedances;
     std::vector<SumBlock> sums, flow;
-    std::vector<double> supports;
 
     void set_rows(int not_fluid);
   };

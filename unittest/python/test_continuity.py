@@ -40,7 +40,7 @@ VALUES = np.array("""
 """.split(), dtype=float).reshape(10, 7)
 
 FIELDS = "compute G all property/atom offset surface\n"
-WANTED = "c_G[*] d_rho_sum d_rho_rate d_rho_rate_before"
+WANTED = "c_G[*] d_rho_sum d_vol_rate"
 
 
 def write(path, particles, rho=None):
@@ -79,9 +79,9 @@ def test_ten_particles(lammps, simd):
     assert relative(frame["c_G[1]"] - VALUES[:, 0], VALUES[:, 0]) < 1e-11
     assert relative(frame["dnumden"] * mass - VALUES[:, 1], VALUES[:, 1]) < 1e-11
     assert relative(frame["f"][:, :2] - VALUES[:, 2:4], VALUES[:, 2:4]) < 1e-11
-    assert relative(frame["d_rho_rate"] + rho**2 / mass * change, rho**2 / mass * change) < 1e-11
+    assert relative(frame["d_vol_rate"] - change, change) < 1e-11
     assert relative(frame["desph"] - (VALUES[:, 4] - pressure * change + heat), VALUES[:, 4]) < 1e-11
-    assert abs((mass / rho**2 * frame["d_rho_rate"]).sum()) < 1e-18
+    assert abs(frame["d_vol_rate"].sum()) < 1e-18
 
 
 # ---------------------------------------------------------------------------------------------
@@ -124,7 +124,7 @@ def dense(p, rho, rho0, c0, rc, delta, by_mass, tension=True):
     change = volume * ((a * chi) @ volume)
     misfit = jump - np.einsum("ix,ijx->ij", gradient, r)
     heat = 0.5 * volume * ((a * misfit**2) @ volume)
-    return offset, -rho / volume * change, heat - pressure * change, heat, lowest
+    return offset, change, heat - pressure * change, heat, lowest
 
 
 def random_set(dim, cells, seed=1, ntypes=1, jitter=0.3, keep=0.7):
@@ -165,11 +165,10 @@ def test_dense_reference(lammps, dim, cells, types, volume, newton, ranks, optio
     work = (work if tension else np.maximum(work, 0.0)) * p.mass * frame["dnumden"] * p.mass / rho**2
     assert relative(frame["c_G[1]"] - (offset * (rho0[p.type - 1] / p.mass if volume == "mass" else 1.0)) / 1.0, frame["numden"]) < 1e-13 \
         or volume == "mass"
-    assert relative(frame["d_rho_rate"] - rate, rate) < 1e-11
+    assert relative(frame["d_vol_rate"] - rate, rate) < 1e-11
     assert relative(frame["desph"] - work - energy_rate, energy_rate) < 1e-11
     assert relative(frame["c_G[2]"] - lowest, lowest) < 1e-12
-    volumes = p.mass / rho
-    assert abs((volumes / rho * frame["d_rho_rate"]).sum()) < 1e-13 * np.abs(volumes / rho * rate).max()
+    assert abs(frame["d_vol_rate"].sum()) < 1e-13 * np.abs(rate).max()
 
 
 def test_heat_is_never_negative(lammps):
@@ -181,7 +180,7 @@ def test_heat_is_never_negative(lammps):
     write(lammps.path("box.data"), p, rho)
     lammps(text(2, "density continuity tension yes", "1.0 10.0 0.0 0.0 2.5") + FIELDS + dump("a.dump", extra=WANTED) + "run 0\n")
     frame = lammps.frame("a.dump")
-    work = 100.0 * (rho - 1.0) * p.mass / rho**2 * frame["d_rho_rate"]
+    work = -100.0 * (rho - 1.0) * frame["d_vol_rate"]
     heat = frame["desph"] - work
     assert heat.min() > -1e-13 * np.abs(work).max() and heat.max() > 0.01
     assert abs(frame["desph"].sum()) < 1e-13 * np.abs(frame["desph"]).sum()
@@ -205,6 +204,17 @@ def test_without_offsets_it_is_the_sum(lammps):
     for one, other, limit in zip(summed, lammps.frames("state.dump"), (1e-12, 1e-9, 1e-9)):
         assert relative(one["f"] - other["f"], one["f"]) < limit and relative(one["rho"] - other["rho"], one["rho"]) < limit
     assert relative(lammps.frame("state.dump")["c_G"], summed[0]["numden"]) < 1e-11
+
+
+def test_noise_without_offsets_is_that_of_the_sum(lammps):
+    p, _ = random_set(2, 14, jitter=0.1, keep=1.0)
+    write(lammps.path("box.data"), p)
+    more = dump("{}.dump", 50) + "timestep 0.002\nrun 50\n"
+    lammps(text(2, "temp 0.1 4711") + more.format("sum"))
+    write(lammps.path("box.data"), p, lammps.frames("sum.dump")[0]["rho"])
+    lammps(text(2, "density continuity delta 0 tension yes temp 0.1 4711") + more.format("state"))
+    one, other = lammps.frame("sum.dump"), lammps.frame("state.dump")
+    assert relative(one["f"] - other["f"], one["f"]) < 1e-11 and relative(one["v"] - other["v"], one["v"]) < 1e-11
 
 
 # ---------------------------------------------------------------------------------------------
@@ -244,14 +254,26 @@ def test_conservation_of_a_free_drop(lammps, two, ranks, newton, volume):
            + FIELDS + dump("a.dump", 200, WANTED) + "timestep 0.02\nrun 400\n", ranks=ranks)
     frames = lammps.frames("a.dump")
     for frame in frames:
-        rho = frame["rho"] - (frame["d_rho_rate_before"] if frame.step else 0.0)  # of the forces
-        rate = frame["mass"] / rho**2 * frame["d_rho_rate"]
+        rate = frame["d_vol_rate"]
         assert abs(rate.sum()) < 1e-13 * np.abs(rate).max() * np.sqrt(len(p))
     momentum = [(f["mass"][:, None] * f["v"]).sum(axis=0) for f in frames]
     spin = [(f["mass"] * (f["x"][:, 0] * f["v"][:, 1] - f["x"][:, 1] * f["v"][:, 0])).sum() for f in frames]
     speed = (frames[0]["mass"] * np.linalg.norm(frames[0]["v"], axis=1)).sum()
     assert np.abs(momentum[-1] - momentum[0]).max() < 1e-13 * speed
     assert abs(spin[-1] - spin[0]) < 1e-12 * abs(spin[0])
+
+
+@pytest.mark.parametrize("delta, interval", [(0.1, 3), (0.15, 2), (0.5, 1)])
+def test_rates_are_evaluated_as_often_as_stability_needs(lammps, delta, interval):
+    """7 n delta c0 dt/h <= 0.6; in between they stay with the particles, whatever the number of the step is."""
+    p = free_drop()
+    random = np.random.default_rng(5)
+    write(lammps.path("box.data"), p, random.uniform(1.0, 1.02, len(p)))
+    lammps(text(2, f"density continuity delta {delta} tension yes", "1.0 10.0 0.02 0.3 3.2", free(2)) + dump("a.dump", extra="d_vol_rate")
+           + "timestep 0.04\nrun 3\nundump D\nuncompute F\nreset_timestep 0\n" + dump("b.dump", extra="d_vol_rate") + "run 4\n")
+    rates = [frame["d_vol_rate"] for frame in lammps.frames("a.dump")] + [frame["d_vol_rate"] for frame in lammps.frames("b.dump")[1:]]
+    for step, (one, other) in enumerate(zip(rates, rates[1:]), 1):
+        assert (relative(one - other, one) < 1e-10) != (step % interval == 0), step
 
 
 def test_results_do_not_depend_on_the_number_of_ranks(lammps):
@@ -263,7 +285,7 @@ def test_results_do_not_depend_on_the_number_of_ranks(lammps):
                + "neigh_modify delay 0 every 1 check yes\nfix B all balance 50 1.0 shift xy 10 1.01\ntimestep 0.02\nrun 300\n", ranks=ranks)
         frames.append(lammps.frame("a.dump"))
     for other in frames[1:]:
-        for name in ("f", "rho", "esph", "d_rho_rate", "c_G[1]", "c_G[2]"):
+        for name in ("f", "rho", "esph", "d_vol_rate", "c_G[1]", "c_G[2]"):
             assert relative(frames[0][name] - other[name], frames[0][name]) < 1e-9, name
 
 
@@ -406,8 +428,8 @@ def test_settings_that_are_refused(lammps, options, message):
     ("unfix FLUID\nfix FLUID all sph/bulk density rho0\nrun 0\n", "density rho0 cannot be used with density continuity"),
     ("pair_coeff * * 1 10 0.1 0.3 3 cv 1 gruneisen 1 0\nrun 0\n", "requires tension yes"),
     ("set atom 3 sph/rho -1\nrun 0\n", "density must be a finite number"),
-    ("compute G all property/atom surface\ndump D all custom 1 a.dump c_G\npair_style sph/bulk\npair_coeff * * 1 10 0.1 0.3 3\nrun 0\n",
-     "surface needs forces of a pair style with density continuity")])
+    ("compute G all property/atom surface\ndump D all custom 1 a.dump id c_G\npair_style sph/bulk\npair_coeff * * 1 10 0.1 0.3 3\nrun 0\n",
+     "surface needs a pair style with density continuity")])
 def test_commands_that_are_refused(lammps, lines, message):
     write(lammps.path("box.data"), free_drop())
     result = lammps(text(2, "density continuity") + lines, check=False)
@@ -440,3 +462,64 @@ def test_no_warning_of_a_quiet_fluid(lammps):
     free_drop().write(lammps.path("plain.data"))
     result = lammps(plain + "run 0\nwrite_data a.data\n")
     assert len([one for one in result.warnings if "without the densities" in one]) == 1
+
+
+# ---------------------------------------------------------------------------------------------
+# with other features
+
+
+def test_splits_and_merges_keep_densities(lammps):
+    """Volumes of daughters are parts of the parent's, that of a merge is their sum; all other particles keep theirs."""
+    p = free_drop()
+    random = np.random.default_rng(8)
+    rho = random.uniform(0.95, 1.05, len(p))
+    p.v[:] = 0.0
+    write(lammps.path("box.data"), p, rho)
+    lammps(text(2, "density continuity volume mass delta 0 tension yes", "1.0 10.0 0.0 0.0 3.2", free(2))
+           + "variable t atom 1.0-0.7*(x>0)+1.3*(x<-3)\nfix R all sph/refine 1 volume v_t\ntimestep 1e-9\n"
+           + "compute G all property/atom offset\n" + dump("a.dump", extra="c_G") + "run 1\n")
+    begin, end = lammps.frames("a.dump")
+    assert len(end["id"]) > len(begin["id"]) and not np.isin(begin["id"], end["id"]).all()
+    assert abs((end["mass"] / end["rho"]).sum() / (begin["mass"] / begin["rho"]).sum() - 1) < 1e-9
+    same = {i: (m, r) for i, m, r in zip(begin["id"], begin["mass"], begin["rho"])}
+    kept = [(r, same[i][1]) for i, m, r in zip(end["id"], end["mass"], end["rho"]) if i in same and abs(m - same[i][0]) < 1e-12]
+    assert len(kept) > 10 and max(abs(r / before - 1) for r, before in kept) < 1e-9
+    assert np.abs(end["c_G"]).max() > 0.1
+
+
+def test_relaxing_processes(lammps):
+    """The diffusion does not strain a process that is at rest; energy stays of second order."""
+    start = (header(2, "on", free(2), "sph/bulk relax 1") + "atom_modify map array\ncomm_modify vel yes\nregion B block -30 30 -30 30 -0.5 0.5\n"
+             "create_box 1 B\nlattice sq 1\nregion C cylinder z 0 0 7.2 INF INF\ncreate_atoms 1 region C\nset group all mass 1\n"
+             "pair_style sph/bulk density continuity\npair_coeff * * 1 10 0.02 0.3 3.2 relax 2 0.5\n"
+             "variable r atom 1+0.01*random(0,1,34)\nset group all sph/rho v_r\nfix 1 all sph/bulk\n")
+    lammps(start + dump("a.dump", extra="d_rho_relaxed1 d_vol_rate") + "timestep 1e-7\nrun 2\n")
+    begin, _, end = lammps.frames("a.dump")
+    change = end["rho"] / begin["rho"] - 1
+    assert np.abs(change).max() > 1e-9 and np.abs(end["d_rho_relaxed1"] / end["rho"] - 1).max() < 1e-6 * np.abs(change).max() + 1e-14
+    errors = []
+    for steps in (200, 400, 800):
+        result = lammps(start + "variable vx atom 0.05*x-0.03*y\nvariable vy atom -0.05*y+0.03*x\nvelocity all set v_vx v_vy 0\ncompute E all sph/energy\n"
+                        f"thermo_style custom step c_E\nthermo_modify norm no format float %.15g\nthermo {steps}\ntimestep {4 / steps}\nrun {steps}\n")
+        values = result.thermo()[0]["c_E"]
+        errors.append(values[-1] - values[0])
+    assert all(abs(a) > 3.3 * abs(b) for a, b in zip(errors, errors[1:])), errors
+
+
+def test_fluid_that_enters_has_the_density_of_its_zone(lammps):
+    """A stream between two zones, whose offsets differ from those of the fluid: the density stays that of the zones."""
+    p = lattice(2, (30, 6))
+    p.lo[0], p.hi[0] = -2.0, 32.0
+    p.v[:, 0] = 0.5
+    p.esph[:] = 0.0
+    write(lammps.path("box.data"), p)
+    groups = "region I block INF 8 INF INF INF INF\nregion O block 22 INF INF INF INF INF\ngroup in region I\ngroup out region O\ngroup fluid subtract all in out\n"
+    base = text(2, "density continuity", "1.0 10.0 0.1 0.3 3.2", "f p p").replace("fix FLUID all", groups + "fix FLUID fluid")
+    lammps(base + "fix I in sph/open fluid 8 0 0 1 0 0 8 velocity 0.5 0 0\nfix O out sph/open fluid 22 0 0 -1 0 0 8 pressure 0\n"
+           + FIELDS + dump("a.dump", 600, WANTED) + "timestep 0.01\nrun 1200\n")
+    last = lammps.frame("a.dump")
+    inside = (last["x"][:, 0] > 8) & (last["x"][:, 0] < 22)
+    entered = inside & (last["id"] > 30 * 6)
+    assert entered.sum() >= 0 and inside.sum() > 70
+    assert np.abs(last["rho"][inside] - 1).max() < 1e-3
+    assert np.abs(last["v"][inside] - [0.5, 0, 0]).max() < 0.02
