@@ -17,7 +17,7 @@ PAGES = sorted(page for page in (ROOT / "doc" / "src").glob("*.rst") if page.ste
 # what the fragments take for granted
 
 GROUPS = ("fluid", "floor", "top", "moving", "rotor", "ground", "inlet", "outlet", "west", "nozzle", "lid", "plate", "piston",
-          "wheel")
+          "wheel", "water", "walls")
 EQUAL = {"rc": 3.0, "dx": 1.0, "U": 0.1, "mu": 0.5, "kappa": 1.0, "rho0": 1.0, "b": 0.5, "p": 0.0}
 ATOM = {"target": 1.0, "u": 0.1}
 SPIN = re.compile(r"sph/micropolar|sph/torque|sph/angmom|omega|inertia|spin|centroid|mu_r")
@@ -85,7 +85,8 @@ def fluid_for(text):
         lines.append("set group all d_inertia 0.2")
     if "pair_style" not in text:
         volume = " volume mass" if "sph/refine" in text or "area" in text else ""
-        lines += [f"pair_style {style}{volume}"]
+        surface = " density continuity" if "sph/rho" in text else ""
+        lines += [f"pair_style {style}{volume}{surface}"]
     if "pair_style" not in text and not re.match(r"pair_coeff [1*]", text):
         lines += ["pair_coeff * * " + FLUID[spin].format(gamma2="0.05" if solid else "-0.1")]
     if "sph/refine" in text or "f_size" in text:
