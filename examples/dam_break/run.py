@@ -20,7 +20,7 @@ WINDOWS = (3, 4), (4, 5)                # of time, for mean pressures
 MEAN = 0.48, 0.66                       # bars of these
 ARRIVAL = 2.40, 2.65                    # pressure above 0.1
 SCATTER = {30: 0.35, 60: 0.15}          # n: standard deviation in 3 < t < 5
-CASES = {"n30": {"n": 30}, "tait": {"n": 30, "eos": "tait"}, "no_slip": {"n": 30, "slip": "no"}, "kappa": {"n": 30, "kappa": 0.8},
+CASES = {"n30": {"n": 30}, "tait": {"n": 30, "eos": "tait"}, "no_slip": {"n": 30, "slip": "no"},
          "n60": {"n": 60, "kappa": 0.1}}
 QUICK = {"quick": {"n": 15, "kappa": 0.4, "end": 3.0}}
 TIMES = 1.0, 2.0, 3.0, 5.0, 6.0, 7.0    # of the pictures

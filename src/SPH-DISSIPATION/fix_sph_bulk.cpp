@@ -253,6 +253,12 @@ void FixSPHBulk::init()
                "Fix {} shift cannot be used with temp of pair style {}: a shifted fluid has no "
                "thermal equilibrium",
                style, style);
+  if (shift_speed > 0.0 && fluid && fluid->model->choice.continuity)
+    error->all(
+        FLERR,
+        "Fix {} shift cannot be used with density continuity of pair style {}: it would push "
+        "particles out of free surfaces",
+        style, style);
   diffuses = fluid && fluid->model->choice.delta > 0.0 && fluid->pair->compute_flag;
   if (density_flag && fluid && fluid->model->choice.continuity)
     error->all(FLERR,

@@ -87,6 +87,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   SPHDissipation::WallHeat heat;
   SPHDissipation::Value *heat_value;    // temperature, or heat per area and time
   SPHDissipation::Value *gravity;       // acceleration of the fluid by a body force along x, y, z
+  bool gravity_varies() const;
 
   bool turns_surface(bool before) const;
   void book_heat();
@@ -98,7 +99,6 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   double heat_given;    // heat since the fix was defined
 
   bool is_wrong(double value) const;    // as the value of keyword heat
-  bool gravity_varies() const;
   void check_heat() const;
   void from_point(int, const SPHDissipation::WallVelocity &, double *) const;
   bool set_velocity();    // returns whether that of an owned particle is another one than before

@@ -132,7 +132,7 @@ FEATURES = {
     "limit": Feature(Lines(pair=("limit yes",), kappa=0.9), Lines(kappa=0.9), not_plain_with=("noise",)),
     "shift": Feature(Lines(integrator=("shift 0.5",)), refused={"noise": "shift"}),
     "spin": Feature(Lines(style="sph/micropolar", spin="0.2 0.05 -0.05")),
-    "surface": Feature(Lines(pair=("density continuity",)), refused={"noise": "temp", "warm": "temp", "gas": "no free surface",
+    "surface": Feature(Lines(pair=("density continuity",)), refused={"noise": "temp", "warm": "temp", "gas": "no free surface", "shift": "shift",
                                                                       "heat": "tension yes", "rerun": "rerun"}),
     "drag": Feature(Lines(keywords=("drag 0.3 0.2 -0.1 0",), force=("c_drag[{k}]",),
                           fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3*c_state[1]*(c_state[2]-0.2)",
