@@ -63,9 +63,9 @@ class Run:
 def plot(path, runs, data):
     plt = pyplot()
     fine = runs[max(runs, key=lambda name: runs[name].n)]
-    figure = plt.figure(figsize=(9.6, 8.2))
-    top, bottom = figure.subfigures(2, 1, height_ratios=[1.25, 1.0])
-    panels = top.subplots(3, 2, sharex=True, sharey=True).ravel()
+    figure = plt.figure(figsize=(9.6, 6.4))
+    top, bottom = figure.subfigures(2, 1, height_ratios=[0.9, 1.0])
+    panels = top.subplots(2, 3, sharex=True, sharey=True).ravel()
     for axes, time in zip(panels, TIMES):
         k = min(round(time / 0.02), len(fine.frames) - 1)
         frame = fine.frames[k]
@@ -77,7 +77,7 @@ def plot(path, runs, data):
     top.colorbar(picture, ax=panels, label="pressure $p/(\\rho g H)$", shrink=0.8)
     left, right = bottom.subplots(1, 2, width_ratios=[1.6, 1.0])
     for name, (t, p) in data.items():
-        left.plot(t, p, "k." if "Buchner" in name else "C7-", ms=3, lw=1.4, label=name)
+        left.plot(t, p, "k." if "Buchner" in name else "k-", ms=3, lw=1.2, label=name)
     for name, color in (("n30", "C0"), ("n60", "C3"), ("quick", "C0")):
         if name in runs:
             run = runs[name]

@@ -51,7 +51,8 @@ namespace SPHDissipation {
 
   struct EosParams {
     SPH_FUNCTION EosParams() :
-        rho0(1.0), c0(0.0), pb(0.0), gamma(7.0), gruneisen(0.0), c_el(0.0), pb_el(0.0), rho_min(0.0)
+        rho0(1.0), c0(0.0), pb(0.0), gamma(7.0), gruneisen(0.0), c_el(0.0), pb_el(0.0),
+        rho_min(-HUGE_VAL)
     {
     }
 
@@ -63,7 +64,7 @@ namespace SPHDissipation {
     // by derive()
     double gruneisen;      // Gamma
     double c_el, pb_el;    // sound speed and background pressure without heat
-    double rho_min;        // density below which there is no pressure; 0 with tension
+    double rho_min;        // density below which there is no pressure; -inf with tension
 
     double impedance() const { return rho0 * c0; }    // acoustic
     void derive(Eos eos, double gruneisen_in, double reference_heat, bool tension = true);
@@ -85,7 +86,7 @@ namespace SPHDissipation {
 
   inline void EosParams::derive(Eos eos, double gruneisen_in, double reference_heat, bool tension)
   {
-    rho_min = 0.0;
+    rho_min = -HUGE_VAL;
     gruneisen = (eos == Eos::IDEAL) ? gamma - 1.0 : gruneisen_in;
     c_el = c0;
     pb_el = pb;

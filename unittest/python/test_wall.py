@@ -883,7 +883,7 @@ BAD = [
     case(r"\bnan\b", "velocity nan 0 0"),
     case("1e999", "gravity 0 1e999 0"),
     case("down", "gravity 0 down 0"),
-    case("v_g", "gravity 0 v_g 0"),
+    case("Variable g ", "gravity 0 v_g 0"),
     case("here", "rotate here 0 0 0 0 1 0.5"),
     case("up", "rotate 0 0 0 0 0 up 0.5"),
     case("quick", "rotate 0 0 0 0 0 1 quick"),
