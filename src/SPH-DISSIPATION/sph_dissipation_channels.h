@@ -43,6 +43,7 @@ template <class... Term> struct Form {
   static constexpr bool CENTRAL = (Term::CENTRAL || ...);
   static constexpr bool VECTOR = (Term::VECTOR || ...);
   static constexpr bool BY_DISTANCE = (Term::BY_DISTANCE || ...);
+  static constexpr bool BY_SQUARE = (Term::BY_SQUARE || ...);
   static constexpr bool SPINS = (Term::SPINS || ...);
 
   // has heat of this channel; the last one of terms with spins
@@ -73,8 +74,7 @@ template <class... Term> struct Form {
   }
 };
 
-// Forms with all optional terms, for the runs that use any of them.  The form espanol, whose terms are all those of
-// fluids without spins, has no other loops.
+// Forms with all optional terms, for the runs that use any of them
 #undef CHANNEL_TERMS
 #define OPTIONAL_TERMS
 #define OptionalTerm(One) , One
@@ -104,7 +104,7 @@ template <class Function> void with_form(const Terms &terms, Function &&function
     case Shear::MORRIS:
       return function(Form<AlongU>());
     case Shear::ESPANOL:
-      return function(FullForm());
+      return function(Form<AlongR<false>, AlongU>());
     case Shear::MICROPOLAR:
       return function(Form<AlongR<false>, Slip, SpinDiffusion>());
     default:
@@ -167,9 +167,10 @@ namespace SPHDissipation {
   };
 
   // Friction of a pair as a tensor, in units of F V_i V_j (mg/fr: F r V_i V_j): on the velocity of slip and
-  // on the difference of the spins, along e and across it.  The noise is its root.
+  // on the difference of the spins, along e and across it; of terms with BY_SQUARE, along e in units of
+  // F r^2 V_i V_j.  The noise is its root.
   struct PairFriction {
-    double along, across, spin_along, spin_across;
+    double along, across, spin_along, spin_across, along_by_square;
   };
 
   enum class Shear;
@@ -347,7 +348,7 @@ namespace SPHDissipation {
   // Coefficients of the terms of two types, one channel after the other:
   //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
   //   tau_i = 1/2 sum_j F V_i V_j zeta2 r x u* - sum_j F V_i V_j [xi1 (e.dOmega) e + xi2 dOmega]
-  // with F r instead of F before along_r for mg/fr
+  // with F r instead of F before along_r for mg/fr, and those of optional terms, which are in their headers
   struct PairCoeff {
     double a[Channels::NPAIR];
 
@@ -475,8 +476,9 @@ namespace SPHDissipation {
   // prefactor of (u.e)^2 in the dissipation of a pair at distance r, in units of F V_i V_j
   SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
   {
-    const double along = Channels::friction(shear == Shear::MICROPOLAR, coeff.a).along;
-    return (shear == Shear::MG_FR) ? along * r : along;
+    const PairFriction friction = Channels::friction(shear == Shear::MICROPOLAR, coeff.a);
+    const double along = (shear == Shear::MG_FR) ? friction.along * r : friction.along;
+    return along + friction.along_by_square * r * r;
   }
 
   // bulk viscosity of the pair terms; P1 (66)

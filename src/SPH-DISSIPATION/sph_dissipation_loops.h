@@ -717,10 +717,10 @@ namespace SPHDissipation {
     {
       constexpr bool FRICTION = F::VECTOR || F::CENTRAL;
       if constexpr (F::VECTOR)
-        return (dim == 3) ? force_loop<F, false, true, PairNoise<3, F::SPINS, KIND>>
-                          : force_loop<F, false, true, PairNoise<2, F::SPINS, KIND>>;
+        return (dim == 3) ? force_loop<F, false, true, PairNoise<3, F::SPINS, KIND, F::BY_SQUARE>>
+                          : force_loop<F, false, true, PairNoise<2, F::SPINS, KIND, F::BY_SQUARE>>;
       else if constexpr (FRICTION || KIND == NoiseKind::ENERGY || KIND == NoiseKind::CONDUCTION)
-        return force_loop<F, false, true, PairNoise<0, false, KIND>>;
+        return force_loop<F, false, true, PairNoise<0, false, KIND, F::BY_SQUARE>>;
       else
         return nullptr;
     }
@@ -745,8 +745,8 @@ namespace SPHDissipation {
       with_form(form.terms, [&](auto terms) {
         using F = decltype(terms);
         constexpr int ACROSS = F::VECTOR ? 2 : 0;
-        loop = (F::VECTOR && form.dim == 3) ? eta_loop<F::BY_DISTANCE, 3>
-                                            : eta_loop<F::BY_DISTANCE, ACROSS>;
+        loop = (F::VECTOR && form.dim == 3) ? eta_loop<F::BY_DISTANCE, F::BY_SQUARE, 3>
+                                            : eta_loop<F::BY_DISTANCE, F::BY_SQUARE, ACROSS>;
       });
       return loop;
     }

@@ -220,13 +220,15 @@ bool NoiseStage::set_coeffs(double factor)
 {
   const Parameters &par = engine.parameters();
   const double share = (form.kind == NoiseKind::DIRECTED) ? 0.5 : 1.0;
+  data.strength = share * factor;
   bool any = false;
   coeff.assign(par.pair.size(), NoiseCoeff());
   for (std::size_t k = 0; k < par.pair.size(); k++) {
     PairFriction friction = Channels::friction(par.spins(), par.pair[k].a);
     friction.along = std::max(friction.along, 0.0);
     friction.spin_along = std::max(friction.spin_along, 0.0);
-    coeff[k].central = sqrt(share * factor * friction.along);
+    coeff[k].central = sqrt(data.strength * friction.along);
+    coeff[k].central_by_square = data.strength * friction.along_by_square;
     coeff[k].transverse = (par.dim == 1) ? 0.0 : sqrt(factor * friction.across);
     coeff[k].spin_along = sqrt(factor * friction.spin_along);
     coeff[k].spin_across = sqrt(factor * friction.spin_across);
@@ -234,7 +236,7 @@ bool NoiseStage::set_coeffs(double factor)
     const TypeParameters &first = par.type[k / par.ntypes_1], &second = par.type[k % par.ntypes_1];
     coeff[k].conductivity = HeatChannel::mean(first.conductivity, second.conductivity);
     if (friction.along > 0.0 || friction.across > 0.0 || friction.spin_along > 0.0 ||
-        friction.spin_across > 0.0)
+        friction.spin_across > 0.0 || friction.along_by_square > 0.0)
       any = true;
   }
   data.coeff = coeff.data();

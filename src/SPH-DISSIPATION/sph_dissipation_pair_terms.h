@@ -92,6 +92,7 @@ template <class Of, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTe
   static constexpr int LAST = Channels::first<Of>() + LAST_COEFF;
   static constexpr bool CENTRAL = false, VECTOR = false;    // has add_central(), add_vector()
   static constexpr bool BY_DISTANCE = false;                // its metric is r
+  static constexpr bool BY_SQUARE = false;                  // along r, in units of F r^2 V_i V_j
   static constexpr bool SPINS = false;
   template <class Pair> static SPH_INLINE void add_central(Pair &) {}
   template <class Pair> static SPH_INLINE void add_vector(Pair &) {}
