@@ -82,11 +82,12 @@ def test_no_cycle():
 
 
 def test_a_state_is_one_file():
-    """The header of its channel: no other source file names it."""
+    """The header of its channel: no other source file names it, but the list, by the header."""
     states = {name: header.name for header in SOURCES.glob("sph_dissipation_channel_*.h")
               for name in re.findall(r'FIELD = "(\w+)"', header.read_text())}
     assert set(states) >= {"rho_relaxed", "tvib"}
-    texts = {path: path.read_text() for path in (ROOT / "src").rglob("*") if path.suffix in (".h", ".cpp")}
+    texts = {path: path.read_text() for path in (ROOT / "src").rglob("*")
+             if path.suffix in (".h", ".cpp") and path.name != "sph_dissipation_channel_list.h"}
     for name, header in states.items():
         assert [path.name for path, text in texts.items() if name in text] == [header]
 
