@@ -118,7 +118,7 @@ template <class Function> void with_form(const Terms &terms, Function &&function
 #ifndef LMP_SPH_DISSIPATION_CHANNELS_H
 #define LMP_SPH_DISSIPATION_CHANNELS_H
 
-#include "sph_dissipation_states.h"
+#include "sph_dissipation_flows.h"
 
 #include <algorithm>
 #include <array>
@@ -183,7 +183,6 @@ namespace SPHDissipation {
     double mean_radius = 0.0;    // integral of r W
     double viscosity[NVISCOSITY] = {};
     double zeta = 0.0;             // coefficient of the bulk term, mean of the types
-    double conductivity = 0.0;     // mean of the types
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
   };
 
@@ -191,6 +190,7 @@ namespace SPHDissipation {
   // two unlike types
   struct OwnWords {
     const double *type, *unlike;
+    double flow = 0.0;    // mean coefficient of its flow
   };
 
   // inertia of the motion that a channel damps, for its fastest rate
@@ -337,14 +337,22 @@ namespace SPHDissipation {
 #include "sph_dissipation_channel_list.h"
                                >;
   // those with a state
-  using States = WithState<StateList<>
+  using States = ListOf<BaseState, StateList<>
 #include "sph_dissipation_channel_list.h"
-                           >::type;
+                        >::type;
+  // those with a flow
+  using Flows = ListOf<BaseFlow, FlowList<>
+#include "sph_dissipation_channel_list.h"
+                       >::type;
 #undef ChannelClass
 #undef CHANNEL_CLASS
   // clang-format on
 
   constexpr int NCHANNEL = Channels::NUMBER;    // of those that turn motion into heat
+  constexpr int BULK_HEAT =
+      Channels::place<BulkChannel>();    // place of the heat of the bulk term, which no pair has
+  constexpr int HEAT_FLOW =
+      Flows::place<HeatChannel>();    // place of the flow that walls and open zones take part in
 
   // Coefficients of the terms of two types, one channel after the other:
   //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
@@ -367,7 +375,6 @@ namespace SPHDissipation {
     {
       return a + Channels::first_of_type<Channel>();
     }
-    double conductivity() const { return of<HeatChannel>()[HeatChannel::CONDUCTIVITY]; }
     double drag() const { return Channels::drag(a); }
     double gamma() const { return of<HeatChannel>()[HeatChannel::GAMMA]; }    // gruneisen
     double T0() const { return of<HeatChannel>()[HeatChannel::T0]; }
@@ -377,11 +384,14 @@ namespace SPHDissipation {
   struct TypePair : PairFluid {
     TypeCoeffs type;    // the larger ones of both types
     double unlike[Channels::NUNLIKE + 1] = {};
+    double flow[Flows::NUMBER] = {};    // mean of the types
 
     // for a channel
     template <class Channel> OwnWords words() const
     {
-      return {type.of<Channel>(), unlike + Channels::first_of_unlike<Channel>()};
+      double own = 0.0;
+      if constexpr (std::is_base_of<BaseFlow, Channel>::value) own = flow[Flows::place<Channel>()];
+      return {type.of<Channel>(), unlike + Channels::first_of_unlike<Channel>(), own};
     }
   };
 

@@ -46,9 +46,9 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   if (neighbor->ago == 0) check_box();
   const bool energy = engine.parameters().own_temperatures;
   form = {engine.parameters().terms(), engine.parameters().dim,
-          !energy                                         ? NoiseKind::PLAIN
-              : engine.parameters().conducts || not_fluid ? NoiseKind::CONDUCTION
-                                                          : NoiseKind::ENERGY};
+          !energy                                           ? NoiseKind::PLAIN
+              : engine.parameters().conducts() || not_fluid ? NoiseKind::CONDUCTION
+                                                            : NoiseKind::ENERGY};
   for (int type = 1; type <= atom->ntypes; type++)
     if (!energy && bound && !engine.parameters().type[type].other &&
         engine.parameters().type[type].zeta < 0.0)
@@ -145,8 +145,8 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
     row[i] = NoiseRow();
     if (engine.parameters().type[type].other) return;
     if (atom->mask[i] & not_fluid) {
-      const bool passes = engine.parameters().conducts && engine.conductor[i].conductivity > 0.0;
-      row[i].temperature = -std::max(passes ? engine.conductor[i].temperature : 1.0, SMALLEST);
+      const bool passes = engine.parameters().conducts() && engine.heat()[i].coefficient > 0.0;
+      row[i].temperature = -std::max(passes ? engine.heat()[i].value : 1.0, SMALLEST);
       row[i].pressure = passes ? 1.0 : 0.0;
       return;
     }
@@ -234,7 +234,7 @@ bool NoiseStage::set_coeffs(double factor)
     coeff[k].spin_across = sqrt(factor * friction.spin_across);
     coeff[k].inverse_central = (friction.along > 0.0) ? 1.0 / friction.along : 0.0;
     const TypeParameters &first = par.type[k / par.ntypes_1], &second = par.type[k % par.ntypes_1];
-    coeff[k].conductivity = HeatChannel::mean(first.conductivity, second.conductivity);
+    coeff[k].conduction = mean_coefficient(first.flow[HEAT_FLOW], second.flow[HEAT_FLOW]);
     if (friction.along > 0.0 || friction.across > 0.0 || friction.spin_along > 0.0 ||
         friction.spin_across > 0.0 || friction.along_by_square > 0.0)
       any = true;

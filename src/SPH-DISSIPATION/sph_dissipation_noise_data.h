@@ -46,7 +46,7 @@ namespace SPHDissipation {
     double spin_along;         // of the spins, along e
     double spin_across;        // across e
     double inverse_central;    // 1 / what the shear term puts before (u.e)^2, or 0
-    double conductivity;       // of heat
+    double conduction;         // of heat
     double central_by_square;
   };
 

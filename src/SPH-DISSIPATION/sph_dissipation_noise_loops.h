@@ -266,7 +266,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
       const Vec temperature = kept(next);
       const Vec conductivity = coeff.a[PAIR_CONDUCTION] * kept(next);
       wall = kept(next);
-      flow = heat_flow(conductivity, vv, own, temperature) +
+      flow = flow_of_pair(conductivity, vv, own, temperature) +
           z[Numbers::FLOW] *
               square_root(data.heat * heat_noise(conductivity, vv, own, temperature));
     }
