@@ -66,9 +66,10 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false), dim(0),
-    support(0.0), stale(false), own_list(false), set_up(false), announced(false), touched(false),
-    changed(false), warned_step(0.0), noise_step(0.0), fast_lists(0)
+    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false),
+    integrated(0), dim(0), support(0.0), stale(false), own_list(false), set_up(false),
+    announced(false), touched(false), changed(false), warned_step(0.0), noise_step(0.0),
+    fast_lists(0)
 {
 }
 
@@ -482,7 +483,8 @@ void Fluid::find_temperature()
 }
 
 /* ----------------------------------------------------------------------
-   a minimization leaves the offsets of the densities alone.  A run that continues the last one has its rates
+   a minimization leaves the offsets of the densities alone.  A run that continues the last one with the same
+   coefficients has its rates
 ------------------------------------------------------------------------- */
 
 void Fluid::sum_diffusion()
@@ -491,10 +493,10 @@ void Fluid::sum_diffusion()
   int &age = model->diffusion_age;
   if (!update->setupflag)
     age = (age + 1 < diffusion_interval()) ? age + 1 : 0;
-  else if (!continued)
+  else if (!continued || changed)
     age = 0;
-  if (age == 0) diffusion->evaluate(not_fluid());
-  diffusion->add_heat(not_fluid());
+  if (age == 0) diffusion->evaluate(not_fluid(), integrated);
+  diffusion->add_heat(not_fluid(), integrated);
 }
 
 /* ----------------------------------------------------------------------

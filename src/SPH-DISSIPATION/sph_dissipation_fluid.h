@@ -112,7 +112,7 @@ namespace SPHDissipation {
 
     virtual void begin_run(double dt);
     // with density continuity: owned particles keep their densities where sums change that are not due to motion, of
-    // particles that come, go, split, or merge, and at the start of a run that does not continue the last one
+    // particles that come, go, split, or merge, and at the start of a run, before which anything may have changed
     void keep_densities();
 
     // with the diffusion of volume: steps from one evaluation of its rates to the next one; the last forces have evaluated
@@ -166,6 +166,7 @@ namespace SPHDissipation {
     // not if any rank notes, before the first forces, that what the fluid touches moves otherwise
 
     bool continued;
+    int integrated;    // bits of the groups of its integrators
     void note_change() { changed = true; }
 
     bool is_set_up() const;    // what the commands say is in effect

@@ -162,13 +162,14 @@ namespace SPHDissipation {
     using Stage::Stage;
 
     // find the rates; how full the support of a particle is: the smallest eigenvalue of its tensor, 1 inside of the fluid,
-    // about 1/2 at a plane surface, 0 of particles that have no neighbors or are not fluid
+    // about 1/2 at a plane surface, 0 of particles that have no neighbors or are not fluid; integrated = bits of the groups
+    // whose volumes change, of others, as the particles of a rigid body, none does
 
-    void evaluate(int not_fluid);
+    void evaluate(int not_fluid, int integrated);
 
     // onto the heating
 
-    void add_heat(int not_fluid) const;
+    void add_heat(int not_fluid, int integrated) const;
 
     double memory_usage() const override;
 
@@ -177,7 +178,8 @@ namespace SPHDissipation {
     std::vector<double> impedances;
     std::vector<SumBlock> sums, flow;
 
-    void set_rows(int not_fluid);
+    bool takes_part(int i, int not_fluid, int integrated) const;
+    void set_rows(int not_fluid, int integrated);
   };
 
   // Minus the gradient of the concentration of the particles, for particle shifting:
