@@ -102,16 +102,17 @@ void FluidState::add_up()
 {
   constexpr double FAR = 1.0e300;
   const int n = (atom->ntypes + 1) * NSET;
-  std::vector<Mean> my_means(n, {0.0, 0.0, 0.0, 0.0});
+  std::vector<Mean> my_means(n, Mean());
   std::vector<Range> my_ranges(n, {FAR, FAR});
   const StateRows states = engine.states();
+  const double *const sum = model.choice.continuity ? Fields::of(atom)->rho_sum : atom->rho;
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & group) || (atom->mask[i] & not_fluid)) continue;
     const int type = atom->type[i];
     if (model.coeffs[type].other) continue;
     const EosParams &eos = model.coeffs[type].eos;
-    const double excess = atom->rho[i] / eos.rho0 - 1.0;
+    const double excess = atom->rho[i] / eos.rho0 - 1.0, of_sum = sum[i] / eos.rho0 - 1.0;
     const double energy = atom->esph[i] - states.energy(i);
     const double p =
         pressure(model.choice.eos, eos, atom->rho[i], energy / atom->rmass[i]) + states.pressure(i);
@@ -121,6 +122,8 @@ void FluidState::add_up()
       mean.excess += excess;
       mean.excess_sq += excess * excess;
       mean.pressure += p;
+      mean.sum += of_sum;
+      mean.sum_sq += of_sum * of_sum;
       Range &range = my_ranges[type * NSET + set];
       range.smallest = std::min(range.smallest, excess);
       range.minus_largest = std::min(range.minus_largest, -excess);
@@ -148,6 +151,18 @@ double FluidState::spread(int type) const
   const Mean &mean = means[best(type)];
   const double excess = mean.excess / mean.count;
   return sqrt(std::max(mean.excess_sq / mean.count - excess * excess, 0.0));
+}
+
+/* ----------------------------------------------------------------------
+   the larger spread of the density and of the sum over neighbors, which differ with density continuity
+------------------------------------------------------------------------- */
+
+double FluidState::disorder(int type) const
+{
+  const Mean &mean = means[best(type)];
+  const double excess = mean.sum / mean.count;
+  const double of_sum = sqrt(std::max(mean.sum_sq / mean.count - excess * excess, 0.0));
+  return std::max(of_sum, spread(type));
 }
 
 double FluidState::mean_pressure(int type) const
@@ -384,17 +399,32 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
     if (!has_type(type)) continue;
     const double rho = mean_density(type), rho0 = model.coeffs[type].eos.rho0;
     const double least = has_full_support(type) ? 1.0 - FAR_OFF : SPARSE;
-    if (rho < least * rho0 || rho > (1.0 + FAR_OFF) * rho0) {
+    const auto far_off = [=](double density) {
+      return density < least * rho0 || density > (1.0 + FAR_OFF) * rho0;
+    };
+    if (model.choice.continuity) {
+      const Mean &mean = means[best(type)];
+      const double by_masses = rho0 * (1.0 + mean.sum / mean.count);
+      if (far_off(by_masses))
+        error->warning(FLERR,
+                       "The masses of type {} have the mean density {:g}, which is far from its "
+                       "rho0 {:g}: the mass of a particle should be rho0 times its volume, also "
+                       "with density continuity; use set mass",
+                       type, by_masses, rho0);
+      if (far_off(rho))
+        error->warning(
+            FLERR, "The mean density {:g} of type {} is far from its rho0 {:g}; use set sph/rho",
+            rho, type, rho0);
+    } else if (far_off(rho))
       error->warning(FLERR,
                      "The mean density {:g} of type {} is far from its rho0 {:g}: the mass of a "
                      "particle should be rho0 times its volume; use the set command, or keyword "
                      "density of fix {}",
                      rho, type, rho0, fix_style);
-      continue;
-    }
+    if (far_off(rho)) continue;
 
     const double mu = model.viscosity(0, type, type);
-    if (!shears || count(type, FULL) < FEW || spread(type) > REGULAR || mu == 0.0) continue;
+    if (!shears || count(type, FULL) < FEW || disorder(type) > REGULAR || mu == 0.0) continue;
     const double elasticity = mean_pressure(type) * strain.largest(type) / count(type, FULL);
     const double k = MY_2PI / length;
     const double part = fabs(elasticity) * rho / (mu * mu * k * k);

@@ -501,6 +501,27 @@ def test_warnings(lammps, words, options, lines, warning):
     assert len([one for one in result.warnings if warning in one]) == 1, result.warnings
 
 
+@pytest.mark.parametrize("lines, warning", [
+    ("set group all mass 0.8\nrun 0\n", "masses of type 1 have the mean density 0.7"), ("set group all mass 1000\nrun 0\n", "use set mass"),
+    ("run 1\npair_coeff * * 1.3 10 0.1 0.3 3\nset group all mass 1.3\nrun 0\n", "mean density 1 of type 1 is far from its rho0 1.3; use set sph/rho")])
+def test_warnings_of_masses_and_densities(lammps, lines, warning):
+    write(lammps.path("box.data"), free_drop())
+    result = lammps(text(2, "density continuity", "1 10 0.1 0.3 3", boundary=free(2)) + lines)
+    assert len(result.warnings) == 1 and warning in result.warnings[0], result.warnings
+
+
+def test_equal_densities_are_no_regular_arrangement(lammps):
+    """A lattice under pressure has a shear elasticity, of which there is a warning; disordered particles of one density yield."""
+    for jitter, warns in ((0.0, True), (0.3, False)):
+        p, _ = random_set(2, 14, jitter=jitter, keep=1.0)
+        p.mass[:] = 1.0
+        p.v[:] = 0.0
+        p.v[:, 0] = 0.01 * np.sin(2 * np.pi * p.x[:, 1] / 14)
+        write(lammps.path("box.data"), p, np.full(len(p), 1.05))
+        result = lammps(text(2, "density continuity", "1.0 10.0 0.01 0.3 3.0") + "run 0\n")
+        assert any("shear elasticity" in one for one in result.warnings) == warns, result.warnings
+
+
 def test_no_warning_of_a_quiet_fluid(lammps):
     write(lammps.path("box.data"), free_drop())
     result = lammps(text(2, "density continuity") + "run 20\nwrite_data a.data\n")
