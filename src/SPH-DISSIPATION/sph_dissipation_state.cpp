@@ -112,7 +112,7 @@ void FluidState::add_up()
     const int type = atom->type[i];
     if (model.coeffs[type].other) continue;
     const EosParams &eos = model.coeffs[type].eos;
-    const double excess = atom->rho[i] / eos.rho0 - 1.0, of_sum = sum[i] / eos.rho0 - 1.0;
+    const double excess = atom->rho[i] / eos.rho0 - 1.0;
     const double energy = atom->esph[i] - states.energy(i);
     const double p =
         pressure(model.choice.eos, eos, atom->rho[i], energy / atom->rmass[i]) + states.pressure(i);
@@ -122,8 +122,7 @@ void FluidState::add_up()
       mean.excess += excess;
       mean.excess_sq += excess * excess;
       mean.pressure += p;
-      mean.sum += of_sum;
-      mean.sum_sq += of_sum * of_sum;
+      mean.sum += sum[i] / eos.rho0;
       Range &range = my_ranges[type * NSET + set];
       range.smallest = std::min(range.smallest, excess);
       range.minus_largest = std::min(range.minus_largest, -excess);
@@ -151,18 +150,6 @@ double FluidState::spread(int type) const
   const Mean &mean = means[best(type)];
   const double excess = mean.excess / mean.count;
   return sqrt(std::max(mean.excess_sq / mean.count - excess * excess, 0.0));
-}
-
-/* ----------------------------------------------------------------------
-   the larger spread of the density and of the sum over neighbors, which differ with density continuity
-------------------------------------------------------------------------- */
-
-double FluidState::disorder(int type) const
-{
-  const Mean &mean = means[best(type)];
-  const double excess = mean.sum / mean.count;
-  const double of_sum = sqrt(std::max(mean.sum_sq / mean.count - excess * excess, 0.0));
-  return std::max(of_sum, spread(type));
 }
 
 double FluidState::mean_pressure(int type) const
@@ -384,7 +371,9 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
   constexpr double SHEARED = 0.1;           // vorticity over the rate of density
   constexpr double FROM_ROUNDOFF = 20.0;    // ln of the growth of a wave that is no longer small
 
-  const bool shears = (engine.parameters().dim > 1) && !evened_out;
+  // with density continuity, the pressure is that of the flow, and equal densities are no regular arrangement
+
+  const bool shears = (engine.parameters().dim > 1) && !evened_out && !model.choice.continuity;
   LatticeStrain strain(lmp, engine, exchange);
   double length = 0.0;
   if (shears) {
@@ -404,7 +393,7 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
     };
     if (model.choice.continuity) {
       const Mean &mean = means[best(type)];
-      const double by_masses = rho0 * (1.0 + mean.sum / mean.count);
+      const double by_masses = rho0 * mean.sum / mean.count;
       if (far_off(by_masses))
         error->warning(FLERR,
                        "The masses of type {} have the mean density {:g}, which is far from its "
@@ -424,7 +413,7 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
     if (far_off(rho)) continue;
 
     const double mu = model.viscosity(0, type, type);
-    if (!shears || count(type, FULL) < FEW || disorder(type) > REGULAR || mu == 0.0) continue;
+    if (!shears || count(type, FULL) < FEW || spread(type) > REGULAR || mu == 0.0) continue;
     const double elasticity = mean_pressure(type) * strain.largest(type) / count(type, FULL);
     const double k = MY_2PI / length;
     const double part = fabs(elasticity) * rho / (mu * mu * k * k);

@@ -67,8 +67,7 @@ namespace SPHDissipation {
     bool has_type(int type) const { return count(type, ALL) > 0.0; }
     bool has_full_support(int type) const { return count(type, FULL) > 0.0; }
     double mean_density(int type) const;
-    double spread(int type) const;      // standard deviation of the density over rho0
-    double disorder(int type) const;    // spread of the density, or of the sum over neighbors
+    double spread(int type) const;    // standard deviation of the density over rho0
     double mean_pressure(int type) const;
     std::string table() const;    // for the log
 
@@ -93,7 +92,7 @@ namespace SPHDissipation {
     enum Set { ALL, FULL, NSET };
     struct Mean {
       double count, excess, excess_sq, pressure;    // sums; excess = rho/rho0 - 1
-      double sum, sum_sq;    // of the part of rho that is a sum over neighbors, as excess
+      double sum;    // of the part of rho/rho0 that is a sum over neighbors
     };
     struct Range {
       double smallest, minus_largest;    // of the excess
