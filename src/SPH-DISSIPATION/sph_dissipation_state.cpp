@@ -369,7 +369,9 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
   constexpr double SHEARED = 0.1;           // vorticity over the rate of density
   constexpr double FROM_ROUNDOFF = 20.0;    // ln of the growth of a wave that is no longer small
 
-  const bool shears = (engine.parameters().dim > 1) && !evened_out;
+  // a liquid with a free surface has no pressure but that of its motion and of gravity
+  const bool shears =
+      (engine.parameters().dim > 1) && !evened_out && !engine.parameters().continuity;
   LatticeStrain strain(lmp, engine, exchange);
   double length = 0.0;
   if (shears) {

@@ -69,6 +69,11 @@ def test_dam_break(lammps, case):
             assert front[np.isclose(time, when)][0] == pytest.approx(expected, abs=within)
 
 
+def test_no_warning_about_the_lattice_of_a_long_run(lammps):
+    """The hydrostatic pressure on a hexagonal lattice is no background pressure that somebody could leave out."""
+    check(lammps(dam(commands="variable step equal step\nfix end all halt 1 v_step >= 1 error continue\nrun 20000\n", **CASES["hexagonal"])))
+
+
 def test_goes_on_from_a_file(lammps):
     """A restart file gives the same run, a data file the same flow."""
     _, whole = check(lammps(dam(commands="run 500\nrun 500\n")))
