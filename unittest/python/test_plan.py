@@ -56,6 +56,34 @@ def test_plan(lammps, case):
         assert rate == pytest.approx(plan.rate * plan.dt, rel=5e-3)
 
 
+COLUMNS = ["--rho 1 --mu 1e-6 --column 1 --particles 10", "--fluid water --column 0.6 --tank 3.22 --particles 12 --kernel wendland/c4",
+           "--rho 2 --mu 0.01 --kappa 0.3 --column 3 --width 2 --tank 2 --gravity 5 --particles 15 --shear mg/fr",
+           "--rho 1000 --mu 1 --units si --column 0.1 --width 0.1 --dim 3 --particles 8"]
+
+
+@pytest.mark.parametrize("case", COLUMNS)
+def test_column(lammps, case):
+    """A column in a tank: it starts with the hydrostatic pressure and without a warning; nobody leaves; at rest it stays."""
+    plan = planner.Column(planner.arguments(case.split()))
+    text = plan.input()
+    steps = min(plan.steps, 400 if plan.dim == 2 else 30)
+    result = lammps(re.sub(r"(variable +steps index) .*", rf"\g<1> {steps}", text)
+                    + 'print "largest $(bound(water,xmax)) $(bound(water,xmin)) $(bound(water,ymin))"\n')
+    assert not result.warnings, result.warnings
+    assert sum(int(count) for count in re.findall(r"Created (\d+) atoms", result.log)) == plan.number
+    limits = table(result.log)
+    assert {name: limits[name] for name in ("shear", "bulk", "diffusion")} == pytest.approx(
+        {name: plan.limits[name] for name in ("shear", "bulk", "diffusion")}, rel=1e-3)
+    assert plan.dt < plan.largest < limits["all"]
+    right, left, low = (float(word) for word in re.search(r"^largest (.*)", result.output, re.MULTILINE)[1].split())
+    assert min(left, low, plan.tank * plan.dx - right) > -0.15 * plan.dx
+    first, last = (result.thermo()[0]["v_front"][k] for k in (0, -1))
+    assert abs(first / (plan.width * plan.dx) - 1) < 1e-6 and (last - first > 0.1 * plan.dx) == (plan.falls and plan.dim == 2)
+    if not plan.falls:
+        push = plan.rho * plan.gravity * plan.args.column**2 / 2
+        assert result.thermo()[0]["v_push"].mean() == pytest.approx(push, rel=0.02)
+
+
 def test_command(tmp_path):
     """What the command prints is a LAMMPS input; it has measured how long a run takes."""
     done = printed(CASES[0], "--lmp", LMP)
@@ -142,7 +170,9 @@ def test_proposal():
 @pytest.mark.parametrize("case, message", [
     ("--fluid water --length 1", "give --length and --velocity, or"), ("--fluid water --length 1 --wavelength 1", "give --length and --velocity, or"),
     ("--fluid water --frequency 1 --wavelength 1", "or --frequency"), ("--fluid He --wavelength 1 --relax", "--relax is for a gas"),
-    ("--rho 1 --mu 1 --wavelength 1", "needs its speed"), ("--fluid air/101 --wavelength 1", "no fluid air/101"),
+    ("--rho 1 --mu 1 --wavelength 1", "needs its speed"), ("--rho 1 --mu 1 --column 1 --length 1", "--length is not for --column"),
+    ("--rho 1 --mu 1 --column 1 --tank 1", "shorter than the column"), ("--rho 1 --mu 1 --length 1 --velocity 1 --tank 3", "are for --column"),
+    ("--rho 1 --mu 1 --column 1 --shear morris", "torque at a free surface"), ("--rho 1 --mu 1 --column 1 --temperature 1", "--temperature is not"), ("--fluid air/101 --wavelength 1", "no fluid air/101"),
     ("--fluid air/50/0 --wavelength 1", "no fluid air/50/0"), ("--fluid air/50/20 --frequency 1e3", "no fluid air/50/20: ISO 9613-1 holds from 253 to 323 K"),
     ("--fluid air/50/1e308 --frequency 1e3", "253 to 323 K"), ("--fluid air/50/293/1e308 --wavelength 1", "up to 200e3 Pa"),
     ("--fluid air/50/293/1e-300 --wavelength 1", "water boils"), ("--fluid air/wet --wavelength 1", "no fluid air/wet: air/HUMIDITY["),
