@@ -13,6 +13,7 @@ SI units; else in the units of --units. The input is a periodic box, filled with
 is in the manual, "Choosing numbers". With --column the input is a tank with a free surface, see "Free surfaces" there.
 """
 import argparse
+import itertools
 import math
 import os
 import re
@@ -44,6 +45,15 @@ SHEAR = {
     "morris": (8, lambda n: 2 / n - 1),
     "espanol": (10, lambda n: (3 - n) * (n + 2) / (n * (n + 3))),
 }
+# the kernels W, up to a factor, of q = r/rc: sph_dissipation_kernel_shapes.h
+SHAPES = {
+    "wendland/c2": lambda q: (1 - q)**4 * (1 + 4 * q),
+    "wendland/c4": lambda q: (1 - q)**6 * (1 + 6 * q + 35 / 3 * q**2),
+    "wendland/c6": lambda q: (1 - q)**8 * (1 + 8 * q + 25 * q**2 + 32 * q**3),
+    "cubic": lambda q: sum(c * (b - 2 * q)**3 for b, c in ((2, 1), (1, -4)) if 2 * q.real < b),
+    "quintic": lambda q: sum(c * (b - 3 * q)**5 for b, c in ((3, 1), (2, -6), (1, 15)) if 3 * q.real < b),
+    "lucy": lambda q: (1 - q)**3 * (1 + 3 * q),
+}
 BOLTZMANN = {"lj": 1.0, "si": 1.380649e-23}
 # lattice constant in particle distances, particles and edges of its cell: area or volume of a particle = 1
 LATTICE = {2: ("hex", math.sqrt(2 / math.sqrt(3)), 2, (1, math.sqrt(3))), 3: ("bcc", 2 ** (1 / 3), 2, (1, 1, 1))}
@@ -66,6 +76,39 @@ def relax_words(fluid):
     return " relax" + "".join(f" {word:.6g}" for pair in fluid.relax for word in pair)
 
 
+def slope(shape, q):
+    """derivative, by a complex step"""
+    return shape(complex(q, 1e-30)).imag / 1e-30
+
+
+def lattice_sums(dim, kernel, support, shear, k):
+    """Factors (q/k)^2 on the bulk viscosity, S on the longitudinal viscosity of the shear term, and P on c^2 under the pressure rho c^2, for a
+    wave along x of a lattice with particle distance 1: sums over the neighbors of one particle, which are 1 in the continuum."""
+    shape, (_, constant, _, edges) = SHAPES[kernel], LATTICE[dim]
+    reach = range(-int(support) - 2, int(support) + 3)
+    basis = [(0.0,) * dim, (0.5,) * dim]
+    near = [tuple(constant * edge * (i + b) for edge, i, b in zip(edges, cell, part)) for cell in itertools.product(reach, repeat=dim) for part in basis]
+    near = [(r[0], math.hypot(*r)) for r in near if 0 < math.hypot(*r) < support]
+    volume = 1 / (shape(0j).real + sum(shape(complex(r / support)).real for _, r in near))
+
+    def moment(power):
+        return sum(shape(complex((j + 0.5) / 2000)).real * ((j + 0.5) / 2000)**power for j in range(2000))
+
+    eta = 2 * dim * (dim + 2) / ((dim + 1) * support * moment(dim) / moment(dim - 1))
+    forms = {"mg": lambda r, c: 2 * (dim + 2) * c, "mg/fr": lambda r, c: eta * r * c, "morris": lambda r, c: 2.0,
+             "espanol": lambda r, c: 2 * (dim + 2) / (dim + 3) * (1 + c)}
+    q = friction = elastic = 0.0
+    for x, r in near:
+        first, d = slope(shape, r / support) / support, 1e-5
+        second = (slope(shape, r / support + d) - slope(shape, r / support - d)) / (2 * d * support**2) if r < support * (1 - d) else 0.0
+        c, wave = (x / r)**2, 1 - math.cos(k * x)
+        q -= first / r * x * math.sin(k * x)
+        friction -= first / r * forms[shear](r, c) * wave
+        elastic += (second * c + first / r * (1 - c)) * wave
+    square = (volume * q / k)**2
+    return square, volume * friction / k**2 / (SHEAR[shear][1](dim) + 2 - 2 / dim), 2 * volume * elastic / k**2 - square
+
+
 @dataclass
 class Plan:
     """All that follows from the arguments."""
@@ -78,6 +121,7 @@ class Plan:
         self.wave = args.c == "real" or bool(args.wavelength or args.frequency)
         # under the pressure pb, the lattice of a wave falls apart after less than ten periods with 4
         args.support = args.support or (6.0 if self.wave else 4.0)
+        args.kernel = args.kernel or ("wendland/c6" if self.wave else "wendland/c2")    # c6 smooths a wave less, and its lattice is stable under pb
         self.set_fluid()
         self.set_length()
         self.set_relaxation()
@@ -252,6 +296,9 @@ class Plan:
         lines.append(f"sound               frequency {s.imag / (2 * math.pi):.4g}, speed {s.imag / k.real:.5g}, absorption of a driven wave "
                      f"{2 * math.pi * k.imag / k.real:.4g} per wavelength, {20 / math.log(10) * k.imag:.4g} dB per unit of length"
                      + (f"; heat conduction, which this input leaves out, adds {100 * more:.2g} %" if more else ""))
+        errors = ", ".join(f"{name} {100 * error:+.2g} %" for name, error in self.wave_errors(s).items())
+        lines.append(f"errors              {errors}, of kernel, lattice, and step" if errors else
+                     "NOTE                the kernel smooths this wave away: take more particles, or a smaller support")
         decay = f", decay of its amplitude {-1 / s.real:.4g}" if s.real else ""
         return lines + [f"times               period of the wave {2 * math.pi / s.imag:.4g}{decay}"]
 
@@ -262,6 +309,19 @@ class Plan:
         args.length = self.dx * args.particles
         args.wavelength, args.frequency = args.wavelength and args.length, None
         return Plan(args)
+
+    def wave_errors(self, s):
+        """relative, of frequency and decay rate, s being the exponent in the continuum; sums over the lattice, and the step of velocity Verlet.
+        Empty if the particles have no such wave."""
+        form = SHEAR[self.args.shear][1](self.dim) + 2 - 2 / self.dim
+        square, friction, pressure = lattice_sums(self.dim, self.args.kernel, self.args.support, self.args.shear, 2 * math.pi * self.dx / self.args.length)
+        particles = replace(self.fluid, c=self.c0 * math.sqrt(max(pressure, 0.0)), kappa=square * self.zeta + friction * form * self.mu - 4 / 3 * self.mu,
+                            relax=[(square * kappa, tau) for kappa, tau in self.fluid.relax])
+        found = particles.standing_wave(self.args.length) if pressure > 0.0 else None
+        if found is None:
+            return {}
+        errors = {"frequency": found.imag / s.imag - 1 + (s.imag * self.dt)**2 / 24}
+        return errors | ({"decay": found.real / s.real - 1} if s.real else {})
 
     def skin(self):
         """of the neighbor list, with the least time per step at this velocity (page of pair_style sph/bulk)"""
@@ -477,7 +537,7 @@ def arguments(argv):
     parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
     parser.add_argument("--particles", type=int, default=50, metavar="N", help="across the length (default: %(default)s)")
     parser.add_argument("--support", type=positive, help="support radius over particle distance (default: 4, for sound 6)")
-    parser.add_argument("--kernel", choices=STABILITY, default="wendland/c2", metavar="NAME", help="(default: %(default)s)")
+    parser.add_argument("--kernel", choices=STABILITY, metavar="NAME", help="(default: wendland/c2, for sound wendland/c6)")
     parser.add_argument("--shear", choices=SHEAR, default="mg", metavar="FORM", help="form of the shear term (default: %(default)s)")
     parser.add_argument("--temperature", type=not_negative, metavar="T", help="of thermal noise")
     parser.add_argument("--fraction", type=positive, help="time step over the largest stable one, without noise (default: 0.5, with --column 0.95)")

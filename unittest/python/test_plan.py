@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from helpers import LMP
+import sph_dissipation as sph
 from sph_dissipation import fluids
 from sph_dissipation import plan as planner
 
@@ -131,6 +132,42 @@ def test_wave_lasts(lammps):
     (table,) = lammps(plan.input()).thermo()
     decay = np.exp(plan.fluid.standing_wave(plan.args.length).real * table["Time"])
     assert table["Time"][-1] * 30e3 > 10 and np.abs(table["c_amplitude"] / plan.args.velocity / decay).max() < 1.1
+
+
+LJ = "--rho 1.3 --wavelength 2 --c 1.5"
+
+
+@pytest.mark.parametrize("case", [
+    f"{LJ} --mu 0.02 --kappa 0.05 --particles 20", f"{LJ} --mu 0.02 --kappa 0.05 --particles 20 --kernel wendland/c2",
+    f"{LJ} --mu 0.02 --kappa 0.05 --particles 30 --support 4 --kernel wendland/c2",
+    f"{LJ} --mu 0.01 --kappa 0.08 --particles 24 --kernel wendland/c4 --shear mg/fr", f"{LJ} --mu 0.05 --kappa 0 --particles 24 --kernel quintic --shear morris",
+    f"{LJ} --mu 0.04 --kappa 0.02 --particles 24 --kernel cubic --support 5 --shear espanol", f"{LJ} --mu 0.02 --kappa 0.03 --particles 10 --dim 3 --support 4 --kernel wendland/c2",
+    f"{LJ} --mu 0.05 --kappa 0.01 --particles 10 --dim 3 --support 4 --kernel wendland/c6 --shear morris", "--fluid CO2 --frequency 30e3 --particles 30",
+    "--fluid air/50 --wavelength 0.05 --particles 24 --kernel lucy"])
+def test_errors_of_sound(lammps, case):
+    """Frequency and decay of the wave in LAMMPS are off by what is printed, within a quarter of it."""
+    plan = planner.Plan(planner.arguments(case.split()))
+    text = plan.input()
+    printed = re.search(r"^# errors +frequency (\S+) %, decay (\S+) %", text, re.MULTILINE).groups()
+    every = max(1, round(plan.args.length / plan.c0 / plan.dt / 12))
+    text = re.sub(r"(variable +steps index) .*", rf"\g<1> {48 * every}", re.sub(r"thermo  .*", f"thermo {every}", text))
+    (table,) = lammps(text).thermo()
+    s = max(sph.exponents(every * plan.dt, table["c_amplitude"], 2 + len(plan.fluid.relax)), key=lambda mode: mode.imag)
+    rho, mu, zeta = plan.rho, plan.mu, plan.zeta
+    k2 = (2 * np.pi / plan.args.length)**2
+    longitudinal = zeta + mu * {"mg": 3, "mg/fr": 3, "morris": 1, "espanol": 1 + 2 / (plan.dim + 3)}[plan.args.shear]    # eq. "limits"
+    # s^2 + s D + w^2 + s sum(g/(1 + s tau)) = 0 as a polynomial
+    polynomial = np.polynomial.Polynomial([k2 * plan.c0**2, k2 * longitudinal / rho, 1])
+    others = np.polynomial.Polynomial([1])
+    for kappa, tau in plan.fluid.relax:
+        process = np.polynomial.Polynomial([1, tau])
+        polynomial = polynomial * process + others * np.polynomial.Polynomial([0, k2 * kappa / rho])
+        others = others * process
+    exact = max(polynomial.roots(), key=lambda root: root.imag)
+    found = 100 * (s.imag / exact.imag - 1), 100 * (s.real / exact.real - 1)
+    print(case, printed, found)
+    for measured, word in zip(found, printed):
+        assert measured == pytest.approx(float(word), rel=0.25)
 
 
 def test_wave_that_dies_at_once():
