@@ -71,6 +71,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void move_surface(SPHDissipation::BoundaryStage &, SPHDissipation::Surface *, bool) override;
   void set_boundary(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *,
                     const SPHDissipation::BoundarySum *) override;
+  bool has_symmetric_friction() const override { return noise; }
   bool gives_heat() const override;
   void set_heat(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *, bool) override;
 

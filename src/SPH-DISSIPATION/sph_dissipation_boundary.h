@@ -43,6 +43,11 @@ namespace SPHDissipation {
 
     virtual void set_boundary(BoundaryStage &, const Surface *, const BoundarySum *) = 0;
 
+    // The friction of the fluid with its particles is symmetric, that of the velocity of its rigid body with
+    // surface_factor(), instead of that of values that set_boundary() sets
+
+    virtual bool has_symmetric_friction() const { return false; }
+
     // set the values of its particles in the conduction of heat: BoundaryStage::set_heat(); the
     // same for increments of the temperatures, which are zero at the surface; whether heat passes
     // the surface

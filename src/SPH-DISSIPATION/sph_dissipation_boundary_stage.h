@@ -16,6 +16,7 @@
 
 #include "sph_dissipation_boundary.h"
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_engine_surface.h"
 #include "sph_dissipation_surface.h"
 #include "sph_dissipation_wall_terms.h"
 
@@ -39,6 +40,8 @@ namespace SPHDissipation {
     void remove(Boundary *);    // no effect if it is not there
     bool empty() const { return boundaries.empty(); }
     int bits() const { return group_bits; }    // of the groups of all boundaries
+    bool has_symmetric_friction() const { return symmetric_bits != 0; }    // any of them
+    bool all_symmetric() const { return symmetric_bits == group_bits; }
     bool conducts() const;                     // they take part in the conduction of heat
     bool gives_heat() const;                   // any of them, to a fluid that conducts it
 
@@ -53,6 +56,15 @@ namespace SPHDissipation {
 
     // the temperatures alone, or increments of them
     void extend_temperatures(bool increments);
+
+    // After pass 2: add the friction, with its noise, of boundaries where it is symmetric to the sums of the engine; all its
+    // heat goes to the fluid
+
+    void add_friction(PairTally *);
+
+    // the same of given velocities, linear and without noise: forces and torques alone
+
+    void add_linear_friction();
 
     // With thermal noise, the forces of walls on the fluid have an energy; with free surfaces, their repulsion has.  After
     // pass 2: add the repulsion of the surfaces to the forces of the engine and of LAMMPS, and take its work, with
@@ -113,7 +125,7 @@ namespace SPHDissipation {
     BoundaryPairs pairs;                      // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
-    int group_bits;
+    int group_bits, symmetric_bits;
 
     int rows_bits;    // that the rows of the pairs were found for
 
@@ -131,10 +143,20 @@ namespace SPHDissipation {
     SurfaceStage surface;
     bigint surface_step;    // that the normals of the surface are for
 
+    // pairs with symmetric friction, of each thread; numbers of boundary particles, owned and ghost
+
+    std::vector<SurfacePairs> surface_pairs;
+    std::vector<int> number;
+    int nboundary;
+
+    enum class FrictionPart { ALL, ADDED, BODY };    // factor of surface_factor(), less 1, 1
+    void run_friction(FrictionPart, Friction, bool linear);
+
     bool has_energy() const;    // with thermal noise, or free surfaces
     double conductivity(int i) const;
     double over(int i) const;
     double stiffness(int i) const;
+    void find_bits();
     void begin(NeighList *);
 
     // what pair of the fluid and a wall does: force on the particle of the fluid along r by the pressure of the wall, times

@@ -104,7 +104,7 @@ namespace SPHDissipation {
                        const PairInertia &inertia)
     {
       if (fluid.conductivity == 0.0) return 0.0;
-      return shear_rate(Shear::MORRIS) * fluid.conductivity /
+      return shear_rate(Shear::MORRIS, inertia.surface) * fluid.conductivity /
           (inertia.rho * fluid.heat_capacity * inertia.hsq);
     }
   };
