@@ -20,6 +20,7 @@
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "sph_dissipation_cells.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_particle_terms.h"
 #include "update.h"
@@ -48,7 +49,7 @@ typedef WendlandC2 ContactKernel;
 BoundaryStage::BoundaryStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
                              const std::string &style) :
     Stage(lmp, engine, exchange),
-    sum(nullptr), style(style), group_bits(0), symmetric_bits(0), rows_bits(0), nmax(0),
+    sum(nullptr), style(style), group_bits(0), symmetric_bits(0), body_bits(0), frozen_bits(0), rows_bits(0), nmax(0),
     surface(lmp, engine, exchange), surface_step(-1), nboundary(0)
 {
 }
@@ -79,10 +80,12 @@ void BoundaryStage::remove(Boundary *boundary)
 
 void BoundaryStage::find_bits()
 {
-  group_bits = symmetric_bits = 0;
+  group_bits = symmetric_bits = body_bits = frozen_bits = 0;
   for (const auto &one : boundaries) {
     group_bits |= one->boundary_bit();
     if (one->has_symmetric_friction()) symmetric_bits |= one->boundary_bit();
+    if (one->has_bodies()) body_bits |= one->boundary_bit();
+    if (one->has_frozen_pressure()) frozen_bits |= one->boundary_bit();
   }
   engine.has_walls = !boundaries.empty();
 }
@@ -117,7 +120,7 @@ void BoundaryStage::set_heat(int i, WallHeat heat, double value, const Surface &
   if (engine.parameters().own_temperatures)
     engine.conductor[i] = {0.0, value, (heat == WallHeat::TEMPERATURE) ? 1.0 : 0.0, 0.0};
   else if (!heat_sum.empty() && heat_sum[i].weight > 0.0)
-    engine.conductor[i] = wall_conductor(heat, value, engine.particle[i].vol, conductivity(i),
+    engine.conductor[i] = wall_conductor(heat, value, atom->vfrac[i], conductivity(i),
                                          surface_of, heat_sum[i]);
 }
 
@@ -153,10 +156,82 @@ void BoundaryStage::begin(NeighList *list)
   if (found) find_rows(list);
   find_pairs();
   surface.has_flux = conducts();
-  if (found) surface.run(group_bits, pairs);
+  if (found) {
+    find_bodies();
+    surface.run(group_bits, pairs, body_of);
+    sum_bodies();
+  }
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
   for (auto boundary : boundaries) boundary->move_surface(*this, surface.surface, before);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::find_bodies()
+{
+  body_of.clear();
+  if (!body_bits) return;
+  body_of.assign(atom->nlocal + atom->nghost, 0.0);
+  int next = 1;
+  for (auto boundary : boundaries) next = boundary->number_bodies(next, body_of.data());
+  exchange.forward({{body_of.data(), 1, 1}});
+}
+
+/* ----------------------------------------------------------------------
+   The neighbor lists do not have the pairs within a body.  They do not change until lists are built anew.
+------------------------------------------------------------------------- */
+
+void BoundaryStage::sum_bodies()
+{
+  own_numden.clear();
+  if (!frozen_bits) return;
+  const Parameters &par = engine.parameters();
+  own_numden.assign(atom->nlocal, 0.0);
+  std::vector<int> members;
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    if (atom->mask[i] & frozen_bits) members.push_back(i);
+  const Cells cells(atom->x, members, par.support);
+  with_kernel(par.kernel, [&](auto kernel) {
+    engine.for_each(atom->nlocal, [&](int i) {
+      if (!(atom->mask[i] & frozen_bits)) return;
+      cells.near(atom->x[i], par.support, [&](int j, const double *, double rsq) {
+        if (j == i || body_of[j] != body_of[i]) return;
+        own_numden[i] +=
+            engine.weight(j) * par.weight_norm * kernel.shape(sqrt(rsq) / par.support);
+      });
+    });
+    return 0;
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool BoundaryStage::is_body(int i) const
+{
+  return atom->mask[i] & body_bits;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::set_frozen(int i)
+{
+  const ParticleRows &rows = engine.rows();
+  const double weight = engine.weight(i), vol = weight / (engine.density[i].c + own_numden[i]);
+  const double rho = atom->rmass[i] / vol;
+  const double p = pressure(rows.par.eos, rows.types[atom->type[i]].eos, rho, 0.0);
+  engine.particle[i].g = pressure_term(p, vol, weight);
+  engine.zeta_term[i] = 0.0;
+  atom->rho[i] = rho;
+  atom->desph[i] += p * vol * engine.density[i].cdot * (vol / weight);
+}
+
+void BoundaryStage::set_mean_pressure(int i, const BoundarySum &sum_of)
+{
+  if (!(sum_of.weight > 0.0)) return;
+  const double p = sum_of.pressure / sum_of.weight;
+  set_state(i, engine.rows().types[atom->type[i]].eos.rho0,
+            (p > 0.0 || engine.parameters().tension) ? p : 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -279,7 +354,7 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
     force.r[d] = f.x[d] - w.x[d];
     force.approach -= force.r[d] * (f.u[d] - w.u[d]);
   }
-  if (engine.parameters().thermal)
+  if (engine.parameters().thermal && !is_body(pair.wall))
     force.pressing = engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g *
         engine.pairs().slope[pair.entry];
   const NearKernel &wall = contact[pair.wall];
@@ -479,8 +554,16 @@ void BoundaryStage::find_energies_at_rest(NeighList *list)
 
 double BoundaryStage::energy(double *each_atom) const
 {
-  if (!has_energy()) return 0.0;
   double total = 0.0;
+  const Parameters &par = engine.parameters();
+  for (int i = 0; i < atom->nlocal && frozen_bits; i++) {
+    if (!(atom->mask[i] & frozen_bits)) continue;
+    const double energy =
+        atom->rmass[i] * elastic_energy(par.eos, par.type[atom->type[i]].eos, atom->rho[i]);
+    total += energy;
+    if (each_atom) each_atom[i] += energy;
+  }
+  if (!has_energy()) return total;
   add_energies(nforce(), [&](int i, double energy) {
     total += energy;
     if (each_atom) each_atom[i] += energy;
@@ -497,7 +580,7 @@ void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &
   const Parameters &par = engine.parameters();
   with_kernel(engine.parameters().kernel, [&](auto k) {
     pairs.visit([&](const BoundaryPair &pair) {
-      if (pair.fluid >= n || !par.thermal) return;
+      if (pair.fluid >= n || !par.thermal || is_body(pair.wall)) return;
       const Particle &w = engine.particle[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = engine.particle[pair.fluid].x[d] - w.x[d];
@@ -726,6 +809,7 @@ double BoundaryStage::memory_usage() const
       repulsion_sums.memory_usage() + (double) repulsion.capacity() * sizeof(ForceSum) +
       (double) (near.capacity() + contact.capacity()) * sizeof(NearKernel) +
       surface.memory_usage() + (double) number.capacity() * sizeof(int) +
+      (double) (body_of.capacity() + own_numden.capacity()) * sizeof(double) +
       std::accumulate(surface_pairs.begin(), surface_pairs.end(), 0.0,
                       [](double bytes, const SurfacePairs &own) {
                         return bytes + own.memory_usage();

@@ -41,6 +41,8 @@ namespace SPHDissipation {
     bool empty() const { return boundaries.empty(); }
     int bits() const { return group_bits; }    // of the groups of all boundaries
     bool has_symmetric_friction() const { return symmetric_bits != 0; }    // any of them
+    bool is_body(int i) const;    // of one that the fluid moves
+    bool has_bodies() const { return body_bits != 0; }
     bool all_symmetric() const { return symmetric_bits == group_bits; }
     bool conducts() const;                     // they take part in the conduction of heat
     bool gives_heat() const;                   // any of them, to a fluid that conducts it
@@ -94,6 +96,18 @@ namespace SPHDissipation {
                       const double *acceleration);
     double *spin(int i);
 
+    // the pressure of frozen fluid of the same body
+
+    void set_frozen(int i);
+
+    // the mean pressure of the fluid around it
+
+    void set_mean_pressure(int i, const BoundarySum &);
+
+    // number of the body of an owned or ghost particle, see Boundary::number_bodies()
+
+    int body(int i) const { return static_cast<int>(body_of[i]); }
+
     // function(i) for each i < n, shared among the threads
     template <class Function> void for_each(int n, const Function &function)
     {
@@ -125,7 +139,7 @@ namespace SPHDissipation {
     BoundaryPairs pairs;                      // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
-    int group_bits, symmetric_bits;
+    int group_bits, symmetric_bits, body_bits, frozen_bits;
 
     int rows_bits;    // that the rows of the pairs were found for
 
@@ -149,6 +163,11 @@ namespace SPHDissipation {
     std::vector<int> number;
     int nboundary;
 
+    std::vector<double> body_of;       // of owned and ghost atoms, 0: none; empty without bodies
+    std::vector<double> own_numden;    // sum over the other particles of the same body, of owned atoms
+
+    void find_bodies();
+    void sum_bodies();
     enum class FrictionPart { ALL, ADDED, BODY };    // factor of surface_factor(), less 1, 1
     void run_friction(FrictionPart, Friction, bool linear);
 
