@@ -27,6 +27,7 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <algorithm>
@@ -134,6 +135,9 @@ void FixSPHWall::check_bodies(const Fluid *fluid) const
     if (is_used) error->all(FLERR, "Fix {} move rigid cannot be used with {}", style, what);
   };
   refuse(update->whichflag == 2, "a minimization");
+  for (int d = 0; d < 3; d++)
+    refuse(!gravity[d].is_zero() && !choice.continuity,
+           "gravity: the pressure of frozen fluid has it already");
   refuse(fluid->spins, "pair style sph/micropolar");
   refuse(choice.shear == Shear::MORRIS || choice.shear == Shear::ESPANOL,
          "shear morris or espanol of the pair style, whose forces have no angular momentum");

@@ -226,10 +226,11 @@ void BoundaryStage::set_frozen(int i)
   atom->desph[i] += p * vol * engine.density[i].cdot * (vol / weight);
 }
 
-void BoundaryStage::set_mean_pressure(int i, const BoundarySum &sum_of)
+void BoundaryStage::set_mean_pressure(int i, const BoundarySum &sum_of, const double *gravity)
 {
+  constexpr double REST[3] = {0.0, 0.0, 0.0};
   if (!(sum_of.weight > 0.0)) return;
-  const double p = sum_of.pressure / sum_of.weight;
+  const double p = wall_pressure(sum_of, gravity, REST);
   set_state(i, engine.rows().types[atom->type[i]].eos.rho0,
             (p > 0.0 || engine.parameters().tension) ? p : 0.0);
 }

@@ -100,9 +100,9 @@ namespace SPHDissipation {
 
     void set_frozen(int i);
 
-    // the mean pressure of the fluid around it
+    // the pressure of the fluid around it, at rest under this gravity
 
-    void set_mean_pressure(int i, const BoundarySum &);
+    void set_mean_pressure(int i, const BoundarySum &, const double *gravity);
 
     // number of the body of an owned or ghost particle, see Boundary::number_bodies()
 
