@@ -84,7 +84,7 @@ def drop(dim=2, options="", coeff="1.0 10.0 0.3 0.8", mass=1.0, newton="on", ext
     return (f"units lj\ndimension {dim}\nboundary {boundary if dim == 3 else boundary[:-1] + 'p'}\nnewton {newton}\n"
             f"atom_style sph/bulk\nfix mol all property/atom mol\nlattice {lattice} 1.0\n"
             f"region box block {-box} {box} {-box} {box} {z}\ncreate_box 2 box\nregion drop {region}\n"
-            f"create_atoms 1 region drop\nregion body {body}\nset region body type 2\nset type 1 mass 1.0\n"
+            f"create_atoms 1 region drop\nreset_atoms id sort yes\nregion body {body}\nset region body type 2\nset type 1 mass 1.0\n"
             f"set type 2 mass {mass}\nset type 2 mol 1\ngroup fluid type 1\ngroup body type 2\n"
             f"displace_atoms fluid random {jitter} {jitter} {jitter if dim == 3 else 0.0} 5\n"
             "velocity fluid create 0.05 4 loop geom\nvelocity body set 0.3 -0.2 0.0\nvelocity all ramp vx -0.3 0.3 y -6 6 sum yes\n"
@@ -132,3 +132,82 @@ def test_energy(lammps, dim, mass):
         turned = np.ptp(table["PotEng"])
     print(drift, turned)
     assert turned > 50.0 and drift[0.01] < 4e-3 * turned and drift[0.005] < 0.35 * drift[0.01]
+
+
+TWO = "region second sphere {x} {y} 0.0 2.1\nset region second type 2\nset region second mol 2\n"
+
+
+def periodic(newton="on", rigid="rigid molecule", extra="", options="", **settings):
+    """Two bodies in a periodic box; one lies across its border."""
+    text = drop(boundary="p p p", newton=newton, rigid=rigid, extra=extra, options=options, **settings)
+    return text.replace("set type 1 mass 1.0\n", "").replace("set type 2 mol 1\n", "set region body mol 1\n" + TWO.format(
+        x=8.0, y=-4.0) + "region third sphere -10.0 -4.0 0.0 2.1\nset region third type 2\nset region third mol 2\n"
+        "set group all mass 1.0\nset region third image 1 NULL NULL\n").replace("set type 2 mass 1.0\n", "")
+
+
+def test_ranks_and_periodic_borders(lammps):
+    """Two bodies that cross the borders of box and processors; momentum is that of the start."""
+    dump = "dump D all custom 100 out.dump id xu yu zu vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\n"
+    reference = None
+    for ranks, newton in ((1, "on"), (2, "off"), (4, "on")):
+        text = periodic(newton, extra=dump + "velocity body set 3.0 -2.0 0.0\n")
+        table = lammps(text + "thermo 100\nrun 100\n", ranks=ranks).thermo()[-1]
+        for k in (1, 2):
+            assert np.abs(table[f"c_P[{k}]"] - table[f"c_P[{k}]"][0]).max() < 1e-12
+        frame = lammps.frames("out.dump")[-1]
+        reference = reference or frame
+        for name in ("x", "v"):
+            assert np.abs(frame[name] - reference[name]).max() < 1e-11, (ranks, newton, name)
+
+
+@pytest.mark.parametrize("options", ["", "temp 0.02 7"])
+def test_restart(lammps, options):
+    """A continued run, and one from a restart file, go on as a single run."""
+    dump = "dump D all custom 40 {}.dump id xu yu zu vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\n"
+    text = periodic(options=options)
+    lammps(text + dump.format("single") + "run 80\n")
+    lammps(text + dump.format("twice") + "run 40\nwrite_restart box.restart\nrun 40\n")
+    after = text[text.index("neighbor 0.5 bin"):]
+    lammps("fix mol all property/atom mol\n".join(("atom_style sph/bulk\n", "read_restart box.restart\n")).replace(
+        "atom_style sph/bulk\nfix mol all property/atom mol\n", "") + "fix mol all property/atom mol\n"
+        + after[:after.index("pair_style")] + after[after.index("fix 1 fluid"):] + dump.format("read") + "run 40\n")
+    want = lammps.frames("single.dump")[-1]
+    for name in ("twice", "read"):
+        frame = lammps.frames(f"{name}.dump")[-1]
+        for what in ("x", "v", "f"):
+            assert np.abs(frame[what] - want[what]).max() < 1e-10, (name, what)
+
+
+def test_a_body_behaves_as_a_wall_if_it_is_heavy(lammps):
+    """With the same surface, the friction of a body that does not move is that of a wall with thermal noise."""
+    fluid = {}
+    for name, wall in (("body", "fix 2 body rigid single\nfix 3 body sph/wall move rigid\n"), ("wall", "fix 3 body sph/wall\n")):
+        text = small(lammps, "1.0 1e-9 0.7 1.8 2.5", "temp 1e-30 1").replace(
+            "fix 2 body rigid single\nfix 3 body sph/wall move rigid\n", "velocity body set 0.0 0.0 0.0\n" + wall)
+        fluid[name] = forces(lammps, text + "run 0\n")[1][:12]
+    assert np.abs(fluid["wall"]).max() > 1.0
+    assert np.abs(fluid["body"] - fluid["wall"]).max() < 1e-12
+
+
+@pytest.mark.parametrize("change, words", [
+    (("move rigid", "move rigid velocity 1 0 0"), "move rigid cannot be used with velocity"),
+    (("move rigid", "move rigid slip free"), "move rigid cannot be used with slip"),
+    (("move rigid", "move rigid heat temp 1.0"), "move rigid cannot be used with heat"),
+    (("move rigid", "gravity 0 1 0 move rigid"), "cannot be used with gravity"),
+    (("move rigid", "move rigid body molecule"), "requires molecule IDs"),
+    (("move rigid", "move yes body single"), "body is for move rigid only"),
+    (("pair_style sph/bulk ", "pair_style sph/bulk shear morris"), "shear morris or espanol"),
+    (("pair_style sph/bulk ", "pair_style sph/bulk bulk volume"), "bulk volume"),
+    (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk viscous implicit"), "viscous rkl2 or implicit"),
+    (("fix 1 fluid sph/bulk", "fix 1 all sph/bulk"), "is also moved by fix 1"),
+    (("fix 2 body rigid single\n", ""), "must be moved by one fix for rigid bodies"),
+    (("fix 2 body rigid single\n", "fix 2 body rigid single\nfix 4 body rigid/nve single\n"), ""),
+    (("run 0", "minimize 0 0 1 1"), "a minimization"),
+    (("fix 2 body rigid single\n", "group a id 13 14\ngroup b id 15 16 17\nfix 2 body rigid group 2 a b\n"),
+     "do not move as a rigid body"),
+])
+def test_errors(lammps, change, words):
+    text = small(lammps, "1.0 5.0 0.7 1.8 2.5") + ("run 20\n" if "rigid body" in words else "run 0\n")
+    assert change[0] in text
+    result = lammps(text.replace(*change), check=False)
+    assert result.code and words in result.error
