@@ -73,7 +73,8 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}), move(true),
     bodies(nullptr), noise(false), checked(false), total(), total_all(), total_summed(false),
     heat(WallHeat::ADIABATIC), heat_value(new Value), gravity(new Value[3]), heat_rate(0.0),
-    heat_given(0.0), by_molecule(atom->molecule_flag), split_given(false), frozen(false), first_number(0)
+    heat_given(0.0), by_molecule(atom->molecule_flag), split_given(false), frozen(false),
+    first_number(0)
 {
   std::string others;    // a keyword that bodies do not have
   for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
@@ -120,8 +121,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
   if (group->dynamic[igroup])
     error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[igroup]);
 
-  if (split_given && !bodies)
-    error->all(FLERR, "Fix {} body is for move rigid only", style);
+  if (split_given && !bodies) error->all(FLERR, "Fix {} body requires move rigid", style);
   if (bodies) read_bodies(others);
 
   time_integrate = bodies ? 0 : 1;
@@ -328,6 +328,12 @@ void FixSPHWall::setup_pre_exchange()
 void FixSPHWall::setup(int vflag)
 {
   if (!checked) check_thickness(find_fluid(force));
+  if (!checked && bodies && comm->me == 0 &&
+      (bodies->size() > 1 || modify->get_fix_by_style("^sph/wall").size() > 1))
+    error->warning(FLERR,
+                   "Fix {} {}: bodies do not touch each other or walls: only the fluid between "
+                   "them keeps them apart",
+                   id, style);
   checked = true;
   post_force(vflag);
 }

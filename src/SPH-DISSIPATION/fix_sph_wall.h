@@ -87,7 +87,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   SPHDissipation::WallCondition *condition;
   bool move;
   SPHDissipation::Bodies *bodies;    // that the fluid moves; nullptr: a wall
-  bool noise;      // the fluid has thermal noise
+  bool noise;                        // the fluid has thermal noise
   bool checked;    // thickness checked, in the first run; false: not set up since defined
 
   double total[6], total_all[6];    // force and torque, of this rank and of all

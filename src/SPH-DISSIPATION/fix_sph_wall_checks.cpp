@@ -116,10 +116,9 @@ void FixSPHWall::check_particles() const
 
 void FixSPHWall::read_bodies(const std::string &others)
 {
-  if (!others.empty())
-    error->all(FLERR, "Fix {} move rigid cannot be used with {}", style, others);
+  if (!others.empty()) error->all(FLERR, "Fix {} move rigid cannot be used with {}", style, others);
   if (utils::strmatch(style, "/kk$"))
-    error->all(FLERR, "Fix {} does not support move rigid: use sph/wall, without suffix", style);
+    error->all(FLERR, "Fix {} move rigid requires the style without suffix, sph/wall", style);
   if (by_molecule && !atom->molecule_flag)
     error->all(FLERR, "Fix {} body molecule requires molecule IDs, fix property/atom mol", style);
 }
@@ -138,6 +137,7 @@ void FixSPHWall::check_bodies(const Fluid *fluid) const
   for (int d = 0; d < 3; d++)
     refuse(!gravity[d].is_zero() && !choice.continuity,
            "gravity: the pressure of frozen fluid has it already");
+  refuse(is_rerun(lmp), "rerun");
   refuse(fluid->spins, "pair style sph/micropolar");
   refuse(choice.shear == Shear::MORRIS || choice.shear == Shear::ESPANOL,
          "shear morris or espanol of the pair style, whose forces have no angular momentum");
@@ -167,6 +167,13 @@ void FixSPHWall::check_movers() const
   for (const auto &other : modify->get_fix_list()) {
     if (!other->time_integrate || other == this) continue;
     if (other->rigid_flag) {
+      const bool thermostat = (other->setmask() & FixConst::POST_FORCE) ||
+          utils::strmatch(other->style, "/n[pv]t|/nph");
+      if (noise && thermostat)
+        error->all(FLERR,
+                   "Fix {} {} move rigid cannot be used with the thermostat of fix {} {}: the "
+                   "noise of the pair style, keyword temp, is one",
+                   id, style, other->id, other->style);
       for (int i = 0; i < atom->nlocal; i++)
         if (atom->mask[i] & other->groupbit) movers[i]++;
       continue;

@@ -32,7 +32,14 @@ using namespace SPHDissipation;
 
 // sums over the particles of a body
 
-enum { MASS, PLACE, MOMENTUM = PLACE + 3, ANGULAR = MOMENTUM + 3, SECOND = ANGULAR + 3, NSUM = SECOND + 6 };
+enum {
+  MASS,
+  PLACE,
+  MOMENTUM = PLACE + 3,
+  ANGULAR = MOMENTUM + 3,
+  SECOND = ANGULAR + 3,
+  NSUM = SECOND + 6
+};
 
 /* ---------------------------------------------------------------------- */
 
@@ -117,12 +124,10 @@ void Bodies::sum(double **velocity)
     }
     cross_product(center, p, turn);
     for (int d = 0; d < 3; d++) body.angular[d] = own[ANGULAR + d] - turn[d];
-    const double second[6] = {s[0] - mass * center[0] * center[0],
-                              s[1] - mass * center[1] * center[1],
-                              s[2] - mass * center[2] * center[2],
-                              s[3] - mass * center[0] * center[1],
-                              s[4] - mass * center[0] * center[2],
-                              s[5] - mass * center[1] * center[2]};
+    const double second[6] = {
+        s[0] - mass * center[0] * center[0], s[1] - mass * center[1] * center[1],
+        s[2] - mass * center[2] * center[2], s[3] - mass * center[0] * center[1],
+        s[4] - mass * center[0] * center[2], s[5] - mass * center[1] * center[2]};
     const double trace = second[0] + second[1] + second[2];
     body.mass = mass;
     for (int d = 0; d < 3; d++) {
@@ -194,8 +199,8 @@ bool Bodies::start(bool keep)
     for (int d = 0; d < 3; d++) {
       change = std::max({change, std::fabs(body.v[d] - before[d]),
                          std::fabs(body.angular[d] - before[3 + d]) / (body.mass * arm)});
-      scale = std::max(
-          {scale, std::fabs(body.v[d]), std::fabs(body.angular[d]) / (body.mass * arm)});
+      scale =
+          std::max({scale, std::fabs(body.v[d]), std::fabs(body.angular[d]) / (body.mass * arm)});
     }
     if (!has_end || change > ROUNDOFF * scale) same = false;
     std::copy_n(body.v, 3, body.v_end);
@@ -232,8 +237,7 @@ void Bodies::advance(bool extrapolate)
         {0.0, -axis[2], axis[1]}, {axis[2], 0.0, -axis[0]}, {-axis[1], axis[0], 0.0}};
     for (int a = 0; a < 3; a++)
       for (int b = 0; b < 3; b++)
-        body.rotation[a][b] =
-            (a == b ? 1.0 - c : 0.0) + s * cross[a][b] + c * axis[a] * axis[b];
+        body.rotation[a][b] = (a == b ? 1.0 - c : 0.0) + s * cross[a][b] + c * axis[a] * axis[b];
   }
   if (neighbor->ago == 0 || update->ntimestep == update->firststep + 1) check(atom->v);
   if (!extrapolate) return;

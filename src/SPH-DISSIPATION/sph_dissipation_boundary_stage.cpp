@@ -49,8 +49,8 @@ typedef WendlandC2 ContactKernel;
 BoundaryStage::BoundaryStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
                              const std::string &style) :
     Stage(lmp, engine, exchange),
-    sum(nullptr), style(style), group_bits(0), symmetric_bits(0), body_bits(0), frozen_bits(0), rows_bits(0), nmax(0),
-    surface(lmp, engine, exchange), surface_step(-1), nboundary(0)
+    sum(nullptr), style(style), group_bits(0), symmetric_bits(0), body_bits(0), frozen_bits(0),
+    rows_bits(0), nmax(0), surface(lmp, engine, exchange), surface_step(-1), nboundary(0)
 {
 }
 
@@ -120,8 +120,8 @@ void BoundaryStage::set_heat(int i, WallHeat heat, double value, const Surface &
   if (engine.parameters().own_temperatures)
     engine.conductor[i] = {0.0, value, (heat == WallHeat::TEMPERATURE) ? 1.0 : 0.0, 0.0};
   else if (!heat_sum.empty() && heat_sum[i].weight > 0.0)
-    engine.conductor[i] = wall_conductor(heat, value, atom->vfrac[i], conductivity(i),
-                                         surface_of, heat_sum[i]);
+    engine.conductor[i] =
+        wall_conductor(heat, value, atom->vfrac[i], conductivity(i), surface_of, heat_sum[i]);
 }
 
 double BoundaryStage::conductivity(int i) const
@@ -197,8 +197,7 @@ void BoundaryStage::sum_bodies()
       if (!(atom->mask[i] & frozen_bits)) return;
       cells.near(atom->x[i], par.support, [&](int j, const double *, double rsq) {
         if (j == i || body_of[j] != body_of[i]) return;
-        own_numden[i] +=
-            engine.weight(j) * par.weight_norm * kernel.shape(sqrt(rsq) / par.support);
+        own_numden[i] += engine.weight(j) * par.weight_norm * kernel.shape(sqrt(rsq) / par.support);
       });
     });
     return 0;
@@ -438,7 +437,8 @@ void BoundaryStage::add_friction(PairTally *tally)
   }
   if (!directed) return;
 
-  run_friction(FrictionPart::BODY, Friction::WITHOUT_NOISE, false);    // the half that pass 2 gave the wall
+  run_friction(FrictionPart::BODY, Friction::WITHOUT_NOISE,
+               false);    // the half that pass 2 gave the wall
   for (const auto &own : surface_pairs)
     own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
       engine.force[pair.fluid].heat += own.force[k].heat;

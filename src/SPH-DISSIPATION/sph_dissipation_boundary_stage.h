@@ -44,8 +44,8 @@ namespace SPHDissipation {
     bool is_body(int i) const;    // of one that the fluid moves
     bool has_bodies() const { return body_bits != 0; }
     bool all_symmetric() const { return symmetric_bits == group_bits; }
-    bool conducts() const;                     // they take part in the conduction of heat
-    bool gives_heat() const;                   // any of them, to a fluid that conducts it
+    bool conducts() const;      // they take part in the conduction of heat
+    bool gives_heat() const;    // any of them, to a fluid that conducts it
 
     // after the densities: see ParticleRows::set_reference_volume()
     void set_reference_volume();
@@ -163,8 +163,9 @@ namespace SPHDissipation {
     std::vector<int> number;
     int nboundary;
 
-    std::vector<double> body_of;       // of owned and ghost atoms, 0: none; empty without bodies
-    std::vector<double> own_numden;    // sum over the other particles of the same body, of owned atoms
+    std::vector<double> body_of;    // of owned and ghost atoms, 0: none; empty without bodies
+    std::vector<double>
+        own_numden;    // sum over the other particles of the same body, of owned atoms
 
     void find_bodies();
     void sum_bodies();

@@ -182,7 +182,8 @@ namespace SPHDissipation {
       if (fluid.shear == Shear::MICROPOLAR)
         return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho, own[ALONG_R],
                              slip_coefficient(fluid), inertia.surface);
-      return shear_rate(fluid.shear, inertia.surface) * fluid.viscosity[MU] / inertia.rho / inertia.hsq;
+      return shear_rate(fluid.shear, inertia.surface) * fluid.viscosity[MU] / inertia.rho /
+          inertia.hsq;
     }
   };
 

@@ -36,9 +36,9 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
     state_pressure(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
     par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
-    noisy_loop(nullptr), surface_loop(nullptr), surface_noise(nullptr), drag_noise(nullptr), data(), atom_rows(), threads(&one_thread),
-    weights(nullptr), not_fluid(0), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0),
-    imax(0), pair_max(0)
+    noisy_loop(nullptr), surface_loop(nullptr), surface_noise(nullptr), drag_noise(nullptr), data(),
+    atom_rows(), threads(&one_thread), weights(nullptr), not_fluid(0), nlocal_forces(-1),
+    nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
   choose_loops("auto");
 }

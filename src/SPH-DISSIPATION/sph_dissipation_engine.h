@@ -334,8 +334,8 @@ namespace SPHDissipation {
     const LoopSet *loops;
     const Parameters *par;
     Loop density_loop, rate_loop, force_loop;
-    Loop noisy_loop;    // force_loop with noise, or nullptr
-    Loop surface_loop;  // the same for pairs of surfaces
+    Loop noisy_loop;      // force_loop with noise, or nullptr
+    Loop surface_loop;    // the same for pairs of surfaces
     const NoiseData *surface_noise;
     const double *drag_noise;
     LoopData data;

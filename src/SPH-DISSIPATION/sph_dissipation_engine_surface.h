@@ -43,8 +43,7 @@ namespace SPHDissipation {
     template <class Function> void visit(Function &&function) const
     {
       for (std::size_t row = 0; row < walls.size(); row++)
-        for (int k = begin[row]; k < begin[row + 1]; k++)
-          function(pairs[k], walls.size() + k, row);
+        for (int k = begin[row]; k < begin[row + 1]; k++) function(pairs[k], walls.size() + k, row);
     }
     std::size_t rows() const { return walls.size(); }
     int wall(std::size_t row) const { return walls[row]; }

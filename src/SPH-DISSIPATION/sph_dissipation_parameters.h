@@ -109,7 +109,8 @@ namespace SPHDissipation {
     void set_uniform();          // uniform, inviscid, and optional, from pair
     void set_alike();            // what belongs to heat and sound, from type
     void set_step(double dt);    // the time step of the states
-    bool directed_noise() const;    // each partner of a pair has a number of its own, see NoiseStage
+    bool
+    directed_noise() const;    // each partner of a pair has a number of its own, see NoiseStage
   };
 
   inline void Constants::set_kernel(Kernel kernel_in, int dim_in, double support_in)

@@ -276,7 +276,8 @@ static Real fading(Real dist, Real radius)
 
 void System::find_factors()
 {
-  std::vector<SmallVector> side(N, SmallVector::Zero(n)), inward = side, plane = side, normal = side;
+  std::vector<SmallVector> side(N, SmallVector::Zero(n)), inward = side, plane = side,
+                                                          normal = side;
   Vector filled = Vector::Zero(N), plane_depth = filled, depth = filled, weights = filled;
   auto spacing = [&](int i) {
     return std::pow(V(i), 1.0L / n);
@@ -303,8 +304,8 @@ void System::find_factors()
   for (const auto &p : solid) {
     if (!(plane[p.j].norm() > 0.5L)) continue;
     const Real soft = 0.25L * spacing(p.i);
-    const Real share = std::pow(p.dist * p.dist + soft * soft, -4.0L) *
-        fading(p.dist, model.support);
+    const Real share =
+        std::pow(p.dist * p.dist + soft * soft, -4.0L) * fading(p.dist, model.support);
     weights(p.i) += share;
     normal[p.i] += share * plane[p.j];
     depth(p.i) += share * (plane_depth(p.j) - plane[p.j].dot(p.r));

@@ -110,7 +110,7 @@ struct Particles {
   Matrix x, v;    // n rows, one column per particle
   Matrix spin;    // n = 3: three rows, n = 2: one row, the z component; empty without spin
   std::vector<Real> mass, energy;
-  std::vector<int> type;      // from 1
+  std::vector<int> type;    // from 1
   // with reference volume, without bulk term and pairs among each other, with the friction of the distances from
   // the surface; or empty
   std::vector<bool> wall;
@@ -152,7 +152,7 @@ struct NoiseNumber {
   static constexpr int HALVES = 4;
   int low, high;    // high < 0: pressure
   bool surface;     // of what a surface adds, where each partner of a pair has a number
-  int index;        // of the numbers of the pair: four of a word each, or, from HALVES on, eight of half a word
+  int index;    // of the numbers of the pair: four of a word each, or, from HALVES on, eight of half a word
 };
 
 struct Noise {

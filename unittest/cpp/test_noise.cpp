@@ -36,7 +36,7 @@ static constexpr std::uint32_t SEED = 987654321;
 // ---- the numbers, from the description of the generator ------------------------------------------
 
 static std::array<std::uint32_t, 4> random_words(std::array<std::uint32_t, 4> c, std::uint32_t k0,
-                                          std::uint32_t k1)
+                                                 std::uint32_t k1)
 {
   for (int round = 0; round < 7; round++) {
     const std::uint64_t p0 = 0xD2511F53ull * c[0], p1 = 0xCD9E8D57ull * c[2];

@@ -3,6 +3,8 @@
 Values of forces are those of an independent program with dense matrices.
 """
 
+import re
+
 import numpy as np
 import pytest
 
@@ -195,7 +197,7 @@ def test_a_body_behaves_as_a_wall_if_it_is_heavy(lammps):
     (("move rigid", "move rigid heat temp 1.0"), "move rigid cannot be used with heat"),
     (("move rigid", "gravity 0 1 0 move rigid"), "cannot be used with gravity"),
     (("move rigid", "move rigid body molecule"), "requires molecule IDs"),
-    (("move rigid", "move yes body single"), "body is for move rigid only"),
+    (("move rigid", "move yes body single"), "body requires move rigid"),
     (("pair_style sph/bulk ", "pair_style sph/bulk shear morris"), "shear morris or espanol"),
     (("pair_style sph/bulk ", "pair_style sph/bulk bulk volume"), "bulk volume"),
     (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk viscous implicit"), "viscous rkl2 or implicit"),
@@ -211,3 +213,30 @@ def test_errors(lammps, change, words):
     assert change[0] in text
     result = lammps(text.replace(*change), check=False)
     assert result.code and words in result.error
+
+
+def test_buoyancy(lammps):
+    """A disc of the density of the fluid, held in a column at rest, is carried by its weight."""
+    (table,) = lammps(
+        "units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nlattice sq 1.0 origin 0.5 0.5 0.0\n"
+        "region domain block 0 24 -5 24 -0.5 0.5\ncreate_box 3 domain\ncreate_atoms 1 region domain\n"
+        "region floor block INF INF INF -0.01 INF INF\nregion top block INF INF 19.99 INF INF INF\n"
+        "region body sphere 12.0 10.0 0.0 4.2\nset region floor type 2\nset region top type 2\nset region body type 3\n"
+        "group fluid type 1\ngroup wall type 2\ngroup body type 3\nset group all mass 1.0\n"
+        "displace_atoms fluid random 0.05 0.05 0.0 3\nneighbor 0.5 bin\npair_style sph/bulk\n"
+        "pair_coeff * * 1.0 10.0 2.0 1.0 4.0\nfix g fluid gravity 0.01 vector 0 -1 0\nfix w wall sph/wall gravity 0 -0.01 0\n"
+        "fix r body rigid single force * off off off torque * off off off\nfix b body sph/wall move rigid\n"
+        "fix 1 fluid sph/bulk\ntimestep 0.05\nvariable B equal f_b[2]/mass(body)/0.01\nthermo_style custom step v_B f_b[1]\n"
+        + FULL + "thermo 3000\nrun 3000\n").thermo()
+    print(table["v_B"])
+    assert abs(table["v_B"][-1] - 1.0) < 0.002 and abs(table["f_b[1]"][-1]) < 1e-3
+
+
+@pytest.mark.parametrize("mass", [0.1, 100.0])
+def test_density_ratios(lammps, mass):
+    """Light and heavy bodies at the time step of the table."""
+    text = drop(boundary="p p p", mass=mass, coeff="1.0 10.0 0.3 0.8 ", step=0.001, jitter=0.05)
+    log = lammps(text + "run 0\n").log
+    step = float(re.search(r"largest stable time step with viscous explicit (\S+),", log)[1])
+    table = lammps(text.replace("timestep 0.001", f"timestep {0.98 * step}") + "thermo 50\nrun 1000\n").thermo()[-1]
+    assert table["KinEng"].max() < 1.05 * table["KinEng"][0] and table["KinEng"][-1] < table["KinEng"][0]
