@@ -224,7 +224,7 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
   auto *const spin = data.spin;
   const int bit = groupbit;
   const WallHeat kind = heat;
-  const bool with_heat = data.par.conducts, by_atom = heat_value->is_by_atom();
+  const bool with_heat = data.par.conducts(), by_atom = heat_value->is_by_atom();
   const double value = heat_value->now();
   auto values = heat_values;
   auto heat_sums = boundary.heat_sum;
@@ -243,9 +243,9 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
         now.acceleration_at(r, acceleration);
         extend_fluid(rows, i, wall, surface(k), sum, acceleration, w);
         if (with_heat && heat_sums(k).weight > 0.0)
-          rows.conductor[i] =
+          rows.flow[HEAT_FLOW][i] =
               wall_conductor(kind, by_atom ? values(i) : value, rows.particle[i].vol,
-                             rows.types[rows.type[i]].conductivity, surface(k), heat_sums(k));
+                             rows.types[rows.type[i]].flow[HEAT_FLOW], surface(k), heat_sums(k));
       });
 }
 

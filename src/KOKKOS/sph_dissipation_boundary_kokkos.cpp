@@ -200,7 +200,7 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
         const Surface s = surface(k);
         BoundarySum total = {};
         BoundaryHeatSum heat = {};
-        const double conductivity = loop.types[loop.type[particles(k)]].conductivity;
+        const double conductivity = loop.types[loop.type[particles(k)]].flow[HEAT_FLOW];
         for_neighbors(loop, particles(k), [&](int j, const double *r, double rsq) {
           if (number(j) >= 0) return;
           const Particle &f = loop.particle[j];
@@ -210,7 +210,7 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
                                           loop.weight[j * loop.each], loop.zeta_term[j], total);
           if (loop.spin) add_fluid_spin(loop.spin[j].w, f.vol * kernel_weight, height, s, total);
           if (with_heat)
-            add_fluid_heat(loop.conductor[j], f.vol * kernel_weight,
+            add_fluid_heat(loop.flow[HEAT_FLOW][j], f.vol * kernel_weight,
                            loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support),
                            height, conductivity, heat);
         });
@@ -229,8 +229,8 @@ template <class DeviceType, class K> struct SurfaceHeat {
 
   KOKKOS_INLINE_FUNCTION double operator()(int f, int w, const double *r, double rsq) const
   {
-    const double flux = loop.conductor[w].flux;
-    if (flux == 0.0 || !(loop.conductor[f].conductivity > 0.0)) return 0.0;
+    const double flux = loop.flow[HEAT_FLOW][w].flux;
+    if (flux == 0.0 || !(loop.flow[HEAT_FLOW][f].coefficient > 0.0)) return 0.0;
     const double slope = loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support);
     return surface_heat(flux, loop.particle[f].vol, r, slope, surface(number(w)));
   }
@@ -275,7 +275,7 @@ void BoundaryStageKokkos<DeviceType>::sum_surface_heat(const LoopDataKokkos<Devi
   Kokkos::parallel_for(
       "sph:surface_heat_given", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
         const int i = particles(k);
-        if (loop.conductor[i].flux == 0.0) return;
+        if (loop.flow[HEAT_FLOW][i].flux == 0.0) return;
         double total = 0.0;
         for_neighbors(loop, i, [&](int j, const double *r, double rsq) {
           if (number(j) < 0) total += heat_of(j, i, r, rsq);

@@ -33,6 +33,8 @@
 #include "sph_dissipation_threads.h"
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -54,8 +56,8 @@ class ThreadsKokkos : public Threads {
 
 template <class DeviceType>
 FluidKokkos<DeviceType>::FluidKokkos(LAMMPS *lmp, Pair *pair, bool spins) :
-    Fluid(lmp, pair, spins), on_device(true), copied(false), threads(new ThreadsKokkos),
-    host_list(new NeighList(lmp)), nlocal_device(-1), nghost_device(-1),
+    Fluid(lmp, pair, spins), on_device(true), copied(false), rates_known(false),
+    threads(new ThreadsKokkos), host_list(new NeighList(lmp)), nlocal_device(-1), nghost_device(-1),
     data(new LoopDataKokkos<DeviceType>()),
     boundary_device(new BoundaryStageKokkos<DeviceType>(lmp, pair, *boundary))
 {
@@ -241,6 +243,14 @@ template <class DeviceType> void FluidKokkos<DeviceType>::adopt()
 
 /* ---------------------------------------------------------------------- */
 
+template <class DeviceType> void FluidKokkos<DeviceType>::begin_run(double dt)
+{
+  rates_known = false;
+  Fluid::begin_run(dt);
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class DeviceType> void FluidKokkos<DeviceType>::set_step(double dt)
 {
   if (dt != model->parameters().step) copied = false;
@@ -291,6 +301,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_states()
                   {}};
   for (int slot : avec.slots)
     data->states.state[slot] = avec.k_state[slot].template view<DeviceType>().data();
+  for (int k = 0; k < Flows::NUMBER; k++)
+    data->states.rate[k] = (rates_known && has_rate(k)) ? flow_rate[k].data() : nullptr;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -336,13 +348,24 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
   data->density = reach(density_sum, "sph:density", n);
   data->zeta_term = reach(zeta_term, "sph:zeta_term", n);
   data->state_pressure = reach(state_pressure, "sph:state_pressure", n);
-  data->conductor = reach(conductor, "sph:conductor", engine->parameters().conducts ? n : 1);
-  if (boundary->conducts()) reach(heat_flow_of, "sph:heat_flow", n);
+  for (int k = 0; k < Flows::NUMBER; k++) {
+    const bool used = engine->parameters().flows >> k & 1;
+    data->flow[k] = used ? reach(flow[k], "sph:flow", n) : nullptr;
+    if (has_rate(k)) reach(flow_rate[k], "sph:flow_rate", n);
+  }
   data->spin = engine->has_spin() ? reach(spin, "sph:spin", n) : nullptr;
   for (auto &heat : data->heat) reach(heat, "sph:heat", n);
   data->weight = reach(weight, "sph:weight", data->each ? n : 1);
   if (model->choice.limit != Limit::NO) reach(bound_of, "sph:bound", n);
   if (shift->wanted) reach(gradient_of, "sph:gradient", n);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> bool FluidKokkos<DeviceType>::has_rate(int place) const
+{
+  if (place == HEAT_FLOW) return boundary->conducts();
+  return engine->parameters().flows >> place & 1;
 }
 
 /* ----------------------------------------------------------------------
@@ -482,27 +505,34 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
     energy.array = AtomVecSPHBulkKokkos::of(atom).k_esph.template view<DeviceType>();
   const ParticleRows rows = *data;
   Part<double> pressure_of_states = {{}, 0, 1};
-  Part<Conductor> temperature = {{}, 1, 1};
-  const bool states = engine->parameters().states, conducts = engine->parameters().conducts;
-  const int bits = not_fluid();
+  std::array<Part<FlowRow>, Flows::NUMBER> values;
+  const bool states = engine->parameters().states;
+  const int bits = not_fluid(), flows = engine->parameters().loops_of_flows;
   if (states) pressure_of_states.array = state_pressure;
-  if (conducts) temperature.array = conductor;
-  if (states || conducts) {
+  for (int k = 0; k < Flows::NUMBER; k++) {
+    values[k] = {{}, 1, 1};
+    if (flows >> k & 1) values[k].array = flow[k];
+  }
+  if (states || flows) {
     const bool rest = at_rest();
     Kokkos::parallel_for(
         "sph:states", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
           rows.set_density(i);
           if (states) rows.set_state_pressure(i, bits, rest);
-          if (conducts) rows.set_temperature(i);
+          if (flows) rows.set_flow_values(i);
         });
   }
-  send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy, pressure_of_states, temperature);
+  std::apply(
+      [&](const auto &...value) {
+        send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy, pressure_of_states, value...);
+      },
+      values);
 
   Kokkos::parallel_for(
       "sph:volume", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
       KOKKOS_LAMBDA(int i) {
         rows.set_density(i);
-        if (conducts) rows.set_conductor(i, bits);
+        if (flows) rows.set_flows(i, bits);
       });
 }
 
@@ -563,8 +593,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
   boundary_device->run(*data, pair->list->inum);
   Part<Spin> spins_of = {{}, 0, 3};
   if (engine->has_spin()) spins_of.array = spin;
-  Part<Conductor> heat = {{}, 0, 4};
-  if (boundary->conducts()) heat.array = conductor;
+  Part<FlowRow> heat = {{}, 0, 4};
+  if (boundary->conducts()) heat.array = flow[HEAT_FLOW];
   send_to_ghosts(Part<Particle>{particle, 3, 5},    // u, vol and g
                  Part<double>{zeta_term, 0, 1}, spins_of, heat);
 }
@@ -602,15 +632,20 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(PairTally *
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::sum_heat()
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_flows()
 {
-  if (!on_device) return Fluid::sum_heat();
-  double *const flow = boundary->conducts() ? heat_flow_of.data() : nullptr;
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    Kokkos::parallel_for("sph:heat", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-                         HeatLoopKokkos<DeviceType, decltype(kernel)>{*data, flow});
-  });
-  if (flow) boundary_device->add_surface_heat(*data, flow);
+  if (!on_device) return Fluid::sum_flows();
+  rates_known = true;
+  for (int k = 0; k < Flows::NUMBER; k++) {
+    if (!(engine->parameters().loops_of_flows >> k & 1)) continue;
+    double *const rate = has_rate(k) ? flow_rate[k].data() : nullptr;
+    with_kernel(model->choice.kernel, [&](auto kernel) {
+      Kokkos::parallel_for(
+          "sph:flow", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
+          FlowLoopKokkos<DeviceType, decltype(kernel)>{*data, k, rate, k == HEAT_FLOW});
+    });
+    if (rate && k == HEAT_FLOW) boundary_device->add_surface_heat(*data, rate);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -622,12 +657,12 @@ template <class DeviceType> double FluidKokkos<DeviceType>::received_heat(int gr
     return Fluid::received_heat(groupbit);
   }
   auto mask = atomKK->k_mask.template view<DeviceType>();
-  auto flow = heat_flow_of;
+  auto flow_of = flow_rate[HEAT_FLOW];
   double total = 0.0;
   Kokkos::parallel_reduce(
       "sph:received_heat", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
       KOKKOS_LAMBDA(int i, double &sum) {
-        if (mask(i) & groupbit) sum += flow(i);
+        if (mask(i) & groupbit) sum += flow_of(i);
       },
       total);
   return total;
@@ -668,9 +703,10 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
             ((double) view.size() *
              sizeof(typename std::decay_t<decltype(view)>::non_const_value_type)));
   };
-  return Fluid::memory_usage() + boundary_device->memory_usage() +
-      bytes(particle, density_sum, spin, zeta_term, state_pressure, conductor, heat_flow_of, weight,
-            bound_of, gradient_of) +
+  double of_flows = 0.0;
+  for (int k = 0; k < Flows::NUMBER; k++) of_flows += bytes(flow[k], flow_rate[k]);
+  return Fluid::memory_usage() + boundary_device->memory_usage() + of_flows +
+      bytes(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of, gradient_of) +
       (double) NCHANNEL * bytes(data->heat[0]);
 }
 

@@ -69,6 +69,7 @@ namespace SPHDissipation {
     // on the device where that computes; public because CUDA asks for it of functions with lambdas
 
     void sum_density() override;
+    void begin_run(double dt) override;
     void set_step(double dt) override;
     void advance_states() override;
     void sum_bound() override;
@@ -77,7 +78,7 @@ namespace SPHDissipation {
     void set_boundary() override;
     void sum_gradient() override;
     void sum_forces(PairTally *) override;
-    void sum_heat() override;
+    void sum_flows() override;
     void set_particles();
     void set_spins();
 
@@ -87,7 +88,8 @@ namespace SPHDissipation {
     static constexpr uint64_t HEAT = ENERGY | ESPH_MASK | DESPH_MASK | DRHO_MASK;
 
     bool on_device;
-    bool copied;    // coefficients on the device are those of the model
+    bool copied;         // coefficients on the device are those of the model
+    bool rates_known;    // those of the flows, from this run
     std::unique_ptr<Threads> threads;
     std::unique_ptr<NeighList> host_list;    // half; for what runs on the host
     std::vector<int> host_ilist, host_numneigh, host_neighbors;
@@ -104,9 +106,10 @@ namespace SPHDissipation {
     Array<DensitySum> density_sum;
     Array<Spin> spin;
     Array<double> zeta_term, state_pressure, weight;
-    Array<Conductor> conductor;
-    Array<double> heat_flow_of;    // if boundaries give heat, see HeatStage
-    Array<double> bound_of;        // of the limit, see LimitStage
+    Array<FlowRow> flow[Flows::NUMBER];
+    Array<double>
+        flow_rate[Flows::NUMBER];    // of states, and of heat if boundaries give it, see FlowStage
+    Array<double> bound_of;          // of the limit, see LimitStage
     Gradient gradient_of;
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
 
@@ -118,6 +121,7 @@ namespace SPHDissipation {
     void copy_coeffs();
     template <class T> struct Part;
     template <class... T> void send_to_ghosts(const Part<T> &...);
+    bool has_rate(int place) const;    // of a flow
     template <class Loop> void run_loop(const Loop &, bool virial);
     template <class K, class Form> void run_force_loop(bool virial);
   };

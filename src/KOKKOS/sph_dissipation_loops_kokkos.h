@@ -170,7 +170,7 @@ namespace SPHDissipation {
         }
       }
 
-      heat[Channels::place<BulkChannel>()] =
+      heat[BULK_HEAT] =
           bulk_heat(data.par.bulk, zeta_term_i, pi.vol, weight_i, data.density[i].cdot, divergence);
       if (data.par.drag && !(data.mask[i] & data.not_fluid))
         Channels::add_drag(data.types[data.type[i]].keywords.a, pi.vol, pi.u, false, total_f, heat);

@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 #define LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 
-// Further sums over the pairs of each particle: as classes LimitStage, HeatStage and ShiftStage of the CPU styles
+// Further sums over the pairs of each particle: as classes LimitStage, FlowStage and ShiftStage of the CPU styles
 
 #include "sph_dissipation_loops_kokkos.h"
 #include "sph_dissipation_shift_terms.h"
@@ -39,27 +39,30 @@ namespace SPHDissipation {
     }
   }
 
-  // conduction of heat, as heat_loop() of the CPU styles
+  // a flow, as flow_loop() of the CPU styles
 
-  template <class DeviceType, class K> struct HeatLoopKokkos {
+  template <class DeviceType, class K> struct FlowLoopKokkos {
     LoopDataKokkos<DeviceType> data;
-    double *flow;    // heat per time of each particle; nullptr: it is not asked for
+    int place;         // of the flow
+    double *rate;      // what each particle gets per time; nullptr: it is not asked for
+    bool of_energy;    // it is added to the rate of the internal energy
 
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
     {
       const int i = data.ilist(ii);
-      const Conductor own = data.conductor[i];
-      if (flow) flow[i] = 0.0;
+      const FlowRow *const row = data.flow[place];
+      const FlowRow own = row[i];
+      if (rate) rate[i] = 0.0;
       if (own.vol == 0.0) return;
       double sum = 0.0;
       for_neighbors(data, i, [&](int j, const double *, double rsq) {
-        const Conductor &other = data.conductor[j];
+        const FlowRow &other = row[j];
         const double slope = data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
-        sum += heat_flow(mean_conductivity(own.conductivity, other.conductivity),
-                         own.vol * other.vol * slope, own.temperature, other.temperature);
+        sum += flow_of_pair(mean_coefficient(own.coefficient, other.coefficient),
+                            own.vol * other.vol * slope, own.value, other.value);
       });
-      data.desph[i] += sum;
-      if (flow) flow[i] = sum;
+      if (of_energy) data.desph[i] += sum;
+      if (rate) rate[i] = sum;
     }
   };
 

@@ -245,6 +245,7 @@ void FixSPHBulk::init()
   if (first_instance) check_integrated_once();
 
   fluid = find_own_fluid();
+  if (fluid) fluid->integrated = integrated_groups;
   const bool noise = fluid && fluid->model->choice.thermal;
   extrapolation = viscous->extrapolation(noise);
   balanced = fluid && fluid->model->choice.own_temperatures && fluid->pair->compute_flag;
@@ -454,7 +455,7 @@ void FixSPHBulk::setup_pre_exchange()
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
   double *const vol_rate_before = fields().vol_rate_before;
-  if (!continued && fluid && first_instance) fluid->keep_densities();
+  if (fluid && first_instance) fluid->keep_densities();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     if (!continued) {

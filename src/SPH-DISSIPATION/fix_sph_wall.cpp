@@ -215,10 +215,10 @@ void FixSPHWall::init()
     check_particles();
   const std::set<int> felt = interacting_types(fluid);
   const auto conducts = [&](int type) {
-    return fluid->model->coeffs[type].keywords.conductivity() > 0.0;
+    return fluid->model->parameters().type[type].flow[HEAT_FLOW] > 0.0;
   };
   if (gives_heat() &&
-      (!fluid->model->parameters().conducts ||
+      (!fluid->model->parameters().conducts() ||
        (!felt.empty() && std::none_of(felt.begin(), felt.end(), conducts))))
     error->all(FLERR,
                "Fix {} heat: the fluid at the wall conducts no heat, keyword conductivity of "

@@ -118,15 +118,15 @@ void BoundaryStage::extend_fluid(int i, const WallCondition &condition, const Su
 void BoundaryStage::set_heat(int i, WallHeat heat, double value, const Surface &surface_of)
 {
   if (engine.parameters().own_temperatures)
-    engine.conductor[i] = {0.0, value, (heat == WallHeat::TEMPERATURE) ? 1.0 : 0.0, 0.0};
+    engine.heat()[i] = {0.0, value, (heat == WallHeat::TEMPERATURE) ? 1.0 : 0.0, 0.0};
   else if (!heat_sum.empty() && heat_sum[i].weight > 0.0)
-    engine.conductor[i] =
+    engine.heat()[i] =
         wall_conductor(heat, value, atom->vfrac[i], conductivity(i), surface_of, heat_sum[i]);
 }
 
 double BoundaryStage::conductivity(int i) const
 {
-  return engine.parameters().type[atom->type[i]].conductivity;
+  return engine.parameters().type[atom->type[i]].flow[HEAT_FLOW];
 }
 
 double *BoundaryStage::spin(int i)
@@ -278,15 +278,15 @@ void BoundaryStage::extend_temperatures(bool increments)
     exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
   }
   for (auto boundary : boundaries) boundary->set_heat(*this, surface.surface, increments);
-  Conductor *const conductor = engine.conductor.data();
-  exchange.forward({field(conductor, &conductor->vol, 4)});
+  FlowRow *const heat = engine.heat().data();
+  exchange.forward({field(heat, &heat->vol, 4)});
 }
 
 /* ---------------------------------------------------------------------- */
 
 bool BoundaryStage::gives_heat() const
 {
-  return engine.parameters().conducts &&
+  return engine.parameters().conducts() &&
       std::any_of(boundaries.begin(), boundaries.end(), [](const Boundary *one) {
            return one->gives_heat();
          });
@@ -294,7 +294,7 @@ bool BoundaryStage::gives_heat() const
 
 bool BoundaryStage::conducts() const
 {
-  return !boundaries.empty() && engine.parameters().conducts;
+  return !boundaries.empty() && engine.parameters().conducts();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -304,8 +304,8 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow)
   if (heat_sum.empty()) return;
   flow_sums.run(engine.team(), flow.data(), flow.size(), pairs.touched, [&](int k, double *sum) {
     for (const auto &pair : pairs.of_thread[k]) {
-      const double flux = engine.conductor[pair.wall].flux;
-      if (flux == 0.0 || !(engine.conductor[pair.fluid].conductivity > 0.0)) continue;
+      const double flux = engine.heat()[pair.wall].flux;
+      if (flux == 0.0 || !(engine.heat()[pair.fluid].coefficient > 0.0)) continue;
       const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
@@ -756,7 +756,7 @@ void BoundaryStage::accumulate_heat()
             double r[3];
             for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
             const double q = sqrt(inner_product(r, r)) / par.support;
-            add_fluid_heat(engine.conductor[pair.fluid], f.vol * par.weight_norm * Kernel::shape(q),
+            add_fluid_heat(engine.heat()[pair.fluid], f.vol * par.weight_norm * Kernel::shape(q),
                            par.slope_norm * Kernel::slope(q),
                            height_above(surface.surface[pair.wall], r), conductivity(pair.wall),
                            own[pair.wall]);

@@ -11,12 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// Conduction of heat between pairs by their temperatures, heat Q_i per time
-//   dQ_i/dt = sum_j 2 k_ij F V_i V_j (T_j - T_i),   k_ij = 2 k_i k_j/(k_i + k_j):
-// the Laplacian of the form morris with T instead of u, with the harmonic mean, for which the heat flow through a
-// plane between two materials is the same from both sides, P. W. Cleary, J. J. Monaghan, J. Comput. Phys. 148,
-// 227 (1999).  No pair changes the sum of the heats, and each one raises the entropy, by
-// 2 k_ij F V_i V_j (T_i - T_j)^2/(T_i T_j) per time.
+// Conduction of heat: the flow of sph_dissipation_flows.h with the temperature T and the conductivity k.  Each pair raises
+// the entropy, by 2 k_ij F V_i V_j (T_i - T_j)^2/(T_i T_j) per time.
 // Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
 #ifdef CHANNEL_CLASS
@@ -24,19 +20,6 @@
 ChannelClass(HeatChannel)
 // clang-format on
 #elif defined(CHANNEL_TERMS)
-
-// mean of the conductivities of two particles, 0 if one of them has none
-template <class Real> SPH_INLINE Real mean_conductivity(double a, Real b)
-{
-  return 2.0 * a * b / (a + b + TINY);
-}
-
-// heat that i gets from j per time; F V_i V_j = vv
-template <class Real>
-SPH_INLINE Real heat_flow(Real conductivity, Real vv, double temperature_i, Real temperature_j)
-{
-  return 2.0 * conductivity * vv * (temperature_j - temperature_i);
-}
 
 // square of the random flow, in units of 2 k_B/dt
 template <class Real>
@@ -53,20 +36,10 @@ SPH_INLINE Real heat_noise(Real conductivity, Real vv, double temperature_i, Rea
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // What the loop reads of a particle that conducts; all numbers are 0 of others.  A boundary particle has either
-  // a volume, a temperature and a conductivity, or the heat that its surface gives.  Rows are read by fours.
-  struct alignas(16) Conductor {
-    double vol;             // V
-    double temperature;     // T
-    double conductivity;    // k
-    double flux;            // heat per area and time from a boundary particle to the fluid
-  };
-
-  struct HeatChannel : BaseChannel {
+  struct HeatChannel : BaseChannel, BaseFlow {
     static constexpr const char *NAME = "heat";
-    static constexpr bool OF_MOTION = false;
-
-    static constexpr bool OPTIONAL = true;
+    static constexpr bool OF_MOTION = false, OPTIONAL = true;
+    static constexpr bool STIFF = true, IN_PASS_2 = true;
     enum { CONDUCTIVITY, GAMMA, T0 };    // the last two: of the equation of state
     static constexpr int NTYPE = 3;
     static constexpr std::array<TypeKeyword, 2> TYPE_KEYWORDS = {
@@ -75,16 +48,16 @@ namespace SPHDissipation {
     static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {
         {{"conductivity", CONDUCTIVITY}}};
 
-    // of two types with these conductivities
-    static double mean(double a, double b)
+    static double coefficient(const double *type, double) { return type[CONDUCTIVITY]; }
+    template <class Site> SPH_FUNCTION static double value(const Site &site)
     {
-      return (a > 0.0 && b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
+      return site.temperature();
     }
 
     template <class Add>
-    static void add_columns(const PairFluid &fluid, const OwnWords &, const double *, Add &&add)
+    static void add_columns(const PairFluid &, const OwnWords &words, const double *, Add &&add)
     {
-      add("conductivity", fluid.conductivity);
+      add("conductivity", words.flow);
     }
     static const char *inadmissible_type(const double *type, int)
     {
@@ -100,11 +73,11 @@ namespace SPHDissipation {
       return (type[GAMMA] == 0.0 && type[T0] != 0.0) ? "T0 of gruneisen 0" : nullptr;
     }
     // of the form morris, with k/(rho cv) instead of mu/rho
-    static double rate(const PairFluid &fluid, const OwnWords &, const double *,
+    static double rate(const PairFluid &fluid, const OwnWords &words, const double *,
                        const PairInertia &inertia)
     {
-      if (fluid.conductivity == 0.0) return 0.0;
-      return shear_rate(Shear::MORRIS, inertia.surface) * fluid.conductivity /
+      if (words.flow == 0.0) return 0.0;
+      return shear_rate(Shear::MORRIS, inertia.surface) * words.flow /
           (inertia.rho * fluid.heat_capacity * inertia.hsq);
     }
   };

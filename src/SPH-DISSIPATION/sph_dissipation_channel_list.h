@@ -21,5 +21,6 @@
 #include "sph_dissipation_channel_spin.h"
 #include "sph_dissipation_channel_drag.h"
 #include "sph_dissipation_channel_relax.h"
+#include "sph_dissipation_channel_interdrag.h"
 #include "sph_dissipation_channel_heat.h"
 // clang-format on

@@ -43,6 +43,7 @@ template <class... Term> struct Form {
   static constexpr bool CENTRAL = (Term::CENTRAL || ...);
   static constexpr bool VECTOR = (Term::VECTOR || ...);
   static constexpr bool BY_DISTANCE = (Term::BY_DISTANCE || ...);
+  static constexpr bool BY_SQUARE = (Term::BY_SQUARE || ...);
   static constexpr bool SPINS = (Term::SPINS || ...);
 
   // has heat of this channel; the last one of terms with spins
@@ -73,8 +74,8 @@ template <class... Term> struct Form {
   }
 };
 
-// Forms with all optional terms, for the runs that use any of them.  The form espanol, whose terms are all those of
-// fluids without spins, has no other loops.
+// Forms with all optional terms, for the runs that use any of them.  The form espanol, whose terms are all the others of
+// fluids without spins, has no loops of its own.
 #undef CHANNEL_TERMS
 #define OPTIONAL_TERMS
 #define OptionalTerm(One) , One
@@ -117,7 +118,7 @@ template <class Function> void with_form(const Terms &terms, Function &&function
 #ifndef LMP_SPH_DISSIPATION_CHANNELS_H
 #define LMP_SPH_DISSIPATION_CHANNELS_H
 
-#include "sph_dissipation_states.h"
+#include "sph_dissipation_flows.h"
 
 #include <algorithm>
 #include <array>
@@ -167,9 +168,10 @@ namespace SPHDissipation {
   };
 
   // Friction of a pair as a tensor, in units of F V_i V_j (mg/fr: F r V_i V_j): on the velocity of slip and
-  // on the difference of the spins, along e and across it.  The noise is its root.
+  // on the difference of the spins, along e and across it; of terms with BY_SQUARE, along e in units of
+  // F r^2 V_i V_j.  The noise is its root.
   struct PairFriction {
-    double along, across, spin_along, spin_across;
+    double along, across, spin_along, spin_across, along_by_square;
   };
 
   enum class Shear;
@@ -181,7 +183,6 @@ namespace SPHDissipation {
     double mean_radius = 0.0;    // integral of r W
     double viscosity[NVISCOSITY] = {};
     double zeta = 0.0;             // coefficient of the bulk term, mean of the types
-    double conductivity = 0.0;     // mean of the types
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
   };
 
@@ -189,6 +190,7 @@ namespace SPHDissipation {
   // two unlike types
   struct OwnWords {
     const double *type, *unlike;
+    double flow = 0.0;    // mean coefficient of its flow
   };
 
   // inertia of the motion that a channel damps, for its fastest rate
@@ -336,19 +338,27 @@ namespace SPHDissipation {
 #include "sph_dissipation_channel_list.h"
                                >;
   // those with a state
-  using States = WithState<StateList<>
+  using States = ListOf<BaseState, StateList<>
 #include "sph_dissipation_channel_list.h"
-                           >::type;
+                        >::type;
+  // those with a flow
+  using Flows = ListOf<BaseFlow, FlowList<>
+#include "sph_dissipation_channel_list.h"
+                       >::type;
 #undef ChannelClass
 #undef CHANNEL_CLASS
   // clang-format on
 
   constexpr int NCHANNEL = Channels::NUMBER;    // of those that turn motion into heat
+  constexpr int BULK_HEAT =
+      Channels::place<BulkChannel>();    // place of the heat of the bulk term, which no pair has
+  constexpr int HEAT_FLOW =
+      Flows::place<HeatChannel>();    // place of the flow that walls and open zones take part in
 
   // Coefficients of the terms of two types, one channel after the other:
   //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
   //   tau_i = 1/2 sum_j F V_i V_j zeta2 r x u* - sum_j F V_i V_j [xi1 (e.dOmega) e + xi2 dOmega]
-  // with F r instead of F before along_r for mg/fr
+  // with F r instead of F before along_r for mg/fr, and those of optional terms, which are in their headers
   struct PairCoeff {
     double a[Channels::NPAIR];
 
@@ -366,7 +376,6 @@ namespace SPHDissipation {
     {
       return a + Channels::first_of_type<Channel>();
     }
-    double conductivity() const { return of<HeatChannel>()[HeatChannel::CONDUCTIVITY]; }
     double drag() const { return Channels::drag(a); }
     double gamma() const { return of<HeatChannel>()[HeatChannel::GAMMA]; }    // gruneisen
     double T0() const { return of<HeatChannel>()[HeatChannel::T0]; }
@@ -376,11 +385,14 @@ namespace SPHDissipation {
   struct TypePair : PairFluid {
     TypeCoeffs type;    // the larger ones of both types
     double unlike[Channels::NUNLIKE + 1] = {};
+    double flow[Flows::NUMBER] = {};    // mean of the types
 
     // for a channel
     template <class Channel> OwnWords words() const
     {
-      return {type.of<Channel>(), unlike + Channels::first_of_unlike<Channel>()};
+      double own = 0.0;
+      if constexpr (std::is_base_of<BaseFlow, Channel>::value) own = flow[Flows::place<Channel>()];
+      return {type.of<Channel>(), unlike + Channels::first_of_unlike<Channel>(), own};
     }
   };
 
@@ -476,8 +488,9 @@ namespace SPHDissipation {
   // prefactor of (u.e)^2 in the dissipation of a pair at distance r, in units of F V_i V_j
   SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
   {
-    const double along = Channels::friction(shear == Shear::MICROPOLAR, coeff.a).along;
-    return (shear == Shear::MG_FR) ? along * r : along;
+    const PairFriction friction = Channels::friction(shear == Shear::MICROPOLAR, coeff.a);
+    const double along = (shear == Shear::MG_FR) ? friction.along * r : friction.along;
+    return along + friction.along_by_square * r * r;
   }
 
   // bulk viscosity of the pair terms; P1 (66)

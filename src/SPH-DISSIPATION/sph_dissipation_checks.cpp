@@ -511,7 +511,8 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
   for (int i = 0; i < atom->nlocal; i++) {
     const TypeCoeff &type = model.coeffs[atom->type[i]];
     if (type.other || (atom->mask[i] & boundary_bits)) continue;
-    if (type.eos.gruneisen == 0.0 && type.keywords.conductivity() == 0.0) continue;
+    if (type.eos.gruneisen == 0.0 && model.parameters().type[atom->type[i]].flow[HEAT_FLOW] == 0.0)
+      continue;
     number[0]++;
     if (atom->esph[i] == 0.0 || !(states.thermal_energy(i) > 0.0)) number[1]++;
   }

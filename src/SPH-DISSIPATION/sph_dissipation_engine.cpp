@@ -216,26 +216,12 @@ void Engine::set_rows()
     energy.assign(atom->esph, atom->esph + atom->nlocal + atom->nghost);
     with_states.esph = energies = energy.data();
   }
-  atom_rows = {*par,
-               par->type.data(),
-               atom->nlocal,
-               particle,
-               density,
-               zeta_term,
-               &ONE,
-               0,
-               atom->type,
-               atom->mask,
-               atom->rmass,
-               energies,
-               atom->rho,
-               atom->drho,
-               atom->vfrac,
-               atom->desph,
-               with_states,
-               state_pressure,
-               conductor.data(),
-               Fields::of(atom)->rho_sum};
+  atom_rows = {*par,        par->type.data(), atom->nlocal, particle,
+               density,     zeta_term,        &ONE,         0,
+               atom->type,  atom->mask,       atom->rmass,  energies,
+               atom->rho,   atom->drho,       atom->vfrac,  atom->desph,
+               with_states, state_pressure,   {},           Fields::of(atom)->rho_sum};
+  for (int k = 0; k < Flows::NUMBER; k++) atom_rows.flow[k] = flow[k].data();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -245,6 +231,9 @@ StateRows Engine::states() const
   StateRows rows = {par->type.data(), atom->type, atom->rmass, atom->rho, atom->drho,
                     par->eos,         atom->esph, atom->desph, {}};
   std::copy_n(Fields::of(atom)->state, States::MOST, rows.state);
+  for (int k = 0; k < Flows::NUMBER; k++)
+    if (flow_rate[k].size() >= static_cast<std::size_t>(atom->nlocal))
+      rows.rate[k] = flow_rate[k].data();
   if (!wall_energy.empty()) {
     follow_atoms();
     rows.by_walls = wall_energy.data();
@@ -341,9 +330,10 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     if (has_spin()) spin[i] = Spin();
   }
 
-  if (par->conducts) {
-    conductor.resize(nmax + BLOCK);
-    std::fill_n(conductor.begin() + nall, BLOCK, Conductor());
+  for (int k = 0; k < Flows::NUMBER; k++) {
+    if (!(par->flows >> k & 1)) continue;
+    flow[k].resize(nmax + BLOCK);
+    std::fill_n(flow[k].begin() + nall, BLOCK, FlowRow());
   }
   if (!par->own_temperatures || !has_walls)
     wall_energy.clear();
@@ -397,13 +387,13 @@ void Engine::run_density(Loop loop)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_heat(std::vector<double> &flow)
+void Engine::accumulate_flow(int place, std::vector<double> &rate)
 {
   const int nall = atom->nlocal + atom->nghost;
-  const HeatLoop loop = loops->heat(par->conducts_alike);
-  flow.assign(nall + BLOCK, 0.0);
-  scalar_sums.run(*threads, flow.data(), flow.size(), [&](int k, double *sum) {
-    loop(part(k), conductor.data(), sum);
+  const FlowLoop loop = loops->flow(par->flows_alike >> place & 1);
+  rate.assign(nall + BLOCK, 0.0);
+  scalar_sums.run(*threads, rate.data(), rate.size(), [&](int k, double *sum) {
+    loop(part(k), flow[place].data(), sum);
   });
 }
 
@@ -557,9 +547,9 @@ LoopData Engine::part(PairSubset &some) const
   return part;
 }
 
-void Engine::accumulate_heat(PairSubset &some, double *flow) const
+void Engine::accumulate_flow(int place, PairSubset &some, double *rate) const
 {
-  loops->heat(par->conducts_alike)(part(some), conductor.data(), flow);
+  loops->flow(par->flows_alike >> place & 1)(part(some), flow[place].data(), rate);
 }
 
 void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, ChannelSums &side_out,
@@ -630,9 +620,10 @@ double Engine::memory_usage() const
   double bytes = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double)) +
-      (double) conductor.capacity() * sizeof(Conductor) +
       (double) (energy.capacity() + wall_energy.capacity()) * sizeof(double) +
       (double) types.capacity() * sizeof(int);
+  for (const auto &rows : flow) bytes += (double) rows.capacity() * sizeof(FlowRow);
+  for (const auto &rates : flow_rate) bytes += (double) rates.capacity() * sizeof(double);
   for (const auto &numbers : random)
     bytes += static_cast<double>(numbers.capacity() * sizeof(double));
   return bytes + side.memory_usage() + density_sums.memory_usage() + force_sums.memory_usage() +

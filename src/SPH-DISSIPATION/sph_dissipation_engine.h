@@ -94,7 +94,7 @@ namespace SPHDissipation {
 
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
-  typedef void (*HeatLoop)(const LoopData &, const Conductor *, double *flow);
+  typedef void (*FlowLoop)(const LoopData &, const FlowRow *, double *rate);
   typedef void (*DiffusionLoop)(const LoopData &, const DiffusionData &, double *sums);
   enum class DiffusionPart { SUMS, FLOW };    // for the gradient; with it
 
@@ -125,7 +125,7 @@ namespace SPHDissipation {
     NoiseLoop (*shared_work)(const NoiseForm &);
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int from, int to, int n, int count,
                              double *numbers);
-    HeatLoop (*heat)(bool alike);    // the same conductivity of all particles that conduct
+    FlowLoop (*flow)(bool alike);    // the same coefficient of all particles with a volume
     DiffusionLoop (*diffusion)(DiffusionPart, int dim, bool alike);    // of impedance
     // take (x - corner) * scale
     void (*take_candidates)(const PlaceColumns &, int from, int to, const double *corner,
@@ -251,17 +251,17 @@ namespace SPHDissipation {
     // friction of those pairs alone, with or without its noise, by this thread; after pass 2, which the noise is set for
     void accumulate_friction(SurfacePairs &, Friction, int thread);
 
-    // heat per time that owned and ghost atoms get by conduction, of conductor[]; room for the spare ones
-    void accumulate_heat(std::vector<double> &flow);
+    // what owned and ghost atoms get per time by a flow, of flow[]; room for the spare ones
+    void accumulate_flow(int place, std::vector<double> &rate);
 
     // sums of the diffusion of volume, width numbers of each owned and ghost atom; room for the spare ones
     void accumulate_diffusion(DiffusionPart, const DiffusionData &, int width,
                               std::vector<SumBlock> &sums);
 
-    // forces, torques, heat and divergence of those pairs alone, and their conduction, added to arrays with room for the
+    // forces, torques, heat and divergence of those pairs alone, and their flows, added to arrays with room for the
     // spare particles; after pass 2; without noise
     void accumulate_forces(PairSubset &, ForceSum *, ChannelSums &, double *divergence);
-    void accumulate_heat(PairSubset &, double *flow) const;
+    void accumulate_flow(int place, PairSubset &, double *rate) const;
 
     // drag of an owned particle, added to its force and, by channel, to its heat, energy per time; linear, and in a
     // minimization, which has no velocities: relative to rest
@@ -317,9 +317,11 @@ namespace SPHDissipation {
     {
       return {side.torque(0), (std::size_t) side.width, 3};
     }
-    double *zeta_term;                   // zeta cdot/c, set by the caller on owned and ghost atoms
-    double *state_pressure;              // of their states, as zeta_term; set if there are any
-    std::vector<Conductor> conductor;    // the same, if any type conducts heat
+    double *zeta_term;         // zeta cdot/c, set by the caller on owned and ghost atoms
+    double *state_pressure;    // of their states, as zeta_term; set if there are any
+    std::vector<FlowRow> flow[Flows::NUMBER];    // the same, of the flows of any type
+    std::vector<FlowRow> &heat() { return flow[HEAT_FLOW]; }
+    std::vector<double> flow_rate[Flows::NUMBER];    // what each flow has given in the last forces
     std::vector<double>
         energy;    // the same, internal energy, if particles have the noise of their temperatures
     void set_wall_energy(const double *);    // what walls hold of it, of owned atoms

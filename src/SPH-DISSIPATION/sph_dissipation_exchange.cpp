@@ -33,7 +33,7 @@ Exchange::Exchange(LAMMPS *lmp, Pair *pair) :
    call send(# of values per atom) for each message, with the fields that are in it
 ------------------------------------------------------------------------- */
 
-template <class Send> void Exchange::in_parts(std::initializer_list<Field> next, const Send &send)
+template <class Send> void Exchange::in_parts(const std::vector<Field> &next, const Send &send)
 {
   int room = ROOM;
   fields.clear();
@@ -54,7 +54,7 @@ template <class Send> void Exchange::in_parts(std::initializer_list<Field> next,
 
 /* ---------------------------------------------------------------------- */
 
-void Exchange::forward(std::initializer_list<Field> next)
+void Exchange::forward(const std::vector<Field> &next)
 {
   in_parts(next, [this](int nvalues) {
     comm->forward_comm(pair, nvalues);
@@ -63,7 +63,7 @@ void Exchange::forward(std::initializer_list<Field> next)
 
 /* ---------------------------------------------------------------------- */
 
-void Exchange::reverse(std::initializer_list<Field> next)
+void Exchange::reverse(const std::vector<Field> &next)
 {
   if (!force->newton_pair) return;
   in_parts(next, [this](int nvalues) {

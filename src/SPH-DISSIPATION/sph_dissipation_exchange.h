@@ -18,7 +18,6 @@
 #include "sph_dissipation_threads.h"
 
 #include <cstddef>
-#include <initializer_list>
 #include <mpi.h>
 #include <vector>
 
@@ -72,8 +71,8 @@ namespace SPHDissipation {
     static constexpr int ROOM =
         24;    // values per atom of a message, for which the pair style asks LAMMPS
 
-    void forward(std::initializer_list<Field>);    // owned atoms to their ghosts
-    void reverse(std::initializer_list<Field>);    // ghosts, summed, to their owners; newton on
+    void forward(const std::vector<Field> &);    // owned atoms to their ghosts
+    void reverse(const std::vector<Field> &);    // ghosts, summed, to their owners; newton on
 
     // With communication by bricks a ghost comes along x, then y, then z; returns the ghosts whose last step was downwards.
     // A particle next to one of them is, on the processor of the other, a ghost whose last step was upwards.  By messages
@@ -95,7 +94,7 @@ namespace SPHDissipation {
 
     template <class Copy> int for_each(int n, const Copy &copy) const;
 
-    template <class Send> void in_parts(std::initializer_list<Field>, const Send &);
+    template <class Send> void in_parts(const std::vector<Field> &, const Send &);
   };
 
 }    // namespace SPHDissipation

@@ -59,16 +59,17 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     limit(new LimitStage(lmp, *engine, *exchange)),
     pressure(new PressureStage(lmp, *engine, *exchange)),
     forces(new ForceStage(lmp, *engine, *exchange)), state(new StateStage(lmp, *engine, *exchange)),
-    conduction(new HeatStage(lmp, *engine, *exchange)),
+    flows(new FlowStage(lmp, *engine, *exchange)),
     diffusion(new DiffusionStage(lmp, *engine, *exchange)),
     open(new OpenStage(lmp, *engine, *exchange)),
     boundary(new BoundaryStage(lmp, *engine, *exchange, style)),
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false), dim(0),
-    support(0.0), stale(false), own_list(false), set_up(false), announced(false), touched(false),
-    changed(false), warned_step(0.0), noise_step(0.0), fast_lists(0)
+    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false),
+    integrated(0), dim(0), support(0.0), stale(false), own_list(false), set_up(false),
+    announced(false), touched(false), changed(false), warned_step(0.0), noise_step(0.0),
+    fast_lists(0)
 {
 }
 
@@ -278,7 +279,7 @@ bigint Fluid::compute(PairTally *tally)
 
   const Parameters &par = model->parameters();
   const bool known = continued && !changed && update->setupflag;
-  const bool stiff_heat = par.conducts && temperature->active() && !known;
+  const bool stiff_heat = par.conducts() && temperature->active() && !known;
   if (known) {
     viscous->begin_run();
     temperature->begin_run();
@@ -295,7 +296,7 @@ bigint Fluid::compute(PairTally *tally)
   if (shift->wanted) sum_gradient();
   sum_forces(tally);
   if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
-  if (par.conducts && !par.own_temperatures) sum_heat();
+  if (par.loops_of_flows) sum_flows();
   if (par.delta > 0.0) sum_diffusion();
   if (!open->empty()) open->sum_impacts(neighbors());
   if (viscous->active() || model->choice.own_temperatures) forces->collect();
@@ -359,6 +360,7 @@ bool Fluid::at_rest() const
 void Fluid::begin_run(double dt)
 {
   set_step(dt);
+  flows->forget();
   if (Fields::of(atom)->slots.empty()) return;
   const bigint others = state->keep();
   if (others && comm->me == 0)
@@ -438,17 +440,17 @@ void Fluid::sum_forces(PairTally *tally)
   if (!boundary->empty()) boundary->repel(tally);
 }
 
-void Fluid::sum_heat()
+void Fluid::sum_flows()
 {
-  conduction->run([this](std::vector<double> &flow) {
-    boundary->add_surface_heat(flow);
+  flows->run([this](std::vector<double> &heat) {
+    boundary->add_surface_heat(heat);
   });
 }
 
 double Fluid::received_heat(int groupbit) const
 {
-  if (!model->parameters().conducts || !pair->compute_flag) return 0.0;
-  if (!model->choice.own_temperatures) return conduction->received(groupbit);
+  if (!model->parameters().conducts() || !pair->compute_flag) return 0.0;
+  if (!model->choice.own_temperatures) return flows->received(groupbit);
   double total = 0.0;    // pass 2 leaves nothing else with them
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) total += atom->desph[i];
@@ -482,7 +484,8 @@ void Fluid::find_temperature()
 }
 
 /* ----------------------------------------------------------------------
-   a minimization leaves the offsets of the densities alone.  A run that continues the last one has its rates
+   a minimization leaves the offsets of the densities alone.  A run that continues the last one with the same
+   coefficients has its rates
 ------------------------------------------------------------------------- */
 
 void Fluid::sum_diffusion()
@@ -491,10 +494,10 @@ void Fluid::sum_diffusion()
   int &age = model->diffusion_age;
   if (!update->setupflag)
     age = (age + 1 < diffusion_interval()) ? age + 1 : 0;
-  else if (!continued)
+  else if (!continued || changed)
     age = 0;
-  if (age == 0) diffusion->evaluate(not_fluid());
-  diffusion->add_heat(not_fluid());
+  if (age == 0) diffusion->evaluate(not_fluid(), integrated);
+  diffusion->add_heat(not_fluid(), integrated);
 }
 
 /* ----------------------------------------------------------------------
@@ -735,7 +738,7 @@ void Fluid::announce_noise(double rate)
                    "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
                    "step {:.3g}\n",
                    style, temperature, model->choice.seed, rate * update->dt);
-  const bool other = model->parameters().states || model->parameters().conducts;
+  const bool other = model->parameters().states || model->parameters().conducts();
   if (rate == 0.0 && !other &&
       (model->choice.own_temperatures || model->choice.temperature > 0.0) && comm->me == 0)
     error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", style);
@@ -943,5 +946,5 @@ double Fluid::memory_usage() const
   return engine->memory_usage() + search->memory_usage() + limit->memory_usage() +
       open->memory_usage() + boundary->memory_usage() + shift->memory_usage() +
       noise->memory_usage() + viscous->memory_usage() + temperature->memory_usage() +
-      conduction->memory_usage() + diffusion->memory_usage();
+      diffusion->memory_usage();
 }

@@ -37,7 +37,7 @@ namespace SPHDissipation {
   struct ForceSum;
   struct StateRows;
   class ForceStage;
-  class HeatStage;
+  class FlowStage;
   class LimitStage;
   class NeighborSearch;
   class NoiseStage;
@@ -76,7 +76,7 @@ namespace SPHDissipation {
     const std::unique_ptr<PressureStage> pressure;
     const std::unique_ptr<ForceStage> forces;
     const std::unique_ptr<StateStage> state;
-    const std::unique_ptr<HeatStage> conduction;
+    const std::unique_ptr<FlowStage> flows;
     const std::unique_ptr<DiffusionStage> diffusion;
 
    public:
@@ -110,9 +110,9 @@ namespace SPHDissipation {
     // From the integrator: a run begins, with the states as a step of dt has left them; such a
     // step begins
 
-    void begin_run(double dt);
+    virtual void begin_run(double dt);
     // with density continuity: owned particles keep their densities where sums change that are not due to motion, of
-    // particles that come, go, split, or merge, and at the start of a run that does not continue the last one
+    // particles that come, go, split, or merge, and at the start of a run, before which anything may have changed
     void keep_densities();
 
     // with the diffusion of volume: steps from one evaluation of its rates to the next one; the last forces have evaluated
@@ -166,6 +166,7 @@ namespace SPHDissipation {
     // not if any rank notes, before the first forces, that what the fluid touches moves otherwise
 
     bool continued;
+    int integrated;    // bits of the groups of its integrators
     void note_change() { changed = true; }
 
     bool is_set_up() const;    // what the commands say is in effect
@@ -213,8 +214,8 @@ namespace SPHDissipation {
     virtual void set_boundary();
     virtual void sum_gradient();    // of the concentration, for shifting
     virtual void sum_forces(PairTally *);
-    virtual void sum_heat();    // of conduction
-    void sum_diffusion();       // of volume
+    virtual void sum_flows();    // of conduction
+    void sum_diffusion();        // of volume
 
     virtual bool has_own_forces() const;    // on this processor
     void report();

@@ -496,16 +496,15 @@ namespace SPHDissipation {
       }
     }
 
-    // conduction of heat, after pass 2; ALIKE: particles with a volume have the same conductivity
+    // a flow, after pass 2; ALIKE: particles with a volume have the same coefficient
 
-    template <bool ALIKE>
-    void heat_loop(const LoopData &data, const Conductor *conductor, double *flow)
+    template <bool ALIKE> void flow_loop(const LoopData &data, const FlowRow *row, double *rate)
     {
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
-        const Conductor own = conductor[i];
+        const FlowRow own = row[i];
         const double minus = -own.vol;    // what the other particle gets is added to it
-        const Vec own_mean = all(minus * own.conductivity);
+        const Vec own_mean = all(minus * own.coefficient);
         const int n = data.count[ii];
         const int *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
@@ -515,23 +514,22 @@ namespace SPHDissipation {
           const int *const j = neighbor + k;
           Vec other[4], mean = own_mean;
           if constexpr (ALIKE)
-            load_2_columns<WIDTH<Conductor>>(numbers(conductor), j, other);
+            load_2_columns<WIDTH<FlowRow>>(numbers(row), j, other);
           else {
-            load_4_columns<WIDTH<Conductor>>(numbers(conductor), j, other);
-            mean = minus * mean_conductivity(own.conductivity, other[2]);
+            load_4_columns<WIDTH<FlowRow>>(numbers(row), j, other);
+            mean = minus * mean_coefficient(own.coefficient, other[2]);
           }
-          const Vec given =
-              heat_flow(mean, other[0] * load(slope_of + k), own.temperature, other[1]);
+          const Vec given = flow_of_pair(mean, other[0] * load(slope_of + k), own.value, other[1]);
           total -= given;
-          add_column<1>(flow, j, given);
+          add_column<1>(rate, j, given);
         }
-        flow[i] += sum(total);
+        rate[i] += sum(total);
       }
     }
 
-    inline HeatLoop choose_heat_loop(bool alike)
+    inline FlowLoop choose_flow_loop(bool alike)
     {
-      return alike ? heat_loop<true> : heat_loop<false>;
+      return alike ? flow_loop<true> : flow_loop<false>;
     }
 
     // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h: F without the factor of a_ij that is the
@@ -717,10 +715,10 @@ namespace SPHDissipation {
     {
       constexpr bool FRICTION = F::VECTOR || F::CENTRAL;
       if constexpr (F::VECTOR)
-        return (dim == 3) ? force_loop<F, false, true, PairNoise<3, F::SPINS, KIND>>
-                          : force_loop<F, false, true, PairNoise<2, F::SPINS, KIND>>;
+        return (dim == 3) ? force_loop<F, false, true, PairNoise<3, F::SPINS, KIND, F::BY_SQUARE>>
+                          : force_loop<F, false, true, PairNoise<2, F::SPINS, KIND, F::BY_SQUARE>>;
       else if constexpr (FRICTION || KIND == NoiseKind::ENERGY || KIND == NoiseKind::CONDUCTION)
-        return force_loop<F, false, true, PairNoise<0, false, KIND>>;
+        return force_loop<F, false, true, PairNoise<0, false, KIND, F::BY_SQUARE>>;
       else
         return nullptr;
     }
@@ -745,8 +743,8 @@ namespace SPHDissipation {
       with_form(form.terms, [&](auto terms) {
         using F = decltype(terms);
         constexpr int ACROSS = F::VECTOR ? 2 : 0;
-        loop = (F::VECTOR && form.dim == 3) ? eta_loop<F::BY_DISTANCE, 3>
-                                            : eta_loop<F::BY_DISTANCE, ACROSS>;
+        loop = (F::VECTOR && form.dim == 3) ? eta_loop<F::BY_DISTANCE, F::BY_SQUARE, 3>
+                                            : eta_loop<F::BY_DISTANCE, F::BY_SQUARE, ACROSS>;
       });
       return loop;
     }
@@ -771,7 +769,7 @@ namespace SPHDissipation {
                              LOOPS::choose_eta_loop,
                              LOOPS::choose_work_loop,
                              LOOPS::particle_numbers,
-                             LOOPS::choose_heat_loop,
+                             LOOPS::choose_flow_loop,
                              LOOPS::choose_diffusion_loop,
                              LOOPS::take_candidates,
                              LOOPS::near};

@@ -317,7 +317,7 @@ void FluidModel::coeff(int narg, char **arg, int **setflag)
     error->all(
         FLERR, place(arg[2]),
         "Pair_coeff {} {} {}: the coefficients rho0 c0 mu kappa ... rc are for a type, I = J; "
-        "viscosities by keyword are for unlike types",
+        "viscosities and other coefficients by keyword are for unlike types",
         arg[0], arg[1], arg[2]);
 }
 
@@ -363,6 +363,9 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
     const std::string keyword = arg[iarg];
     const TypeKeyword *const own = this->keyword(keyword);
     nwords = 1 + (own ? number_of_values(*own, narg - iarg, arg + iarg) : 1);
+    if (variable_of_pairs(keyword) >= nviscosity())
+      error->all(FLERR, place(arg[iarg]), "Pair_coeff keyword {} belongs to two unlike types",
+                 keyword);
     if (!own && keyword != "pb" && keyword != "gamma" && keyword != "cv")
       error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
                  keyword);

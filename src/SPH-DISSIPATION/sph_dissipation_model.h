@@ -96,7 +96,6 @@ namespace SPHDissipation {
     bool has_torques() const;                // any of the viscosities of spins
     double heat_capacity(int type) const;    // per mass
     bool has_temperatures() const;           // any type has a heat capacity
-    bool conducts() const;                   // any type conducts heat
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 
     // a keyword of this type that needs one of these, see enum Requirement, or nullptr
@@ -144,6 +143,7 @@ namespace SPHDissipation {
     int variable_of_pairs(const std::string &name) const;    // its number, or -1
     const TypeKeyword *keyword(const std::string &name) const;
     bool is_type_keyword(const std::string &name) const;
+    bool varies_no_flow(const char *name) const;    // it is of a flow that no type has
     bool is_of_missing_group(int coefficient, int type) const;
     double &type_value(int, int);
     double pair_value(int, int, int);

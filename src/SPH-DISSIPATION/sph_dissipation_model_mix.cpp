@@ -42,7 +42,7 @@ void FluidModel::derive(int dim, double support)
   for (int i = 1; i <= n; i++) {
     mix(i);
     par.type[i].keywords = coeffs[i].keywords;
-    par.type[i].conductivity = coeffs[i].keywords.conductivity();
+    Flows::coefficients(coeffs[i].keywords, coeffs[i].eos.rho0, par.type[i].flow);
     par.type[i].heat_capacity = heat_capacity(i);
     for (int j = 1; j <= i; j++) {
       if (!coeffs[i].other && !coeffs[j].other) check_pair(i, j);
@@ -105,8 +105,8 @@ TypePair FluidModel::pair_fluid(int i, int j) const
   fluid.dim = par.dim;
   fluid.mean_radius = kernel_mean_radius(par.kernel, par.dim, par.support);
   fluid.zeta = 0.5 * (par.type[i].zeta + par.type[j].zeta);
-  fluid.conductivity =
-      HeatChannel::mean(coeffs[i].keywords.conductivity(), coeffs[j].keywords.conductivity());
+  for (int k = 0; k < Flows::NUMBER; k++)
+    fluid.flow[k] = mean_coefficient(par.type[i].flow[k], par.type[j].flow[k]);
   fluid.heat_capacity = std::min(heat_capacity(i), heat_capacity(j));
   for (int k = 0; k < Channels::NTYPE; k++)
     fluid.type.a[k] = std::max(par.type[i].keywords.a[k], par.type[j].keywords.a[k]);
@@ -242,11 +242,19 @@ const char *FluidModel::keyword_that_needs(int requirements, int type) const
 
 /* ---------------------------------------------------------------------- */
 
-bool FluidModel::conducts() const
+bool FluidModel::varies_no_flow(const char *name) const
 {
-  for (int i = 1; i <= atom->ntypes; i++)
-    if (coeffs[i].keywords.conductivity() > 0.0) return true;
-  return false;
+  bool found = false;
+  Flows::visit(~0, [&](auto channel, int k) {
+    double of[Flows::NUMBER], sum = 0.0;
+    for (int i = 1; i <= atom->ntypes; i++) {
+      Flows::coefficients(coeffs[i].keywords, coeffs[i].eos.rho0, of);
+      sum += of[k];
+    }
+    for (const TypeVariable &one : channel.TYPE_VARIABLES)
+      if (sum == 0.0 && strcmp(name, one.name) == 0) found = true;
+  });
+  return found;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -290,8 +298,8 @@ void FluidModel::warn_of_ignored() const
 }
 
 /* ----------------------------------------------------------------------
-   what another command may vary.  It must have an effect.  Torques and conduction must not begin
-   during a run, because the inertia of particles, and the fixes, have not been checked for them
+   what another command may vary.  It must have an effect.  Torques and flows must not begin
+   during a run, because the inertia of particles, their states, and the fixes have not been checked for them
 ------------------------------------------------------------------------- */
 
 void *FluidModel::extract(const char *name, int &dim)
@@ -303,7 +311,7 @@ void *FluidModel::extract(const char *name, int &dim)
   if (choice.eos == Eos::IDEAL && strcmp(name, "c0") == 0) return nullptr;
   const int k = variable_of_pairs(name);
   if (k > MU && k < nviscosity() && !has_torques()) return nullptr;
-  if (strcmp(name, "conductivity") == 0 && !conducts()) return nullptr;
+  if (varies_no_flow(name)) return nullptr;
   for (const auto &one : variables)
     if (one.name == name) return one.value;
   return nullptr;

@@ -46,9 +46,9 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   if (neighbor->ago == 0) check_box();
   const bool energy = engine.parameters().own_temperatures;
   form = {engine.parameters().terms(), engine.parameters().dim,
-          !energy                                         ? NoiseKind::PLAIN
-              : engine.parameters().conducts || not_fluid ? NoiseKind::CONDUCTION
-                                                          : NoiseKind::ENERGY};
+          !energy                                           ? NoiseKind::PLAIN
+              : engine.parameters().conducts() || not_fluid ? NoiseKind::CONDUCTION
+                                                            : NoiseKind::ENERGY};
   if (engine.parameters().directed_noise()) form.kind = NoiseKind::DIRECTED;
 
   // the force of a step is that of an impulse over its time
@@ -158,8 +158,8 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
     row[i] = NoiseRow();
     if (engine.parameters().type[type].other) return;
     if (atom->mask[i] & not_fluid) {
-      const bool passes = engine.parameters().conducts && engine.conductor[i].conductivity > 0.0;
-      row[i].temperature = -std::max(passes ? engine.conductor[i].temperature : 1.0, SMALLEST);
+      const bool passes = engine.parameters().conducts() && engine.heat()[i].coefficient > 0.0;
+      row[i].temperature = -std::max(passes ? engine.heat()[i].value : 1.0, SMALLEST);
       row[i].pressure = passes ? 1.0 : 0.0;
       return;
     }
@@ -233,21 +233,23 @@ bool NoiseStage::set_coeffs(double factor)
 {
   const Parameters &par = engine.parameters();
   const double share = (form.kind == NoiseKind::DIRECTED) ? 0.5 : 1.0;
+  data.strength = share * factor;
   bool any = false;
   coeff.assign(par.pair.size(), NoiseCoeff());
   for (std::size_t k = 0; k < par.pair.size(); k++) {
     PairFriction friction = Channels::friction(par.spins(), par.pair[k].a);
     friction.along = std::max(friction.along, 0.0);
     friction.spin_along = std::max(friction.spin_along, 0.0);
-    coeff[k].central = sqrt(share * factor * friction.along);
+    coeff[k].central = sqrt(data.strength * friction.along);
+    coeff[k].central_by_square = data.strength * friction.along_by_square;
     coeff[k].transverse = (par.dim == 1) ? 0.0 : sqrt(factor * friction.across);
     coeff[k].spin_along = sqrt(factor * friction.spin_along);
     coeff[k].spin_across = sqrt(factor * friction.spin_across);
     coeff[k].inverse_central = (friction.along > 0.0) ? 1.0 / friction.along : 0.0;
     const TypeParameters &first = par.type[k / par.ntypes_1], &second = par.type[k % par.ntypes_1];
-    coeff[k].conductivity = HeatChannel::mean(first.conductivity, second.conductivity);
+    coeff[k].conduction = mean_coefficient(first.flow[HEAT_FLOW], second.flow[HEAT_FLOW]);
     if (friction.along > 0.0 || friction.across > 0.0 || friction.spin_along > 0.0 ||
-        friction.spin_across > 0.0)
+        friction.spin_across > 0.0 || friction.along_by_square > 0.0)
       any = true;
   }
   data.coeff = coeff.data();

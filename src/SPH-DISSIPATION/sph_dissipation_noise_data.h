@@ -39,7 +39,7 @@ namespace SPHDissipation {
   };
 
   // of the pairs of two types: what the random numbers are multiplied with, in units of
-  // sqrt(F V_i V_j), with F r instead of F for mg/fr
+  // sqrt(F V_i V_j), with F r instead of F for mg/fr; central_by_square = square of what belongs to F r^2
 
   struct NoiseCoeff {
     double central;            // along e
@@ -47,7 +47,8 @@ namespace SPHDissipation {
     double spin_along;         // of the spins, along e
     double spin_across;        // across e
     double inverse_central;    // 1 / what the shear term puts before (u.e)^2, or 0
-    double conductivity;       // of heat
+    double conduction;         // of heat
+    double central_by_square;
   };
 
   // Of a particle that has a temperature of its own.  One of a wall has minus the temperature of the wall, no mobility and
@@ -80,6 +81,7 @@ namespace SPHDissipation {
     const NoiseRow *row;       // if ENERGY
     const double *mobility;    // dt/m, 0 of walls, if ENERGY
     bool unequal;              // the masses of the particles of the fluid differ
+    double strength;           // square of central per unit friction along e
     std::uint64_t seed, step;
     NoiseChannel of_pairs;      // whose numbers pairs have
     double heat;                // 2 k/dt, of the random flow of heat

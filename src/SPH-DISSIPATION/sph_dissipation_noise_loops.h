@@ -100,10 +100,19 @@ SPH_INLINE Vec sign_of(double tag_i, Vec tag_j)
 
 // numbers of NoiseCoeff
 
-enum { CENTRAL, TRANSVERSE, SPIN_ALONG, SPIN_ACROSS, INVERSE_CENTRAL, PAIR_CONDUCTION };
-template <int ACROSS, bool SPIN, NoiseKind KIND> struct NoiseUses {
+enum {
+  CENTRAL,
+  TRANSVERSE,
+  SPIN_ALONG,
+  SPIN_ACROSS,
+  INVERSE_CENTRAL,
+  PAIR_CONDUCTION,
+  CENTRAL_BY_SQUARE
+};
+template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct NoiseUses {
   static constexpr bool uses(int k)
   {
+    if (k == CENTRAL_BY_SQUARE) return BY_SQUARE;
     if (k == INVERSE_CENTRAL) return KIND == NoiseKind::DIRECTED;
     if (k == PAIR_CONDUCTION) return KIND == NoiseKind::CONDUCTION;
     return k == CENTRAL || (k == TRANSVERSE && ACROSS > 0) || SPIN;
@@ -127,19 +136,36 @@ struct OwnTemperatures {
   }
 };
 
+// What the random number along e is multiplied with, in units of sqrt(F V_i V_j); terms with BY_SQUARE have rsq as the
+// metric
+
+template <bool BY_SQUARE> SPH_INLINE Vec central_of(const Vec *coeff, Vec rsq)
+{
+  if constexpr (BY_SQUARE)
+    return square_root(coeff[CENTRAL] * coeff[CENTRAL] + coeff[CENTRAL_BY_SQUARE] * rsq);
+  else
+    return coeff[CENTRAL];
+}
+
 // gamma_ij = root times reach of j over c of i; metric = r^2, or r for mg/fr
 
-SPH_INLINE Vec root_of(Vec slope, Vec metric, Vec inverse_central)
+template <bool BY_SQUARE>
+SPH_INLINE Vec root_of(const NoiseData &data, const Vec *coeff, Vec slope, Vec metric)
 {
-  return square_root(slope * metric * inverse_central);
+  if constexpr (BY_SQUARE) {
+    const Vec central = central_of<true>(coeff, metric);
+    return if_positive(central, square_root(data.strength * slope * metric) / (central + TINY));
+  } else
+    return square_root(slope * metric * coeff[INVERSE_CENTRAL]);
 }
 
 // eta_i c_i = sum_j c_i gamma_ij xi_ij with the number xi_ij of i
 
-template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseData &data)
+template <bool FR, bool BY_SQUARE, int ACROSS>
+void eta_loop(const LoopData &pairs, const NoiseData &data)
 {
   const CoeffTable<NoiseCoeff> table(data.coeff, pairs);
-  Coeffs<NoiseCoeff, NoiseUses<0, false, NoiseKind::DIRECTED>> coeff(table);
+  Coeffs<NoiseCoeff, NoiseUses<0, false, NoiseKind::DIRECTED, BY_SQUARE>> coeff(table);
   const NoiseStep step(data);
   for (int ii = 0; ii < pairs.inum; ii++) {
     const int i = pairs.ilist[ii];
@@ -166,7 +192,7 @@ template <bool FR, int ACROSS> void eta_loop(const LoopData &pairs, const NoiseD
       const Vec forth = random.z[Numbers::ALONG], back = random.z[Numbers::BACK];
       const Vec mean = 0.5 * (forth + back);
       const Vec odd = 0.5 * sign * (forth - back);
-      const Vec root = root_of(load(slope_of + k), metric, coeff.a[INVERSE_CENTRAL]);
+      const Vec root = root_of<BY_SQUARE>(data, coeff.a, load(slope_of + k), metric);
       total += gather(data.reach, j) * root * (mean + odd);
       add_column<1>(data.total, j, data.reach[i] * root * (mean - odd));
     }
@@ -188,7 +214,7 @@ struct NoNoise {
 // The numbers of all pairs of a particle are made before its pairs are worked off, two blocks at once: the long chain of
 // operations of one overlaps with that of the other.
 
-template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
+template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNoise {
   static constexpr bool ON = true, VECTOR = (ACROSS == 3), CENTRAL_ONLY = (ACROSS == 0);
   static constexpr bool DIRECTED = (KIND == NoiseKind::DIRECTED);
   static constexpr bool CONDUCTS = (KIND == NoiseKind::CONDUCTION);
@@ -240,7 +266,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
       const Vec temperature = kept(next);
       const Vec conductivity = coeff.a[PAIR_CONDUCTION] * kept(next);
       wall = kept(next);
-      flow = heat_flow(conductivity, vv, own, temperature) +
+      flow = flow_of_pair(conductivity, vv, own, temperature) +
           z[Numbers::FLOW] *
               square_root(data.heat * heat_noise(conductivity, vv, own, temperature));
     }
@@ -257,12 +283,12 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
     if constexpr (DIRECTED || !VECTOR) {
       Vec along = z[Numbers::ALONG];
       if constexpr (DIRECTED) {
-        const Vec root = root_of(slope, metric, coeff.a[INVERSE_CENTRAL]);
+        const Vec root = root_of<BY_SQUARE>(data, coeff.a, slope, metric);
         along += z[Numbers::BACK] -
             root * (gather(data.reach, j) * data.share[i] + data.reach[i] * gather(data.share, j));
       }
       const Vec by_r = square_root(by_metric);
-      central = coeff.a[CENTRAL] * by_r * along;
+      central = central_of<BY_SQUARE>(coeff.a, metric) * by_r * along;
       if constexpr (ACROSS == 2) {
         const Vec across = coeff.a[TRANSVERSE] * by_r * z[1];
         rest[0] = -across * dy;
@@ -277,7 +303,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
     if constexpr (VECTOR) {
       const Vec strength = square_root(vv);
       const Vec across = strength * coeff.a[TRANSVERSE];
-      const Vec along = DIRECTED ? -across : strength * coeff.a[CENTRAL] - across;
+      const Vec along = DIRECTED ? -across
+                                 : strength * central_of<BY_SQUARE>(coeff.a, metric) - across;
       const Vec part = along * inverse * (dx * z[0] + dy * z[1] + dz * z[2]);
       if constexpr (DIRECTED)
         central += part;
@@ -365,7 +392,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND> struct PairNoise {
   const NoiseData &data;
   const NoiseStep step;
   const CoeffTable<NoiseCoeff> &table;
-  Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND>> coeff;
+  Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND, BY_SQUARE>> coeff;
   int i;
   double *next_number, *next;    // kept by begin() for the pairs of i: random numbers, all else
   Vec mobility, pressure, spin_mobility;    // of j

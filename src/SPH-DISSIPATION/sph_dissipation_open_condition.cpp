@@ -196,7 +196,7 @@ void OpenCondition::init(const FluidModel &fluid_in)
   fluid = &fluid_in;
   fields = Fields::of(atom);
   const Parameters &par = fluid->parameters();
-  warm = par.thermal_pressure || par.conducts || values.given(OpenValues::TEMPERATURE);
+  warm = par.thermal_pressure || par.conducts() || values.given(OpenValues::TEMPERATURE);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -91,11 +91,11 @@ void OpenStage::run()
   set_states();
   set_zones();
   Particle *const particle = engine.particle;
-  Conductor *const conductor = engine.conductor.data();
-  const bool conducts = engine.parameters().conducts;
+  FlowRow *const heat = engine.heat().data();
+  const bool conducts = engine.parameters().conducts();
   exchange.forward({field(particle, &particle->vol, 2),
                     {zone_of.data(), 1, 1},
-                    field(conductor, conducts ? &conductor->vol : nullptr, conducts ? 3 : 0)});
+                    field(heat, conducts ? &heat->vol : nullptr, conducts ? 3 : 0)});
   update_ghosts();
 }
 
@@ -128,9 +128,9 @@ void OpenStage::set_state(int i, double rho, double pressure)
 
 void OpenStage::set_temperature(int i, double temperature)
 {
-  if (!engine.parameters().conducts) return;
-  engine.rows().set_conductor(i, 0);
-  engine.conductor[i].temperature = temperature;
+  if (!engine.parameters().conducts()) return;
+  engine.rows().set_flow(HEAT_FLOW, i, 0);
+  engine.heat()[i].value = temperature;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -201,7 +201,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   const double zone = static_cast<double>(k + 1);
   const Particle *const particle = engine.particle;
   const bool by_volume = (engine.parameters().bulk == Bulk::VOLUME);
-  const bool conducts = engine.parameters().conducts;
+  const bool conducts = engine.parameters().conducts();
 
   // with newton off, what a pair of two processors gives to the ghost atom is known to its owner
 
@@ -234,7 +234,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   engine.accumulate_forces(pairs, forces.data(), side, divergence.data());
   if (conducts) {
     flow.resize(nrow);
-    engine.accumulate_heat(pairs, flow.data());
+    engine.accumulate_flow(HEAT_FLOW, pairs, flow.data());
   }
 
   pairs.visit([&](int i) {

@@ -92,10 +92,25 @@ template <class Of, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTe
   static constexpr int LAST = Channels::first<Of>() + LAST_COEFF;
   static constexpr bool CENTRAL = false, VECTOR = false;    // has add_central(), add_vector()
   static constexpr bool BY_DISTANCE = false;                // its metric is r
+  static constexpr bool BY_SQUARE = false;                  // along r, in units of F r^2 V_i V_j
   static constexpr bool SPINS = false;
   template <class Pair> static SPH_INLINE void add_central(Pair &) {}
   template <class Pair> static SPH_INLINE void add_vector(Pair &) {}
 };
+
+// A flow, see sph_dissipation_flows.h: mean of the coefficients of two particles, 0 if one of them has none; what i gets from
+// j per time, F V_i V_j = vv
+
+template <class Real> SPH_INLINE Real mean_coefficient(double a, Real b)
+{
+  return 2.0 * a * b / (a + b + TINY);
+}
+
+template <class Real>
+SPH_INLINE Real flow_of_pair(Real coefficient, Real vv, double value_i, Real value_j)
+{
+  return 2.0 * coefficient * vv * (value_j - value_i);
+}
 
 #define CHANNEL_TERMS
 #include "sph_dissipation_channels.h"

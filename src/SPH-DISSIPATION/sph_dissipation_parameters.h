@@ -66,10 +66,10 @@ namespace SPHDissipation {
 
   struct TypeParameters {
     EosParams eos;
-    double zeta = 0.0;             // coefficient of the bulk term
-    double heat_capacity = 0.0;    // per mass
-    double conductivity = 0.0;
-    TypeCoeffs keywords;       // of the channels
+    double zeta = 0.0;                  // coefficient of the bulk term
+    double heat_capacity = 0.0;         // per mass
+    double flow[Flows::NUMBER] = {};    // coefficients
+    TypeCoeffs keywords;                // of the channels
     int other = 1;             // its particles belong to another style of pair_style hybrid
     States::Numbers states;    // in a time step
   };
@@ -87,14 +87,16 @@ namespace SPHDissipation {
     bool optional = false;            // pairs have optional terms
     bool drag = false;                // of single particles, of any type
     bool thermal_pressure = false;    // of any type: it depends on the internal energy
-    bool conducts = false;            // any type
-    bool conducts_alike = true;       // all types
+    int flows = 0;                    // bits of the flows of any type
+    int loops_of_flows = 0;           // of those that pass 2 does not have
+    int flows_alike = 0;              // of those with the same coefficient of all types
     bool impedes_alike = true;        // all types have the same rho0 c0
     bool shared = false;              // there are types of other styles
     bool states = false;              // any type has some
     double step = 0.0;                // time step that their numbers are of
 
     bool spins() const { return shear == Shear::MICROPOLAR; }
+    bool conducts() const { return flows >> HEAT_FLOW & 1; }
     Terms terms() const { return {shear, optional}; }
     void set_kernel(Kernel, int dim, double support);
   };
@@ -107,7 +109,7 @@ namespace SPHDissipation {
     std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
 
     void set_uniform();          // uniform, inviscid, and optional, from pair
-    void set_alike();            // what belongs to heat and sound, from type
+    void set_alike();            // what belongs to flows and sound, from type
     void set_step(double dt);    // the time step of the states
     bool
     directed_noise() const;    // each partner of a pair has a number of its own, see NoiseStage
@@ -139,22 +141,27 @@ namespace SPHDissipation {
           if (a != 0.0) inviscid = false;
         }
     for (int i = 1; i < ntypes_1 && own_temperatures; i++)    // of which the noise has coefficients
-      if (type[i].conductivity != type[1].conductivity) uniform = false;
+      if (type[i].flow[HEAT_FLOW] != type[1].flow[HEAT_FLOW]) uniform = false;
   }
 
   inline void Parameters::set_alike()
   {
-    thermal_pressure = conducts = false;
-    conducts_alike = impedes_alike = true;
+    thermal_pressure = false;
+    impedes_alike = true;
+    flows = 0;
+    flows_alike = ~0;
     const TypeParameters *first = nullptr;
     for (const TypeParameters &one : type) {
       if (one.other) continue;
       if (!first) first = &one;
       if (one.eos.gruneisen != 0.0) thermal_pressure = true;
-      if (one.conductivity > 0.0) conducts = true;
-      if (one.conductivity != first->conductivity) conducts_alike = false;
+      for (int k = 0; k < Flows::NUMBER; k++) {
+        if (one.flow[k] > 0.0) flows |= 1 << k;
+        if (one.flow[k] != first->flow[k]) flows_alike &= ~(1 << k);
+      }
       if (one.eos.impedance() != first->eos.impedance()) impedes_alike = false;
     }
+    loops_of_flows = own_temperatures ? flows & ~Flows::in_pass_2() : flows;
   }
 
   inline bool Parameters::directed_noise() const

@@ -46,6 +46,18 @@ namespace SPHDissipation {
     double *state[States::MOST];    // nullptr where there is no room
     const double *by_walls =
         nullptr;    // energy that the walls hold of each particle; nullptr: none
+    const double *rate[Flows::NUMBER] = {};    // of the flows, of the last forces; nullptr: none
+
+    // state of a channel with one, and the rate of it by its flow
+    template <class Channel> SPH_FUNCTION double state_of(int i) const
+    {
+      return state[States::first<Channel>()][i];
+    }
+    template <class Channel> SPH_FUNCTION double rate_of(int i) const
+    {
+      const double *const own = rate[Flows::place<Channel>()];
+      return own ? own[i] : 0.0;
+    }
 
     SPH_FUNCTION const States::Numbers &numbers(int i) const { return types[type[i]].states; }
 
@@ -162,9 +174,9 @@ namespace SPHDissipation {
     double *desph;    // zero when the step begins
 
     StateRows states;
-    double *state_pressure;       // read if there are states
-    Conductor *conductor;         // if any type conducts heat
-    double *rho_sum = nullptr;    // see Fields; with density continuity
+    double *state_pressure;          // read if there are states
+    FlowRow *flow[Flows::NUMBER];    // of the flows of any type
+    double *rho_sum = nullptr;       // see Fields; with density continuity
 
     // w of the form volume mass
 
@@ -276,19 +288,28 @@ namespace SPHDissipation {
       esph[i] += shrinks * p / (1.0 - shrinks * thermal_pressure(eos, rho[i], by_mass));
     }
 
-    // What the conduction of heat reads: the temperature of an owned particle; of owned and ghost particles, with
-    // their volumes, all else.  Particles that are not fluid conduct nothing, unless a boundary says so later.
+    // What the loops of the flows read: the values of an owned particle; of owned and ghost particles, with
+    // their volumes, all else.  Nothing flows to particles that are not fluid, unless a boundary says so later.
 
-    SPH_FUNCTION void set_temperature(int i) const
+    SPH_FUNCTION void set_flow_values(int i) const
     {
-      conductor[i].temperature = states.temperature(i);
+      const StateRows &from = states;
+      Flows::visit(par.loops_of_flows, [&](auto channel, int k) {
+        using Site = FlowSite<StateRows, decltype(channel)>;
+        flow[k][i].value = channel.value(Site{from, i});
+      });
     }
-    SPH_FUNCTION void set_conductor(int i, int not_fluid) const
+    SPH_FUNCTION void set_flows(int i, int not_fluid) const
     {
-      const bool conducts = is_fluid(i, not_fluid);
-      conductor[i].vol = conducts ? particle[i].vol : 0.0;
-      conductor[i].conductivity = conducts ? types[type[i]].conductivity : 0.0;
-      conductor[i].flux = 0.0;
+      for (int k = 0; k < Flows::NUMBER; k++)
+        if (par.loops_of_flows >> k & 1) set_flow(k, i, not_fluid);
+    }
+    SPH_FUNCTION void set_flow(int k, int i, int not_fluid) const
+    {
+      const bool flows = is_fluid(i, not_fluid);
+      flow[k][i].vol = flows ? particle[i].vol : 0.0;
+      flow[k][i].coefficient = flows ? types[type[i]].flow[k] : 0.0;
+      flow[k][i].flux = 0.0;
     }
 
     // pressure without bulk term, of density and energy

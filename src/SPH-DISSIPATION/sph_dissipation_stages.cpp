@@ -33,7 +33,7 @@ using namespace SPHDissipation;
 void DensityStage::run(NeighList *list, double **vest, double **omegaest, int not_fluid)
 {
   sum(list, vest, omegaest, not_fluid);
-  send(false, false, 0, 0);
+  send(false, 0, 0, 0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -56,38 +56,38 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool a
 {
   const bool states = engine.parameters().states;
   const bool completes = engine.parameters().own_temperatures;
-  const bool conducts = engine.parameters().conducts && !completes;
-  if (!states && !conducts && !completes) return run(list, vest, omegaest, not_fluid);
+  const int flows = engine.parameters().loops_of_flows;
+  if (!states && !flows && !completes) return run(list, vest, omegaest, not_fluid);
   sum(list, vest, omegaest, not_fluid);
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal, [&](int i) {
     rows.set_density(i);
     if (states) rows.set_state_pressure(i, not_fluid, at_rest);
     if (completes) rows.complete_energy(i, missing, not_fluid);
-    if (!conducts) return;
-    rows.set_temperature(i);
-    rows.set_conductor(i, not_fluid);
+    if (!flows) return;
+    rows.set_flow_values(i);
+    rows.set_flows(i, not_fluid);
   });
-  send(states, conducts, not_fluid, atom->nlocal);
+  send(states, flows, not_fluid, atom->nlocal);
 }
 
 /* ----------------------------------------------------------------------
    what owned particles have to ghosts; then the densities of all but the first ones, which have theirs
 ------------------------------------------------------------------------- */
 
-void DensityStage::send(bool with_states, bool with_temperature, int not_fluid, int first)
+void DensityStage::send(bool with_states, int flows, int not_fluid, int first)
 {
   const int energy = engine.parameters().thermal_pressure ? 1 : 0;    // of ghosts, for it
-  Conductor *const conductor = engine.conductor.data();
-  exchange.forward({field(engine.density, &engine.density->c, 2),
-                    {engine.rows().esph, 1, energy},
-                    {engine.state_pressure, 1, with_states ? 1 : 0},
-                    field(conductor, with_temperature ? &conductor->temperature : nullptr,
-                          with_temperature ? 1 : 0)});
+  std::vector<Field> fields = {field(engine.density, &engine.density->c, 2),
+                               {engine.rows().esph, 1, energy},
+                               {engine.state_pressure, 1, with_states ? 1 : 0}};
+  for (int k = 0; k < Flows::NUMBER; k++)
+    if (flows >> k & 1) fields.push_back(field(engine.flow[k].data(), &engine.flow[k][0].value, 1));
+  exchange.forward(fields);
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal + atom->nghost - first, [&](int k) {
     rows.set_density(first + k);
-    if (with_temperature) rows.set_conductor(first + k, not_fluid);
+    if (flows) rows.set_flows(first + k, not_fluid);
   });
 }
 
@@ -237,45 +237,53 @@ double StateStage::energy(int groupbits, int not_fluid) const
 
 /* ---------------------------------------------------------------------- */
 
-void HeatStage::run(const std::function<void(std::vector<double> &)> &add)
+void FlowStage::run(const std::function<void(std::vector<double> &)> &add)
 {
-  engine.accumulate_heat(flow);
-  add(flow);
-  double *const desph = atom->desph;
-  engine.for_each(nheat(), [&](int i) {
-    desph[i] += flow[i];
+  Flows::visit(engine.parameters().loops_of_flows, [&](auto channel, int k) {
+    std::vector<double> &rate = engine.flow_rate[k];
+    engine.accumulate_flow(k, rate);
+    if constexpr (std::is_base_of<BaseState, decltype(channel)>::value)
+      exchange.reverse({{rate.data(), 1, 1}});
+    else {
+      add(rate);
+      double *const desph = atom->desph;
+      engine.for_each(nheat(), [&](int i) {
+        desph[i] += rate[i];
+      });
+    }
   });
 }
 
-int HeatStage::nheat() const
+void FlowStage::forget()
+{
+  for (auto &rate : engine.flow_rate) rate.clear();
+}
+
+int FlowStage::nheat() const
 {
   return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
 }
 
-double HeatStage::received(int groupbit) const
+double FlowStage::received(int groupbit) const
 {
+  const std::vector<double> &heat = engine.flow_rate[HEAT_FLOW];
   return engine.team().sum<double>(nheat(), [&](int i, double &total) {
-    if (atom->mask[i] & groupbit) total += flow[i];
+    if (atom->mask[i] & groupbit) total += heat[i];
   });
-}
-
-double HeatStage::memory_usage() const
-{
-  return (double) flow.capacity() * sizeof(double);
 }
 
 /* ----------------------------------------------------------------------
    The pressure is that of the equation of state: strains stay as they are
 ------------------------------------------------------------------------- */
 
-void DiffusionStage::evaluate(int not_fluid)
+void DiffusionStage::evaluate(int not_fluid, int integrated)
 {
   const Parameters &par = engine.parameters();
   const int dim = par.dim, nsum = number_of_sums(dim), width = width_of_sums(dim);
   const int vol = place_of_volume(dim), p = vol + 1;
   constexpr std::size_t WIDTH = sizeof(DiffusionRow) / sizeof(double);
   const Fields &fields = *Fields::of(atom);
-  set_rows(not_fluid);
+  set_rows(not_fluid, integrated);
   const DiffusionData data = {rows.data(), impedances.data()};
   engine.accumulate_diffusion(DiffusionPart::SUMS, data, width, sums);
   double *const sum = sums[0].a;
@@ -304,20 +312,26 @@ void DiffusionStage::evaluate(int not_fluid)
 
 /* ---------------------------------------------------------------------- */
 
-void DiffusionStage::add_heat(int not_fluid) const
+void DiffusionStage::add_heat(int not_fluid, int integrated) const
 {
-  const ParticleRows &of = engine.rows();
   const Fields &fields = *Fields::of(atom);
   double *const desph = atom->desph;
   engine.for_each(atom->nlocal, [&](int i) {
-    if (!of.is_fluid(i, not_fluid)) fields.vol_rate[i] = fields.vol_heat[i] = 0.0;
+    if (!takes_part(i, not_fluid, integrated)) fields.vol_rate[i] = fields.vol_heat[i] = 0.0;
     desph[i] += fields.vol_heat[i];
   });
 }
 
 /* ---------------------------------------------------------------------- */
 
-void DiffusionStage::set_rows(int not_fluid)
+bool DiffusionStage::takes_part(int i, int not_fluid, int integrated) const
+{
+  return engine.rows().is_fluid(i, not_fluid) && (atom->mask[i] & integrated);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DiffusionStage::set_rows(int not_fluid, int integrated)
 {
   const Parameters &par = engine.parameters();
   const ParticleRows &of = engine.rows();
@@ -330,7 +344,7 @@ void DiffusionStage::set_rows(int not_fluid)
     const Particle &particle = engine.particle[i];
     for (int d = 0; d < par.dim; d++) row[d] = particle.x[d];
     if (par.dim == 1) row[0] += particle.x[1];    // a line along x or y
-    const bool fluid = of.is_fluid(i, not_fluid);
+    const bool fluid = takes_part(i, not_fluid, integrated);
     row[vol] = fluid ? particle.vol : 0.0;
     row[vol + 1] = fluid ? pressure(par.eos, eos, atom->rho[i], of.esph[i] / atom->rmass[i]) : 0.0;
     impedances[i] = eos.impedance();
@@ -496,7 +510,7 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
     if (heat) heat[i] = 0.0;
     if (atom->mask[i] & not_fluid) continue;
     double channel[NCHANNEL] = {engine.force[i].heat};
-    channel[Channels::place<BulkChannel>()] = bulk_heat(i);
+    channel[BULK_HEAT] = bulk_heat(i);
     engine.side.add_heat(i, channel);
     if (i < atom->nlocal) {
       add_drag_heat(i, channel);

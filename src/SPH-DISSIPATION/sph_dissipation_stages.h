@@ -62,8 +62,8 @@ namespace SPHDissipation {
 
     void run(NeighList *, double **vest, double **omegaest, int not_fluid);
 
-    // for forces, with the pressure of states: at_rest, strains are zero; with the temperatures that
-    // conduction needs; and, where particles have the noise of their temperatures, with the internal energies at the end
+    // for forces, with the pressure of states: at_rest, strains are zero; with the values of the
+    // flows; and, where particles have the noise of their temperatures, with the internal energies at the end
     // of the step, which lack the work of the pressure over this time.  not_fluid = bits of the groups of particles of
     // walls and open zones
 
@@ -72,7 +72,7 @@ namespace SPHDissipation {
 
    private:
     void sum(NeighList *, double **vest, double **omegaest, int not_fluid);
-    void send(bool with_states, bool with_temperature, int not_fluid, int first);
+    void send(bool with_states, int flows, int not_fluid, int first);
   };
 
   // How negative the coefficient of the bulk term of a particle may be:
@@ -135,24 +135,22 @@ namespace SPHDissipation {
     double energy(int groupbits, int not_fluid) const;
   };
 
-  // Conduction of heat, after pass 2, onto the heating of LAMMPS as ForceStage: see HeatChannel.  With temp energy,
-  // pass 2 does it.
+  // The flows, after pass 2, see FlowList: onto the heating of LAMMPS as ForceStage, or for the state that the integrator
+  // will advance
 
-  class HeatStage : public Stage {
+  class FlowStage : public Stage {
    public:
     using Stage::Stage;
 
     // with the heat per time of owned and ghost atoms that another stage adds
-    void run(const std::function<void(std::vector<double> &flow)> &add);
+    void run(const std::function<void(std::vector<double> &heat)> &add);
 
     // heat per time that particles of a group got in run(), on this processor
     double received(int groupbit) const;
 
-    double memory_usage() const override;
+    void forget();    // the rates of the last forces
 
    private:
-    std::vector<double> flow;    // of owned and ghost atoms
-
     int nheat() const;    // atoms that heat goes to
   };
 
@@ -164,13 +162,14 @@ namespace SPHDissipation {
     using Stage::Stage;
 
     // find the rates; how full the support of a particle is: the smallest eigenvalue of its tensor, 1 inside of the fluid,
-    // about 1/2 at a plane surface, 0 of particles that have no neighbors or are not fluid
+    // about 1/2 at a plane surface, 0 of particles that have no neighbors or are not fluid; integrated = bits of the groups
+    // whose volumes change, of others, as the particles of a rigid body, none does
 
-    void evaluate(int not_fluid);
+    void evaluate(int not_fluid, int integrated);
 
     // onto the heating
 
-    void add_heat(int not_fluid) const;
+    void add_heat(int not_fluid, int integrated) const;
 
     double memory_usage() const override;
 
@@ -179,7 +178,8 @@ namespace SPHDissipation {
     std::vector<double> impedances;
     std::vector<SumBlock> sums, flow;
 
-    void set_rows(int not_fluid);
+    bool takes_part(int i, int not_fluid, int integrated) const;
+    void set_rows(int not_fluid, int integrated);
   };
 
   // Minus the gradient of the concentration of the particles, for particle shifting:

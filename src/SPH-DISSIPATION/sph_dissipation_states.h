@@ -68,6 +68,8 @@ namespace SPHDissipation {
     SPH_FUNCTION double strain() const { return strain_at(rho(), state()); }
     SPH_FUNCTION double mass() const { return rows.rmass[i]; }
     SPH_FUNCTION double rho() const { return rows.rho[i]; }
+    // rate of the state, of a channel with a flow
+    SPH_FUNCTION double flow() const { return rows.template rate_of<Channel>(i); }
   };
 
   // Defaults for what a state does not have.  Its channel says FIELD, the name of the custom property, with a number
@@ -251,16 +253,16 @@ namespace SPHDissipation {
     return (waits || kind == StateKind::PER_MASS) ? state : state * factor;
   }
 
-  // the StateList of those channels of a list that have states
+  // the list of those channels that have a base class
 
-  template <class List, class... Rest> struct WithState {
+  template <class Base, class List, class... Rest> struct ListOf {
     typedef List type;
   };
-  template <class... Found, class One, class... Rest>
-  struct WithState<StateList<Found...>, One, Rest...> :
-      std::conditional_t<std::is_base_of<BaseState, One>::value,
-                         WithState<StateList<Found..., One>, Rest...>,
-                         WithState<StateList<Found...>, Rest...>> {
+  template <class Base, template <class...> class List, class... Found, class One, class... Rest>
+  struct ListOf<Base, List<Found...>, One, Rest...> :
+      std::conditional_t<std::is_base_of<Base, One>::value,
+                         ListOf<Base, List<Found..., One>, Rest...>,
+                         ListOf<Base, List<Found...>, Rest...>> {
   };
 
 }    // namespace SPHDissipation

@@ -86,7 +86,7 @@ void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &
   const bool spins = (pair.shear == Shear::MICROPOLAR);
   const PairCoeff coeff = pair_coefficients(pair);
   Row row = {fmt::format("{}-{}", i, j), {}, {{"acoustic", NONE, acoustic_of_pair}}};
-  std::vector<double> numbers, of_motion, of_heat;
+  std::vector<double> numbers, of_motion, of_heat, of_flows;
 
   for (int k = 0; k < number_of_viscosities(spins); k++) {
     row.coefficients.push_back({VISCOSITY_NAMES[k], NONE, pair.viscosity[k]});
@@ -108,7 +108,9 @@ void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &
     if (used) left_out.erase(k);
     if (channel.ELASTIC) return;
     numbers.push_back(SPHDissipation::viscous_step(channel.rate(pair, words, own, inertia)));
-    (channel.OF_MOTION ? of_motion : of_heat).push_back(numbers.back());
+    bool stiff = true;
+    if constexpr (std::is_base_of<BaseFlow, One>::value) stiff = One::STIFF;
+    (channel.OF_MOTION ? of_motion : stiff ? of_heat : of_flows).push_back(numbers.back());
     row.steps.push_back({channel.NAME, k, numbers.back()});
   });
   if (diffusion_rate > 0.0) {
@@ -117,7 +119,8 @@ void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &
   }
   row.steps.push_back({"all", NONE, combined_step(acoustic_of_pair, numbers)});
   smallest = std::min(smallest, row.steps.back().value);
-  acoustic = std::min({acoustic, acoustic_of_pair, SPHDissipation::viscous_step(diffusion_rate)});
+  acoustic = std::min({acoustic, acoustic_of_pair, SPHDissipation::viscous_step(diffusion_rate),
+                       combined_step(UNLIMITED_STEP, of_flows)});
   viscous = std::min(viscous, combined_step(UNLIMITED_STEP, of_motion));
   dissipative = std::min(dissipative, combined_step(UNLIMITED_STEP, numbers));
   heat = std::min(heat, combined_step(UNLIMITED_STEP, of_heat));

@@ -715,13 +715,13 @@ void TemperatureStage::run(int prescribed_in)
 
 void TemperatureStage::find_unknowns()
 {
-  const Conductor *const conductor = engine.conductor.data();
+  const FlowRow *const heat = engine.heat().data();
   const int nlocal = atom->nlocal;
   temperature.resize(nlocal);
   unknown.clear();
   for (int i = 0; i < nlocal; i++) {
-    temperature[i] = conductor[i].temperature;
-    if (is_unknown(i) && conductor[i].conductivity > 0.0) unknown.push_back(i);
+    temperature[i] = heat[i].value;
+    if (is_unknown(i) && heat[i].coefficient > 0.0) unknown.push_back(i);
   }
 
   resize();
@@ -748,7 +748,7 @@ void TemperatureStage::gather()
 {
   const int n = lmp->force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
   if (settings.mode == Viscous::RKL2) set_temperatures();
-  engine.accumulate_heat(flow);
+  engine.accumulate_flow(HEAT_FLOW, flow);
   boundary.add_surface_heat(flow);
   engine.for_each(n, [&](int i) {
     flow[i] += atom->desph[i];
@@ -772,10 +772,10 @@ void TemperatureStage::gather()
 void TemperatureStage::set_temperatures()
 {
   engine.for_each(atom->nlocal, [&](int i) {
-    engine.conductor[i].temperature = temperature[i];
+    engine.heat()[i].value = temperature[i];
   });
   for_unknown([&](int i, std::size_t k) {
-    engine.conductor[i].temperature = guess[k];
+    engine.heat()[i].value = guess[k];
   });
   send_temperatures();
   boundary.extend_temperatures(false);
@@ -783,8 +783,8 @@ void TemperatureStage::set_temperatures()
 
 void TemperatureStage::send_temperatures()
 {
-  Conductor *const conductor = engine.conductor.data();
-  exchange.forward({field(conductor, &conductor->temperature, 1)});
+  FlowRow *const heat = engine.heat().data();
+  exchange.forward({field(heat, &heat->value, 1)});
 }
 
 /* ----------------------------------------------------------------------
@@ -794,14 +794,14 @@ void TemperatureStage::send_temperatures()
 void TemperatureStage::friction(const Unknowns &in, Unknowns &out)
 {
   engine.for_each(atom->nlocal, [&](int i) {
-    engine.conductor[i].temperature = 0.0;
+    engine.heat()[i].value = 0.0;
   });
   for_unknown([&](int i, std::size_t k) {
-    engine.conductor[i].temperature = in[k];
+    engine.heat()[i].value = in[k];
   });
   send_temperatures();
   boundary.extend_temperatures(true);
-  engine.accumulate_heat(flow);
+  engine.accumulate_flow(HEAT_FLOW, flow);
   exchange.reverse({{flow.data(), 1, 1}});
   for_unknown([&](int i, std::size_t k) {
     out[k] = -flow[i];

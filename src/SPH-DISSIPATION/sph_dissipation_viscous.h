@@ -230,7 +230,7 @@ namespace SPHDissipation {
     void add_velocities(const Unknowns &increment);
   };
 
-  // The same of heat, C dT/dt = R - Lambda T with the heat capacities C and what HeatChannel has of each pair.
+  // The same of heat, C dT/dt = R - Lambda T with the heat capacities C and the flow of heat of each pair.
   // Unknown are the temperatures of the particles that conduct and whose energy the integrators advance.  This stage sets
   // T_b as the temperature that conduction and the pressure see, by the internal energy of owned atoms as
   // they are during the forces, and by desph_before, so that the energy at the end of the step is that of the

@@ -303,10 +303,10 @@ namespace SPHDissipation {
 
   // the same for its temperature, weight = V_f W, slope = F, height from add_fluid(); conductivity of the boundary particle
 
-  SPH_FUNCTION void add_fluid_heat(const Conductor &f, double weight, double slope, double height,
+  SPH_FUNCTION void add_fluid_heat(const FlowRow &f, double weight, double slope, double height,
                                    double conductivity, BoundaryHeatSum &total)
   {
-    if (!(f.conductivity > 0.0)) return;
+    if (!(f.coefficient > 0.0)) return;
     const double weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
     total.weight += weight;
     total.d += weight * height;
@@ -314,14 +314,14 @@ namespace SPHDissipation {
     total.d4 += weight_d4;
     total.d5 += weight_d4 * height;
     total.d6 += weight_d4 * height * height;
-    total.td3 += weight_d3 * f.temperature;
-    total.td4 += weight_d4 * f.temperature;
-    total.conductivity += weight * f.conductivity;
+    total.td3 += weight_d3 * f.value;
+    total.td4 += weight_d4 * f.value;
+    total.conductivity += weight * f.coefficient;
     if (!(conductivity > 0.0)) return;
     const double flow =
-        f.vol * slope * f.conductivity * conductivity / (f.conductivity + conductivity);
+        f.vol * slope * f.coefficient * conductivity / (f.coefficient + conductivity);
     total.flow += flow;
-    total.tflow += flow * f.temperature;
+    total.tflow += flow * f.value;
   }
 
   // pressure at a wall particle of this acceleration, sum.weight > 0
@@ -423,9 +423,8 @@ namespace SPHDissipation {
   // shared by both of its sides, and conduct heat along the surface for both: so a wall particle
   // has one half of its volume.
 
-  SPH_FUNCTION Conductor wall_conductor(WallHeat heat, double value, double vol,
-                                        double conductivity, const Surface &surface,
-                                        const BoundaryHeatSum &sum)
+  SPH_FUNCTION FlowRow wall_conductor(WallHeat heat, double value, double vol, double conductivity,
+                                      const Surface &surface, const BoundaryHeatSum &sum)
   {
     if (heat == WallHeat::ADIABATIC) {
       if (!(sum.flow > 0.0)) return {0.0, 0.0, 0.0, 0.0};

@@ -6,7 +6,7 @@
    version 2. See the LICENSE file in the top-level directory.
 ------------------------------------------------------------------------- */
 
-// A list of states with one more, which nothing but its struct tells.
+// A list of states with one more, and a list of flows with one more, which nothing but its struct tells.
 
 #include "sph_dissipation_channels.h"
 
@@ -37,7 +37,8 @@ struct Solute : BaseState {
   }
 };
 
-using Three = WithState<StateList<>, BulkChannel, RelaxChannel, VibrationChannel, Solute>::type;
+using Three =
+    ListOf<BaseState, StateList<>, BulkChannel, RelaxChannel, VibrationChannel, Solute>::type;
 
 // coefficients of a type, with that of the solute
 
@@ -156,4 +157,74 @@ TEST(States, kinds)
   EXPECT_EQ(rescaled(mean, 2.0, 3.0), 2.0);
   EXPECT_EQ(rescaled(sum, 2.0, 3.0), 6.0);
   EXPECT_EQ(rescaled(sum, -2.0, 3.0), -6.0);    // an extensive state may be negative
+}
+
+/* ---------------------------------------------------------------------- */
+
+struct Dye : FlowingState {
+  static constexpr const char *FIELD = "dye", *KEYWORD = "dye";
+  static int count(const double *diffusivity) { return *diffusivity > 0.0 ? 1 : 0; }
+  static double coefficient(const double *diffusivity, double rho0) { return rho0 * *diffusivity; }
+};
+
+using Two = ListOf<BaseFlow, FlowList<>, BulkChannel, HeatChannel, RelaxChannel, Dye>::type;
+using WithDye = ListOf<BaseState, StateList<>, HeatChannel, Dye>::type;
+
+struct DyeCoeffs {
+  TypeCoeffs type;
+  double diffusivity = 0.3;
+
+  template <class Channel> const double *of() const
+  {
+    if constexpr (std::is_same<Channel, Dye>::value)
+      return &diffusivity;
+    else
+      return type.of<Channel>();
+  }
+};
+
+struct DyeRows {
+  WithDye::Numbers own = WithDye::numbers(DyeCoeffs(), 2.0, 1.0, 0.1);
+  double amount = 6.0, mass = 4.0, *state[WithDye::MOST] = {&amount}, *rmass = &mass;
+
+  const WithDye::Numbers &numbers(int) const { return own; }
+  double temperature(int) const { return 7.0; }
+  template <class Channel> double state_of(int i) const { return state[0][i]; }
+  template <class Channel> double rate_of(int) const { return -20.0; }
+};
+
+TEST(Flows, list)
+{
+  EXPECT_EQ(Two::NUMBER, 2);
+  EXPECT_EQ(Two::in_pass_2(), 1);
+  DyeCoeffs type;
+  type.type.a[Channels::first_of_type<HeatChannel>() + HeatChannel::CONDUCTIVITY] = 5.0;
+  double coefficient[2];
+  Two::coefficients(type, 2.0, coefficient);
+  EXPECT_EQ(coefficient[0], 5.0);
+  EXPECT_EQ(coefficient[1], 0.6);
+  EXPECT_EQ(WithDye::info(0).kind, StateKind::EXTENSIVE);
+
+  DyeRows rows;
+  for (const int bits : {1, 2, 3}) {
+    std::vector<double> values;
+    Two::visit(bits, [&](auto channel, int) {
+      values.push_back(channel.value(FlowSite<DyeRows, decltype(channel)>{rows, 0}));
+    });
+    EXPECT_EQ(values,
+              (bits == 1       ? std::vector<double>{7.0}
+                   : bits == 2 ? std::vector<double>{1.5}
+                               : std::vector<double>{7.0, 1.5}));
+  }
+}
+
+// the integrator adds the rate of the last forces, times the time step
+
+TEST(Flows, state)
+{
+  DyeRows rows;
+  WithDye::each(rows, 0, [&](auto channel, const auto &site) {
+    channel.advance(site, 0.0, 0.0);
+  });
+  EXPECT_EQ(rows.amount, 4.0);
 }

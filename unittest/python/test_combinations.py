@@ -41,6 +41,7 @@ class Lines:
     energy: float = 0.0  # internal, of each particle
     spin: str = ""  # coefficients of a fluid with spin
     keywords: tuple = ()  # of its pair_coeff
+    unlike: tuple = ()  # keywords of two unlike types
     others: tuple = ()  # pair_coeff of pair style soft, in a hybrid style
     hybrid: str = "{sph} soft 1.5"
     integrator: tuple = ()  # keywords of the fix that integrates the fluid
@@ -137,6 +138,7 @@ FEATURES = {
     "drag": Feature(Lines(keywords=("drag 0.3 0.2 -0.1 0",), force=("c_drag[{k}]",),
                           fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3*c_state[1]*(c_state[2]-0.2)",
                                  "variable dragy atom -0.3*c_state[1]*(c_state[3]+0.1)", "compute drag fluid reduce sum v_dragx v_dragy"))),
+    "interdrag": Feature(Lines(types=2, unlike=("interdrag 0.8",))),
     "relax": Feature(Lines(room="relax 2", state="-0.99 0", keywords=("relax 4.0 0.02 3.0 0.5",))),
     "heat": Feature(Lines(keywords=("cv 100.0 conductivity 30.0 gruneisen 0.5 0.01",), energy=2.5),
                     refused={"rerun": "conductivity", "noise": "conductivity", "gas": "gruneisen"}),
@@ -231,9 +233,11 @@ def coefficients(lines, first, own):
     """The fluid's are those of types first, first + 1, ..., in `own`."""
     style = f"{lines.style} " if lines.others else ""
     types = range(first, first + lines.types) if lines.types > 1 else [own]
+    unlike = " ".join(("mu mean",) * bool(lines.others) + lines.unlike)
     result = [f"{one} {one} {style}1.0 10.0 {lines.mu} {lines.kappa} {lines.spin} 3.0 {' '.join(lines.keywords)}" for one in types]
+    if unlike:
+        result += [f"{one} {other} {style}{unlike}" for one, other in itertools.combinations(types, 2)]
     if lines.others:
-        result += [f"{one} {other} {style}mu mean" for one, other in itertools.combinations(types, 2)]
         result += ["1 2* none"] * (first > 1) + [one.format(own=own) for one in lines.others]
     return "".join(f"pair_coeff {one}\n" for one in result)
 

@@ -35,7 +35,7 @@ def integrate(style, keywords="", group="all"):
 
 def output(style, every):
     """Everything that the particles have, and the totals."""
-    channels = " ".join(f"c_HEAT[{k}]" for k in ((1, 2, 3, 4, 5, 6) if spinning(style) else (1, 2, 5, 6)))
+    channels = "c_HEAT[*]"
     text = "compute HEAT all sph/dissipation\ncompute E all sph/energy\n"
     extra = ""
     if spinning(style):
@@ -148,6 +148,14 @@ def test_drag(lammps, style, ranks):
     model = "".join(line + (" drag 0.4 0.2 -0.1 0" if line.startswith("pair_coeff 2 2") else "") + "\n" for line in lines)
     extra = f"variable B equal 0.4+0.02*step\nfix CHANGE all adapt 5 pair {style} drag 2 2 v_B\n"
     compare(lammps, style, particles, script(style, particles, model, 50, extra=extra), ranks)
+
+
+@pytest.mark.parametrize("ranks, options", [(1, ""), (2, "limit yes"), (2, "bulk volume"), (1, "temp 0.01 1234")])
+def test_drag_between_fluids(lammps, style, ranks, options):
+    """Changed on the way, from zero."""
+    particles = disordered(2, 14, seed=4, jitter=0.1, ntypes=2, speed=0.3, spread=0.0)
+    extra = f"variable B equal 0.04*step\nfix CHANGE all adapt 5 pair {style} interdrag 1 2 v_B\n"
+    compare(lammps, style, particles, script(style, particles, fluids(style, 2, 2, options), 50, extra=extra), ranks)
 
 
 @pytest.mark.parametrize("ranks, options", [(1, "eos ideal"), (2, "volume mass"), (4, "")])

@@ -82,13 +82,33 @@ def test_no_cycle():
 
 
 def test_a_state_is_one_file():
-    """The header of its channel: no other source file names it."""
+    """The header of its channel: no other source file names it, but the list, by the header."""
     states = {name: header.name for header in SOURCES.glob("sph_dissipation_channel_*.h")
               for name in re.findall(r'FIELD = "(\w+)"', header.read_text())}
     assert set(states) >= {"rho_relaxed", "tvib"}
-    texts = {path: path.read_text() for path in (ROOT / "src").rglob("*") if path.suffix in (".h", ".cpp")}
+    texts = {path: path.read_text() for path in (ROOT / "src").rglob("*")
+             if path.suffix in (".h", ".cpp") and path.name != "sph_dissipation_channel_list.h"}
     for name, header in states.items():
         assert [path.name for path, text in texts.items() if name in text] == [header]
+
+
+def test_a_channel_is_one_file():
+    """Its header, and the list: no other source file names it."""
+    headers = {name: header.name for header in SOURCES.glob("sph_dissipation_channel_*.h")
+               for name in re.findall(r"^ChannelClass\((\w+)\)", header.read_text(), re.M)}
+    assert {"ShearChannel", "BulkChannel", "RelaxChannel", "HeatChannel"} <= set(headers)
+    lists = {"sph_dissipation_channels.h", *headers.values()}
+    named = {path.name: names for path in (ROOT / "src").rglob("*")
+             if path.suffix in (".h", ".cpp") and path.name not in lists
+             and (names := [name for name in headers if re.search(rf"\b{name}\b", path.read_text())])}
+    assert not named
+
+
+def test_conductivity_is_in_few_files():
+    """Nearly all code calls it the coefficient of a flow."""
+    named = [path.name for path in (ROOT / "src").rglob("*")
+             if path.suffix in (".h", ".cpp") and "conductivity" in path.read_text().lower()]
+    assert len(named) <= 8, named
 
 
 def walks():
