@@ -26,6 +26,7 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
@@ -565,7 +566,8 @@ void FixSPHBulk::reset_extrapolation()
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
   for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & integrated_groups)) step.follow(particles, i);
+    if (!(atom->mask[i] & integrated_groups) && !(fluid && fluid->boundary->is_body(i)))
+      step.follow(particles, i);
 }
 
 /* ----------------------------------------------------------------------

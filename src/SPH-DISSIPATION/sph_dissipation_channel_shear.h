@@ -106,29 +106,31 @@ namespace SPHDissipation {
   }
 
   // Largest eigenvalues of the friction matrix on lattices of 1, 2, 3 dimensions, for all kernels, in order
-  // and in disorder, and next to walls (Morris), in units of nu/h^2
-  inline double shear_rate(Shear shear)
+  // and in disorder, and next to walls (Morris), in units of nu/h^2; surface: next to those with surface_factor()
+  inline double shear_rate(Shear shear, bool surface)
   {
     switch (shear) {
       case Shear::MG:
-        return 21.0;
+        return surface ? 25.0 : 21.0;
       case Shear::MG_FR:
-        return 17.0;
+        return surface ? 21.0 : 17.0;
       case Shear::MORRIS:
-        return 8.0;
+        return surface ? 11.0 : 8.0;
       case Shear::ESPANOL:
-        return 10.0;
+        return surface ? 13.0 : 10.0;
       default:
         return 0.0;
     }
   }
 
   // rate of two terms, along e and along the difference itself, which act on what has this inertia per volume
-  inline double rate_of_terms(int n, double hsq, double inertia, double along_r, double along_u)
+  inline double rate_of_terms(int n, double hsq, double inertia, double along_r, double along_u,
+                              bool surface = false)
   {
     const double mg = std::max(along_r, 0.0) / shear_factor(Shear::MG, n, 1.0);
     const double morris = along_u / shear_factor(Shear::MORRIS, n, 1.0);
-    return (shear_rate(Shear::MG) * mg + shear_rate(Shear::MORRIS) * morris) / (inertia * hsq);
+    return (shear_rate(Shear::MG, surface) * mg + shear_rate(Shear::MORRIS, surface) * morris) /
+        (inertia * hsq);
   }
 
   // zeta2 of a micropolar fluid, whose zeta1 is along_r: mu = zeta1/(2(n+2)) + zeta2/4, mu_r = zeta2/4; P3 (29)-(32) with
@@ -179,8 +181,9 @@ namespace SPHDissipation {
     {
       if (fluid.shear == Shear::MICROPOLAR)
         return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho, own[ALONG_R],
-                             slip_coefficient(fluid));
-      return shear_rate(fluid.shear) * fluid.viscosity[MU] / inertia.rho / inertia.hsq;
+                             slip_coefficient(fluid), inertia.surface);
+      return shear_rate(fluid.shear, inertia.surface) * fluid.viscosity[MU] / inertia.rho /
+          inertia.hsq;
     }
   };
 

@@ -198,6 +198,7 @@ namespace SPHDissipation {
     double hsq = 0.0;    // of the smoothing length for stability, see stability_length_squared()
     double rho = 0.0;    // of velocities
     double rho_inertia = 0.0;    // of spins
+    bool surface = false;        // next to surfaces with surface_factor()
   };
 
   // drag of a single particle against a stream, force -b V (u - stream)

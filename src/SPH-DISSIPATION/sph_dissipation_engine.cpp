@@ -36,9 +36,9 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
     state_pressure(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
     par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
-    noisy_loop(nullptr), drag_noise(nullptr), data(), atom_rows(), threads(&one_thread),
-    weights(nullptr), not_fluid(0), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0),
-    imax(0), pair_max(0)
+    noisy_loop(nullptr), surface_loop(nullptr), surface_noise(nullptr), drag_noise(nullptr), data(),
+    atom_rows(), threads(&one_thread), weights(nullptr), not_fluid(0), nlocal_forces(-1),
+    nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
   choose_loops("auto");
 }
@@ -94,7 +94,7 @@ void Engine::setup(const Parameters &parameters)
   const Terms terms = (par->inviscid && !par->spins()) ? Terms{Shear::NONE, false} : par->terms();
   force_loop = loops->forces(terms, par->bulk, par->volume);
   side.set({par->spins(), loops->channels(terms)});
-  noisy_loop = nullptr;
+  noisy_loop = surface_loop = nullptr;
   drag_noise = nullptr;
   data.par = par;
 }
@@ -105,6 +105,13 @@ void Engine::add_noise(const NoiseForm &form, const NoiseData *noise)
 {
   data.noise = noise;
   noisy_loop = loops->noisy_forces(form);
+  add_surface_noise(form, noise);
+}
+
+void Engine::add_surface_noise(const NoiseForm &form, const NoiseData *noise)
+{
+  surface_noise = noise;
+  surface_loop = loops->noisy_forces(form);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -195,6 +195,9 @@ namespace SPHDissipation {
     std::vector<double> slope;
   };
 
+  class SurfacePairs;
+  enum class Friction { WITH_NOISE, WITHOUT_NOISE };
+
   // Pair engine of the particle fluid styles: number density and its rate in one loop over the
   // neighbor list, forces and heating in a second one.  Between them the stages of the pair style set
   // what pass 2 reads.  Each thread has some rows of the neighbor list and its own sums, which are
@@ -217,8 +220,9 @@ namespace SPHDissipation {
     // choose the loops; the parameters are read until the next call
     void setup(const Parameters &);
     // pass 2 then adds the random forces and torques of the pairs, until setup() is called again; noise is read by each
-    // pass 2
+    // pass 2.  The same for the pairs of accumulate_friction(SurfacePairs)
     void add_noise(const NoiseForm &, const NoiseData *noise);
+    void add_surface_noise(const NoiseForm &, const NoiseData *noise);
 
     // pass 1: particle[] from atom->x and vest, spin[] from omegaest (micropolar), which are zero
     // where these are nullptr; density[] of owned atoms (with the particle itself) and the
@@ -243,6 +247,9 @@ namespace SPHDissipation {
 
     // the same as accumulate_forces() without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *);
+
+    // friction of those pairs alone, with or without its noise, by this thread; after pass 2, which the noise is set for
+    void accumulate_friction(SurfacePairs &, Friction, int thread);
 
     // what owned and ghost atoms get per time by a flow, of flow[]; room for the spare ones
     void accumulate_flow(int place, std::vector<double> &rate);
@@ -329,7 +336,9 @@ namespace SPHDissipation {
     const LoopSet *loops;
     const Parameters *par;
     Loop density_loop, rate_loop, force_loop;
-    Loop noisy_loop;    // force_loop with noise, or nullptr
+    Loop noisy_loop;      // force_loop with noise, or nullptr
+    Loop surface_loop;    // the same for pairs of surfaces
+    const NoiseData *surface_noise;
     const double *drag_noise;
     LoopData data;
     ParticleRows atom_rows;

@@ -434,7 +434,9 @@ void Fluid::sum_gradient()
 void Fluid::sum_forces(PairTally *tally)
 {
   engine->set_not_fluid(not_fluid());
-  forces->run(neighbors(), tally);
+  forces->run(neighbors(), tally, [&]() {
+    boundary->add_friction(tally);
+  });
   if (!boundary->empty()) boundary->repel(tally);
 }
 
@@ -466,8 +468,7 @@ void Fluid::find_viscous_velocity()
   if (neighbor->ago == 0 || viscous->has_old_rates())
     viscous->set_rate(coeff_table().fastest_rate());
   sum_forces(nullptr);
-  const bool symmetric =
-      (boundary->empty() || model->choice.thermal) && model->choice.bulk != Bulk::VOLUME;
+  const bool symmetric = boundary->all_symmetric() && model->choice.bulk != Bulk::VOLUME;
   viscous->run(neighbors(), bound(), symmetric);
 }
 
@@ -831,6 +832,7 @@ CoeffTable Fluid::coeff_table()
       damped.hsq = hsq;
       damped.rho = rho;
       damped.rho_inertia = rho * inertia;
+      damped.surface = boundary->has_symmetric_friction();
       double diffusion_of = 0.0;
       if (model->choice.delta > 0.0) {
         const auto stiffness = [&](int type) {

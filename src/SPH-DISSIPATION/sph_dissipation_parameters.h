@@ -111,6 +111,8 @@ namespace SPHDissipation {
     void set_uniform();          // uniform, inviscid, and optional, from pair
     void set_alike();            // what belongs to flows and sound, from type
     void set_step(double dt);    // the time step of the states
+    bool
+    directed_noise() const;    // each partner of a pair has a number of its own, see NoiseStage
   };
 
   inline void Constants::set_kernel(Kernel kernel_in, int dim_in, double support_in)
@@ -160,6 +162,14 @@ namespace SPHDissipation {
       if (one.eos.impedance() != first->eos.impedance()) impedes_alike = false;
     }
     loops_of_flows = own_temperatures ? flows & ~Flows::in_pass_2() : flows;
+  }
+
+  inline bool Parameters::directed_noise() const
+  {
+    return thermal && !own_temperatures && limit != Limit::NO &&
+        std::any_of(type.begin(), type.end(), [](const TypeParameters &one) {
+             return !one.other && one.zeta < 0.0;
+           });
   }
 
   inline void Parameters::set_step(double dt)

@@ -436,9 +436,10 @@ int ForceStage::nforce() const
 
 /* ---------------------------------------------------------------------- */
 
-void ForceStage::run(NeighList *list, PairTally *tally)
+void ForceStage::run(NeighList *list, PairTally *tally, const std::function<void()> &add_more)
 {
   engine.accumulate_forces(list, tally);
+  add_more();
 
   double **f = atom->f;
   double *const desph = atom->desph;

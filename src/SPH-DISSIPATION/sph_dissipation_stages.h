@@ -212,7 +212,8 @@ namespace SPHDissipation {
    public:
     using Stage::Stage;
 
-    void run(NeighList *, PairTally *);    // tally of each pair, or nullptr
+    // tally of each pair, or nullptr; add_more: to the sums of the engine, after pass 2
+    void run(NeighList *, PairTally *, const std::function<void()> &add_more);
 
     // also add the force and torque of ghosts to those of their owners in the engine
 

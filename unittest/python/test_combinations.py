@@ -30,7 +30,7 @@ FIRST = 11  # lower IDs are those of particles that are no fluid
 class Lines:
     """What is in an input.  In a sum tuples are joined; any other value is that of the one that sets it."""
 
-    particles: tuple = ()  # besides the fluid: "zones", "walls", "alien"
+    particles: tuple = ()  # besides the fluid: "zones", "walls", "disc", "alien"
     style: str = "sph/bulk"
     room: str = ""  # for relaxing processes, in the atom style
     state: str = ""  # of them
@@ -92,6 +92,10 @@ def walls(speed):
                                               "fix high high sph/wall"), force=("-f_low[{k}]", "-f_high[{k}]"))
 
 
+def disc(rigid):
+    return Lines(particles=("disc",), fixes=(f"fix turn disc {rigid}", "fix disc disc sph/wall move rigid"), force=("-f_disc[{k}]",))
+
+
 def body(fix):
     return Lines(fixes=("variable mx atom 4.0*mass", "variable my atom -3.0*mass", "variable driven atom mass*gmask(driven)",
                         "compute driven fluid reduce sum v_driven", f"fix G driven {fix}"),
@@ -106,6 +110,9 @@ FEATURES = {
     "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
     "gravity": Feature(body("gravity 5.0 vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
     "walls": Feature(walls("v_U"), walls("0.3")),
+    "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused={
+        "rkl2": "viscous", "implicit": "viscous", "open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
+        "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "rerun": "rerun"}),
     "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), not_plain_with=("gas", "heat"), refused={"noise": "temp", "rerun": "rerun"}),
     "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom {TARGET}", "fix R fluid sph/refine 5 volume v_t")),
                      Lines(pair=("volume mass",), fixes=(f"variable t atom sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
@@ -199,6 +206,8 @@ def particles(lines):
     rows = np.arange(-3, 13) if "walls" in has else np.arange(10)
     x, y = (one.ravel() for one in np.meshgrid(columns + 0.97, rows + 0.5, indexing="ij"))
     part = np.where(y < 0, "low", np.where(y > 10, "high", np.where(x < 0, "inlet", np.where(x > 16, "outlet", "fluid"))))
+    if "disc" in has:
+        part = np.where((part == "fluid") & ((x - 9.0)**2 + (y - 5.0)**2 < 5.0), "disc", part)
     order = np.argsort(part, kind="stable")
     x, y, part = x[order], y[order], part[order]
     wet = part == "fluid"

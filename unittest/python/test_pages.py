@@ -114,6 +114,7 @@ ANSWERS = {
     "no-slip": "Howto_sph_walls", "boundary condition": "Howto_sph_walls",
     "dam break": "Howto_sph_surface", "sloshing": "Howto_sph_surface", "water level": "Howto_sph_surface", "pressure tap": "Howto_sph_surface",
     "acoustic streaming": "Howto_sph_streaming", "Stokes drift": "Howto_sph_streaming",
+    "floating body": "Howto_sph_bodies", "buoyancy": "Howto_sph_bodies",
     "non-reflecting": "Howto_sph_open", "buffer zone": "Howto_sph_open",
     "adaptive particle refinement": "Howto_sph_refine", "variable resolution": "Howto_sph_refine",
 }
