@@ -343,6 +343,12 @@ void FixSPHBulk::init_viscous()
                "Pair style {} with temp energy needs fix {} viscous explicit: its friction depends "
                "on the temperatures",
                style, style);
+  if (fluid->model->has_rheology() && settings.mode == Viscous::IMPLICIT)
+    error->all(
+        FLERR,
+        "Fix {} viscous implicit cannot be used with a viscosity that depends on the rate of "
+        "shear; use viscous rkl2",
+        style);
   fluid->viscous->configure(settings, integrated_groups, fluid_style);
   fluid->temperature->configure(settings, integrated_groups, fluid_style);
 }

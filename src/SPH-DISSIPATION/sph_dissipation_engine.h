@@ -70,6 +70,7 @@ namespace SPHDissipation {
     const Spin *spin;            // owned and ghost (micropolar)
     const int *type;             // read if the coefficients differ between types
     const double *zeta_term;     // zeta cdot/c of each particle (bulk volume)
+    const double *viscosity;     // mu of each particle, if it depends on the rate of shear
     const double *weight;        // w, owned and ghost; nullptr if all are 1 and no loop reads it
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
     DensitySum *density;         // owned and ghost, accumulated by pass 1
@@ -95,6 +96,7 @@ namespace SPHDissipation {
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
   typedef void (*FlowLoop)(const LoopData &, const FlowRow *, double *rate);
+  typedef void (*RateLoop)(const LoopData &, double *rate);
   typedef void (*DiffusionLoop)(const LoopData &, const DiffusionData &, double *sums);
   enum class DiffusionPart { SUMS, FLOW };    // for the gradient; with it
 
@@ -118,6 +120,7 @@ namespace SPHDissipation {
     const char *name;
     Loop (*density)(Kernel, Volume);
     Loop (*rates)(Volume);
+    RateLoop shear_rates;
     Loop (*forces)(const Terms &, Bulk, Volume);
     int (*channels)(const Terms &);    // bits of the channels that its terms heat
     Loop (*noisy_forces)(const NoiseForm &);
@@ -251,6 +254,9 @@ namespace SPHDissipation {
     // friction of those pairs alone, with or without its noise, by this thread; after pass 2, which the noise is set for
     void accumulate_friction(SurfacePairs &, Friction, int thread);
 
+    // sum_j V_j F (e.u)^2 of owned and ghost atoms, of the volumes and velocities in particle[]; room for the spare ones
+    void accumulate_shear_rates(std::vector<double> &rates);
+
     // what owned and ghost atoms get per time by a flow, of flow[]; room for the spare ones
     void accumulate_flow(int place, std::vector<double> &rate);
 
@@ -322,6 +328,7 @@ namespace SPHDissipation {
     std::vector<FlowRow> flow[Flows::NUMBER];    // the same, of the flows of any type
     std::vector<FlowRow> &heat() { return flow[HEAT_FLOW]; }
     std::vector<double> flow_rate[Flows::NUMBER];    // what each flow has given in the last forces
+    std::vector<double> viscosity;    // the same, mu, if any depends on the rate of shear
     std::vector<double>
         energy;    // the same, internal energy, if particles have the noise of their temperatures
     void set_wall_energy(const double *);    // what walls hold of it, of owned atoms

@@ -47,6 +47,7 @@ namespace SPHDissipation {
   class StateStage;
   class TemperatureStage;
   class Threads;
+  class ViscosityStage;
   class ViscousStage;
 
   // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -73,6 +74,7 @@ namespace SPHDissipation {
     const std::unique_ptr<NeighborSearch> search;
     const std::unique_ptr<DensityStage> density;
     const std::unique_ptr<LimitStage> limit;
+    const std::unique_ptr<ViscosityStage> viscosity;
     const std::unique_ptr<PressureStage> pressure;
     const std::unique_ptr<ForceStage> forces;
     const std::unique_ptr<StateStage> state;
@@ -239,7 +241,8 @@ namespace SPHDissipation {
     void check_all_interact();
     bool step_follows() const;    // a fix sets the time step by the limits
     void derive_coeffs();
-    bigint sum_before_forces();
+    bigint sum_before_forces(bool find_rates = true);
+    void find_viscosities(bool find_rates);
     const double *bound() const;    // of the limit, nullptr without
     void find_viscous_velocity();
     void find_temperature();

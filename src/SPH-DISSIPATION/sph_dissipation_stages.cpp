@@ -149,6 +149,42 @@ double LimitStage::memory_usage() const
 
 /* ---------------------------------------------------------------------- */
 
+void ViscosityStage::run(int not_fluid)
+{
+  engine.accumulate_shear_rates(rates);
+  exchange.reverse({{rates.data(), 1, 1}});
+  const ParticleRows &rows = engine.rows();
+  double *const shear_rate = Fields::of(atom)->shear_rate;
+  engine.for_each(atom->nlocal, [&](int i) {
+    const DensitySum &density = engine.density[i];
+    shear_rate[i] = rows.is_fluid(i, not_fluid)
+        ? sqrt(std::max(shear_rate_squared(rows.par.dim, rates[i], density.cdot / density.c), 0.0))
+        : 0.0;
+  });
+  keep(not_fluid);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscosityStage::keep(int not_fluid)
+{
+  const ParticleRows &rows = engine.rows();
+  const double *const shear_rate = Fields::of(atom)->shear_rate;
+  engine.for_each(atom->nlocal, [&](int i) {
+    rows.set_viscosity(i, shear_rate[i], not_fluid);
+  });
+  exchange.forward({{engine.viscosity.data(), 1, 1}});
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ViscosityStage::memory_usage() const
+{
+  return (double) rates.capacity() * sizeof(double);
+}
+
+/* ---------------------------------------------------------------------- */
+
 bigint PressureStage::run(const double *bound, int not_fluid)
 {
   const ParticleRows &rows = engine.rows();

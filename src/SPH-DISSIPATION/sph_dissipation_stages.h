@@ -95,6 +95,22 @@ namespace SPHDissipation {
     ThreadSums<double> sums;
   };
 
+  // Viscosities that depend on the rate of shear, see sph_dissipation_rheology.h; with the volumes of particles set
+
+  class ViscosityStage : public Stage {
+   public:
+    using Stage::Stage;
+
+    // of the rates of shear at the velocities of the particles, which owned ones keep; of the rates that they have kept
+    void run(int not_fluid);
+    void keep(int not_fluid);
+
+    double memory_usage() const override;
+
+   private:
+    std::vector<double> rates;    // of owned and ghost atoms
+  };
+
   // Pressure and bulk term of all particles of the fluid, of volume and density as pass 1 left them, see
   // ParticleRows::set_pressure()
 

@@ -106,13 +106,13 @@ LARGE = "rkl2", "implicit"  # they start anew after a change of the time step or
 TARGET = "1.0-0.75*(x>3)*(x<6)+1.6*(x>10)*(x<13)"
 
 FEATURES = {
-    "rkl2": Feature(Lines(integrator=("viscous rkl2",)), nearly=Lines(), refused={"noise": "temp"}),
+    "rkl2": Feature(Lines(integrator=("viscous rkl2",)), nearly=Lines(), refused={"noise": "temp"}, nearly_with={"thinning": 1e-3}),
     "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
     "gravity": Feature(body("gravity 5.0 vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
     "walls": Feature(walls("v_U"), walls("0.3")),
     "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused={
         "rkl2": "viscous", "implicit": "viscous", "open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
-        "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "rerun": "rerun"}),
+        "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "rate of shear", "rerun": "rerun"}),
     "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), not_plain_with=("gas", "heat"), refused={"noise": "temp", "rerun": "rerun"}),
     "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom {TARGET}", "fix R fluid sph/refine 5 volume v_t")),
                      Lines(pair=("volume mass",), fixes=(f"variable t atom sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
@@ -146,6 +146,9 @@ FEATURES = {
                           fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3*c_state[1]*(c_state[2]-0.2)",
                                  "variable dragy atom -0.3*c_state[1]*(c_state[3]+0.1)", "compute drag fluid reduce sum v_dragx v_dragy"))),
     "interdrag": Feature(Lines(types=2, unlike=("interdrag 0.8",))),
+    "thinning": Feature(Lines(keywords=("power 0.6 0.05 1.5 yield 0.05 5",)),
+                        refused={"open": "power", "noise": "drift", "warm": "drift", "limit": "limit", "interdrag": "rate of shear", "implicit": "implicit",
+                                 "spin": "sph/bulk", "idle_spin": "sph/bulk"}),
     "relax": Feature(Lines(room="relax 2", state="-0.99 0", keywords=("relax 4.0 0.02 3.0 0.5",))),
     "heat": Feature(Lines(keywords=("cv 100.0 conductivity 30.0 gruneisen 0.5 0.01",), energy=2.5),
                     refused={"rerun": "conductivity", "noise": "conductivity", "gas": "gruneisen"}),
