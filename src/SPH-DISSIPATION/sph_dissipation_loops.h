@@ -718,7 +718,8 @@ namespace SPHDissipation {
 
 #include "sph_dissipation_neighbor_loops.h"
 
-    // The loops of the bulk form volume, of the full forms, and of the noise have weights, which are 1 with volume number
+    // The loops of the bulk form volume, of the full forms, of viscosities that depend on the rate of shear, and of the noise have
+    // weights, which are 1 with volume number
 
     template <class F>
     constexpr bool IS_FULL =
@@ -730,8 +731,7 @@ namespace SPHDissipation {
       with_form(terms, [&](auto form) {
         using F = decltype(form);
         if constexpr (F::BY_RATE)    // not with the bulk form volume
-          loop =
-              (volume == Volume::MASS) ? force_loop<F, false, true> : force_loop<F, false, false>;
+          loop = force_loop<F, false, true>;
         else
           loop = (bulk == Bulk::VOLUME)  ? force_loop<F, true, true>
               : (volume == Volume::MASS) ? force_loop<F, false, true>
