@@ -437,11 +437,21 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
         buf[n] = temperature[i];
         break;
       default:
-        buf[n] = (index >= NPROPERTY) ? std::max(state[index - NPROPERTY][i], 0.0)
+        buf[n] = (index >= NPROPERTY) ? state_value(index - NPROPERTY, i)
             : (index < INERTIA)       ? vest[i][index - VESTX]
                                       : omegaest[i][index - OMEGAESTX];
     }
   }
+}
+
+/* ----------------------------------------------------------------------
+   0 where a negative number says that the state is not known yet; amounts may be negative
+------------------------------------------------------------------------- */
+
+double AtomVecSPHBulk::state_value(int slot, int i) const
+{
+  const double value = state[slot][i];
+  return (States::info(slot).kind == StateKind::EXTENSIVE) ? value : std::max(value, 0.0);
 }
 
 /* ----------------------------------------------------------------------

@@ -158,10 +158,14 @@ namespace SPHDissipation {
   // may be fewer.
   struct TypeKeyword {
     const char *name;
-    int count;        // of numbers
-    int group;        // as many belong together; 0: all
-    int needs;        // of enum Requirement
+    int count;    // of coefficients
+    int group;    // as many belong together; 0: all
+    int needs;    // of enum Requirement
+    // it acts with the number 0, too: the first of its coefficients is 1 where it is given, and no number of the command
+    bool marked = false;
     int first = 0;    // number among the coefficients of all channels, set by type_keywords()
+
+    int numbers() const { return marked ? count - 1 : count; }    // of the command
   };
 
   // Name by which another command may vary a coefficient of a type, of this number in its channel.  In the second and

@@ -234,7 +234,7 @@ StateRows Engine::states() const
                     par->eos,         atom->esph, atom->desph, {}};
   std::copy_n(Fields::of(atom)->state, States::MOST, rows.state);
   for (int k = 0; k < Flows::NUMBER; k++)
-    if (flow_rate[k].size() >= static_cast<std::size_t>(atom->nlocal))
+    if ((par->flows >> k & 1) && flow_rate[k].size() >= static_cast<std::size_t>(atom->nlocal))
       rows.rate[k] = flow_rate[k].data();
   if (!wall_energy.empty()) {
     follow_atoms();

@@ -438,14 +438,17 @@ void FluidModel::publish(int k, int i)
 }
 
 /* ----------------------------------------------------------------------
-   true if a coefficient by keyword belongs to a group of numbers that pair_coeff has not given to this type
+   true if a coefficient by keyword belongs to a group of numbers, or a marked keyword, that pair_coeff has not given to
+   this type
 ------------------------------------------------------------------------- */
 
 bool FluidModel::is_of_missing_group(int coefficient, int type) const
 {
   for (const TypeKeyword &one : keywords)
-    if (one.group && coefficient >= one.first && coefficient < one.first + one.count) {
-      const int first = coefficient - (coefficient - one.first) % one.group;
+    if ((one.group || one.marked) && coefficient >= one.first &&
+        coefficient < one.first + one.count) {
+      const int each = one.group ? one.group : one.count;
+      const int first = coefficient - (coefficient - one.first) % each;
       return coeffs[type].keywords.a[first] == 0.0;
     }
   return false;

@@ -115,7 +115,8 @@ namespace SPHDissipation {
     {
       States::each(*this, i, [&](auto channel, const auto &site) {
         typedef States::Owner<decltype(channel)> Owner;
-        heat[Channels::place<Owner>()] += rmass[i] * channel.heat(site);
+        if constexpr (Owner::OF_MOTION)
+          heat[Channels::place<Owner>()] += rmass[i] * channel.heat(site);
       });
     }
 

@@ -32,8 +32,8 @@ class Lines:
 
     particles: tuple = ()  # besides the fluid: "zones", "walls", "disc", "alien"
     style: str = "sph/bulk"
-    room: str = ""  # for relaxing processes, in the atom style
-    state: str = ""  # of them
+    room: tuple = ()  # for states, in the atom style
+    state: tuple = ()  # their values in data files
     types: int = 1  # of the fluid
     pair: tuple = ()  # keywords of the pair style
     mu: float = 0.5
@@ -149,10 +149,13 @@ FEATURES = {
     "thinning": Feature(Lines(keywords=("power 0.6 0.05 1.5 yield 0.05 5",)),
                         refused={"open": "power", "noise": "drift", "warm": "drift", "limit": "limit", "interdrag": "rate of shear", "implicit": "implicit",
                                  "spin": "sph/bulk", "idle_spin": "sph/bulk"}),
-    "relax": Feature(Lines(room="relax 2", state="-0.99 0", keywords=("relax 4.0 0.02 3.0 0.5",))),
+    "relax": Feature(Lines(room=("relax 2",), state=("-0.99 0",), keywords=("relax 4.0 0.02 3.0 0.5",))),
     "heat": Feature(Lines(keywords=("cv 100.0 conductivity 30.0 gruneisen 0.5 0.01",), energy=2.5),
                     refused={"rerun": "conductivity", "noise": "conductivity", "gas": "gruneisen"}),
-    "idle_room": Feature(Lines(room="relax 1", state="0"), Lines(), effect=False),
+    "solute": Feature(Lines(room=("solute",), state=("1.0",), keywords=("solute 0.4",),
+                            early=("variable amount atom 1.0+0.5*sin(id)", "set group all d_solute v_amount")),
+                      effect=False, refused={"open": "solute", "noise": "solute", "warm": "solute"}),
+    "idle_room": Feature(Lines(room=("relax 1",), state=("0",)), Lines(), effect=False),
     "gas": Feature(Lines(pair=("eos ideal",), energy=2.5), refused={"noise": "ideal"}),
     "warm": Feature(Lines(pair=("temp energy 100 4711",), energy=2.5),
                     refused={"open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag"}),
@@ -231,7 +234,7 @@ def particles(lines):
         x, y, u, v = (np.append(np.array(new), old) for new, old in (([4.1, 5.2, 4.5, 5.5], x), ([5.0, 5.1, 6.0, 6.2], y),
                                                                     ([0.5, 0.0, -0.5, 0.2], u), ([0.0, 0.4, 0.0, -0.4], v)))
     spinning = lines.style != "sph/bulk"
-    own = f"1.0 0.16 {lines.energy} {lines.state}" if spinning else f"1.0 {lines.energy} {lines.state}"
+    own = " ".join(("1.0", *("0.16",) * spinning, str(lines.energy), *lines.state))
     spin = [f" 0 0 {w!r}" if spinning else "" for w in np.sin(1.7 * ids)]
     xlo, xhi = (-10.0, 26.0) if "zones" in has else (0.0, 16.0)
     ylo, yhi = (-4.0, 14.0) if "walls" in has else (0.0, 10.0)
@@ -284,11 +287,11 @@ def write(folder, name, lines):
              f"timestep {lines.timestep}\nfix FLUID fluid {lines.style} {' '.join(lines.integrator)}\n")
     fixes = block(lines.fixes) + "compute E all property/atom esph\n" + account(lines)
     words["again"] = (coeffs if lines.others else "") + begin + fixes  # what a restart file does not have
-    spin = "omegaz tqz" if lines.style != "sph/bulk" else ""
-    output = f"write_dump all custom {name}.{{}} id mass x y vx vy fx fy c_E {spin} modify sort id format float %.17g\n"
+    also = "omegaz tqz " * (lines.style != "sph/bulk") + "d_solute" * ("solute" in lines.room)
+    output = f"write_dump all custom {name}.{{}} id mass x y vx vy fx fy c_E {also} modify sort id format float %.17g\n"
     ends = "f" if "zones" in lines.particles else "p", "f" if "walls" in lines.particles else "p"
     return (f"log {name}.log\nunits lj\ndimension 2\nboundary {' '.join(ends)} p\nnewton {lines.newton}\n"
-            f"atom_style {lines.style} {lines.room}\nread_data {name}.data\n"
+            f"atom_style {lines.style} {' '.join(lines.room)}\nread_data {name}.data\n"
             + "".join(f"group {one} id {' '.join(map(str, ids))}\n" for one, ids in groups.items())
             + pair + coeffs + begin + block(lines.early) + fixes + block(lines.late)
             + "run 5\n" + block((*lines.between, lines.second)) + output.format("after")
@@ -300,7 +303,7 @@ def write(folder, name, lines):
 
 
 QUANTITIES = {"id": ("id",), "mass": ("mass",), "esph": ("c_E",), "x": ("x", "y"), "v": ("vx", "vy"), "spin": ("omegaz",),
-              "force": ("fx", "fy"), "torque": ("tqz",)}
+              "force": ("fx", "fy"), "torque": ("tqz",), "solute": ("d_solute",)}
 
 
 class Cases:
@@ -452,5 +455,5 @@ def test_short_steps(cases, name, names):
     cases.run({(pair, "plain", name): near(pair, name, True) for pair in together}, 1)
     one = FEATURES[name]
     bound = max(one.nearly_with.get(other, NEARLY) for other in names)
-    found = complaints(cases, (names, "short", name), (names, "plain", name), bound, ("particles", "x", "v", "spin", "force", "torque"))
+    found = complaints(cases, (names, "short", name), (names, "plain", name), bound, ("particles", "x", "v", "spin", "force", "torque", "solute"))
     assert not found, "\n".join(found)
