@@ -26,6 +26,7 @@ SURFACES = {            # other ways to deal with the free surface
     "linear": {"eos": "linear"},
     "linear_equal": {"eos": "linear", "masses": "equal"},
     "power_equal": {"masses": "equal"},
+    "continuity": {"eos": "linear", "masses": "equal", "density": "continuity"},
 }
 CONSERVED = 1e-12       # momenta, round-off of some 10,000 steps
 LIMITS = {              # (periods, small version): kappa
@@ -33,6 +34,7 @@ LIMITS = {              # (periods, small version): kappa
     (1, False): {"shape": 0.01, "area": 0.015, "lost": 0.01, "surface": 0.5, "pressure": 0.05},
     (5, False): {"shape": 0.04, "area": 0.015, "lost": 0.04, "surface": 1.0, "pressure": 0.05},
 }
+CONTINUITY = {1: {"shape": 0.006, "lost": 0.015}, 2: {"shape": 0.009, "lost": 0.015}}    # periods: of density continuity
 
 
 class Run:
@@ -235,6 +237,9 @@ def main():
             for key in ("shape", "lost"):
                 example.merit(f"{key}, {periods} periods: n = {fine} over n = {coarse}",
                               measured[f"kappa_{fine}", periods][key] / measured[f"kappa_{coarse}", periods][key], 0.0, 0.7)
+        for periods, limit in CONTINUITY.items():
+            for key, text in (("shape", "largest error of the square root of a/b"), ("lost", "lost mechanical energy")):
+                example.merit(f"continuity, {periods} period(s): {text}", measured["continuity", periods][key], -1e-3, limit[key])
     for name, run in runs.items():
         if name != "none":
             example.merit(f"{name}: change of the sum of energies", np.abs(run.total - 1).max(), 0.0, 1e-3)

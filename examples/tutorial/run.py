@@ -45,7 +45,7 @@ def main():
     sizes = (8, 16) if args.quick else (8, 16, 32)
     supports = ("4.5", "6")
     jobs = {f"5-{n}-{support}": {"n": n, "support": support} for n in reversed(sizes) for support in supports}
-    jobs.update({"7": {}, "6": {}, "4": {}})
+    jobs.update({"8": {}, "7": {}, "6": {}, "4": {}})
     jobs.update({f"3-{kappa}": {"kappa": kappa} for kappa in kappas})
     jobs.update({"2": {}, "1": {}})
     example.run(jobs, {name: FOLDER / f"in.{name[0]}" for name in jobs})
@@ -150,6 +150,20 @@ def main():
         axes.set(xlabel="place along the channel (lj units)", ylabel="pressure above the outlet (lj units)")
         axes.legend()
     figure("inlet", pressure, out)
+
+    dam = log("8")
+    energy = dam["v_mechanical"]
+    example.merit("8: largest growth of the mechanical energy", np.diff(energy).max(), -1, 0)
+    example.merit("8: mechanical energy lost", 1 - energy[-1], 0, 0.04)
+    example.merit("8: front at t = 1 over that of 60 particles per height", dam["v_front"][4] / 2.93, 0.95, 1.05)
+
+    def front(axes):
+        axes.plot(dam["Time"], dam["v_front"], "o-", ms=4, label="front")
+        axes.plot(dam["Time"], energy, "s-", ms=4, label="mechanical energy over that at the start")
+        axes.axhline(4.0, color="k", lw=1, ls=":", label="far wall")
+        axes.set(xlabel="time (lj units)", ylabel="place (lj units), energy", ylim=(0, 4.5))
+        axes.legend()
+    figure("dam_break", front, out)
     return example.finish(*sorted(out.glob("*.png")))
 
 

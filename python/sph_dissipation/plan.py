@@ -4,14 +4,16 @@
     ./sphd plan --fluid water --length 1e-3 --velocity 0.01 > in.flow
     ./sphd plan --rho 1 --mu 0.01 --kappa 0.02 --length 1 --velocity 1 --dim 3 --particles 32
     ./sphd plan --fluid CO2 --frequency 30e3                             # sound: a standing wave, by frequency or --wavelength
+    ./sphd plan --fluid water --column 0.6 --tank 3.22                   # a column of water that falls into a tank: a dam break
     ./sphd plan --rho 1 --mu 0.5 --length 16 --velocity 0.1 --c 3 --particles 16 --temperature 0.02
 
 With --fluid, a name of potentials/gases.sph or fluids.sph, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]] (percent, K, Pa), all numbers are in
 SI units; else in the units of --units. The input is a periodic box, filled with a stream; the flow is to be put in its place. With
 --wavelength, --frequency, or --c real it is filled with a standing wave of sound, as long as the box. What the choices are made by
-is in the manual, "Choosing numbers".
+is in the manual, "Choosing numbers". With --column the input is a tank with a free surface, see "Free surfaces" there.
 """
 import argparse
+import itertools
 import math
 import os
 import re
@@ -43,6 +45,15 @@ SHEAR = {
     "morris": (8, lambda n: 2 / n - 1),
     "espanol": (10, lambda n: (3 - n) * (n + 2) / (n * (n + 3))),
 }
+# the kernels W, up to a factor, of q = r/rc: sph_dissipation_kernel_shapes.h
+SHAPES = {
+    "wendland/c2": lambda q: (1 - q)**4 * (1 + 4 * q),
+    "wendland/c4": lambda q: (1 - q)**6 * (1 + 6 * q + 35 / 3 * q**2),
+    "wendland/c6": lambda q: (1 - q)**8 * (1 + 8 * q + 25 * q**2 + 32 * q**3),
+    "cubic": lambda q: sum(c * (b - 2 * q)**3 for b, c in ((2, 1), (1, -4)) if 2 * q.real < b),
+    "quintic": lambda q: sum(c * (b - 3 * q)**5 for b, c in ((3, 1), (2, -6), (1, 15)) if 3 * q.real < b),
+    "lucy": lambda q: (1 - q)**3 * (1 + 3 * q),
+}
 BOLTZMANN = {"lj": 1.0, "si": 1.380649e-23}
 # lattice constant in particle distances, particles and edges of its cell: area or volume of a particle = 1
 LATTICE = {2: ("hex", math.sqrt(2 / math.sqrt(3)), 2, (1, math.sqrt(3))), 3: ("bcc", 2 ** (1 / 3), 2, (1, 1, 1))}
@@ -51,6 +62,10 @@ LATTICE = {2: ("hex", math.sqrt(2 / math.sqrt(3)), 2, (1, math.sqrt(3))), 3: ("b
 STIFF = 10.0      # times the step of sound, from which rate of the viscous terms on they get a solver of their own,
 STIFFER = 300.0   # and from which on one that damps fast motions at once; see the page about large viscosities
 MOST_STEPS = 2**31 - 1    # of LAMMPS's run command
+GRAVITY = {"lj": 1.0, "si": 9.81}
+TANK = 5.366              # length over the height of the column, of the experiment of examples/dam_break
+DAMPING = 0.15            # kappa of a free surface over rho0 c0 rc/2, see the page about free surfaces
+DELTA = 0.1               # of density continuity, its default
 
 
 SOUND_MACH = 1e-5         # of a wave, if no velocity is given: so small that it is linear
@@ -59,6 +74,39 @@ SOUND_MACH = 1e-5         # of a wave, if no velocity is given: so small that it
 def relax_words(fluid):
     """of pair_coeff"""
     return " relax" + "".join(f" {word:.6g}" for pair in fluid.relax for word in pair)
+
+
+def slope(shape, q):
+    """derivative, by a complex step"""
+    return shape(complex(q, 1e-30)).imag / 1e-30
+
+
+def lattice_sums(dim, kernel, support, shear, k):
+    """Factors (q/k)^2 on the bulk viscosity, S on the longitudinal viscosity of the shear term, and P on c^2 under the pressure rho c^2, for a
+    wave along x of a lattice with particle distance 1: sums over the neighbors of one particle, which are 1 in the continuum."""
+    shape, (_, constant, _, edges) = SHAPES[kernel], LATTICE[dim]
+    reach = range(-int(support) - 2, int(support) + 3)
+    basis = [(0.0,) * dim, (0.5,) * dim]
+    near = [tuple(constant * edge * (i + b) for edge, i, b in zip(edges, cell, part)) for cell in itertools.product(reach, repeat=dim) for part in basis]
+    near = [(r[0], math.hypot(*r)) for r in near if 0 < math.hypot(*r) < support]
+    volume = 1 / (shape(0j).real + sum(shape(complex(r / support)).real for _, r in near))
+
+    def moment(power):
+        return sum(shape(complex((j + 0.5) / 2000)).real * ((j + 0.5) / 2000)**power for j in range(2000))
+
+    eta = 2 * dim * (dim + 2) / ((dim + 1) * support * moment(dim) / moment(dim - 1))
+    forms = {"mg": lambda r, c: 2 * (dim + 2) * c, "mg/fr": lambda r, c: eta * r * c, "morris": lambda r, c: 2.0,
+             "espanol": lambda r, c: 2 * (dim + 2) / (dim + 3) * (1 + c)}
+    q = friction = elastic = 0.0
+    for x, r in near:
+        first, d = slope(shape, r / support) / support, 1e-5
+        second = (slope(shape, r / support + d) - slope(shape, r / support - d)) / (2 * d * support**2) if r < support * (1 - d) else 0.0
+        c, wave = (x / r)**2, 1 - math.cos(k * x)
+        q -= first / r * x * math.sin(k * x)
+        friction -= first / r * forms[shear](r, c) * wave
+        elastic += (second * c + first / r * (1 - c)) * wave
+    square = (volume * q / k)**2
+    return square, volume * friction / k**2 / (SHEAR[shear][1](dim) + 2 - 2 / dim), 2 * volume * elastic / k**2 - square
 
 
 @dataclass
@@ -73,6 +121,7 @@ class Plan:
         self.wave = args.c == "real" or bool(args.wavelength or args.frequency)
         # under the pressure pb, the lattice of a wave falls apart after less than ten periods with 4
         args.support = args.support or (6.0 if self.wave else 4.0)
+        args.kernel = args.kernel or ("wendland/c6" if self.wave else "wendland/c2")    # c6 smooths a wave less, and its lattice is stable under pb
         self.set_fluid()
         self.set_length()
         self.set_relaxation()
@@ -83,7 +132,15 @@ class Plan:
             raise SystemExit(f"plan: shear {args.shear} has no bulk viscosity of its own in {self.dim}d, give --kappa")
         self.zeta = 0.0 if self.kappa is None else self.kappa - intrinsic
         self.set_sound_speed()
+        self.set_particles()
+        self.set_time_step()
+        self.steps = math.ceil((args.time or 10 * args.length / (self.c0 if self.wave else args.velocity)) / self.dt)
+        if self.steps > MOST_STEPS:
+            raise SystemExit(f"plan: these are {self.steps:.2g} steps of {self.dt:g}, more than LAMMPS can run; take a lower speed of "
+                             "sound (--c), a shorter --time, or a larger length")
 
+    def set_particles(self):
+        args = self.args
         name, constant, per_cell, edges = LATTICE[self.dim]
         nearest = constant * (1.0 if self.dim == 2 else math.sqrt(3) / 2)
         if args.support <= nearest:
@@ -97,11 +154,6 @@ class Plan:
         if width < 2 * args.support:
             raise SystemExit(f"plan: a lattice of {args.particles} particles across is {width:.3g} distances wide, less than two support "
                              f"radii, {2 * args.support:g}")
-        self.set_time_step()
-        self.steps = math.ceil((args.time or 10 * args.length / (self.c0 if self.wave else args.velocity)) / self.dt)
-        if self.steps > MOST_STEPS:
-            raise SystemExit(f"plan: these are {self.steps:.2g} steps of {self.dt:g}, more than LAMMPS can run; take a lower speed of "
-                             "sound (--c), a shorter --time, or a larger length")
 
     def set_fluid(self):
         args = self.args
@@ -244,8 +296,32 @@ class Plan:
         lines.append(f"sound               frequency {s.imag / (2 * math.pi):.4g}, speed {s.imag / k.real:.5g}, absorption of a driven wave "
                      f"{2 * math.pi * k.imag / k.real:.4g} per wavelength, {20 / math.log(10) * k.imag:.4g} dB per unit of length"
                      + (f"; heat conduction, which this input leaves out, adds {100 * more:.2g} %" if more else ""))
+        errors = ", ".join(f"{name} {100 * error:+.2g} %" for name, error in self.wave_errors(s).items())
+        lines.append(f"errors              {errors}, of kernel, lattice, and step" if errors else
+                     "NOTE                the kernel smooths this wave away: take more particles, or a smaller support")
         decay = f", decay of its amplitude {-1 / s.real:.4g}" if s.real else ""
         return lines + [f"times               period of the wave {2 * math.pi / s.imag:.4g}{decay}"]
+
+    def scaled(self, factor):
+        """the same particles in a smaller box"""
+        args = argparse.Namespace(**vars(self.args))
+        args.particles = max(int(args.particles * factor), math.ceil(2 * args.support) + 2)
+        args.length = self.dx * args.particles
+        args.wavelength, args.frequency = args.wavelength and args.length, None
+        return Plan(args)
+
+    def wave_errors(self, s):
+        """relative, of frequency and decay rate, s being the exponent in the continuum; sums over the lattice, and the step of velocity Verlet.
+        Empty if the particles have no such wave."""
+        form = SHEAR[self.args.shear][1](self.dim) + 2 - 2 / self.dim
+        square, friction, pressure = lattice_sums(self.dim, self.args.kernel, self.args.support, self.args.shear, 2 * math.pi * self.dx / self.args.length)
+        particles = replace(self.fluid, c=self.c0 * math.sqrt(max(pressure, 0.0)), kappa=square * self.zeta + friction * form * self.mu - 4 / 3 * self.mu,
+                            relax=[(square * kappa, tau) for kappa, tau in self.fluid.relax])
+        found = particles.standing_wave(self.args.length) if pressure > 0.0 else None
+        if found is None:
+            return {}
+        errors = {"frequency": found.imag / s.imag - 1 + (s.imag * self.dt)**2 / 24}
+        return errors | ({"decay": found.real / s.real - 1} if s.real else {})
 
     def skin(self):
         """of the neighbor list, with the least time per step at this velocity (page of pair_style sph/bulk)"""
@@ -292,15 +368,112 @@ run             ${{steps}}
 """
 
 
+class Column(Plan):
+    """A column of liquid at one end of a tank, with a free surface."""
+
+    def set_length(self):
+        args = self.args
+        self.gravity = args.gravity or GRAVITY[self.units]
+        args.length = args.column
+        self.dx, self.support = args.column / args.particles, args.support
+        self.width = max(round((args.width or 2 * args.column) / self.dx), 1)            # in spacings
+        self.tank = max(round((args.tank or args.column * TANK) / self.dx), self.width)
+        self.falls = self.tank > self.width
+        args.velocity = (2.0 if self.falls else 1.0) * math.sqrt(self.gravity * args.column)
+        args.time = args.time or 10 * math.sqrt(args.column / self.gravity)
+        self.frequency = 0.0
+
+    def set_sound_speed(self):
+        self.c0 = self.args.c or 10 * self.args.velocity
+        if self.args.kappa is None:    # the sound is that of the particles, not of the fluid
+            self.kappa = DAMPING * self.rho * self.c0 * 0.5 * self.args.support * self.dx
+            self.zeta = self.kappa - SHEAR[self.args.shear][1](self.dim) * self.mu
+
+    def set_particles(self):
+        args = self.args
+        self.rc = args.support * self.dx
+        self.layers = math.ceil(args.support)
+        self.height = 5 * args.column if self.falls else 1.5 * args.column
+        self.lattice = f"{'sq' if self.dim == 2 else 'sc'} {1 / self.dx**self.dim if self.units == 'lj' else self.dx:.8g}"
+        self.depth = 1 if self.dim == 2 else max(2 * self.layers, args.particles // 2)    # of a periodic slab
+        rows = round(self.height / self.dx) + self.layers
+        self.number = self.depth * (self.width * args.particles + 2 * self.layers * rows + self.tank * self.layers)
+
+    def set_time_step(self):
+        super().set_time_step()
+        hsq = STABILITY[self.args.kernel][self.dim - 2] * self.rc**2
+        self.limits["diffusion"] = SAFETY / (7.0 * DELTA * 0.5 * self.rc / hsq * self.c0)
+        rates = self.rate + 1 / self.limits["diffusion"]
+        self.explicit = min(self.limits["acoustic"], 1 / rates)
+        self.largest = min(self.limits["acoustic"], self.limits["diffusion"]) if self.viscous else self.explicit
+        self.dt = float(f"{self.args.fraction * self.largest:.3g}")
+
+    def frequency_notes(self):
+        return []
+
+    def flow_notes(self):
+        fall = "falls" if self.falls else "rests"
+        return [f"column              {self.width * self.dx:.4g} wide, {self.args.column:.4g} high, {fall} in a tank {self.tank * self.dx:.4g} long",
+                f"speed of sound      {self.c0:.4g}, ten times the largest velocity; kappa damps its sound and does not slow the flow",
+                f"time                {self.args.time:.4g}; unit (H/g)^(1/2) = {math.sqrt(self.args.column / self.gravity):.4g}"]
+
+    def scaled(self, factor):
+        args = argparse.Namespace(**vars(self.args))
+        args.particles = max(int(args.particles * factor), 4)
+        args.column, args.width, args.tank = args.particles * self.dx, self.width * factor * self.dx, self.tank * factor * self.dx
+        return Column(args)
+
+    def input(self, time=""):
+        args, dx, wall = self.args, self.dx, self.layers * self.dx
+        z = "-0.5 0.5" if self.dim == 2 else f"0 {self.depth * dx:.8g}"
+        origin = "0.5 0.5 0.0" if self.dim == 2 else "0.5 0.5 0.5"
+        length, width, g = self.tank * dx, self.width * dx, self.gravity
+        area = "" if self.dim == 2 else f"/{self.depth * dx:.8g}"
+        return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
+units           {self.units}
+dimension       {self.dim}
+boundary        f f p
+atom_style      sph/bulk
+
+lattice         {self.lattice} origin {origin}
+region          domain block {-wall:.8g} {length + wall:.8g} {-wall:.8g} {self.height:.8g} {z} units box
+create_box      2 domain
+region          column block 0 {width:.8g} 0 {args.column:.8g} INF INF units box
+region          tank block 0 {length:.8g} 0 INF INF INF units box side out
+create_atoms    1 region column
+create_atoms    2 region tank
+group           water type 1
+group           walls type 2
+set             group all mass {self.rho * dx**self.dim:.8g}
+
+neighbor        {self.skin():.4g} bin
+pair_style      sph/bulk kernel {args.kernel} shear {args.shear} density continuity
+pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {self.kappa:.6g} {self.rc:.6g}    # rho0 c0 mu kappa rc
+variable        start atom {self.rho:.8g}*(1.0+{g:.8g}*({args.column:.8g}-y)/{self.c0:.8g}^2)    # hydrostatic
+set             group water sph/rho v_start
+fix             g water gravity {g:.8g} vector 0 -1 0
+fix             w walls sph/wall slip free gravity 0 {-g:.8g} 0
+fix             1 water sph/bulk{f' {self.viscous}' if self.viscous else ''}
+
+timestep        {self.dt:.3g}
+compute         front water reduce max x
+variable        front equal c_front+{0.5 * dx:.8g}
+region          far block {length:.8g} INF INF INF INF INF units box
+group           far region far
+compute         push far reduce sum f_w[1]                # force on the far wall
+variable        push equal c_push{area}
+thermo_style    custom step time v_front v_push ke cpuremain
+thermo_modify   norm no
+thermo          {max(self.steps // 100, 1)}
+variable        steps index {self.steps}
+run             ${{steps}}
+"""
+
+
 def measured_time(plan, lmp):
     """seconds of one core per particle and step; of a box that is smaller, if it is large; None: takes too long"""
     most = 30000
-    args = argparse.Namespace(**vars(plan.args))
-    if plan.number > most:
-        args.particles = max(int(args.particles * (most / plan.number) ** (1 / plan.dim)), math.ceil(2 * args.support) + 2)
-        args.length = plan.dx * args.particles
-        args.wavelength, args.frequency = args.wavelength and args.length, None
-    small = Plan(args)
+    small = plan.scaled((most / plan.number) ** (1 / plan.dim)) if plan.number > most else plan
     steps = 10 if small.viscous else max(10, min(200, 400000 // small.number))
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "in.plan").write_text(small.input())
@@ -355,15 +528,19 @@ def arguments(argv):
     parser.add_argument("--velocity", type=positive, help=f"the largest of the flow, or of the wave (default: {SOUND_MACH:g} of the speed of sound)")
     parser.add_argument("--wavelength", type=positive, help="sound of this wavelength")
     parser.add_argument("--frequency", type=positive, help="sound of this frequency")
+    parser.add_argument("--column", type=positive, metavar="H", help="a column of this height at one end of a tank, with a free surface: a dam break")
+    parser.add_argument("--width", type=positive, help="of the column (default: twice the height)")
+    parser.add_argument("--tank", type=positive, help=f"length of the tank (default: {TANK} of the height); as long as the column: a tank at rest")
+    parser.add_argument("--gravity", type=positive, help="(default: 9.81, or 1 with units lj)")
     parser.add_argument("--relax", action="store_true", help="bulk viscosity that relaxes (default: for sound above the frequency up to which a constant holds)")
     parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real: a wave of sound (default: ten times the velocity)")
     parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
     parser.add_argument("--particles", type=int, default=50, metavar="N", help="across the length (default: %(default)s)")
     parser.add_argument("--support", type=positive, help="support radius over particle distance (default: 4, for sound 6)")
-    parser.add_argument("--kernel", choices=STABILITY, default="wendland/c2", metavar="NAME", help="(default: %(default)s)")
+    parser.add_argument("--kernel", choices=STABILITY, metavar="NAME", help="(default: wendland/c2, for sound wendland/c6)")
     parser.add_argument("--shear", choices=SHEAR, default="mg", metavar="FORM", help="form of the shear term (default: %(default)s)")
     parser.add_argument("--temperature", type=not_negative, metavar="T", help="of thermal noise")
-    parser.add_argument("--fraction", type=positive, default=0.5, help="time step over the largest stable one, without noise (default: %(default)s)")
+    parser.add_argument("--fraction", type=positive, help="time step over the largest stable one, without noise (default: 0.5, with --column 0.95)")
     parser.add_argument("--time", type=positive, help="to simulate (default: ten passages of the length)")
     parser.add_argument("--lmp", type=Path, default=ROOT / "build" / "lmp", help="LAMMPS that is timed (default: build/lmp)")
     args = parser.parse_args(argv)
@@ -373,8 +550,23 @@ def arguments(argv):
         parser.error("--fluid is in SI units: leave --units out")
     if not args.fluid and args.mu is None:
         parser.error("--mu is missing")
-    if bool(args.wavelength) + bool(args.frequency) + (args.length is not None) != 1 or args.length and not args.velocity:
-        parser.error("give --length and --velocity, or --wavelength, or --frequency")
+    if args.column:
+        others = {"--length": args.length, "--velocity": args.velocity, "--wavelength": args.wavelength, "--frequency": args.frequency,
+                  "--temperature": args.temperature, "--relax": args.relax}
+        for word, value in others.items():
+            if value:
+                parser.error(f"{word} is not for --column")
+        if args.shear in ("morris", "espanol"):
+            parser.error(f"--shear {args.shear} is not for --column: it exerts a torque at a free surface")
+        if args.c == "real":
+            parser.error("--c real is not for --column, whose liquid is nearly incompressible")
+        if args.tank and args.tank < (args.width or 2 * args.column):
+            parser.error("--tank is shorter than the column is wide")
+    elif args.width or args.tank or args.gravity:
+        parser.error("--width, --tank, and --gravity are for --column")
+    elif bool(args.wavelength) + bool(args.frequency) + (args.length is not None) != 1 or args.length and not args.velocity:
+        parser.error("give --length and --velocity, or --wavelength, or --frequency, or --column")
+    args.fraction = args.fraction or (0.95 if args.column else 0.5)
     if args.particles < 1:
         parser.error("--particles must be > 0")
     if args.fraction > 1.0:
@@ -385,7 +577,7 @@ def arguments(argv):
 def main(argv=None):
     args = arguments(argv)
     try:
-        plan = Plan(args)
+        plan = (Column if args.column else Plan)(args)
         numbers = plan.input()
     except (ArithmeticError, ValueError):
         numbers = "nan"

@@ -65,6 +65,7 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
   add_own_field(OFFSET_MASK, k_vol_rate_before, vol_rate_before, {EXCHANGE});
   add_own_field(OFFSET_MASK, k_vol_heat, vol_heat, {EXCHANGE});
   add_own_field(OFFSET_MASK, k_vol_support, vol_support, {EXCHANGE});
+  add_own_field(OFFSET_MASK, k_shear_rate, shear_rate, {EXCHANGE});
   if (has_spins) {
     add_field(OMEGA_MASK, atoms.k_omega, atoms.omega);
     add_field(TORQUE_MASK, atoms.k_torque, atoms.torque);

@@ -34,9 +34,10 @@ using namespace SPHDissipation;
 // temperature itself
 
 static constexpr const char *PROPERTY[] = {
-    "numden",  "dnumden", "vol",   "rho",   "esph",    "desph",     "tsph",      "offset",
-    "surface", "vestx",   "vesty", "vestz", "inertia", "omegaestx", "omegaesty", "omegaestz"};
-enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, TSPH, OFFSET, SURFACE, VESTX };
+    "numden", "dnumden", "vol",       "rho",        "esph",     "desph",
+    "tsph",   "offset",  "surface",   "shear_rate", "vestx",    "vesty",
+    "vestz",  "inertia", "omegaestx", "omegaesty",  "omegaestz"};
+enum { NUMDEN, DNUMDEN, VOL, RHO, ESPH, DESPH, TSPH, OFFSET, SURFACE, SHEAR_RATE, VESTX };
 enum { INERTIA = VESTX + 3, OMEGAESTX, NPROPERTY = OMEGAESTX + 3 };    // then the states
 
 static constexpr int CUSTOM_DOUBLE = 1;    // data type of Atom::add_custom()
@@ -70,6 +71,7 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
   add_array("vol_rate_before", &vol_rate_before);
   add_array("vol_heat", &vol_heat);
   add_array("vol_support", &vol_support);
+  add_array("shear_rate", &shear_rate);
 
   // strings with peratom variables to include in each AtomVec method
   // strings cannot contain fields in corresponding AtomVec default strings
@@ -80,8 +82,8 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
   // desph_before of restart files are those of the last step
 
   fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
-  const std::vector<std::string> kept = {"rho_sum", "vol_rate", "vol_rate_before", "vol_heat",
-                                         "vol_support"};
+  const std::vector<std::string> kept = {"rho_sum",  "vol_rate",    "vol_rate_before",
+                                         "vol_heat", "vol_support", "shear_rate"};
   fields_copy = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest", "desph_before"};
   fields_comm = {"vest"};
   fields_comm_vel = {"vest"};
@@ -338,7 +340,7 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
                rho[ilocal]);
   if (!density_in_files) rho[ilocal] = 0.0;
   rho_sum[ilocal] = vol_rate[ilocal] = vol_rate_before[ilocal] = vol_heat[ilocal] =
-      vol_support[ilocal] = 0.0;
+      vol_support[ilocal] = shear_rate[ilocal] = 0.0;
   unpack_restart_init(ilocal);
   desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
   for (int slot : slots)
@@ -390,6 +392,11 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
     error->all(FLERR,
                "Compute property/atom surface needs a pair style with density continuity and delta "
                "> 0");
+  if (index == SHEAR_RATE &&
+      !find_fluid(lmp, "Compute property/atom shear_rate")->model->has_rheology())
+    error->all(FLERR,
+               "Compute property/atom shear_rate needs a pair style with power, carreau, cross, "
+               "yield, or smagorinsky of pair_coeff");
   const std::vector<double> temperature = (index == TSPH) ? temperatures() : std::vector<double>();
 
   for (int i = 0, n = 0; i < nlocal; i++, n += nvalues) {
@@ -420,6 +427,9 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
       case SURFACE:
         buf[n] = vol_support[i];
         break;
+      case SHEAR_RATE:
+        buf[n] = shear_rate[i];
+        break;
       case INERTIA:
         buf[n] = inertia[i];
         break;
@@ -427,11 +437,21 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
         buf[n] = temperature[i];
         break;
       default:
-        buf[n] = (index >= NPROPERTY) ? std::max(state[index - NPROPERTY][i], 0.0)
+        buf[n] = (index >= NPROPERTY) ? state_value(index - NPROPERTY, i)
             : (index < INERTIA)       ? vest[i][index - VESTX]
                                       : omegaest[i][index - OMEGAESTX];
     }
   }
+}
+
+/* ----------------------------------------------------------------------
+   0 where a negative number says that the state is not known yet; amounts may be negative
+------------------------------------------------------------------------- */
+
+double AtomVecSPHBulk::state_value(int slot, int i) const
+{
+  const double value = state[slot][i];
+  return (States::info(slot).kind == StateKind::EXTENSIVE) ? value : std::max(value, 0.0);
 }
 
 /* ----------------------------------------------------------------------

@@ -68,6 +68,7 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
   void add_spins();
   void share_columns(int, bool) const;
   void check_data_line(int) const;
+  double state_value(int, int) const;          // for output
   std::vector<double> temperatures() const;    // of owned particles
 
   struct OwnArray {

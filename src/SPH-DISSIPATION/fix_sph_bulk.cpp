@@ -26,6 +26,7 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
@@ -244,6 +245,7 @@ void FixSPHBulk::init()
   if (first_instance) check_integrated_once();
 
   fluid = find_own_fluid();
+  if (fluid) fluid->integrated = integrated_groups;
   const bool noise = fluid && fluid->model->choice.thermal;
   extrapolation = viscous->extrapolation(noise);
   balanced = fluid && fluid->model->choice.own_temperatures && fluid->pair->compute_flag;
@@ -341,6 +343,12 @@ void FixSPHBulk::init_viscous()
                "Pair style {} with temp energy needs fix {} viscous explicit: its friction depends "
                "on the temperatures",
                style, style);
+  if (fluid->model->has_rheology() && settings.mode == Viscous::IMPLICIT)
+    error->all(
+        FLERR,
+        "Fix {} viscous implicit cannot be used with a viscosity that depends on the rate of "
+        "shear; use viscous rkl2",
+        style);
   fluid->viscous->configure(settings, integrated_groups, fluid_style);
   fluid->temperature->configure(settings, integrated_groups, fluid_style);
 }
@@ -453,7 +461,7 @@ void FixSPHBulk::setup_pre_exchange()
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
   double *const vol_rate_before = fields().vol_rate_before;
-  if (!continued && fluid && first_instance) fluid->keep_densities();
+  if (fluid && first_instance) fluid->keep_densities();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     if (!continued) {
@@ -564,7 +572,8 @@ void FixSPHBulk::reset_extrapolation()
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
   for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & integrated_groups)) step.follow(particles, i);
+    if (!(atom->mask[i] & integrated_groups) && !(fluid && fluid->boundary->is_body(i)))
+      step.follow(particles, i);
 }
 
 /* ----------------------------------------------------------------------

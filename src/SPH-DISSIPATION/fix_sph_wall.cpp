@@ -27,9 +27,12 @@
 #include "memory.h"
 #include "modify.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_bodies.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_integrate.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_value.h"
 #include "sph_dissipation_wall_motion.h"
@@ -38,6 +41,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <set>
 #include <vector>
 
@@ -45,10 +49,10 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
 
-// in restart files: -format, motion, heat given
+// in restart files: -format, motion, heat given, bodies
 
-static constexpr int FORMAT = 1001;
-enum { MOTION = 1, HEAT = MOTION + WallMotion::NRESTART, NSTATE };
+static constexpr int FORMAT = 1002;
+enum { MOTION = 1, HEAT = MOTION + WallMotion::NRESTART, NBODIES, NSTATE };
 
 static const char cite_wall[] =
     "fix sph/wall command: https://doi.org/10.1016/j.jcp.2012.05.005\n\n"
@@ -67,14 +71,27 @@ static const char cite_wall[] =
 FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), motion(new WallMotion(lmp, fmt::format("Fix {}", style))),
     condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}), move(true),
-    noise(false), checked(false), total(), total_all(), total_summed(false),
+    bodies(nullptr), noise(false), checked(false), total(), total_all(), total_summed(false),
     heat(WallHeat::ADIABATIC), heat_value(new Value), gravity(new Value[3]), heat_rate(0.0),
-    heat_given(0.0)
+    heat_given(0.0), by_molecule(atom->molecule_flag), split_given(false), frozen(false),
+    first_number(0)
 {
+  std::string others;    // a keyword that bodies do not have
   for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
     if (key.is("velocity", 3)) motion->set_velocity(key.words());
     if (key.is("rotate", 7)) motion->set_rotation(key.words());
-    if (key.is("move")) move = utils::logical(FLERR, key.word(), false, lmp);
+    for (const char *one : {"velocity", "rotate", "slip", "spin", "heat"})
+      if (key.name() == one && others.empty()) others = one;
+    if (key.is("move")) {
+      const bool rigid = (strcmp(key.word(), "rigid") == 0);
+      delete bodies;
+      bodies = rigid ? new Bodies(lmp, groupbit, style, id) : nullptr;
+      move = rigid || utils::logical(FLERR, key.word(), false, lmp);
+    }
+    if (key.is("body")) {
+      split_given = true;
+      by_molecule = (key.choice({"single", "molecule"}) == 1);
+    }
     if (key.is("slip")) condition->slip = (key.choice({"no", "free"}) == 1);
     if (key.is("spin")) {
       condition->spin = static_cast<WallSpin>(key.choice({"zero", "rate", "free"}));
@@ -104,8 +121,11 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
   if (group->dynamic[igroup])
     error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[igroup]);
 
-  time_integrate = 1;
-  restart_global = motion->rotates() || gives_heat();
+  if (split_given && !bodies) error->all(FLERR, "Fix {} body requires move rigid", style);
+  if (bodies) read_bodies(others);
+
+  time_integrate = bodies ? 0 : 1;
+  restart_global = motion->rotates() || gives_heat() || bodies;
   create_attribute = 1;
   vector_flag = peratom_flag = 1;
   size_peratom_cols = 6;
@@ -132,6 +152,7 @@ FixSPHWall::~FixSPHWall()
   delete heat_value;
   delete[] gravity;
   delete condition;
+  delete bodies;
   delete motion;
 }
 
@@ -140,6 +161,7 @@ FixSPHWall::~FixSPHWall()
 int FixSPHWall::setmask()
 {
   return PRE_EXCHANGE | INITIAL_INTEGRATE |
+      (bodies ? POST_INTEGRATE | FINAL_INTEGRATE | END_OF_STEP : 0) |
       (heat_value->varies() || gravity_varies() ? PRE_FORCE : 0) | POST_FORCE | MIN_PRE_EXCHANGE |
       MIN_POST_FORCE;
 }
@@ -172,6 +194,9 @@ void FixSPHWall::init()
                "the heat of the fluid",
                style);
 
+  if (bodies) check_bodies(fluid);
+  if (bodies) bodies->init(by_molecule);
+  frozen = bodies && !fluid->model->choice.continuity;
   motion->init();
   if (!heat_value->init(lmp, fmt::format("fix {} heat", style), true))
     error->all(FLERR, "Variable {} for fix {} heat is neither of equal style nor of atom style",
@@ -184,7 +209,10 @@ void FixSPHWall::init()
   fluid->boundary->add(this);
 
   exclude_walls();
-  check_particles();
+  if (bodies)
+    check_movers();
+  else
+    check_particles();
   const std::set<int> felt = interacting_types(fluid);
   const auto conducts = [&](int type) {
     return fluid->model->parameters().type[type].flow[HEAT_FLOW] > 0.0;
@@ -277,6 +305,15 @@ void FixSPHWall::check_heat() const
 
 void FixSPHWall::setup_pre_exchange()
 {
+  if (bodies) {
+    const bool same = bodies->start(true);
+    if (!same) {
+      find_fluid(force)->note_change();
+      for (int i = 0; i < atom->nlocal; i++)
+        if (atom->mask[i] & groupbit) Fields::of(atom)->desph_before[i] = 0.0;
+    }
+    return set_acting();
+  }
   if (update->whichflag == 2)
     motion->stop();
   else
@@ -291,6 +328,12 @@ void FixSPHWall::setup_pre_exchange()
 void FixSPHWall::setup(int vflag)
 {
   if (!checked) check_thickness(find_fluid(force));
+  if (!checked && bodies && comm->me == 0 &&
+      (bodies->size() > 1 || modify->get_fix_by_style("^sph/wall").size() > 1))
+    error->warning(FLERR,
+                   "Fix {} {}: bodies do not touch each other or walls: only the fluid between "
+                   "them keeps them apart",
+                   id, style);
   checked = true;
   post_force(vflag);
 }
@@ -310,6 +353,13 @@ void FixSPHWall::min_setup(int vflag)
 void FixSPHWall::initial_integrate(int /*vflag*/)
 {
   check_set_up(lmp, this, checked);
+  if (bodies) {
+    const TimeStep step = {update->dt, 0.0, 1.0, 1.0, false};
+    double *const before = Fields::of(atom)->desph_before;
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) step.begin_energy(atom->desph[i], atom->esph[i], before[i]);
+    return;
+  }
   motion->advance();
 
   if (move) {
@@ -324,6 +374,46 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
     motion->move_point();
   }
   set_velocity();
+}
+
+/* ----------------------------------------------------------------------
+   Bodies have been moved by another fix.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::post_integrate()
+{
+  bodies->advance(!noise);
+  set_acting();
+}
+
+void FixSPHWall::set_acting()
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) bodies->velocity_at(i, atom->vest[i]);
+}
+
+void FixSPHWall::final_integrate()
+{
+  const TimeStep step = {update->dt, 0.0, 1.0, 1.0, false};
+  double *const before = Fields::of(atom)->desph_before;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) step.end_energy(atom->desph[i], before[i], atom->esph[i]);
+}
+
+void FixSPHWall::end_of_step()
+{
+  bodies->end_step();
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixSPHWall::number_bodies(int first, double *body)
+{
+  if (!bodies) return first;
+  first_number = first;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) body[i] = first + bodies->of(i);
+  return first + bodies->size();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -360,6 +450,18 @@ bool FixSPHWall::turns_surface(bool before) const
 
 void FixSPHWall::move_surface(BoundaryStage &stage, Surface *surface, bool before)
 {
+  if (bodies) {
+    stage.for_each(atom->nlocal + atom->nghost, [&](int i) {
+      if (!(atom->mask[i] & groupbit)) return;
+      const Bodies::Body &body = (*bodies)[stage.body(i) - first_number];
+      std::copy_n(body.omega, 3, surface[i].omega);
+      if (!before) return;
+      double turned[3];
+      for (int d = 0; d < 3; d++) turned[d] = inner_product(body.rotation[d], surface[i].normal);
+      std::copy_n(turned, 3, surface[i].normal);
+    });
+    return;
+  }
   const WallVelocity now = motion->velocity();
   const bool turns = turns_surface(before);
   const WallStep step = motion->last_step();
@@ -382,6 +484,17 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
                               const BoundarySum *sums)
 {
   if (update->whichflag == 2) return;
+
+  if (bodies) {
+    stage.for_each(atom->nlocal, [&](int i) {
+      if (!(atom->mask[i] & groupbit)) return;
+      if (frozen)
+        stage.set_frozen(i);
+      else
+        stage.set_mean_pressure(i, sums[i], condition->gravity);
+    });
+    return;
+  }
 
   const FluidModel &model = *find_fluid(force)->model;
   const WallVelocity now = motion->velocity();
@@ -527,13 +640,16 @@ void FixSPHWall::from_point(int i, const WallVelocity &now, double *r) const
 
 void FixSPHWall::write_restart(FILE *fp)
 {
-  double state[NSTATE] = {-FORMAT};
-  MPI_Reduce(&heat_given, state + HEAT, 1, MPI_DOUBLE, MPI_SUM, 0, world);
+  std::vector<double> state(NSTATE, 0.0);
+  state[0] = -FORMAT;
+  MPI_Reduce(&heat_given, &state[HEAT], 1, MPI_DOUBLE, MPI_SUM, 0, world);
   if (comm->me != 0) return;
-  motion->pack_restart(state + MOTION);
-  const int size = sizeof(state);
+  motion->pack_restart(&state[MOTION]);
+  state[NBODIES] = bodies ? bodies->size() : 0;
+  if (bodies) bodies->pack_restart(state);
+  const int size = static_cast<int>(state.size() * sizeof(double));
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(state, sizeof(state), 1, fp);
+  fwrite(state.data(), sizeof(double), state.size(), fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -543,6 +659,7 @@ void FixSPHWall::restart(char *buf)
   const auto *const state = reinterpret_cast<double *>(buf);
   check_format(lmp, this, state[0], FORMAT);
   motion->restart(state + MOTION);
+  if (bodies) bodies->restart(state + NSTATE, static_cast<int>(state[NBODIES]));
   if (gives_heat() && comm->me == 0) heat_given = state[HEAT];
 }
 

@@ -29,6 +29,7 @@ FixStyle(sph/wall,FixSPHWall);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  class Bodies;
   class Fluid;
   class Value;
   class WallMotion;
@@ -53,6 +54,9 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void setup(int) override;
   void min_setup(int) override;
   void initial_integrate(int) override;
+  void post_integrate() override;
+  void final_integrate() override;
+  void end_of_step() override;
   void pre_force(int) override;
   void post_force(int) override;
   void min_post_force(int) override;
@@ -71,6 +75,10 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void move_surface(SPHDissipation::BoundaryStage &, SPHDissipation::Surface *, bool) override;
   void set_boundary(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *,
                     const SPHDissipation::BoundarySum *) override;
+  bool has_symmetric_friction() const override { return noise || bodies; }
+  bool has_bodies() const override { return bodies; }
+  bool has_frozen_pressure() const override { return frozen; }
+  int number_bodies(int, double *) override;
   bool gives_heat() const override;
   void set_heat(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *, bool) override;
 
@@ -78,7 +86,8 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
   SPHDissipation::WallCondition *condition;
   bool move;
-  bool noise;      // the fluid has thermal noise
+  SPHDissipation::Bodies *bodies;    // that the fluid moves; nullptr: a wall
+  bool noise;                        // the fluid has thermal noise
   bool checked;    // thickness checked, in the first run; false: not set up since defined
 
   double total[6], total_all[6];    // force and torque, of this rank and of all
@@ -97,6 +106,17 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
   double heat_rate;     // heat per time in the last step
   double heat_given;    // heat since the fix was defined
+
+  // bodies that the fluid moves
+
+  bool by_molecule, split_given;
+  bool frozen;         // their pressure is that of frozen fluid
+  int first_number;    // of the first body in BoundaryStage
+
+  void read_bodies(const std::string &others);
+  void check_bodies(const SPHDissipation::Fluid *) const;
+  void check_movers() const;
+  void set_acting();
 
   bool is_wrong(double value) const;    // as the value of keyword heat
   void check_heat() const;

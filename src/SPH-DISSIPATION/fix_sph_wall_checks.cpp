@@ -16,6 +16,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_sph_bulk.h"
 #include "force.h"
 #include "group.h"
 #include "math_extra.h"
@@ -26,6 +27,8 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_value.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,6 +108,92 @@ void FixSPHWall::check_particles() const
       error->all(FLERR, "Fix {}: {} of the wall of fix {} {} is also moved by fix {} {}", style,
                  shared, id, style, other->id, other->style);
   }
+}
+
+/* ----------------------------------------------------------------------
+   Check the keywords beside move rigid; others = one that bodies do not have.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::read_bodies(const std::string &others)
+{
+  if (!others.empty()) error->all(FLERR, "Fix {} move rigid cannot be used with {}", style, others);
+  if (utils::strmatch(style, "/kk$"))
+    error->all(FLERR, "Fix {} move rigid requires the style without suffix, sph/wall", style);
+  if (by_molecule && !atom->molecule_flag)
+    error->all(FLERR, "Fix {} body molecule requires molecule IDs, fix property/atom mol", style);
+}
+
+/* ----------------------------------------------------------------------
+   Check what else bodies cannot be used with.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::check_bodies(const Fluid *fluid) const
+{
+  const Settings &choice = fluid->model->choice;
+  auto refuse = [&](bool is_used, const std::string &what) {
+    if (is_used) error->all(FLERR, "Fix {} move rigid cannot be used with {}", style, what);
+  };
+  refuse(update->whichflag == 2, "a minimization");
+  for (int d = 0; d < 3; d++)
+    refuse(!gravity[d].is_zero() && !choice.continuity,
+           "gravity: the pressure of frozen fluid has it already");
+  refuse(is_rerun(lmp), "rerun");
+  refuse(fluid->spins, "pair style sph/micropolar");
+  refuse(choice.shear == Shear::MORRIS || choice.shear == Shear::ESPANOL,
+         "shear morris or espanol of the pair style, whose forces have no angular momentum");
+  refuse(choice.bulk == Bulk::VOLUME, "bulk volume of the pair style");
+  refuse(choice.own_temperatures, "temp energy of the pair style");
+  refuse(fluid->model->parameters().thermal_pressure,
+         "eos ideal or gruneisen: the pressure of a body does not follow the heat of the fluid");
+  refuse(fluid->model->parameters().optional, "vortex viscosity or interdrag of the fluid");
+  refuse(fluid->model->has_rheology(), "viscosities that depend on the rate of shear");
+  refuse(!modify->get_fix_by_style("^sph/open").empty(), "fix sph/open");
+  refuse(!modify->get_fix_by_style("^sph/torque").empty(), "fix sph/torque");
+  for (const auto &ifix : modify->get_fix_list()) {
+    auto *const integrator = dynamic_cast<FixSPHBulk *>(ifix);
+    refuse(integrator && integrator->has_viscous_stage(),
+           fmt::format("viscous rkl2 or implicit of fix {}", ifix->style));
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Check that one fix for rigid bodies, and no other fix, moves the particles of the bodies.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::check_movers() const
+{
+  if (group->count(igroup) == 0)
+    error->all(FLERR, "Fix {} group {} has no particles", style, group->names[igroup]);
+  std::vector<int> movers(atom->nlocal, 0);
+  for (const auto &other : modify->get_fix_list()) {
+    if (!other->time_integrate || other == this) continue;
+    if (other->rigid_flag) {
+      const bool thermostat = (other->setmask() & FixConst::POST_FORCE) ||
+          utils::strmatch(other->style, "/n[pv]t|/nph");
+      if (noise && thermostat)
+        error->all(FLERR,
+                   "Fix {} {} move rigid cannot be used with the thermostat of fix {} {}: the "
+                   "noise of the pair style, keyword temp, is one",
+                   id, style, other->id, other->style);
+      for (int i = 0; i < atom->nlocal; i++)
+        if (atom->mask[i] & other->groupbit) movers[i]++;
+      continue;
+    }
+    const auto shared = first_particle(lmp, [&](int i) {
+      return (atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit);
+    });
+    if (!shared.empty())
+      error->all(FLERR, "Fix {} {} move rigid: {} of a body is also moved by fix {} {}", id, style,
+                 shared, other->id, other->style);
+  }
+  const auto wrong = first_particle(lmp, [&](int i) {
+    return (atom->mask[i] & groupbit) && movers[i] != 1;
+  });
+  if (!wrong.empty())
+    error->all(FLERR,
+               "Fix {} {} move rigid: {} must be moved by one fix for rigid bodies, as fix rigid "
+               "or rigid/small",
+               id, style, wrong);
 }
 
 /* ----------------------------------------------------------------------
@@ -225,7 +314,7 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
     }
   }
   MPI_Allreduce(worst, worst_all, 2, MPI_DOUBLE, MPI_MAX, world);
-  if (worst_all[0] > 0.0 && comm->me == 0)
+  if (worst_all[0] > 0.0 && comm->me == 0 && !bodies)
     error->warning(FLERR,
                    "The wall of fix {} {} is thinner than the support radius {:g}, by {:.3g}: it "
                    "needs {:g} layers of particles",

@@ -43,6 +43,22 @@ namespace SPHDissipation {
 
     virtual void set_boundary(BoundaryStage &, const Surface *, const BoundarySum *) = 0;
 
+    // The friction of the fluid with its particles is symmetric, that of the velocity of its rigid body with
+    // surface_factor(), instead of that of values that set_boundary() sets
+
+    virtual bool has_symmetric_friction() const { return false; }
+
+    // Bodies that the fluid moves: numbers of those of its owned particles, from first on, into body[]; returns the next
+    // number.  Where the surface is follows from the particles of a body alone
+
+    virtual bool has_bodies() const { return false; }
+    virtual int number_bodies(int first, double * /*body*/) { return first; }
+
+    // The pressure of its particles is that of frozen fluid, BoundaryStage::set_frozen(), whose energy is that of the
+    // equation of state
+
+    virtual bool has_frozen_pressure() const { return false; }
+
     // set the values of its particles in the conduction of heat: BoundaryStage::set_heat(); the
     // same for increments of the temperatures, which are zero at the surface; whether heat passes
     // the surface

@@ -20,6 +20,7 @@
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "sph_dissipation_cells.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_particle_terms.h"
 #include "update.h"
@@ -48,8 +49,8 @@ typedef WendlandC2 ContactKernel;
 BoundaryStage::BoundaryStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
                              const std::string &style) :
     Stage(lmp, engine, exchange),
-    sum(nullptr), style(style), group_bits(0), rows_bits(0), nmax(0),
-    surface(lmp, engine, exchange), surface_step(-1)
+    sum(nullptr), style(style), group_bits(0), symmetric_bits(0), body_bits(0), frozen_bits(0),
+    rows_bits(0), nmax(0), surface(lmp, engine, exchange), surface_step(-1), nboundary(0)
 {
 }
 
@@ -66,8 +67,7 @@ void BoundaryStage::add(Boundary *boundary)
 {
   remove(boundary);
   boundaries.push_back(boundary);
-  group_bits |= boundary->boundary_bit();
-  engine.has_walls = true;
+  find_bits();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -75,8 +75,18 @@ void BoundaryStage::add(Boundary *boundary)
 void BoundaryStage::remove(Boundary *boundary)
 {
   boundaries.erase(std::remove(boundaries.begin(), boundaries.end(), boundary), boundaries.end());
-  group_bits = 0;
-  for (const auto &one : boundaries) group_bits |= one->boundary_bit();
+  find_bits();
+}
+
+void BoundaryStage::find_bits()
+{
+  group_bits = symmetric_bits = body_bits = frozen_bits = 0;
+  for (const auto &one : boundaries) {
+    group_bits |= one->boundary_bit();
+    if (one->has_symmetric_friction()) symmetric_bits |= one->boundary_bit();
+    if (one->has_bodies()) body_bits |= one->boundary_bit();
+    if (one->has_frozen_pressure()) frozen_bits |= one->boundary_bit();
+  }
   engine.has_walls = !boundaries.empty();
 }
 
@@ -110,8 +120,8 @@ void BoundaryStage::set_heat(int i, WallHeat heat, double value, const Surface &
   if (engine.parameters().own_temperatures)
     engine.heat()[i] = {0.0, value, (heat == WallHeat::TEMPERATURE) ? 1.0 : 0.0, 0.0};
   else if (!heat_sum.empty() && heat_sum[i].weight > 0.0)
-    engine.heat()[i] = wall_conductor(heat, value, engine.particle[i].vol, conductivity(i),
-                                      surface_of, heat_sum[i]);
+    engine.heat()[i] =
+        wall_conductor(heat, value, atom->vfrac[i], conductivity(i), surface_of, heat_sum[i]);
 }
 
 double BoundaryStage::conductivity(int i) const
@@ -146,10 +156,82 @@ void BoundaryStage::begin(NeighList *list)
   if (found) find_rows(list);
   find_pairs();
   surface.has_flux = conducts();
-  if (found) surface.run(group_bits, pairs);
+  if (found) {
+    find_bodies();
+    surface.run(group_bits, pairs, body_of);
+    sum_bodies();
+  }
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
   for (auto boundary : boundaries) boundary->move_surface(*this, surface.surface, before);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::find_bodies()
+{
+  body_of.clear();
+  if (!body_bits) return;
+  body_of.assign(atom->nlocal + atom->nghost, 0.0);
+  int next = 1;
+  for (auto boundary : boundaries) next = boundary->number_bodies(next, body_of.data());
+  exchange.forward({{body_of.data(), 1, 1}});
+}
+
+/* ----------------------------------------------------------------------
+   The neighbor lists do not have the pairs within a body.  They do not change until lists are built anew.
+------------------------------------------------------------------------- */
+
+void BoundaryStage::sum_bodies()
+{
+  own_numden.clear();
+  if (!frozen_bits) return;
+  const Parameters &par = engine.parameters();
+  own_numden.assign(atom->nlocal, 0.0);
+  std::vector<int> members;
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    if (atom->mask[i] & frozen_bits) members.push_back(i);
+  const Cells cells(atom->x, members, par.support);
+  with_kernel(par.kernel, [&](auto kernel) {
+    engine.for_each(atom->nlocal, [&](int i) {
+      if (!(atom->mask[i] & frozen_bits)) return;
+      cells.near(atom->x[i], par.support, [&](int j, const double *, double rsq) {
+        if (j == i || body_of[j] != body_of[i]) return;
+        own_numden[i] += engine.weight(j) * par.weight_norm * kernel.shape(sqrt(rsq) / par.support);
+      });
+    });
+    return 0;
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool BoundaryStage::is_body(int i) const
+{
+  return atom->mask[i] & body_bits;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::set_frozen(int i)
+{
+  const ParticleRows &rows = engine.rows();
+  const double weight = engine.weight(i), vol = weight / (engine.density[i].c + own_numden[i]);
+  const double rho = atom->rmass[i] / vol;
+  const double p = pressure(rows.par.eos, rows.types[atom->type[i]].eos, rho, 0.0);
+  engine.particle[i].g = pressure_term(p, vol, weight);
+  engine.zeta_term[i] = 0.0;
+  atom->rho[i] = rho;
+  atom->desph[i] += p * vol * engine.density[i].cdot * (vol / weight);
+}
+
+void BoundaryStage::set_mean_pressure(int i, const BoundarySum &sum_of, const double *gravity)
+{
+  constexpr double REST[3] = {0.0, 0.0, 0.0};
+  if (!(sum_of.weight > 0.0)) return;
+  const double p = wall_pressure(sum_of, gravity, REST);
+  set_state(i, engine.rows().types[atom->type[i]].eos.rho0,
+            (p > 0.0 || engine.parameters().tension) ? p : 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -164,6 +246,13 @@ void BoundaryStage::extend()
     exchange.reverse({sums});
   check();
   for (auto boundary : boundaries) boundary->set_boundary(*this, surface.surface, sum);
+
+  // pass 2 leaves the friction to add_friction(), but for the part that a noise with numbers of each partner needs
+
+  if (symmetric_bits && !engine.parameters().directed_noise())
+    engine.for_each(atom->nlocal, [&](int i) {
+      if (atom->mask[i] & symmetric_bits) engine.particle[i].vol = 0.0;
+    });
 
   // ghost atoms of the fluid get what they have already
 
@@ -265,7 +354,7 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
     force.r[d] = f.x[d] - w.x[d];
     force.approach -= force.r[d] * (f.u[d] - w.u[d]);
   }
-  if (engine.parameters().thermal)
+  if (engine.parameters().thermal && !is_body(pair.wall))
     force.pressing = engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g *
         engine.pairs().slope[pair.entry];
   const NearKernel &wall = contact[pair.wall];
@@ -274,6 +363,104 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
     force.repulsion =
         stiffness(pair.fluid) * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
   return force;
+}
+
+/* ----------------------------------------------------------------------
+   sums of surface_pairs
+------------------------------------------------------------------------- */
+
+void BoundaryStage::run_friction(FrictionPart part, Friction kind, bool linear)
+{
+  surface_pairs.resize(engine.team().size());
+  engine.team().run([&](int k) {
+    std::vector<SurfacePair> found;
+    for (const auto &pair : pairs.of_thread[k]) {
+      if (!(atom->mask[pair.wall] & symmetric_bits)) continue;
+      const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
+      const Surface &s = surface.surface[pair.wall];
+      double r[3], turn[3] = {0.0, 0.0, 0.0};
+      for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
+      if (!linear) cross_product(s.omega, r, turn);
+      const double factor = (part == FrictionPart::BODY) ? 1.0
+          : (part == FrictionPart::ADDED)                ? surface_factor(s, r) - 1.0
+                                                         : surface_factor(s, r);
+      SurfacePair one = {pair.fluid, pair.wall, factor * engine.pairs().slope[pair.entry], {}, {}};
+      for (int d = 0; d < 3; d++) {
+        one.u[d] = f.u[d] - w.u[d] + turn[d];
+        if (engine.has_spin())
+          one.w[d] = engine.spin[pair.fluid].w[d] - engine.spin[pair.wall].w[d];
+      }
+      found.push_back(one);
+    }
+    surface_pairs[k].set(found, number, nboundary);
+    engine.accumulate_friction(surface_pairs[k], kind, k);
+  });
+}
+
+/* ----------------------------------------------------------------------
+   Where particles have temperatures, the loops give all heat of friction to the fluid, and the flow of heat to both;
+   elsewhere half of it to each, of which the fluid gets both.
+------------------------------------------------------------------------- */
+
+void BoundaryStage::add_friction(PairTally *tally)
+{
+  if (!symmetric_bits) return;
+  const bool directed = engine.parameters().directed_noise();
+  const bool shared = !engine.parameters().own_temperatures;
+  const double share = shared ? 2.0 : 1.0;
+  ChannelSums &side = engine.side;
+  const int first_heat = side.columns.spins ? 3 : 0;
+
+  auto add_row = [&](int to, const SurfacePairs &own, std::size_t from, double part) {
+    for (int c = 0; c < side.width; c++)
+      side.torque(to)[c] += ((c < first_heat) ? 1.0 : part) * own.side.torque(from)[c];
+    engine.force[to].heat += part * own.force[from].heat;
+  };
+
+  run_friction(directed ? FrictionPart::ADDED : FrictionPart::ALL, Friction::WITH_NOISE, false);
+  for (const auto &own : surface_pairs) {
+    own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
+      const double *const f = own.force[k].f;
+      for (int d = 0; d < 3; d++) {
+        engine.force[pair.fluid].f[d] += f[d];
+        engine.force[pair.wall].f[d] -= f[d];
+      }
+      add_row(pair.fluid, own, k, share);
+      if (!tally) return;
+      double r[3];
+      for (int d = 0; d < 3; d++)
+        r[d] = engine.particle[pair.fluid].x[d] - engine.particle[pair.wall].x[d];
+      tally->tally(pair.fluid, pair.wall, f, r);
+    });
+    for (std::size_t row = 0; row < own.rows(); row++)
+      add_row(own.wall(row), own, row, shared ? 0.0 : 1.0);
+  }
+  if (!directed) return;
+
+  run_friction(FrictionPart::BODY, Friction::WITHOUT_NOISE,
+               false);    // the half that pass 2 gave the wall
+  for (const auto &own : surface_pairs)
+    own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
+      engine.force[pair.fluid].heat += own.force[k].heat;
+      for (int c = first_heat; c < side.width; c++)
+        side.torque(pair.fluid)[c] += own.side.torque(k)[c];
+    });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::add_linear_friction()
+{
+  if (!symmetric_bits) return;
+  run_friction(engine.parameters().directed_noise() ? FrictionPart::ADDED : FrictionPart::ALL,
+               Friction::WITHOUT_NOISE, true);
+  for (const auto &own : surface_pairs)
+    own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
+      for (int d = 0; d < 3; d++) {
+        engine.force[pair.fluid].f[d] += own.force[k].f[d];
+        if (engine.has_spin()) engine.side.torque(pair.fluid)[d] += own.side.torque(k)[d];
+      }
+    });
 }
 
 /* ----------------------------------------------------------------------
@@ -368,8 +555,16 @@ void BoundaryStage::find_energies_at_rest(NeighList *list)
 
 double BoundaryStage::energy(double *each_atom) const
 {
-  if (!has_energy()) return 0.0;
   double total = 0.0;
+  const Parameters &par = engine.parameters();
+  for (int i = 0; i < atom->nlocal && frozen_bits; i++) {
+    if (!(atom->mask[i] & frozen_bits)) continue;
+    const double energy =
+        atom->rmass[i] * elastic_energy(par.eos, par.type[atom->type[i]].eos, atom->rho[i]);
+    total += energy;
+    if (each_atom) each_atom[i] += energy;
+  }
+  if (!has_energy()) return total;
   add_energies(nforce(), [&](int i, double energy) {
     total += energy;
     if (each_atom) each_atom[i] += energy;
@@ -386,7 +581,7 @@ void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &
   const Parameters &par = engine.parameters();
   with_kernel(engine.parameters().kernel, [&](auto k) {
     pairs.visit([&](const BoundaryPair &pair) {
-      if (pair.fluid >= n || !par.thermal) return;
+      if (pair.fluid >= n || !par.thermal || is_body(pair.wall)) return;
       const Particle &w = engine.particle[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = engine.particle[pair.fluid].x[d] - w.x[d];
@@ -409,6 +604,10 @@ void BoundaryStage::find_rows(NeighList *list)
   const int *const mask = atom->mask;
   rows_bits = group_bits;
   set_near();
+  nboundary = 0;
+  number.assign(symmetric_bits ? atom->nlocal + atom->nghost : 0, -1);
+  for (std::size_t i = 0; i < number.size(); i++)
+    if (mask[i] & symmetric_bits) number[i] = nboundary++;
   auto is_pair = [&](int i, int j) {
     return static_cast<bool>(mask[j & NEIGHMASK] & group_bits) !=
         static_cast<bool>(mask[i] & group_bits);
@@ -609,5 +808,11 @@ double BoundaryStage::memory_usage() const
       (double) heat_sum.capacity() * sizeof(BoundaryHeatSum) + pairs.memory_usage() +
       sums.memory_usage() + heat_sums.memory_usage() + flow_sums.memory_usage() +
       repulsion_sums.memory_usage() + (double) repulsion.capacity() * sizeof(ForceSum) +
-      (double) (near.capacity() + contact.capacity()) * sizeof(NearKernel) + surface.memory_usage();
+      (double) (near.capacity() + contact.capacity()) * sizeof(NearKernel) +
+      surface.memory_usage() + (double) number.capacity() * sizeof(int) +
+      (double) (body_of.capacity() + own_numden.capacity()) * sizeof(double) +
+      std::accumulate(surface_pairs.begin(), surface_pairs.end(), 0.0,
+                      [](double bytes, const SurfacePairs &own) {
+                        return bytes + own.memory_usage();
+                      });
 }

@@ -16,6 +16,7 @@
 
 #include "sph_dissipation_boundary.h"
 #include "sph_dissipation_engine.h"
+#include "sph_dissipation_engine_surface.h"
 #include "sph_dissipation_surface.h"
 #include "sph_dissipation_wall_terms.h"
 
@@ -39,8 +40,12 @@ namespace SPHDissipation {
     void remove(Boundary *);    // no effect if it is not there
     bool empty() const { return boundaries.empty(); }
     int bits() const { return group_bits; }    // of the groups of all boundaries
-    bool conducts() const;                     // they take part in the conduction of heat
-    bool gives_heat() const;                   // any of them, to a fluid that conducts it
+    bool has_symmetric_friction() const { return symmetric_bits != 0; }    // any of them
+    bool is_body(int i) const;    // of one that the fluid moves
+    bool has_bodies() const { return body_bits != 0; }
+    bool all_symmetric() const { return symmetric_bits == group_bits; }
+    bool conducts() const;      // they take part in the conduction of heat
+    bool gives_heat() const;    // any of them, to a fluid that conducts it
 
     // after the densities: see ParticleRows::set_reference_volume()
     void set_reference_volume();
@@ -53,6 +58,15 @@ namespace SPHDissipation {
 
     // the temperatures alone, or increments of them
     void extend_temperatures(bool increments);
+
+    // After pass 2: add the friction, with its noise, of boundaries where it is symmetric to the sums of the engine; all its
+    // heat goes to the fluid
+
+    void add_friction(PairTally *);
+
+    // the same of given velocities, linear and without noise: forces and torques alone
+
+    void add_linear_friction();
 
     // With thermal noise, the forces of walls on the fluid have an energy; with free surfaces, their repulsion has.  After
     // pass 2: add the repulsion of the surfaces to the forces of the engine and of LAMMPS, and take its work, with
@@ -81,6 +95,18 @@ namespace SPHDissipation {
     void extend_fluid(int i, const WallCondition &, const Surface &, const BoundarySum &,
                       const double *acceleration);
     double *spin(int i);
+
+    // the pressure of frozen fluid of the same body
+
+    void set_frozen(int i);
+
+    // the pressure of the fluid around it, at rest under this gravity
+
+    void set_mean_pressure(int i, const BoundarySum &, const double *gravity);
+
+    // number of the body of an owned or ghost particle, see Boundary::number_bodies()
+
+    int body(int i) const { return static_cast<int>(body_of[i]); }
 
     // function(i) for each i < n, shared among the threads
     template <class Function> void for_each(int n, const Function &function)
@@ -113,7 +139,7 @@ namespace SPHDissipation {
     BoundaryPairs pairs;                      // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
-    int group_bits;
+    int group_bits, symmetric_bits, body_bits, frozen_bits;
 
     int rows_bits;    // that the rows of the pairs were found for
 
@@ -131,10 +157,26 @@ namespace SPHDissipation {
     SurfaceStage surface;
     bigint surface_step;    // that the normals of the surface are for
 
+    // pairs with symmetric friction, of each thread; numbers of boundary particles, owned and ghost
+
+    std::vector<SurfacePairs> surface_pairs;
+    std::vector<int> number;
+    int nboundary;
+
+    std::vector<double> body_of;    // of owned and ghost atoms, 0: none; empty without bodies
+    std::vector<double>
+        own_numden;    // sum over the other particles of the same body, of owned atoms
+
+    void find_bodies();
+    void sum_bodies();
+    enum class FrictionPart { ALL, ADDED, BODY };    // factor of surface_factor(), less 1, 1
+    void run_friction(FrictionPart, Friction, bool linear);
+
     bool has_energy() const;    // with thermal noise, or free surfaces
     double conductivity(int i) const;
     double over(int i) const;
     double stiffness(int i) const;
+    void find_bits();
     void begin(NeighList *);
 
     // what pair of the fluid and a wall does: force on the particle of the fluid along r by the pressure of the wall, times

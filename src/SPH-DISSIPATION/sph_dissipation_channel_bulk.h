@@ -89,7 +89,8 @@ namespace SPHDissipation {
     static double rate(const PairFluid &fluid, const OwnWords &, const double *,
                        const PairInertia &inertia)
     {
-      return BULK_RATE * std::fabs(fluid.zeta / inertia.rho) / inertia.hsq;
+      const double zeta = fluid.by_rate ? fluid.largest_zeta : fluid.zeta;
+      return BULK_RATE * std::fabs(zeta / inertia.rho) / inertia.hsq;
     }
   };
 

@@ -77,7 +77,7 @@ namespace SPHDissipation {
                        const PairInertia &inertia)
     {
       if (words.flow == 0.0) return 0.0;
-      return shear_rate(Shear::MORRIS) * words.flow /
+      return shear_rate(Shear::MORRIS, inertia.surface) * words.flow /
           (inertia.rho * fluid.heat_capacity * inertia.hsq);
     }
   };

@@ -23,4 +23,5 @@
 #include "sph_dissipation_channel_relax.h"
 #include "sph_dissipation_channel_interdrag.h"
 #include "sph_dissipation_channel_heat.h"
+#include "sph_dissipation_channel_solute.h"
 // clang-format on

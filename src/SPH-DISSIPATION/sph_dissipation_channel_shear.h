@@ -32,6 +32,23 @@ template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_
   }
 };
 
+// AlongR with the viscosities of the particles: their arithmetic mean within a fluid, for which there is a dissipation
+// function, and the harmonic one between two fluids; that of the fluid next to a boundary particle, which has none
+struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE> {
+  static constexpr bool CENTRAL = true, BY_RATE = true;
+  template <class Pair> static SPH_INLINE void add_central(Pair &pair)
+  {
+    const auto a = pair.mu[0] + if_positive(-pair.mu[0], pair.mu[1] - pair.mu[0]);
+    const auto b = pair.mu[1] + if_positive(-pair.mu[1], pair.mu[0] - pair.mu[1]);
+    const auto sum = a + b;
+    const auto mean =
+        pair.coeff[FIRST] * (0.5 * sum) + pair.coeff[LAST] * (2.0 * a * b / (sum + TINY));
+    const auto drag = mean * pair.by_metric * pair.approach;
+    pair.central -= drag;
+    pair.heat[CHANNEL] += 0.5 * drag * pair.approach;
+  }
+};
+
 // -a F V_i V_j u
 struct AlongU : PairTerm<ShearChannel, ShearChannel::ALONG_U> {
   static constexpr bool VECTOR = true;
@@ -106,29 +123,31 @@ namespace SPHDissipation {
   }
 
   // Largest eigenvalues of the friction matrix on lattices of 1, 2, 3 dimensions, for all kernels, in order
-  // and in disorder, and next to walls (Morris), in units of nu/h^2
-  inline double shear_rate(Shear shear)
+  // and in disorder, and next to walls (Morris), in units of nu/h^2; surface: next to those with surface_factor()
+  inline double shear_rate(Shear shear, bool surface)
   {
     switch (shear) {
       case Shear::MG:
-        return 21.0;
+        return surface ? 25.0 : 21.0;
       case Shear::MG_FR:
-        return 17.0;
+        return surface ? 21.0 : 17.0;
       case Shear::MORRIS:
-        return 8.0;
+        return surface ? 11.0 : 8.0;
       case Shear::ESPANOL:
-        return 10.0;
+        return surface ? 13.0 : 10.0;
       default:
         return 0.0;
     }
   }
 
   // rate of two terms, along e and along the difference itself, which act on what has this inertia per volume
-  inline double rate_of_terms(int n, double hsq, double inertia, double along_r, double along_u)
+  inline double rate_of_terms(int n, double hsq, double inertia, double along_r, double along_u,
+                              bool surface = false)
   {
     const double mg = std::max(along_r, 0.0) / shear_factor(Shear::MG, n, 1.0);
     const double morris = along_u / shear_factor(Shear::MORRIS, n, 1.0);
-    return (shear_rate(Shear::MG) * mg + shear_rate(Shear::MORRIS) * morris) / (inertia * hsq);
+    return (shear_rate(Shear::MG, surface) * mg + shear_rate(Shear::MORRIS, surface) * morris) /
+        (inertia * hsq);
   }
 
   // zeta2 of a micropolar fluid, whose zeta1 is along_r: mu = zeta1/(2(n+2)) + zeta2/4, mu_r = zeta2/4; P3 (29)-(32) with
@@ -140,7 +159,15 @@ namespace SPHDissipation {
 
   struct ShearChannel : BaseChannel {
     static constexpr const char *NAME = "shear";
-    enum { ALONG_R, ALONG_U, NPAIR };
+    enum { ALONG_R, ALONG_U, ALIKE, UNLIKE, NPAIR };    // the last two: per mu
+    static constexpr int NTYPE = Rheology::NUMBER;
+    static constexpr std::array<TypeKeyword, 5> TYPE_KEYWORDS = {{{"power", 3, 0, RHEOLOGY},
+                                                                  {"carreau", 4, 0, RHEOLOGY},
+                                                                  {"cross", 3, 0, RHEOLOGY},
+                                                                  {"yield", 2, 0, RHEOLOGY},
+                                                                  {"smagorinsky", 2, 0, RHEOLOGY}}};
+    static constexpr std::array<TypeVariable, 2> TYPE_VARIABLES = {
+        {{"power_n", Rheology::POWER_N}, {"yield_stress", Rheology::YIELD_STRESS}}};
 
     static void set_coefficients(const PairFluid &fluid, const OwnWords &, double *own)
     {
@@ -150,6 +177,8 @@ namespace SPHDissipation {
         return;
       }
       const double drag = shear_factor(fluid.shear, fluid.dim, fluid.mean_radius) * mu;
+      if (fluid.by_rate)
+        own[fluid.alike ? ALIKE : UNLIKE] = shear_factor(fluid.shear, fluid.dim, fluid.mean_radius);
       if (fluid.shear != Shear::MORRIS) own[ALONG_R] = drag;
       if (fluid.shear == Shear::MORRIS || fluid.shear == Shear::ESPANOL) own[ALONG_U] = drag;
     }
@@ -165,6 +194,7 @@ namespace SPHDissipation {
         add("zeta1", own[ALONG_R]);
       else
         add("shear_coeff", std::max(own[ALONG_R], own[ALONG_U]));
+      if (fluid.by_rate) add("largest_mu", fluid.largest_mu);
     }
     static double intrinsic_kappa(const PairFluid &fluid)
     {
@@ -174,13 +204,18 @@ namespace SPHDissipation {
     {
       return (fluid.viscosity[MU] >= 0.0) ? nullptr : "mu must be >= 0";
     }
+    static const char *inadmissible_type(const double *type, int)
+    {
+      return Rheology::inadmissible(type);
+    }
     static double rate(const PairFluid &fluid, const OwnWords &, const double *own,
                        const PairInertia &inertia)
     {
       if (fluid.shear == Shear::MICROPOLAR)
         return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho, own[ALONG_R],
-                             slip_coefficient(fluid));
-      return shear_rate(fluid.shear) * fluid.viscosity[MU] / inertia.rho / inertia.hsq;
+                             slip_coefficient(fluid), inertia.surface);
+      const double mu = fluid.by_rate ? fluid.largest_mu : fluid.viscosity[MU];
+      return shear_rate(fluid.shear, inertia.surface) * mu / inertia.rho / inertia.hsq;
     }
   };
 

@@ -78,7 +78,8 @@ namespace SPHDissipation {
     static double rate(const PairFluid &fluid, const OwnWords &, const double *own,
                        const PairInertia &inertia)
     {
-      return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho_inertia, own[XI1], own[XI2]);
+      return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho_inertia, own[XI1], own[XI2],
+                           inertia.surface);
     }
   };
 

@@ -45,6 +45,7 @@ template <class... Term> struct Form {
   static constexpr bool BY_DISTANCE = (Term::BY_DISTANCE || ...);
   static constexpr bool BY_SQUARE = (Term::BY_SQUARE || ...);
   static constexpr bool SPINS = (Term::SPINS || ...);
+  static constexpr bool BY_RATE = (Term::BY_RATE || ...);
 
   // has heat of this channel; the last one of terms with spins
   static constexpr bool heats(int channel) { return ((channel == Term::CHANNEL) || ...); }
@@ -95,6 +96,7 @@ using FullSpinForm = Form<AlongR<false>, Slip, SpinDiffusion
 
 template <class Function> void with_form(const Terms &terms, Function &&function)
 {
+  if (terms.by_rate) return function(Form<ByRate>());
   if (terms.optional && terms.shear == Shear::MICROPOLAR) return function(FullSpinForm());
   if (terms.optional) return function(FullForm());
   switch (terms.shear) {
@@ -119,6 +121,7 @@ template <class Function> void with_form(const Terms &terms, Function &&function
 #define LMP_SPH_DISSIPATION_CHANNELS_H
 
 #include "sph_dissipation_flows.h"
+#include "sph_dissipation_rheology.h"
 
 #include <algorithm>
 #include <array>
@@ -147,17 +150,22 @@ namespace SPHDissipation {
     EOS_IDEAL = 4,
     NOT_EOS_IDEAL = 8,
     NO_OPEN_ENDS = 16,
-    TENSION = 32
+    TENSION = 32,
+    RHEOLOGY = 64    // mu that may depend on the rate of shear, see FluidModel::check_rheology()
   };
 
   // A keyword of pair_coeff and its numbers, coefficients of a type, one after another: once, or in groups of which there
   // may be fewer.
   struct TypeKeyword {
     const char *name;
-    int count;        // of numbers
-    int group;        // as many belong together; 0: all
-    int needs;        // of enum Requirement
+    int count;    // of coefficients
+    int group;    // as many belong together; 0: all
+    int needs;    // of enum Requirement
+    // it acts with the number 0, too: the first of its coefficients is 1 where it is given, and no number of the command
+    bool marked = false;
     int first = 0;    // number among the coefficients of all channels, set by type_keywords()
+
+    int numbers() const { return marked ? count - 1 : count; }    // of the command
   };
 
   // Name by which another command may vary a coefficient of a type, of this number in its channel.  In the second and
@@ -184,6 +192,10 @@ namespace SPHDissipation {
     double viscosity[NVISCOSITY] = {};
     double zeta = 0.0;             // coefficient of the bulk term, mean of the types
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
+    // if viscosities of any type depend on the rate of shear: the largest mu, the largest amount of zeta, and whether both
+    // types are one fluid
+    bool by_rate = false, alike = false;
+    double largest_mu = 0.0, largest_zeta = 0.0;
   };
 
   // What pair_coeff has set for one channel: coefficients of a type, or the larger ones of two types, and those of
@@ -198,6 +210,7 @@ namespace SPHDissipation {
     double hsq = 0.0;    // of the smoothing length for stability, see stability_length_squared()
     double rho = 0.0;    // of velocities
     double rho_inertia = 0.0;    // of spins
+    bool surface = false;        // next to surfaces with surface_factor()
   };
 
   // drag of a single particle against a stream, force -b V (u - stream)
@@ -375,6 +388,7 @@ namespace SPHDissipation {
     {
       return a + Channels::first_of_type<Channel>();
     }
+    const double *rheology() const { return of<ShearChannel>(); }
     double drag() const { return Channels::drag(a); }
     double gamma() const { return of<HeatChannel>()[HeatChannel::GAMMA]; }    // gruneisen
     double T0() const { return of<HeatChannel>()[HeatChannel::T0]; }
@@ -461,6 +475,7 @@ namespace SPHDissipation {
   struct Terms {
     Shear shear;
     bool optional;
+    bool by_rate;    // mu depends on the rate of shear
   };
 
   // whether these coefficients have any of the optional terms: the name of their channel, or nullptr

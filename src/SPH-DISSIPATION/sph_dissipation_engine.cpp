@@ -36,9 +36,9 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
     state_pressure(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
     par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
-    noisy_loop(nullptr), drag_noise(nullptr), data(), atom_rows(), threads(&one_thread),
-    weights(nullptr), not_fluid(0), nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0),
-    imax(0), pair_max(0)
+    noisy_loop(nullptr), surface_loop(nullptr), surface_noise(nullptr), drag_noise(nullptr), data(),
+    atom_rows(), threads(&one_thread), weights(nullptr), not_fluid(0), nlocal_forces(-1),
+    nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
   choose_loops("auto");
 }
@@ -91,10 +91,11 @@ void Engine::setup(const Parameters &parameters)
   par = &parameters;
   density_loop = loops->density(par->kernel, par->volume);
   rate_loop = loops->rates(par->volume);
-  const Terms terms = (par->inviscid && !par->spins()) ? Terms{Shear::NONE, false} : par->terms();
+  const Terms terms = (par->inviscid && !par->spins()) ? Terms{Shear::NONE, false, false}
+                                                       : par->terms();
   force_loop = loops->forces(terms, par->bulk, par->volume);
   side.set({par->spins(), loops->channels(terms)});
-  noisy_loop = nullptr;
+  noisy_loop = surface_loop = nullptr;
   drag_noise = nullptr;
   data.par = par;
 }
@@ -105,6 +106,13 @@ void Engine::add_noise(const NoiseForm &form, const NoiseData *noise)
 {
   data.noise = noise;
   noisy_loop = loops->noisy_forces(form);
+  add_surface_noise(form, noise);
+}
+
+void Engine::add_surface_noise(const NoiseForm &form, const NoiseData *noise)
+{
+  surface_noise = noise;
+  surface_loop = loops->noisy_forces(form);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -215,6 +223,7 @@ void Engine::set_rows()
                atom->rho,   atom->drho,       atom->vfrac,  atom->desph,
                with_states, state_pressure,   {},           Fields::of(atom)->rho_sum};
   for (int k = 0; k < Flows::NUMBER; k++) atom_rows.flow[k] = flow[k].data();
+  atom_rows.viscosity = viscosity.data();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -225,7 +234,7 @@ StateRows Engine::states() const
                     par->eos,         atom->esph, atom->desph, {}};
   std::copy_n(Fields::of(atom)->state, States::MOST, rows.state);
   for (int k = 0; k < Flows::NUMBER; k++)
-    if (flow_rate[k].size() >= static_cast<std::size_t>(atom->nlocal))
+    if ((par->flows >> k & 1) && flow_rate[k].size() >= static_cast<std::size_t>(atom->nlocal))
       rows.rate[k] = flow_rate[k].data();
   if (!wall_energy.empty()) {
     follow_atoms();
@@ -328,6 +337,10 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     flow[k].resize(nmax + BLOCK);
     std::fill_n(flow[k].begin() + nall, BLOCK, FlowRow());
   }
+  if (par->by_rate) {
+    viscosity.resize(nmax + BLOCK);
+    std::fill_n(viscosity.begin() + nall, BLOCK, 0.0);
+  }
   if (!par->own_temperatures || !has_walls)
     wall_energy.clear();
   else if (wall_energy.empty())
@@ -376,6 +389,16 @@ void Engine::run_density(Loop loop)
     loop(own);
   });
   density_sums.add_up(*threads, density, nall);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_shear_rates(std::vector<double> &rates)
+{
+  rates.assign(atom->nlocal + atom->nghost + BLOCK, 0.0);
+  scalar_sums.run(*threads, rates.data(), rates.size(), [&](int k, double *sum) {
+    loops->shear_rates(part(k), sum);
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -478,6 +501,7 @@ void Engine::run_forces(NeighList *list, Loop loop, bool linear)
   const std::size_t nrow = (std::size_t) nall + BLOCK;
   data.inum = list->inum;
   data.zeta_term = zeta_term;
+  data.viscosity = viscosity.data();
   data.spin = spin;
   data.random = nullptr;
   force_sums.begin(*threads);
@@ -613,6 +637,7 @@ double Engine::memory_usage() const
   double bytes = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double)) +
+      (double) viscosity.capacity() * sizeof(double) +
       (double) (energy.capacity() + wall_energy.capacity()) * sizeof(double) +
       (double) types.capacity() * sizeof(int);
   for (const auto &rows : flow) bytes += (double) rows.capacity() * sizeof(FlowRow);

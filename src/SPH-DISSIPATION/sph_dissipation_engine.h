@@ -70,6 +70,7 @@ namespace SPHDissipation {
     const Spin *spin;            // owned and ghost (micropolar)
     const int *type;             // read if the coefficients differ between types
     const double *zeta_term;     // zeta cdot/c of each particle (bulk volume)
+    const double *viscosity;     // mu of each particle, if it depends on the rate of shear
     const double *weight;        // w, owned and ghost; nullptr if all are 1 and no loop reads it
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
     DensitySum *density;         // owned and ghost, accumulated by pass 1
@@ -95,6 +96,7 @@ namespace SPHDissipation {
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
   typedef void (*FlowLoop)(const LoopData &, const FlowRow *, double *rate);
+  typedef void (*RateLoop)(const LoopData &, double *rate);
   typedef void (*DiffusionLoop)(const LoopData &, const DiffusionData &, double *sums);
   enum class DiffusionPart { SUMS, FLOW };    // for the gradient; with it
 
@@ -118,6 +120,7 @@ namespace SPHDissipation {
     const char *name;
     Loop (*density)(Kernel, Volume);
     Loop (*rates)(Volume);
+    RateLoop shear_rates;
     Loop (*forces)(const Terms &, Bulk, Volume);
     int (*channels)(const Terms &);    // bits of the channels that its terms heat
     Loop (*noisy_forces)(const NoiseForm &);
@@ -195,6 +198,9 @@ namespace SPHDissipation {
     std::vector<double> slope;
   };
 
+  class SurfacePairs;
+  enum class Friction { WITH_NOISE, WITHOUT_NOISE };
+
   // Pair engine of the particle fluid styles: number density and its rate in one loop over the
   // neighbor list, forces and heating in a second one.  Between them the stages of the pair style set
   // what pass 2 reads.  Each thread has some rows of the neighbor list and its own sums, which are
@@ -217,8 +223,9 @@ namespace SPHDissipation {
     // choose the loops; the parameters are read until the next call
     void setup(const Parameters &);
     // pass 2 then adds the random forces and torques of the pairs, until setup() is called again; noise is read by each
-    // pass 2
+    // pass 2.  The same for the pairs of accumulate_friction(SurfacePairs)
     void add_noise(const NoiseForm &, const NoiseData *noise);
+    void add_surface_noise(const NoiseForm &, const NoiseData *noise);
 
     // pass 1: particle[] from atom->x and vest, spin[] from omegaest (micropolar), which are zero
     // where these are nullptr; density[] of owned atoms (with the particle itself) and the
@@ -243,6 +250,12 @@ namespace SPHDissipation {
 
     // the same as accumulate_forces() without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *);
+
+    // friction of those pairs alone, with or without its noise, by this thread; after pass 2, which the noise is set for
+    void accumulate_friction(SurfacePairs &, Friction, int thread);
+
+    // sum_j V_j F (e.u)^2 of owned and ghost atoms, of the volumes and velocities in particle[]; room for the spare ones
+    void accumulate_shear_rates(std::vector<double> &rates);
 
     // what owned and ghost atoms get per time by a flow, of flow[]; room for the spare ones
     void accumulate_flow(int place, std::vector<double> &rate);
@@ -315,6 +328,7 @@ namespace SPHDissipation {
     std::vector<FlowRow> flow[Flows::NUMBER];    // the same, of the flows of any type
     std::vector<FlowRow> &heat() { return flow[HEAT_FLOW]; }
     std::vector<double> flow_rate[Flows::NUMBER];    // what each flow has given in the last forces
+    std::vector<double> viscosity;    // the same, mu, if any depends on the rate of shear
     std::vector<double>
         energy;    // the same, internal energy, if particles have the noise of their temperatures
     void set_wall_energy(const double *);    // what walls hold of it, of owned atoms
@@ -329,7 +343,9 @@ namespace SPHDissipation {
     const LoopSet *loops;
     const Parameters *par;
     Loop density_loop, rate_loop, force_loop;
-    Loop noisy_loop;    // force_loop with noise, or nullptr
+    Loop noisy_loop;      // force_loop with noise, or nullptr
+    Loop surface_loop;    // the same for pairs of surfaces
+    const NoiseData *surface_noise;
     const double *drag_noise;
     LoopData data;
     ParticleRows atom_rows;

@@ -64,13 +64,14 @@ namespace SPHDissipation {
     // sum (that of a new particle is 0, which means rho0); of the last evaluation of the diffusion the rate of the volume,
     // that of the internal energy, and how full the support is; the rate of the volume of the evaluation before
     double *rho_sum, *vol_rate, *vol_rate_before, *vol_heat, *vol_support;
+    double *shear_rate;       // of the last forces, if any viscosity depends on it, otherwise 0
     bool density_in_files;    // data files have a column rho
 
    protected:
     explicit Fields(bool spins) :
         has_spins(spins), desph_before(nullptr), inertia(nullptr), omegaest(nullptr), state(),
         rho_sum(nullptr), vol_rate(nullptr), vol_rate_before(nullptr), vol_heat(nullptr),
-        vol_support(nullptr), density_in_files(false)
+        vol_support(nullptr), shear_rate(nullptr), density_in_files(false)
     {
     }
     ~Fields() = default;

@@ -57,6 +57,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     exchange(new Exchange(lmp, pair)), search(new NeighborSearch(lmp, *exchange)),
     density(new DensityStage(lmp, *engine, *exchange)),
     limit(new LimitStage(lmp, *engine, *exchange)),
+    viscosity(new ViscosityStage(lmp, *engine, *exchange)),
     pressure(new PressureStage(lmp, *engine, *exchange)),
     forces(new ForceStage(lmp, *engine, *exchange)), state(new StateStage(lmp, *engine, *exchange)),
     flows(new FlowStage(lmp, *engine, *exchange)),
@@ -66,9 +67,10 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false), dim(0),
-    support(0.0), stale(false), own_list(false), set_up(false), announced(false), touched(false),
-    changed(false), warned_step(0.0), noise_step(0.0), fast_lists(0)
+    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false),
+    integrated(0), dim(0), support(0.0), stale(false), own_list(false), set_up(false),
+    announced(false), touched(false), changed(false), warned_step(0.0), noise_step(0.0),
+    fast_lists(0)
 {
 }
 
@@ -279,6 +281,7 @@ bigint Fluid::compute(PairTally *tally)
   const Parameters &par = model->parameters();
   const bool known = continued && !changed && update->setupflag;
   const bool stiff_heat = par.conducts() && temperature->active() && !known;
+  const bool find_rates = !viscous->active();    // which finds them itself
   if (known) {
     viscous->begin_run();
     temperature->begin_run();
@@ -286,12 +289,12 @@ bigint Fluid::compute(PairTally *tally)
     find_viscous_velocity();
   if (stiff_heat && par.thermal_pressure) {
     temperature->set_aside();
-    sum_before_forces();
+    sum_before_forces(find_rates);
     sum_forces(nullptr);
     find_temperature();
     temperature->restore();
   }
-  const bigint nbeyond = sum_before_forces();
+  const bigint nbeyond = sum_before_forces(find_rates);
   if (shift->wanted) sum_gradient();
   sum_forces(tally);
   if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
@@ -308,22 +311,48 @@ bigint Fluid::compute(PairTally *tally)
    all that pass 2 needs; returns the number of particles beyond the bound of the limit
 ------------------------------------------------------------------------- */
 
-bigint Fluid::sum_before_forces()
+bigint Fluid::sum_before_forces(bool find_rates)
 {
   sum_density();
 
   // noise needs the bound of the limit for the volumes that act in its pairs, those of walls as well
 
   const bool walls = !boundary->empty();
+  const Parameters &par = model->parameters();
   if (walls && model->choice.thermal) set_reference_volume();
   if (model->choice.limit != Limit::NO) sum_bound();
   if (walls && !model->choice.thermal) set_reference_volume();
+  if (par.by_rate) find_viscosities(find_rates);
   const bigint nbeyond = set_pressure();
   if (!open->empty()) open->run();
   if (walls) set_boundary();
   if (walls && model->choice.own_temperatures) boundary->find_energies(missing_time());
   if (model->choice.thermal) noise->run(bound(), boundary->bits(), continued);
   return nbeyond;
+}
+
+/* ----------------------------------------------------------------------
+   Viscosities that depend on the rate of shear, for which walls have the velocities with which they extend the fluid; then
+   they have their own again.  With viscous of the integrator, they are those of the velocity before the step.
+------------------------------------------------------------------------- */
+
+void Fluid::find_viscosities(bool find_rates)
+{
+  if (!find_rates) return viscosity->keep(not_fluid());
+  if (boundary->empty()) return viscosity->run(not_fluid());
+  const int nall = atom->nlocal + atom->nghost;
+  Particle *const particle = engine->particle;
+  engine->for_each(nall, [&](int i) {
+    particle[i].g = engine->zeta_term[i] = 0.0;
+  });
+  boundary->run(neighbors());
+  viscosity->run(not_fluid());
+  const bool moves = update->whichflag != 2;
+  engine->for_each(nall, [&](int i) {
+    if (!is_boundary(i)) return;
+    for (int d = 0; d < 3; d++) particle[i].u[d] = moves ? atom->vest[i][d] : 0.0;
+  });
+  set_reference_volume();
 }
 
 /* ----------------------------------------------------------------------
@@ -433,7 +462,9 @@ void Fluid::sum_gradient()
 void Fluid::sum_forces(PairTally *tally)
 {
   engine->set_not_fluid(not_fluid());
-  forces->run(neighbors(), tally);
+  forces->run(neighbors(), tally, [&]() {
+    boundary->add_friction(tally);
+  });
   if (!boundary->empty()) boundary->repel(tally);
 }
 
@@ -465,8 +496,7 @@ void Fluid::find_viscous_velocity()
   if (neighbor->ago == 0 || viscous->has_old_rates())
     viscous->set_rate(coeff_table().fastest_rate());
   sum_forces(nullptr);
-  const bool symmetric =
-      (boundary->empty() || model->choice.thermal) && model->choice.bulk != Bulk::VOLUME;
+  const bool symmetric = boundary->all_symmetric() && model->choice.bulk != Bulk::VOLUME;
   viscous->run(neighbors(), bound(), symmetric);
 }
 
@@ -482,7 +512,8 @@ void Fluid::find_temperature()
 }
 
 /* ----------------------------------------------------------------------
-   a minimization leaves the offsets of the densities alone.  A run that continues the last one has its rates
+   a minimization leaves the offsets of the densities alone.  A run that continues the last one with the same
+   coefficients has its rates
 ------------------------------------------------------------------------- */
 
 void Fluid::sum_diffusion()
@@ -491,10 +522,10 @@ void Fluid::sum_diffusion()
   int &age = model->diffusion_age;
   if (!update->setupflag)
     age = (age + 1 < diffusion_interval()) ? age + 1 : 0;
-  else if (!continued)
+  else if (!continued || changed)
     age = 0;
-  if (age == 0) diffusion->evaluate(not_fluid());
-  diffusion->add_heat(not_fluid());
+  if (age == 0) diffusion->evaluate(not_fluid(), integrated);
+  diffusion->add_heat(not_fluid(), integrated);
 }
 
 /* ----------------------------------------------------------------------
@@ -829,6 +860,7 @@ CoeffTable Fluid::coeff_table()
       damped.hsq = hsq;
       damped.rho = rho;
       damped.rho_inertia = rho * inertia;
+      damped.surface = boundary->has_symmetric_friction();
       double diffusion_of = 0.0;
       if (model->choice.delta > 0.0) {
         const auto stiffness = [&](int type) {
@@ -941,6 +973,6 @@ double Fluid::memory_usage() const
 {
   return engine->memory_usage() + search->memory_usage() + limit->memory_usage() +
       open->memory_usage() + boundary->memory_usage() + shift->memory_usage() +
-      noise->memory_usage() + viscous->memory_usage() + temperature->memory_usage() +
-      diffusion->memory_usage();
+      noise->memory_usage() + viscosity->memory_usage() + viscous->memory_usage() +
+      temperature->memory_usage() + diffusion->memory_usage();
 }

@@ -47,6 +47,7 @@ namespace SPHDissipation {
   class StateStage;
   class TemperatureStage;
   class Threads;
+  class ViscosityStage;
   class ViscousStage;
 
   // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
@@ -73,6 +74,7 @@ namespace SPHDissipation {
     const std::unique_ptr<NeighborSearch> search;
     const std::unique_ptr<DensityStage> density;
     const std::unique_ptr<LimitStage> limit;
+    const std::unique_ptr<ViscosityStage> viscosity;
     const std::unique_ptr<PressureStage> pressure;
     const std::unique_ptr<ForceStage> forces;
     const std::unique_ptr<StateStage> state;
@@ -112,7 +114,7 @@ namespace SPHDissipation {
 
     virtual void begin_run(double dt);
     // with density continuity: owned particles keep their densities where sums change that are not due to motion, of
-    // particles that come, go, split, or merge, and at the start of a run that does not continue the last one
+    // particles that come, go, split, or merge, and at the start of a run, before which anything may have changed
     void keep_densities();
 
     // with the diffusion of volume: steps from one evaluation of its rates to the next one; the last forces have evaluated
@@ -166,6 +168,7 @@ namespace SPHDissipation {
     // not if any rank notes, before the first forces, that what the fluid touches moves otherwise
 
     bool continued;
+    int integrated;    // bits of the groups of its integrators
     void note_change() { changed = true; }
 
     bool is_set_up() const;    // what the commands say is in effect
@@ -238,7 +241,8 @@ namespace SPHDissipation {
     void check_all_interact();
     bool step_follows() const;    // a fix sets the time step by the limits
     void derive_coeffs();
-    bigint sum_before_forces();
+    bigint sum_before_forces(bool find_rates = true);
+    void find_viscosities(bool find_rates);
     const double *bound() const;    // of the limit, nullptr without
     void find_viscous_velocity();
     void find_temperature();

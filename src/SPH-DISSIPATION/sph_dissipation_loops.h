@@ -147,6 +147,38 @@ namespace SPHDissipation {
       }
     }
 
+    // sum_j V_j F (e.u)^2, of the volumes and velocities of the particles, by the pairs of pass 1
+
+    inline void shear_rate_loop(const LoopData &data, double *rate)
+    {
+      const Particle *const particle = data.particle;
+
+      for (int ii = 0; ii < data.inum; ii++) {
+        const int i = data.ilist[ii];
+        const Particle pi = particle[i];
+        const int *const neighbor = data.neighbor + data.first[ii];
+        const double *const slope_of = data.slope + data.first[ii];
+        Vec total = all(0.0);
+
+        for (int k = 0; k < data.count[ii]; k += LANES) {
+          const int *const j = neighbor + k;
+          Vec pj[8], r[3], u[3];
+          load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
+          load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
+          for (int l = 0; l < LANES; l++) prefetch(particle + j[l + AHEAD]);
+          for (int d = 0; d < 3; d++) {
+            r[d] = pi.x[d] - pj[d];
+            u[d] = pi.u[d] - pj[3 + d];
+          }
+          const Vec approach = dot(r, u);
+          const Vec square = approach * approach / (dot(r, r) + TINY) * load(slope_of + k);
+          total += pj[6] * square;
+          add_column<1>(rate, j, pi.vol * square);
+        }
+        rate[i] += sum(total);
+      }
+    }
+
     // Coefficients of all types, N numbers of a Row for each two of them
     // Those of type i with all others are in one vector each if there are at most as many types as lanes.
     template <class Row> struct CoeffTable {
@@ -306,6 +338,7 @@ namespace SPHDissipation {
         const Particle pi = particle[i];
         const Spin spin_i = Form::SPINS ? data.spin[i] : Spin();
         const double zeta_term_i = VOLUME ? data.zeta_term[i] : 0.0;
+        const double mu_i = Form::BY_RATE ? data.viscosity[i] : 0.0;
         const int n = data.count[ii];
         const int *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
@@ -346,6 +379,10 @@ namespace SPHDissipation {
             noise.draw(j, pair.r[0], pair.r[1], pair.r[2], slope, pair.vv, metric, pair.by_metric,
                        inverse);
             pair.central += noise.central;
+          }
+          if constexpr (Form::BY_RATE) {
+            pair.mu[0] = all(mu_i);
+            pair.mu[1] = gather(data.viscosity, j);
           }
           const Vec vv_slope = pair.vv;
           if constexpr (Noise::ENERGY) {
@@ -681,7 +718,8 @@ namespace SPHDissipation {
 
 #include "sph_dissipation_neighbor_loops.h"
 
-    // The loops of the bulk form volume, of the full forms, and of the noise have weights, which are 1 with volume number
+    // The loops of the bulk form volume, of the full forms, of viscosities that depend on the rate of shear, and of the noise have
+    // weights, which are 1 with volume number
 
     template <class F>
     constexpr bool IS_FULL =
@@ -692,9 +730,12 @@ namespace SPHDissipation {
       Loop loop = nullptr;
       with_form(terms, [&](auto form) {
         using F = decltype(form);
-        loop = (bulk == Bulk::VOLUME)  ? force_loop<F, true, true>
-            : (volume == Volume::MASS) ? force_loop<F, false, true>
-                                       : force_loop<F, false, IS_FULL<F>>;
+        if constexpr (F::BY_RATE)    // not with the bulk form volume
+          loop = force_loop<F, false, true>;
+        else
+          loop = (bulk == Bulk::VOLUME)  ? force_loop<F, true, true>
+              : (volume == Volume::MASS) ? force_loop<F, false, true>
+                                         : force_loop<F, false, IS_FULL<F>>;
       });
       return loop;
     }
@@ -714,7 +755,9 @@ namespace SPHDissipation {
     template <class F, NoiseKind KIND> Loop choose_noise(int dim)
     {
       constexpr bool FRICTION = F::VECTOR || F::CENTRAL;
-      if constexpr (F::VECTOR)
+      if constexpr (F::BY_RATE)    // there is no noise of it
+        return nullptr;
+      else if constexpr (F::VECTOR)
         return (dim == 3) ? force_loop<F, false, true, PairNoise<3, F::SPINS, KIND, F::BY_SQUARE>>
                           : force_loop<F, false, true, PairNoise<2, F::SPINS, KIND, F::BY_SQUARE>>;
       else if constexpr (FRICTION || KIND == NoiseKind::ENERGY || KIND == NoiseKind::CONDUCTION)
@@ -753,7 +796,7 @@ namespace SPHDissipation {
     {
       NoiseLoop loop = nullptr;
       with_form(form.terms, [&](auto terms) {
-        loop = work_loop<decltype(terms)>;
+        if constexpr (!decltype(terms)::BY_RATE) loop = work_loop<decltype(terms)>;
       });
       return loop;
     }
@@ -763,6 +806,7 @@ namespace SPHDissipation {
   const LoopSet LOOPS_SET = {LOOPS_NAME,
                              LOOPS::choose_density_loop,
                              LOOPS::choose_rate_loop,
+                             LOOPS::shear_rate_loop,
                              LOOPS::choose_force_loop,
                              LOOPS::channels_of,
                              LOOPS::choose_noisy_force_loop,

@@ -380,6 +380,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
       if (end - a < nwords - 1)
         error->all(FLERR, place(arg[iarg]), "Pair_coeff {} has more than {} groups of numbers",
                    keyword, own->count / own->group);
+      if (own->marked) *a++ = 1.0;
       for (int k = 1; k < nwords; k++) a[k - 1] = utils::numeric(FLERR, arg[iarg + k], false, lmp);
       if (const char *violated = inadmissible(one.keywords, domain->dimension)) {
         std::string words;
@@ -442,7 +443,7 @@ static bool is_number(const char *word)
 
 int FluidModel::number_of_values(const TypeKeyword &keyword, int narg, char **arg) const
 {
-  if (!keyword.group) return keyword.count;
+  if (!keyword.group) return keyword.numbers();
   int n = 0;
   while (n + 1 < narg && is_number(arg[n + 1])) n++;
   if (n == 0) utils::missing_cmd_args(FLERR, std::string("pair_coeff ") + keyword.name, error);

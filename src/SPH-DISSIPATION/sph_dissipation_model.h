@@ -96,6 +96,7 @@ namespace SPHDissipation {
     bool has_torques() const;                // any of the viscosities of spins
     double heat_capacity(int type) const;    // per mass
     bool has_temperatures() const;           // any type has a heat capacity
+    bool has_rheology() const;               // mu of any type depends on the rate of shear
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 
     // a keyword of this type that needs one of these, see enum Requirement, or nullptr
@@ -152,6 +153,8 @@ namespace SPHDissipation {
     void check_pair(int, int) const;
     void check_balance(int) const;
     void check_keywords(int) const;
+    void check_rheology(int) const;
+    bool is_alike(int, int) const;
     int type_coeff(int, char **, int, int, int, int, int **);
     int number_of_values(const TypeKeyword &, int narg, char **arg) const;
     int fluid_coeff(int, char **, int, int, int, int, int **);

@@ -352,7 +352,7 @@ std::string FluidModel::type_line(int i) const
     int count = one.count;
     while (one.group && a[count - 1] == 0.0) count--;
     line += fmt::format(" {}", one.name);
-    for (int k = 0; k < count; k++) line += fmt::format(" {}", a[k]);
+    for (int k = one.marked ? 1 : 0; k < count; k++) line += fmt::format(" {}", a[k]);
   }
   return line;
 }

@@ -35,6 +35,7 @@ void FluidModel::derive(int dim, double support)
   const int n = atom->ntypes;
   static_cast<Settings &>(par) = choice;
   par.drag = false;
+  par.by_rate = has_rheology();
   par.set_kernel(choice.kernel, dim, support);
   par.ntypes_1 = n + 1;
   par.type.assign(n + 1, TypeParameters());
@@ -43,6 +44,7 @@ void FluidModel::derive(int dim, double support)
     mix(i);
     par.type[i].keywords = coeffs[i].keywords;
     Flows::coefficients(coeffs[i].keywords, coeffs[i].eos.rho0, par.type[i].flow);
+    par.type[i].mu = coeffs[i].viscosity[MU];
     par.type[i].heat_capacity = heat_capacity(i);
     for (int j = 1; j <= i; j++) {
       if (!coeffs[i].other && !coeffs[j].other) check_pair(i, j);
@@ -53,15 +55,28 @@ void FluidModel::derive(int dim, double support)
     TypeParameters &derived = par.type[i];
     if (!type.intrinsic && choice.bulk != Bulk::NONE)
       derived.zeta = bulk_coefficient(type.kappa, intrinsic);
+    derived.zeta_at_0 = derived.zeta;
+    derived.zeta_by_mu = 0.0;
+    if (Rheology::any(type.keywords.rheology()) && !type.intrinsic) {
+      derived.zeta_at_0 = type.kappa;
+      derived.zeta_by_mu = -SPHDissipation::intrinsic_kappa(choice.shear, dim, 1.0);
+    }
     if (type.intrinsic) type.kappa = intrinsic;
     publish(npair() + KAPPA, i);
     derived.eos = type.eos;
     derived.other = type.other;
     if (!type.other && type.keywords.drag() > 0.0) par.drag = true;
     if (!type.other) check_keywords(i);
+    if (!type.other && par.by_rate) check_rheology(i);
     if (choice.thermal) check_balance(i);
   }
   par.set_uniform();
+  for (const PairCoeff &one : par.pair)
+    if (par.by_rate && optional_channel(one))
+      error->all(
+          FLERR, Error::NOLASTLINE,
+          "Pair style {}: viscosities that depend on the rate of shear cannot be used with {}",
+          style, optional_channel(one));
   for (const PairCoeff &one : par.pair)
     if (choice.shear == Shear::MG_FR && optional_channel(one))
       error->all(FLERR, Error::NOLASTLINE, "Pair style {} shear mg/fr cannot be used with {}",
@@ -111,6 +126,19 @@ TypePair FluidModel::pair_fluid(int i, int j) const
   for (int k = 0; k < Channels::NTYPE; k++)
     fluid.type.a[k] = std::max(par.type[i].keywords.a[k], par.type[j].keywords.a[k]);
   for (int k = 0; k < nviscosity(); k++) fluid.viscosity[k] = viscosity(k, i, j);
+  fluid.by_rate = par.by_rate;
+  if (fluid.by_rate) {
+    Rheology::Range range[2];
+    for (int k = 0; k < 2; k++) {
+      const TypeParameters &one = par.type[k ? j : i];
+      range[k] = Rheology::range(one.keywords.rheology(), one.mu);
+      for (const double mu : {range[k].least, range[k].most})
+        fluid.largest_zeta =
+            std::max(fluid.largest_zeta, std::fabs(one.zeta_at_0 + one.zeta_by_mu * mu));
+    }
+    fluid.alike = is_alike(i, j);
+    fluid.largest_mu = std::max(range[0].most, range[1].most);
+  }
   for (std::size_t k = 0; k < of_pairs.size(); k++)
     fluid.unlike[of_pairs[k].second] = viscosity(nviscosity() + static_cast<int>(k), i, j);
   return fluid;
@@ -229,6 +257,55 @@ void FluidModel::check_keywords(int i) const
         FLERR, Error::NOLASTLINE,
         "Pair_coeff gruneisen {} {} of type {}: the heat alone makes sound faster than c0 {}",
         coeffs[i].keywords.gamma(), coeffs[i].keywords.T0(), i, coeffs[i].eos.c0);
+}
+
+/* ----------------------------------------------------------------------
+   what a viscosity that depends on the rate of shear does not have
+------------------------------------------------------------------------- */
+
+void FluidModel::check_rheology(int i) const
+{
+  const auto refuse = [&](const std::string &what) {
+    for (int k = 1; k <= atom->ntypes; k++)
+      if (const char *keyword = coeffs[k].other ? nullptr : keyword_that_needs(RHEOLOGY, k))
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Pair_coeff {} of type {}, a viscosity that depends on the rate of shear, {}",
+                   keyword, k, what);
+  };
+  if (choice.shear != Shear::MG || choice.bulk != Bulk::DENSITY)
+    refuse(fmt::format("requires pair style sph/bulk with shear mg and bulk density, not {} with "
+                       "shear {} and bulk {}",
+                       style, shear_name(choice.shear), bulk_name(choice.bulk)));
+  if (par.dim == 1) refuse("requires dim 2 or 3: on a line there is no shear");
+  if (choice.limit != Limit::NO) refuse("cannot be used with limit of pair_style");
+  if (choice.thermal)
+    refuse("cannot be used with temp of pair_style: no noise without drift is in balance with a "
+           "friction that depends on velocities");
+  for (int j = 1; j <= atom->ntypes; j++)
+    if (j != i && !coeffs[j].other && !is_mixed(i, j))
+      refuse(fmt::format("cannot be used with a mu of the unlike types {} {}: it is the harmonic "
+                         "mean of both particles",
+                         std::min(i, j), std::max(i, j)));
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FluidModel::has_rheology() const
+{
+  for (int i = 1; coeffs && i <= atom->ntypes; i++)
+    if (!coeffs[i].other && Rheology::any(coeffs[i].keywords.rheology())) return true;
+  return false;
+}
+
+/* ----------------------------------------------------------------------
+   same viscosity and law
+------------------------------------------------------------------------- */
+
+bool FluidModel::is_alike(int i, int j) const
+{
+  const double *const a = coeffs[i].keywords.rheology(), *const b = coeffs[j].keywords.rheology();
+  return coeffs[i].viscosity[MU] == coeffs[j].viscosity[MU] &&
+      std::equal(a, a + Rheology::NUMBER, b);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -361,14 +438,17 @@ void FluidModel::publish(int k, int i)
 }
 
 /* ----------------------------------------------------------------------
-   true if a coefficient by keyword belongs to a group of numbers that pair_coeff has not given to this type
+   true if a coefficient by keyword belongs to a group of numbers, or a marked keyword, that pair_coeff has not given to
+   this type
 ------------------------------------------------------------------------- */
 
 bool FluidModel::is_of_missing_group(int coefficient, int type) const
 {
   for (const TypeKeyword &one : keywords)
-    if (one.group && coefficient >= one.first && coefficient < one.first + one.count) {
-      const int first = coefficient - (coefficient - one.first) % one.group;
+    if ((one.group || one.marked) && coefficient >= one.first &&
+        coefficient < one.first + one.count) {
+      const int each = one.group ? one.group : one.count;
+      const int first = coefficient - (coefficient - one.first) % each;
       return coeffs[type].keywords.a[first] == 0.0;
     }
   return false;

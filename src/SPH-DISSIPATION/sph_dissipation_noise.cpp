@@ -35,7 +35,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
-    Stage(lmp, engine, exchange), clock(clock), form(), data(), cold_arrival(false)
+    Stage(lmp, engine, exchange), clock(clock), form(), data(), surface_data(), cold_arrival(false)
 {
 }
 
@@ -49,10 +49,7 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
           !energy                                           ? NoiseKind::PLAIN
               : engine.parameters().conducts() || not_fluid ? NoiseKind::CONDUCTION
                                                             : NoiseKind::ENERGY};
-  for (int type = 1; type <= atom->ntypes; type++)
-    if (!energy && bound && !engine.parameters().type[type].other &&
-        engine.parameters().type[type].zeta < 0.0)
-      form.kind = NoiseKind::DIRECTED;
+  if (engine.parameters().directed_noise()) form.kind = NoiseKind::DIRECTED;
 
   // the force of a step is that of an impulse over its time
 
@@ -61,6 +58,7 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   data.seed = static_cast<std::uint64_t>(engine.parameters().seed);
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
 
+  data.of_pairs = NoiseChannel::PAIR;
   set_tags();
   if (energy) set_temperatures(continued, not_fluid);
   data.heat = 2.0 * force->boltz / update->dt;
@@ -69,6 +67,21 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   if (!set_coeffs(factor) && !energy) return;    // pairs share the work of a random pressure
   if (form.kind == NoiseKind::DIRECTED) set_shares(bound, not_fluid);
   engine.add_noise(form, &data);
+  if (form.kind == NoiseKind::DIRECTED) add_surface_noise();
+}
+
+/* ----------------------------------------------------------------------
+   what surfaces add to the friction of their pairs has numbers of its own, one along e
+------------------------------------------------------------------------- */
+
+void NoiseStage::add_surface_noise()
+{
+  surface_coeff = coeff;
+  for (NoiseCoeff &one : surface_coeff) one.central *= sqrt(2.0);
+  surface_data = data;
+  surface_data.of_pairs = NoiseChannel::SURFACE;
+  surface_data.coeff = surface_coeff.data();
+  engine.add_surface_noise({form.terms, form.dim, NoiseKind::PLAIN}, &surface_data);
 }
 
 /* ----------------------------------------------------------------------

@@ -70,8 +70,8 @@ namespace SPHDissipation {
    private:
     NoiseClock &clock;
     NoiseForm form;
-    NoiseData data;
-    std::vector<NoiseCoeff> coeff;
+    NoiseData data, surface_data;
+    std::vector<NoiseCoeff> coeff, surface_coeff;
     std::vector<NoiseRow> row;
     std::vector<double> mobility;
     std::vector<double> tag, reach, share, eta, pressure, drag, drag_force;
@@ -89,6 +89,7 @@ namespace SPHDissipation {
     void add_pressure(double factor, int not_fluid);
     void add_drag(double factor, int not_fluid);
     void set_shares(const double *bound, int not_fluid);
+    void add_surface_noise();
   };
 
 }    // namespace SPHDissipation

@@ -28,7 +28,8 @@ namespace SPHDissipation {
     PRESSURE,
     PAIR,
     DRAG,
-    STATE    // and those that follow, one for every four states
+    STATE,            // and those that follow, one for every four states
+    SURFACE = 1000    // pairs of a surface, if those of PAIR have others
   };
 
   // the step of the last random numbers, and what is added to a step to get numbers that no step before had
@@ -82,6 +83,7 @@ namespace SPHDissipation {
     bool unequal;              // the masses of the particles of the fluid differ
     double strength;           // square of central per unit friction along e
     std::uint64_t seed, step;
+    NoiseChannel of_pairs;      // whose numbers pairs have
     double heat;                // 2 k/dt, of the random flow of heat
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
     double dt;

@@ -68,7 +68,7 @@ struct NoiseStep {
   std::uint64_t low, high;
 
   NoiseStep(const NoiseData &data) :
-      pair(keys_of(data, NoiseChannel::PAIR)), low(data.step & 0xffffffff), high(data.step >> 32)
+      pair(keys_of(data, data.of_pairs)), low(data.step & 0xffffffff), high(data.step >> 32)
   {
   }
   static PhiloxKeys keys_of(const NoiseData &data, NoiseChannel channel)

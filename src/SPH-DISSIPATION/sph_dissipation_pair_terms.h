@@ -75,6 +75,7 @@ struct PairState {
   Vec approach;     // r.u
   Vec vv;           // F V_i V_j
   Vec by_metric;    // F V_i V_j / metric
+  Vec mu[2];    // of i and j, if it depends on the rate of shear; negative of a boundary particle
 
   Vec central;           // force on i along r, times 1/r
   Vec f[3];              // force on i
@@ -94,6 +95,7 @@ template <class Of, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTe
   static constexpr bool BY_DISTANCE = false;                // its metric is r
   static constexpr bool BY_SQUARE = false;                  // along r, in units of F r^2 V_i V_j
   static constexpr bool SPINS = false;
+  static constexpr bool BY_RATE = false;    // it has the viscosities of the particles
   template <class Pair> static SPH_INLINE void add_central(Pair &) {}
   template <class Pair> static SPH_INLINE void add_vector(Pair &) {}
 };

@@ -66,7 +66,9 @@ namespace SPHDissipation {
 
   struct TypeParameters {
     EosParams eos;
-    double zeta = 0.0;                  // coefficient of the bulk term
+    double zeta = 0.0;    // coefficient of the bulk term
+    double mu = 0.0, zeta_at_0 = 0.0,
+           zeta_by_mu = 0.0;            // if mu depends on the rate of shear, and zeta on mu
     double heat_capacity = 0.0;         // per mass
     double flow[Flows::NUMBER] = {};    // coefficients
     TypeCoeffs keywords;                // of the channels
@@ -85,6 +87,7 @@ namespace SPHDissipation {
     bool uniform = true;              // the coefficients of type 1 hold for all pairs
     bool inviscid = true;             // they are zero
     bool optional = false;            // pairs have optional terms
+    bool by_rate = false;             // mu of any type depends on the rate of shear
     bool drag = false;                // of single particles, of any type
     bool thermal_pressure = false;    // of any type: it depends on the internal energy
     int flows = 0;                    // bits of the flows of any type
@@ -97,7 +100,7 @@ namespace SPHDissipation {
 
     bool spins() const { return shear == Shear::MICROPOLAR; }
     bool conducts() const { return flows >> HEAT_FLOW & 1; }
-    Terms terms() const { return {shear, optional}; }
+    Terms terms() const { return {shear, optional, by_rate}; }
     void set_kernel(Kernel, int dim, double support);
   };
 
@@ -111,6 +114,8 @@ namespace SPHDissipation {
     void set_uniform();          // uniform, inviscid, and optional, from pair
     void set_alike();            // what belongs to flows and sound, from type
     void set_step(double dt);    // the time step of the states
+    bool
+    directed_noise() const;    // each partner of a pair has a number of its own, see NoiseStage
   };
 
   inline void Constants::set_kernel(Kernel kernel_in, int dim_in, double support_in)
@@ -160,6 +165,14 @@ namespace SPHDissipation {
       if (one.eos.impedance() != first->eos.impedance()) impedes_alike = false;
     }
     loops_of_flows = own_temperatures ? flows & ~Flows::in_pass_2() : flows;
+  }
+
+  inline bool Parameters::directed_noise() const
+  {
+    return thermal && !own_temperatures && limit != Limit::NO &&
+        std::any_of(type.begin(), type.end(), [](const TypeParameters &one) {
+             return !one.other && one.zeta < 0.0;
+           });
   }
 
   inline void Parameters::set_step(double dt)

@@ -115,7 +115,8 @@ namespace SPHDissipation {
     {
       States::each(*this, i, [&](auto channel, const auto &site) {
         typedef States::Owner<decltype(channel)> Owner;
-        heat[Channels::place<Owner>()] += rmass[i] * channel.heat(site);
+        if constexpr (Owner::OF_MOTION)
+          heat[Channels::place<Owner>()] += rmass[i] * channel.heat(site);
       });
     }
 
@@ -177,6 +178,8 @@ namespace SPHDissipation {
     double *state_pressure;          // read if there are states
     FlowRow *flow[Flows::NUMBER];    // of the flows of any type
     double *rho_sum = nullptr;       // see Fields; with density continuity
+    double *viscosity =
+        nullptr;    // mu of owned and ghost particles, if any depends on the rate of shear
 
     // w of the form volume mass
 
@@ -256,8 +259,20 @@ namespace SPHDissipation {
 
     SPH_FUNCTION double zeta(int i, const double *bound) const
     {
+      const TypeParameters &own = types[type[i]];
+      if (par.by_rate) return own.zeta_at_0 + own.zeta_by_mu * viscosity[i];
       if (par.limit == Limit::YES && is_beyond(i, bound)) return zeta_at_bound(bound[i]);
-      return types[type[i]].zeta;
+      return own.zeta;
+    }
+
+    // mu of an owned particle at a rate of shear; negative where it is not fluid, so that pairs have that of the other one
+
+    void set_viscosity(int i, double rate, int not_fluid) const
+    {
+      const TypeParameters &own = types[type[i]];
+      viscosity[i] = is_fluid(i, not_fluid)
+          ? Rheology::viscosity(own.keywords.rheology(), own.mu, rho[i], rate)
+          : -1.0;
     }
 
     // Pressure of the states of an owned particle, of its density; at_rest: strains are zero.

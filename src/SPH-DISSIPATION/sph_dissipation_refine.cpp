@@ -388,6 +388,9 @@ Lump RefineEvent::lump(int i) const
   one.mass = atom->rmass[i];
   one.energy = atom->esph[i];
   one.energy_rate = fields->desph_before[i];
+  one.diffusion[0] = fields->vol_rate[i];
+  one.diffusion[1] = fields->vol_rate_before[i];
+  one.diffusion[2] = fields->vol_heat[i];
   const double rho = atom->rho[i] + update->dt * atom->drho[i];    // at the end of the step
   for (int slot : fields->slots)
     one.state[slot] = handed_on(States::info(slot).kind, fields->state[slot][i], rho);
@@ -405,11 +408,13 @@ Lump RefineEvent::lump(int i) const
 
 void RefineEvent::set_lump(int i, const Lump &one)
 {
-  for (double *volume : {atom->vfrac, fields->vol_rate, fields->vol_rate_before, fields->vol_heat})
-    volume[i] *= one.mass / atom->rmass[i];
+  atom->vfrac[i] *= one.mass / atom->rmass[i];
   atom->rmass[i] = one.mass;
   atom->esph[i] = one.energy;
   fields->desph_before[i] = one.energy_rate;
+  fields->vol_rate[i] = one.diffusion[0];
+  fields->vol_rate_before[i] = one.diffusion[1];
+  fields->vol_heat[i] = one.diffusion[2];
   std::copy_n(one.x, 3, atom->x[i]);
   std::copy_n(one.u, 3, atom->v[i]);
   std::copy_n(one.u_end, 3, atom->vest[i]);

@@ -126,6 +126,7 @@ namespace SPHDissipation {
     double inertia = 0.0;    // per mass
     double energy = 0.0;     // internal, and its rate
     double energy_rate = 0.0;
+    double diffusion[3] = {};           // of volume: its rate, the one before, heat
     double state[States::MOST] = {};    // handed on, see handed_on()
     double x[3] = {};
     double u[3] = {}, spin[3] = {};
@@ -193,6 +194,7 @@ namespace SPHDissipation {
       one.mass = parent.mass / stencil.n;
       one.energy = parent.energy / stencil.n;
       one.energy_rate = parent.energy_rate / stencil.n;
+      for (double &rate : one.diffusion) rate /= stencil.n;
       one.inertia = inertia;
       for (int l = 0; l < States::MOST; l++)
         if (States::info(l).kind == StateKind::EXTENSIVE) one.state[l] /= stencil.n;
@@ -248,6 +250,7 @@ namespace SPHDissipation {
       whole.mass += parts[k].mass;
       whole.energy += parts[k].energy;
       whole.energy_rate += parts[k].energy_rate;
+      for (int d = 0; d < 3; d++) whole.diffusion[d] += parts[k].diffusion[d];
     }
     for (int k = 0; k < n; k++)
       for (int l = 0; l < States::MOST; l++)

@@ -149,6 +149,42 @@ double LimitStage::memory_usage() const
 
 /* ---------------------------------------------------------------------- */
 
+void ViscosityStage::run(int not_fluid)
+{
+  engine.accumulate_shear_rates(rates);
+  exchange.reverse({{rates.data(), 1, 1}});
+  const ParticleRows &rows = engine.rows();
+  double *const shear_rate = Fields::of(atom)->shear_rate;
+  engine.for_each(atom->nlocal, [&](int i) {
+    const DensitySum &density = engine.density[i];
+    shear_rate[i] = rows.is_fluid(i, not_fluid)
+        ? sqrt(std::max(shear_rate_squared(rows.par.dim, rates[i], density.cdot / density.c), 0.0))
+        : 0.0;
+  });
+  keep(not_fluid);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ViscosityStage::keep(int not_fluid)
+{
+  const ParticleRows &rows = engine.rows();
+  const double *const shear_rate = Fields::of(atom)->shear_rate;
+  engine.for_each(atom->nlocal, [&](int i) {
+    rows.set_viscosity(i, shear_rate[i], not_fluid);
+  });
+  exchange.forward({{engine.viscosity.data(), 1, 1}});
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ViscosityStage::memory_usage() const
+{
+  return (double) rates.capacity() * sizeof(double);
+}
+
+/* ---------------------------------------------------------------------- */
+
 bigint PressureStage::run(const double *bound, int not_fluid)
 {
   const ParticleRows &rows = engine.rows();
@@ -276,14 +312,14 @@ double FlowStage::received(int groupbit) const
    The pressure is that of the equation of state: strains stay as they are
 ------------------------------------------------------------------------- */
 
-void DiffusionStage::evaluate(int not_fluid)
+void DiffusionStage::evaluate(int not_fluid, int integrated)
 {
   const Parameters &par = engine.parameters();
   const int dim = par.dim, nsum = number_of_sums(dim), width = width_of_sums(dim);
   const int vol = place_of_volume(dim), p = vol + 1;
   constexpr std::size_t WIDTH = sizeof(DiffusionRow) / sizeof(double);
   const Fields &fields = *Fields::of(atom);
-  set_rows(not_fluid);
+  set_rows(not_fluid, integrated);
   const DiffusionData data = {rows.data(), impedances.data()};
   engine.accumulate_diffusion(DiffusionPart::SUMS, data, width, sums);
   double *const sum = sums[0].a;
@@ -312,20 +348,26 @@ void DiffusionStage::evaluate(int not_fluid)
 
 /* ---------------------------------------------------------------------- */
 
-void DiffusionStage::add_heat(int not_fluid) const
+void DiffusionStage::add_heat(int not_fluid, int integrated) const
 {
-  const ParticleRows &of = engine.rows();
   const Fields &fields = *Fields::of(atom);
   double *const desph = atom->desph;
   engine.for_each(atom->nlocal, [&](int i) {
-    if (!of.is_fluid(i, not_fluid)) fields.vol_rate[i] = fields.vol_heat[i] = 0.0;
+    if (!takes_part(i, not_fluid, integrated)) fields.vol_rate[i] = fields.vol_heat[i] = 0.0;
     desph[i] += fields.vol_heat[i];
   });
 }
 
 /* ---------------------------------------------------------------------- */
 
-void DiffusionStage::set_rows(int not_fluid)
+bool DiffusionStage::takes_part(int i, int not_fluid, int integrated) const
+{
+  return engine.rows().is_fluid(i, not_fluid) && (atom->mask[i] & integrated);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DiffusionStage::set_rows(int not_fluid, int integrated)
 {
   const Parameters &par = engine.parameters();
   const ParticleRows &of = engine.rows();
@@ -338,7 +380,7 @@ void DiffusionStage::set_rows(int not_fluid)
     const Particle &particle = engine.particle[i];
     for (int d = 0; d < par.dim; d++) row[d] = particle.x[d];
     if (par.dim == 1) row[0] += particle.x[1];    // a line along x or y
-    const bool fluid = of.is_fluid(i, not_fluid);
+    const bool fluid = takes_part(i, not_fluid, integrated);
     row[vol] = fluid ? particle.vol : 0.0;
     row[vol + 1] = fluid ? pressure(par.eos, eos, atom->rho[i], of.esph[i] / atom->rmass[i]) : 0.0;
     impedances[i] = eos.impedance();
@@ -430,9 +472,10 @@ int ForceStage::nforce() const
 
 /* ---------------------------------------------------------------------- */
 
-void ForceStage::run(NeighList *list, PairTally *tally)
+void ForceStage::run(NeighList *list, PairTally *tally, const std::function<void()> &add_more)
 {
   engine.accumulate_forces(list, tally);
+  add_more();
 
   double **f = atom->f;
   double *const desph = atom->desph;

@@ -95,6 +95,22 @@ namespace SPHDissipation {
     ThreadSums<double> sums;
   };
 
+  // Viscosities that depend on the rate of shear, see sph_dissipation_rheology.h; with the volumes of particles set
+
+  class ViscosityStage : public Stage {
+   public:
+    using Stage::Stage;
+
+    // of the rates of shear at the velocities of the particles, which owned ones keep; of the rates that they have kept
+    void run(int not_fluid);
+    void keep(int not_fluid);
+
+    double memory_usage() const override;
+
+   private:
+    std::vector<double> rates;    // of owned and ghost atoms
+  };
+
   // Pressure and bulk term of all particles of the fluid, of volume and density as pass 1 left them, see
   // ParticleRows::set_pressure()
 
@@ -162,13 +178,14 @@ namespace SPHDissipation {
     using Stage::Stage;
 
     // find the rates; how full the support of a particle is: the smallest eigenvalue of its tensor, 1 inside of the fluid,
-    // about 1/2 at a plane surface, 0 of particles that have no neighbors or are not fluid
+    // about 1/2 at a plane surface, 0 of particles that have no neighbors or are not fluid; integrated = bits of the groups
+    // whose volumes change, of others, as the particles of a rigid body, none does
 
-    void evaluate(int not_fluid);
+    void evaluate(int not_fluid, int integrated);
 
     // onto the heating
 
-    void add_heat(int not_fluid) const;
+    void add_heat(int not_fluid, int integrated) const;
 
     double memory_usage() const override;
 
@@ -177,7 +194,8 @@ namespace SPHDissipation {
     std::vector<double> impedances;
     std::vector<SumBlock> sums, flow;
 
-    void set_rows(int not_fluid);
+    bool takes_part(int i, int not_fluid, int integrated) const;
+    void set_rows(int not_fluid, int integrated);
   };
 
   // Minus the gradient of the concentration of the particles, for particle shifting:
@@ -210,7 +228,8 @@ namespace SPHDissipation {
    public:
     using Stage::Stage;
 
-    void run(NeighList *, PairTally *);    // tally of each pair, or nullptr
+    // tally of each pair, or nullptr; add_more: to the sums of the engine, after pass 2
+    void run(NeighList *, PairTally *, const std::function<void()> &add_more);
 
     // also add the force and torque of ghosts to those of their owners in the engine
 

@@ -102,9 +102,10 @@ void FluidState::add_up()
 {
   constexpr double FAR = 1.0e300;
   const int n = (atom->ntypes + 1) * NSET;
-  std::vector<Mean> my_means(n, {0.0, 0.0, 0.0, 0.0});
+  std::vector<Mean> my_means(n, Mean());
   std::vector<Range> my_ranges(n, {FAR, FAR});
   const StateRows states = engine.states();
+  const double *const sum = model.choice.continuity ? Fields::of(atom)->rho_sum : atom->rho;
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & group) || (atom->mask[i] & not_fluid)) continue;
@@ -121,6 +122,7 @@ void FluidState::add_up()
       mean.excess += excess;
       mean.excess_sq += excess * excess;
       mean.pressure += p;
+      mean.sum += sum[i] / eos.rho0;
       Range &range = my_ranges[type * NSET + set];
       range.smallest = std::min(range.smallest, excess);
       range.minus_largest = std::min(range.minus_largest, -excess);
@@ -369,7 +371,9 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
   constexpr double SHEARED = 0.1;           // vorticity over the rate of density
   constexpr double FROM_ROUNDOFF = 20.0;    // ln of the growth of a wave that is no longer small
 
-  const bool shears = (engine.parameters().dim > 1) && !evened_out;
+  // with density continuity, the pressure is that of the flow, and equal densities are no regular arrangement
+
+  const bool shears = (engine.parameters().dim > 1) && !evened_out && !model.choice.continuity;
   LatticeStrain strain(lmp, engine, exchange);
   double length = 0.0;
   if (shears) {
@@ -384,14 +388,29 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
     if (!has_type(type)) continue;
     const double rho = mean_density(type), rho0 = model.coeffs[type].eos.rho0;
     const double least = has_full_support(type) ? 1.0 - FAR_OFF : SPARSE;
-    if (rho < least * rho0 || rho > (1.0 + FAR_OFF) * rho0) {
+    const auto far_off = [=](double density) {
+      return density < least * rho0 || density > (1.0 + FAR_OFF) * rho0;
+    };
+    if (model.choice.continuity) {
+      const Mean &mean = means[best(type)];
+      const double by_masses = rho0 * mean.sum / mean.count;
+      if (far_off(by_masses))
+        error->warning(FLERR,
+                       "The masses of type {} have the mean density {:g}, which is far from its "
+                       "rho0 {:g}: the mass of a particle should be rho0 times its volume, also "
+                       "with density continuity; use set mass",
+                       type, by_masses, rho0);
+      if (far_off(rho))
+        error->warning(
+            FLERR, "The mean density {:g} of type {} is far from its rho0 {:g}; use set sph/rho",
+            rho, type, rho0);
+    } else if (far_off(rho))
       error->warning(FLERR,
                      "The mean density {:g} of type {} is far from its rho0 {:g}: the mass of a "
                      "particle should be rho0 times its volume; use the set command, or keyword "
                      "density of fix {}",
                      rho, type, rho0, fix_style);
-      continue;
-    }
+    if (far_off(rho)) continue;
 
     const double mu = model.viscosity(0, type, type);
     if (!shears || count(type, FULL) < FEW || spread(type) > REGULAR || mu == 0.0) continue;

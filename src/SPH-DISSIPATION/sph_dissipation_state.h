@@ -92,6 +92,7 @@ namespace SPHDissipation {
     enum Set { ALL, FULL, NSET };
     struct Mean {
       double count, excess, excess_sq, pressure;    // sums; excess = rho/rho0 - 1
+      double sum;    // of the part of rho/rho0 that is a sum over neighbors
     };
     struct Range {
       double smallest, minus_largest;    // of the excess

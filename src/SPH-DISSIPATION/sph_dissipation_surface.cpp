@@ -55,7 +55,7 @@ static double edge(double rsq, double radius)
 /* ---------------------------------------------------------------------- */
 
 SurfaceStage::SurfaceStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
-    Stage(lmp, engine, exchange), surface(nullptr), has_flux(false), nmax(0)
+    Stage(lmp, engine, exchange), surface(nullptr), has_flux(false), nmax(0), body(nullptr)
 {
 }
 
@@ -68,8 +68,9 @@ SurfaceStage::~SurfaceStage()
 
 /* ---------------------------------------------------------------------- */
 
-void SurfaceStage::run(int bits, const BoundaryPairs &pairs)
+void SurfaceStage::run(int bits, const BoundaryPairs &pairs, const std::vector<double> &body_in)
 {
+  body = body_in.empty() ? nullptr : body_in.data();
   begin();
   find_sides(pairs);
   find(bits);
@@ -79,6 +80,7 @@ void SurfaceStage::run(int bits, const BoundaryPairs &pairs)
 
 void SurfaceStage::run(int bits, const std::vector<double> &sides)
 {
+  body = nullptr;
   begin();
   const double *side = sides.data();
   for (int i = 0; i < atom->nlocal; i++) {
@@ -170,7 +172,7 @@ template <class Task> void SurfaceStage::for_each(const std::vector<int> &owned,
    In the outer layer of a plane wall, the filled part is 1/2 + b g(0)/2 with the distance b
    between layers and the Gaussian g across the wall: half of space is filled without the
    layer, and half of the layer is missing.  The surface is b/2 away.
-   Particles of other layers, and those that turn their back to the fluid, get no normal.
+   Particles of other layers, and those of walls that turn their back to the fluid, get no normal.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &owned)
@@ -184,15 +186,17 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
     const double radius = std::min(support, CUTOFF * s.spacing);
     double filled = 0.0, inward[3] = {0.0, 0.0, 0.0};
     cells.near(atom->x[i], radius, [&](int j, const double *r, double rsq) {
+      if (!together(i, j)) return;
       const double part =
           atom->vfrac[j] * norm * exp(-0.5 * rsq / (width * width)) * edge(rsq, radius);
       filled += part;
       for (int d = 0; d < 3; d++) inward[d] += part * r[d];
     });
     const double length = MathExtra::len3(inward);
-    const bool outer = filled < OUTER && length > RESIDUAL * RESIDUAL * width &&
+    const bool faces = (body && body[i] > 0.0) ||
         MathExtra::dot3(inward, s.normal) <
             -RESIDUAL * RESIDUAL * length * MathExtra::len3(s.normal);
+    const bool outer = filled < OUTER && length > RESIDUAL * RESIDUAL * width && faces;
     for (int d = 0; d < 3; d++) s.normal[d] = outer ? -inward[d] / length : 0.0;
     s.depth = (filled - 0.5) * width * sqrt(MathConst::MY_2PI);
   });
@@ -216,6 +220,7 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
     const double soft = CLOSEST * s.spacing;
     double weights = 0.0, depth = 0.0, normal[3] = {0.0, 0.0, 0.0};
     cells.near(atom->x[i], support, [&](int j, const double *r, double rsq) {
+      if (!together(i, j)) return;
       const Surface &plane = surface[j];
       const double inverse = 1.0 / (rsq + soft * soft);
       const double weight = inverse * inverse * inverse * inverse * edge(rsq, support);
@@ -251,6 +256,7 @@ void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &ow
     const double radius = std::min(support, CUTOFF * s.spacing);
     double turn = 0.0, norm = 0.0;
     cells.near(atom->x[i], radius, [&](int j, const double *r, double rsq) {
+      if (!together(i, j)) return;
       const Surface &other = surface[j];
       const double along = MathExtra::dot3(r, s.normal);
       const double weight = edge(rsq, radius);

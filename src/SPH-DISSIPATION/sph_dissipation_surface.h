@@ -56,7 +56,9 @@ namespace SPHDissipation {
 
     // when the neighbor list is new: normal, depth and spacing of the owned and ghost atoms with one
     // of these bits, from their volumes; omega is for the boundary to set
-    void run(int bits, const BoundaryPairs &);
+    // body: numbers of bodies, 0 for all walls, empty if there is none; the surface of a body is that of its
+    // particles alone
+    void run(int bits, const BoundaryPairs &, const std::vector<double> &body);
 
     // Do the same with known vectors toward the fluid, those of the owned particles in their order.
     void run(int bits, const std::vector<double> &sides);
@@ -69,7 +71,9 @@ namespace SPHDissipation {
    private:
     int nmax;
     ThreadSums<Surface> sums;
+    const double *body;
 
+    bool together(int i, int j) const { return !body || body[i] == body[j]; }
     template <class Task> void for_each(const std::vector<int> &, const Task &);
     void begin();
     void find(int bits);

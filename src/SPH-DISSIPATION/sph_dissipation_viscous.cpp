@@ -371,6 +371,7 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
   }
 
   engine.accumulate_friction(list);
+  boundary.add_linear_friction();
   const Field f = field(engine.force, engine.force->f, 3);
   if (omegaest)
     exchange.reverse({f, engine.torques()});

@@ -34,6 +34,8 @@ namespace SPHDissipation {
 
   constexpr double CLOSEST = 0.25;
   constexpr double CLOSEST_MEAN = 0.45;
+  constexpr double CLOSEST_PAIR =
+      0.5;    // of surface_factor(): on lattices, that of the first layer
 
   // q = level + slope d + bend d^2 next to the surface, d < 0 behind it
 
@@ -241,6 +243,17 @@ namespace SPHDissipation {
   {
     const double inside = -s.depth - inner_product(s.normal, r);
     return (inside > CLOSEST * s.spacing) ? inside : CLOSEST * s.spacing;
+  }
+
+  // Symmetric friction across a surface: the pair of f with w has that of the velocity of the body itself, times (d + h)/d
+  // with the distances d of f and h of w from the surface.  Of a velocity that is zero at the surface and linear in d, this
+  // is the force of its continuation behind the surface, -h times its slope
+
+  SPH_FUNCTION double surface_factor(const Surface &s, const double *r)
+  {
+    const double inside = -s.depth - inner_product(s.normal, r), least = CLOSEST_PAIR * s.spacing;
+    const double d = (inside > least) ? inside : least;
+    return (d + s.depth) / d;
   }
 
   // Contribution of the particle f of the fluid to the sums of the boundary particle w, r = x_w - x_f,

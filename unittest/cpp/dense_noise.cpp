@@ -49,8 +49,8 @@ Noise System::noise(const std::string &form, bool has_bulk, bool limited, Real k
   const bool across = (n > 1 && !along_alone);
   std::vector<Eigen::Triplet<Real>> entries;
   Noise result;
-  auto add = [&](int low, int high, int index) {
-    result.numbers.push_back({low, high, index});
+  auto add = [&](int low, int high, int index, bool surface = false) {
+    result.numbers.push_back({low, high, surface, index});
     return static_cast<int>(result.numbers.size()) - 1;
   };
   auto put = [&](int row, int column, const SmallVector &values) {
@@ -91,37 +91,40 @@ Noise System::noise(const std::string &form, bool has_bulk, bool limited, Real k
   // pairs, from the particle with the lower number
 
   const bool vector = (across && n == 3);
-  const int base = (vector && (spins || directed)) ? NoiseNumber::HALVES : 0;
-  const int first = vector ? base + 3 : 0;
-  const int last = along_alone ? 1 : vector ? base + 7 : 3;
+  const int base_of_pairs = (vector && (spins || directed)) ? NoiseNumber::HALVES : 0;
+  const int last = along_alone ? 1 : vector ? base_of_pairs + 7 : 3;
   std::vector<std::vector<std::pair<const Pair *, int>>> own(
       N);    // pairs of i and the column of its number
-  for (const auto &p : pairs) {
-    if (p.i > p.j || form == "none") continue;
-    const Coefficients a = coefficients(p, form);
+  auto add_pair = [&](const Pair &p, Real factor, bool surface) {
+    const Coefficients plain = coefficients(p, form);
+    const Coefficients a = {factor * plain.along, factor * plain.across, factor * plain.spin_along,
+                            factor * plain.spin_across};
+    const bool both = directed && !surface;    // have a number
+    const int base = (vector && (spins || both)) ? NoiseNumber::HALVES : 0;
+    const int first = vector ? base + 3 : 0;
     const SmallVector e = p.r / p.dist;
-    if (directed) {
+    if (both) {
       own[p.i].emplace_back(&p, add(p.i, p.j, first));
       own[p.j].emplace_back(&p, add(p.i, p.j, last));
     } else if (!vector) {
-      push(add(p.i, p.j, first), p, std::sqrt(2.0L * kT * a.along) * e);
+      push(add(p.i, p.j, first, surface), p, std::sqrt(2.0L * kT * a.along) * e);
     }
-    if (!across) continue;
+    if (!across) return;
     const SmallMatrix dyad = e * e.transpose();
     const SmallMatrix complement = SmallMatrix::Identity(n, n) - dyad;
     if (n == 2) {
       SmallVector t(2);
       t << -e(1), e(0);
-      push(add(p.i, p.j, 1), p, std::sqrt(2.0L * kT * a.across) * t);
+      push(add(p.i, p.j, 1, surface), p, std::sqrt(2.0L * kT * a.across) * t);
     } else {
-      const Real along = directed ? 0.0L : std::sqrt(2.0L * kT * a.along);
+      const Real along = both ? 0.0L : std::sqrt(2.0L * kT * a.along);
       for (int k = 0; k < 3; k++)
-        push(add(p.i, p.j, base + k), p,
+        push(add(p.i, p.j, base + k, surface), p,
              along * dyad.col(k) + std::sqrt(2.0L * kT * a.across) * complement.col(k));
     }
-    if (!spins) continue;
+    if (!spins) return;
     for (int k = 0; k < s; k++) {
-      const int column = add(p.i, p.j, n == 2 ? 2 : base + 4 + k);
+      const int column = add(p.i, p.j, n == 2 ? 2 : base + 4 + k, surface);
       SmallVector spin(s);
       if (n == 2)
         spin(0) = std::sqrt(2.0L * kT * a.spin_across);
@@ -131,6 +134,11 @@ Noise System::noise(const std::string &form, bool has_bulk, bool limited, Real k
       put(N * n + s * p.i, column, spin);
       put(N * n + s * p.j, column, -spin);
     }
+  };
+  for (const auto &p : pairs) {
+    if (p.i > p.j || form == "none") continue;
+    add_pair(p, directed ? 1.0L : p.factor, false);
+    if (directed && p.factor != 1.0L) add_pair(p, p.factor - 1.0L, true);
   }
 
   // zeta < 0: half of the friction of each pair along e together with the bulk term of the particle

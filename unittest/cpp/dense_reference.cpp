@@ -232,7 +232,6 @@ System::System(const Model &_model, const Box &box, const Particles &particles) 
   cdot = Vector::Zero(N);
   for (int i = 0; i < N; i++) {
     for (int j = 0; j < N; j++) {
-      if (i != j && is_wall(i) && is_wall(j)) continue;
       for (int a = -range[0]; a <= range[0]; a++) {
         for (int b = -range[1]; b <= range[1]; b++) {
           for (int d = -range[2]; d <= range[2]; d++) {
@@ -246,6 +245,9 @@ System::System(const Model &_model, const Box &box, const Particles &particles) 
             }
             if (rsq >= model.support * model.support) continue;
             const Real dist = std::sqrt(rsq);
+            if (is_wall(i) && is_wall(j))
+              solid.push_back({i, j, Eigen::Map<const Vector>(r, n), dist, 0.0L});
+            if (i != j && is_wall(i) && is_wall(j)) continue;
             c(i) += w(j) * kernel.W(dist);
             if (dist == 0.0L) continue;    // the particle itself, or another one at the same point
             pairs.push_back({i, j, Eigen::Map<const Vector>(r, n), dist, kernel.F(dist)});
@@ -258,6 +260,70 @@ System::System(const Model &_model, const Box &box, const Particles &particles) 
   for (int i = 0; i < N; i++)
     if (is_wall(i)) V(i) = atoms.mass[i] / model.fluids[atoms.type[i] - 1].rho0;
   cdot = density_rate_rows() * velocity();
+  if (!solid.empty()) find_factors();
+}
+
+// 1 up to close to the radius, then a smooth step down to 0
+
+static Real fading(Real dist, Real radius)
+{
+  const Real t = std::min((1.0L - dist * dist / (radius * radius)) / 0.03L, 1.0L);
+  return 3.0L * t * t - 2.0L * t * t * t;
+}
+
+// (d + h)/d with the distances d of the fluid and h of the wall particle from the surface.  The outer layer of a wall is what a
+// Gaussian does not find surrounded and what looks at the fluid; the surface is the mean of the planes that touch it.
+
+void System::find_factors()
+{
+  std::vector<SmallVector> side(N, SmallVector::Zero(n)), inward = side, plane = side,
+                                                          normal = side;
+  Vector filled = Vector::Zero(N), plane_depth = filled, depth = filled, weights = filled;
+  auto spacing = [&](int i) {
+    return std::pow(V(i), 1.0L / n);
+  };
+  for (const auto &p : pairs)
+    if (is_wall(p.i) && !is_wall(p.j)) side[p.i] -= p.F * p.r;
+  for (const auto &p : solid) {
+    const Real width = 0.7L * spacing(p.i), radius = std::min(model.support, 3.0L * spacing(p.i));
+    if (!(p.dist < radius)) continue;
+    const Real part = V(p.j) * std::exp(-0.5L * p.dist * p.dist / (width * width)) /
+        std::pow(2.0L * PI * width * width, 0.5L * n) * fading(p.dist, radius);
+    filled(p.i) += part;
+    inward[p.i] -= part * p.r;
+  }
+  for (int i = 0; i < N; i++) {
+    if (!is_wall(i)) continue;
+    const Real length = inward[i].norm(), width = 0.7L * spacing(i);
+    if (filled(i) < 0.85L && length > 0.01L * width &&
+        inward[i].dot(side[i]) < -0.01L * length * side[i].norm()) {
+      plane[i] = -inward[i] / length;
+      plane_depth(i) = (filled(i) - 0.5L) * std::sqrt(2.0L * PI) * width;
+    }
+  }
+  for (const auto &p : solid) {
+    if (!(plane[p.j].norm() > 0.5L)) continue;
+    const Real soft = 0.25L * spacing(p.i);
+    const Real share =
+        std::pow(p.dist * p.dist + soft * soft, -4.0L) * fading(p.dist, model.support);
+    weights(p.i) += share;
+    normal[p.i] += share * plane[p.j];
+    depth(p.i) += share * (plane_depth(p.j) - plane[p.j].dot(p.r));
+  }
+  for (int i = 0; i < N; i++) {
+    if (!is_wall(i)) continue;
+    const Real length = normal[i].norm();
+    const bool known = length > 0.1L * weights(i);
+    depth(i) = known ? std::max(depth(i) / weights(i), 0.0L) : 0.45L * spacing(i);
+    normal[i] = known ? SmallVector(normal[i] / length) : SmallVector::Zero(n);
+  }
+  for (auto &p : pairs) {
+    if (is_wall(p.i) == is_wall(p.j)) continue;
+    const int wall = is_wall(p.i) ? p.i : p.j;
+    const SmallVector to_fluid = is_wall(p.i) ? SmallVector(-p.r) : p.r;
+    const Real d = std::max(normal[wall].dot(to_fluid) - depth(wall), 0.5L * spacing(wall));
+    p.factor = (d + depth(wall)) / d;
+  }
 }
 
 Vector System::velocity() const
@@ -410,7 +476,7 @@ Viscous System::shear(const std::string &form) const
   result.R = Matrix::Zero(N * n, N * n);
   result.heating = Vector::Zero(N);
   for (const auto &p : pairs) {
-    const SmallMatrix block = shear_block(p, form);
+    const SmallMatrix block = p.factor * shear_block(p, form);
     result.R.block(n * p.i, n * p.i, n, n) += block;
     result.R.block(n * p.i, n * p.j, n, n) -= block;
     const SmallVector u = atoms.v.col(p.i) - atoms.v.col(p.j);
@@ -490,7 +556,7 @@ Micropolar System::micropolar() const
 
   for (const auto &p : pairs) {
     const PairViscosity &visc = viscosity[{atoms.type[p.i], atoms.type[p.j]}];
-    const Real weight = p.F * V(p.i) * V(p.j);
+    const Real weight = p.factor * p.F * V(p.i) * V(p.j);
 
     // columns: velocities of i and j, spins of i and j
     std::vector<int> columns;

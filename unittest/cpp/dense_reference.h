@@ -110,8 +110,10 @@ struct Particles {
   Matrix x, v;    // n rows, one column per particle
   Matrix spin;    // n = 3: three rows, n = 2: one row, the z component; empty without spin
   std::vector<Real> mass, energy;
-  std::vector<int> type;      // from 1
-  std::vector<bool> wall;     // with reference volume and without bulk term and pairs among each other; or empty
+  std::vector<int> type;    // from 1
+  // with reference volume, without bulk term and pairs among each other, with the friction of the distances from
+  // the surface; or empty
+  std::vector<bool> wall;
   int size() const { return static_cast<int>(mass.size()); }
 };
 
@@ -149,7 +151,8 @@ struct Micropolar {
 struct NoiseNumber {
   static constexpr int HALVES = 4;
   int low, high;    // high < 0: pressure
-  int index;        // of the numbers of the pair: four of a word each, or, from HALVES on, eight of half a word
+  bool surface;     // of what a surface adds, where each partner of a pair has a number
+  int index;    // of the numbers of the pair: four of a word each, or, from HALVES on, eight of half a word
 };
 
 struct Noise {
@@ -201,7 +204,10 @@ class System {
     int i, j;
     SmallVector r;    // from j to i
     Real dist, F;
+    Real factor = 1.0L;    // of the friction
   };
+  std::vector<Pair> solid;    // the same of wall particles, themselves among them
+  void find_factors();
 
   struct PairViscosity {
     Real zeta1, zeta2, xi1, xi2;

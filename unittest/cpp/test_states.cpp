@@ -89,7 +89,7 @@ static Coeffs coefficients(int nprocess, bool vibrates, double modulus)
 
 TEST(States, list)
 {
-  EXPECT_EQ(Three::MOST, States::MOST + 1);
+  EXPECT_EQ(Three::MOST, RelaxChannel::MOST + VibrationChannel::MOST + 1);
   const StateInfo &last = Three::info(Three::MOST - 1);
   EXPECT_STREQ(last.field, "solute");
   EXPECT_TRUE(last.has_column() && last.ghosts);

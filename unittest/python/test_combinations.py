@@ -30,10 +30,10 @@ FIRST = 11  # lower IDs are those of particles that are no fluid
 class Lines:
     """What is in an input.  In a sum tuples are joined; any other value is that of the one that sets it."""
 
-    particles: tuple = ()  # besides the fluid: "zones", "walls", "alien"
+    particles: tuple = ()  # besides the fluid: "zones", "walls", "disc", "alien"
     style: str = "sph/bulk"
-    room: str = ""  # for relaxing processes, in the atom style
-    state: str = ""  # of them
+    room: tuple = ()  # for states, in the atom style
+    state: tuple = ()  # their values in data files
     types: int = 1  # of the fluid
     pair: tuple = ()  # keywords of the pair style
     mu: float = 0.5
@@ -92,6 +92,10 @@ def walls(speed):
                                               "fix high high sph/wall"), force=("-f_low[{k}]", "-f_high[{k}]"))
 
 
+def disc(rigid):
+    return Lines(particles=("disc",), fixes=(f"fix turn disc {rigid}", "fix disc disc sph/wall move rigid"), force=("-f_disc[{k}]",))
+
+
 def body(fix):
     return Lines(fixes=("variable mx atom 4.0*mass", "variable my atom -3.0*mass", "variable driven atom mass*gmask(driven)",
                         "compute driven fluid reduce sum v_driven", f"fix G driven {fix}"),
@@ -102,10 +106,13 @@ LARGE = "rkl2", "implicit"  # they start anew after a change of the time step or
 TARGET = "1.0-0.75*(x>3)*(x<6)+1.6*(x>10)*(x<13)"
 
 FEATURES = {
-    "rkl2": Feature(Lines(integrator=("viscous rkl2",)), nearly=Lines(), refused={"noise": "temp"}),
+    "rkl2": Feature(Lines(integrator=("viscous rkl2",)), nearly=Lines(), refused={"noise": "temp"}, nearly_with={"thinning": 1e-3}),
     "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
     "gravity": Feature(body("gravity 5.0 vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
     "walls": Feature(walls("v_U"), walls("0.3")),
+    "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused={
+        "rkl2": "viscous", "implicit": "viscous", "open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
+        "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "rate of shear", "rerun": "rerun"}),
     "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), not_plain_with=("gas", "heat"), refused={"noise": "temp", "rerun": "rerun"}),
     "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom {TARGET}", "fix R fluid sph/refine 5 volume v_t")),
                      Lines(pair=("volume mass",), fixes=(f"variable t atom sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
@@ -139,10 +146,16 @@ FEATURES = {
                           fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3*c_state[1]*(c_state[2]-0.2)",
                                  "variable dragy atom -0.3*c_state[1]*(c_state[3]+0.1)", "compute drag fluid reduce sum v_dragx v_dragy"))),
     "interdrag": Feature(Lines(types=2, unlike=("interdrag 0.8",))),
-    "relax": Feature(Lines(room="relax 2", state="-0.99 0", keywords=("relax 4.0 0.02 3.0 0.5",))),
+    "thinning": Feature(Lines(keywords=("power 0.6 0.05 1.5 yield 0.05 5",)),
+                        refused={"open": "power", "noise": "drift", "warm": "drift", "limit": "limit", "interdrag": "rate of shear", "implicit": "implicit",
+                                 "spin": "sph/bulk", "idle_spin": "sph/bulk"}),
+    "relax": Feature(Lines(room=("relax 2",), state=("-0.99 0",), keywords=("relax 4.0 0.02 3.0 0.5",))),
     "heat": Feature(Lines(keywords=("cv 100.0 conductivity 30.0 gruneisen 0.5 0.01",), energy=2.5),
                     refused={"rerun": "conductivity", "noise": "conductivity", "gas": "gruneisen"}),
-    "idle_room": Feature(Lines(room="relax 1", state="0"), Lines(), effect=False),
+    "solute": Feature(Lines(room=("solute",), state=("1.0",), keywords=("solute 0.4",),
+                            early=("variable amount atom 1.0+0.5*sin(id)", "set group all d_solute v_amount")),
+                      effect=False, refused={"open": "solute", "noise": "solute", "warm": "solute"}),
+    "idle_room": Feature(Lines(room=("relax 1",), state=("0",)), Lines(), effect=False),
     "gas": Feature(Lines(pair=("eos ideal",), energy=2.5), refused={"noise": "ideal"}),
     "warm": Feature(Lines(pair=("temp energy 100 4711",), energy=2.5),
                     refused={"open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag"}),
@@ -199,6 +212,8 @@ def particles(lines):
     rows = np.arange(-3, 13) if "walls" in has else np.arange(10)
     x, y = (one.ravel() for one in np.meshgrid(columns + 0.97, rows + 0.5, indexing="ij"))
     part = np.where(y < 0, "low", np.where(y > 10, "high", np.where(x < 0, "inlet", np.where(x > 16, "outlet", "fluid"))))
+    if "disc" in has:
+        part = np.where((part == "fluid") & ((x - 9.0)**2 + (y - 5.0)**2 < 5.0), "disc", part)
     order = np.argsort(part, kind="stable")
     x, y, part = x[order], y[order], part[order]
     wet = part == "fluid"
@@ -219,7 +234,7 @@ def particles(lines):
         x, y, u, v = (np.append(np.array(new), old) for new, old in (([4.1, 5.2, 4.5, 5.5], x), ([5.0, 5.1, 6.0, 6.2], y),
                                                                     ([0.5, 0.0, -0.5, 0.2], u), ([0.0, 0.4, 0.0, -0.4], v)))
     spinning = lines.style != "sph/bulk"
-    own = f"1.0 0.16 {lines.energy} {lines.state}" if spinning else f"1.0 {lines.energy} {lines.state}"
+    own = " ".join(("1.0", *("0.16",) * spinning, str(lines.energy), *lines.state))
     spin = [f" 0 0 {w!r}" if spinning else "" for w in np.sin(1.7 * ids)]
     xlo, xhi = (-10.0, 26.0) if "zones" in has else (0.0, 16.0)
     ylo, yhi = (-4.0, 14.0) if "walls" in has else (0.0, 10.0)
@@ -272,11 +287,11 @@ def write(folder, name, lines):
              f"timestep {lines.timestep}\nfix FLUID fluid {lines.style} {' '.join(lines.integrator)}\n")
     fixes = block(lines.fixes) + "compute E all property/atom esph\n" + account(lines)
     words["again"] = (coeffs if lines.others else "") + begin + fixes  # what a restart file does not have
-    spin = "omegaz tqz" if lines.style != "sph/bulk" else ""
-    output = f"write_dump all custom {name}.{{}} id mass x y vx vy fx fy c_E {spin} modify sort id format float %.17g\n"
+    also = "omegaz tqz " * (lines.style != "sph/bulk") + "d_solute" * ("solute" in lines.room)
+    output = f"write_dump all custom {name}.{{}} id mass x y vx vy fx fy c_E {also} modify sort id format float %.17g\n"
     ends = "f" if "zones" in lines.particles else "p", "f" if "walls" in lines.particles else "p"
     return (f"log {name}.log\nunits lj\ndimension 2\nboundary {' '.join(ends)} p\nnewton {lines.newton}\n"
-            f"atom_style {lines.style} {lines.room}\nread_data {name}.data\n"
+            f"atom_style {lines.style} {' '.join(lines.room)}\nread_data {name}.data\n"
             + "".join(f"group {one} id {' '.join(map(str, ids))}\n" for one, ids in groups.items())
             + pair + coeffs + begin + block(lines.early) + fixes + block(lines.late)
             + "run 5\n" + block((*lines.between, lines.second)) + output.format("after")
@@ -288,7 +303,7 @@ def write(folder, name, lines):
 
 
 QUANTITIES = {"id": ("id",), "mass": ("mass",), "esph": ("c_E",), "x": ("x", "y"), "v": ("vx", "vy"), "spin": ("omegaz",),
-              "force": ("fx", "fy"), "torque": ("tqz",)}
+              "force": ("fx", "fy"), "torque": ("tqz",), "solute": ("d_solute",)}
 
 
 class Cases:
@@ -440,5 +455,5 @@ def test_short_steps(cases, name, names):
     cases.run({(pair, "plain", name): near(pair, name, True) for pair in together}, 1)
     one = FEATURES[name]
     bound = max(one.nearly_with.get(other, NEARLY) for other in names)
-    found = complaints(cases, (names, "short", name), (names, "plain", name), bound, ("particles", "x", "v", "spin", "force", "torque"))
+    found = complaints(cases, (names, "short", name), (names, "plain", name), bound, ("particles", "x", "v", "spin", "force", "torque", "solute"))
     assert not found, "\n".join(found)

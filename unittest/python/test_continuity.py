@@ -381,6 +381,52 @@ def test_deleted_neighbors_do_not_change_the_density(lammps):
     assert np.abs(before["c_G[1]"][left] - after["c_G[1]"]).max() > 0.2
 
 
+@pytest.mark.parametrize("lines", [
+    "pair_style sph/bulk density continuity kernel wendland/c4\n", "pair_coeff * * 1.0 10.0 0.1 0.3 3.5\n", "set group all mass 1.2\n",
+    "pair_style sph/bulk\nrun 5\nundump D\nuncompute F\n" + dump("a.dump") + "run 0\npair_style sph/bulk density continuity\n"])
+def test_new_settings_do_not_change_the_density(lammps, lines):
+    """The sum changes by other means than motion; the offset follows."""
+    write(lammps.path("box.data"), free_drop())
+    lammps(text(2, "density continuity", boundary=free(2), extra="timestep 0.02\n") + "run 20\n" + dump("a.dump") + "run 0\n" + lines
+           + "undump D\nuncompute F\n" + dump("b.dump") + "run 0\n")
+    before, after = lammps.frame("a.dump"), lammps.frame("b.dump")
+    assert np.abs(before["rho"] - after["rho"]).max() < 1e-13
+
+
+def test_density_0_is_rho0_in_a_later_run(lammps):
+    write(lammps.path("box.data"), free_drop())
+    lammps(text(2, "density continuity", boundary=free(2), extra="timestep 0.02\n") + "run 20\nset group all sph/rho 0\n" + dump("a.dump") + "run 0\n")
+    assert np.abs(lammps.frame("a.dump")["rho"] - 1.0).max() < 1e-15
+
+
+def test_particles_that_are_not_integrated_take_no_volume(lammps):
+    """What flows between all others adds up to nothing, next to a rigid body and next to particles that stay."""
+    p = free_drop()
+    random = np.random.default_rng(5)
+    p.v[:] = 0.0
+    write(lammps.path("box.data"), p, random.uniform(1.0, 1.02, len(p)))
+    for body in ("fix B body rigid/nve single\n", ""):
+        lammps(text(2, "density continuity", boundary=free(2), extra="timestep 0.02\n")
+               .replace("fix FLUID all", f"group body id 1:40\ngroup fluid subtract all body\n{body}fix FLUID fluid")
+               + FIELDS + dump("a.dump", extra=WANTED) + "run 2\n", ranks=2)
+        frame = lammps.frame("a.dump")
+        rate, inside = frame["d_vol_rate"], frame["id"] > 40
+        assert np.abs(rate[~inside]).max() == 0.0 and np.abs(frame["c_G[2]"][~inside]).max() == 0.0
+        assert abs(rate.sum()) < 1e-13 * np.abs(rate).max() and np.abs(rate).max() > 1e-4
+
+
+def test_merges_hand_on_the_rates_of_volume(lammps):
+    """Also in a step between two evaluations of the diffusion, which is each third one."""
+    p = free_drop()
+    random = np.random.default_rng(8)
+    write(lammps.path("box.data"), p, random.uniform(0.98, 1.02, len(p)))
+    lammps(text(2, "density continuity volume mass tension yes", "1.0 10.0 0.0 0.0 3.2", free(2))
+           + "variable t atom 1.0-0.7*(x>0)+1.3*(x<-3)\nfix R all sph/refine 4 volume v_t\ntimestep 0.01\n" + dump("a.dump", extra="d_vol_rate") + "run 4\n")
+    begin, end = lammps.frames("a.dump")[::4]
+    assert len(end["id"]) > len(begin["id"]) and not np.isin(begin["id"], end["id"]).all()
+    assert abs(end["d_vol_rate"].sum()) < 1e-13 * np.abs(end["d_vol_rate"]).max()
+
+
 def test_no_tension(lammps):
     """Particles that are stretched have no pressure and the energy of rho0; the time step is that of c0."""
     p = free_drop()
@@ -453,6 +499,26 @@ def test_warnings(lammps, words, options, lines, warning):
     write(lammps.path("box.data"), free_drop())
     result = lammps(text(2, f"density continuity {options}", words) + lines)
     assert len([one for one in result.warnings if warning in one]) == 1, result.warnings
+
+
+@pytest.mark.parametrize("lines, warning", [
+    ("set group all mass 0.8\nrun 0\n", "masses of type 1 have the mean density 0.7"), ("set group all mass 1000\nrun 0\n", "use set mass"),
+    ("run 1\npair_coeff * * 1.3 10 0.1 0.3 3\nset group all mass 1.3\nrun 0\n", "mean density 1 of type 1 is far from its rho0 1.3; use set sph/rho")])
+def test_warnings_of_masses_and_densities(lammps, lines, warning):
+    write(lammps.path("box.data"), free_drop())
+    result = lammps(text(2, "density continuity", "1 10 0.1 0.3 3", boundary=free(2)) + lines)
+    assert len(result.warnings) == 1 and warning in result.warnings[0], result.warnings
+
+
+def test_no_warning_of_the_shear_elasticity(lammps):
+    """Its remedies, density rho0, no pb, and shift, are none for a fluid whose pressure is that of its weight."""
+    p = lattice(2, 14)
+    p.esph[:] = 0.0
+    p.v[:, 0] = 0.01 * np.sin(2 * np.pi * p.x[:, 1] / 14)
+    write(lammps.path("box.data"), p, np.full(len(p), 1.05))
+    for options, warns in (("density continuity", False), ("density sum", True)):
+        result = lammps(text(2, options, "1.0 10.0 0.01 0.3 3.0" + (" pb 5.0" if warns else "")) + "run 0\n")
+        assert any("shear elasticity" in one for one in result.warnings) == warns, result.warnings
 
 
 def test_no_warning_of_a_quiet_fluid(lammps):

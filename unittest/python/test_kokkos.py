@@ -206,6 +206,23 @@ def test_conduction_of_heat(lammps, style, ranks, options, viscous):
     compare(lammps, style, particles, text, ranks)
 
 
+@pytest.mark.parametrize("ranks, diffusivity", [(1, 0.0), (2, 0.3), (4, 0.3)])
+def test_solute(lammps, style, ranks, diffusivity):
+    """Of one of two types, with a diffusivity that changes on the way, while the other one's stays; particles are sorted."""
+    particles = disordered(2, 14, seed=4, jitter=0.1, ntypes=2, speed=2.0, spread=0.0)
+    amount = np.random.default_rng(3).uniform(-1.0, 3.0, (len(particles), 1))
+    relax.write(particles, lammps.path("room.txt"), amount, style)
+    words = {"pair_coeff 1 1": f" solute {diffusivity}", "pair_coeff 2 2": " solute 0.1"}
+    model = "".join(line + words.get(line[:14], "") + "\n" for line in fluids(style, 2, 2).splitlines())
+    extra = f"variable D equal {diffusivity}+0.02*step\nfix CHANGE all adapt 5 pair {style} solute 1 1 v_D\natom_modify sort 5 1.5\n"
+    text = script(style, particles, model, 50, extra=extra).replace("data.txt", "room.txt").replace("c_F[*] ", "c_F[*] d_solute ")
+    (cpu, _, _), (kokkos, _, _) = both(lammps, style, particles, text.replace(f"atom_style {style}", f"atom_style {style} solute"), ranks)
+    assert_same(style, cpu, kokkos, 1e-9)
+    assert relative(cpu["d_solute"] - kokkos["d_solute"], cpu["d_solute"]) < 1e-9
+    assert abs(kokkos["d_solute"].sum() - amount.sum()) < 1e-12 * np.abs(amount).sum()
+    assert relative(cpu["d_solute"] - amount[:, 0], amount) > 1e-2
+
+
 @pytest.mark.parametrize("ranks, options, walls", [(1, "eos ideal", False), (2, "volume mass", False), (1, "", True), (2, "", True)])
 def test_noise_of_heat(lammps, style, ranks, options, walls):
     """Temperatures of particles of two masses, their conduction and its random flow; between a heat bath and an adiabatic wall."""
@@ -725,3 +742,13 @@ def test_changes_of_the_model(lammps, change):
     changed = lammps(text + change + "run 20\n", switches=[]).thermo()[-1]
     same = lammps(text + "run 20\n", switches=[]).thermo()[-1]
     assert relative(same["Press"] - changed["Press"], same["Press"]) > 1e-6, "nothing has changed"
+
+
+@pytest.mark.skipif(not DEVICE_LOOPS, reason="on a host the same code runs")
+def test_rate_of_shear_on_the_host(lammps):
+    """Viscosities that depend on the rate of shear, with a warning."""
+    particles = disordered(2, 12)
+    model = fluid(2, keywords="power 0.6 0.01 5 yield 0.1 10")
+    (expected, _, _), (found, _, result) = both(lammps, "sph/bulk", particles, script("sph/bulk", particles, model, 5))
+    assert relative(found["f"] - expected["f"], expected["f"]) < 1e-12
+    assert any("rate of shear" in warning for warning in result.warnings)

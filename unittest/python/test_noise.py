@@ -196,7 +196,7 @@ def test_temperature(lammps, style, dim, options, kappa, ranks):
     if ranks == 2 and (dim == 3 or options):
         pytest.skip("one case is enough")
     spin = " 0.1 0.02 -0.02" if dim == 2 else " 0.1 0.02 0.01"
-    text = (f"units lj\ndimension {dim}\natom_style {style}\nlattice {'sq' if dim == 2 else 'sc'} 1.0\n"
+    text = (f"units lj\ndimension {dim}\natom_style sph/bulk\nlattice {'sq' if dim == 2 else 'sc'} 1.0\n"
             + ("region box block 0 20 0 20 -0.5 0.5\n" if dim == 2 else "region box block 0 7 0 7 0 8\n")
             + "create_box 2 box\ncreate_atoms 1 box\nset group all mass 1.0\nset group all type/fraction 2 0.5 77\n"
             + "set type 2 mass 2.0\n"
@@ -355,6 +355,51 @@ def test_open_boundaries_do_not_fluctuate(lammps):
 
 
 # ---- walls -------------------------------------------------------------------------------------------------------
+
+
+def at_walls(dim, form, velocity, support, commands, wall="", jitter=0.0):
+    """Fluid on a lattice between two walls, y = -0.5 and 9.5."""
+    ux, uy = velocity
+    return (f"units lj\ndimension {dim}\nboundary p f p\natom_style sph/bulk\nlattice {'sq' if dim == 2 else 'sc'} 1.0\n"
+            f"region box block 0 9 -5 15 {'-0.5 0.5' if dim == 2 else '0 7'}\ncreate_box 1 box\ncreate_atoms 1 box\n"
+            "set group all mass 1.0\nregion fluid block INF INF -0.25 9.75 INF INF\ngroup fluid region fluid\n"
+            "group wall subtract all fluid\nregion half block INF INF INF 4.75 INF INF\ngroup half region half\n"
+            f"group near intersect fluid half\ndisplace_atoms fluid random {jitter} {jitter} {jitter if dim == 3 else 0.0} 5\n"
+            f"variable u atom {ux}\nvariable v atom {uy}\nvelocity fluid set v_u v_v 0.0\n"
+            f"pair_style sph/bulk shear {form} temp 1e-30 1\npair_coeff * * 1.0 10.0 0.5 2.0 {support} pb 3.0\n"
+            f"fix 1 fluid sph/bulk\nfix W wall sph/wall {wall}\ntimestep 0.002\n"
+            + commands + "thermo_modify norm no format float %.17g\nrun 0\n")
+
+
+@pytest.mark.parametrize("dim, support", [(2, 3.0), (2, 4.0), (3, 3.0)])
+@pytest.mark.parametrize("form", ["mg", "mg/fr", "morris", "espanol"])
+def test_surface_of_walls(lammps, dim, support, form):
+    """A linear profile that is zero at the surface has no force; how far off it is, from the force of another velocity.  A wall
+    without the factor is 0.53 to 0.73 spacings off."""
+    commands = "compute F near reduce sum fx\nthermo_style custom step c_F\n"
+    force = [lammps(at_walls(dim, form, (velocity, "0.0"), support, commands)).thermo()[-1]["c_F"][0]
+             for velocity in ("y+0.5", "1.0")]
+    assert abs(force[0] / force[1]) < 0.003
+
+
+@pytest.mark.parametrize("form", ["mg", "mg/fr", "morris", "espanol"])
+def test_power_at_walls(lammps, form):
+    """Energy of motion and heat with the work of a wall that travels, and turns where the forces have angular momentum; a fluid
+    that turns with its wall has no friction then."""
+    turns = form in ("mg", "mg/fr")
+    commands = ("variable p atom fx*vx+fy*vy\ncompute P fluid reduce sum v_p\ncompute E all property/atom desph\n"
+                "compute H fluid reduce sum c_E\ncompute D all sph/dissipation\n"
+                "thermo_style custom step c_P c_H f_W[*] c_D c_D[*]\n")
+    wall = "velocity 0.3 0.2 0.0 move no" + " rotate 4.0 3.0 0.0 0.0 0.0 1.0 0.4" * turns
+    random = ("normal(0.0,0.5,8)", "normal(0.0,0.5,9)")
+    (table,) = lammps(at_walls(2, form, random, 3.0, commands, wall, jitter=0.2)).thermo()
+    given = table["c_P"] + table["c_H"] + 0.3 * table["f_W[1]"] + 0.2 * table["f_W[2]"] + 0.4 * turns * table["f_W[6]"]
+    assert table["c_D"][0] > 10.0 and abs(given[0]) < 1e-12 * table["c_D"][0]
+    if turns:
+        with_wall = ("0.3-0.4*(y-3.0)", "0.2+0.4*(x-4.0)")
+        text = at_walls(2, form, with_wall, 3.0, commands, wall).replace("boundary p f p", "boundary f f p")
+        (table,) = lammps(text).thermo()
+        assert abs(table["c_D"][0]) < 1e-25
 
 
 @pytest.mark.parametrize("options, kappa", [("", 0.8), (STOKES, 0.0)])

@@ -74,6 +74,7 @@ def fluid_for(text):
     z = "-6 6" if solid else "-0.5 0.5"
     file = re.search(r"(fluids|gases)\.sph", text)
     room = " relax 2" if re.search(r"gases\.sph| relax | vibration |d_rho_relaxed|kappa_r", text) else ""
+    room += " solute" if re.search(r" solute |d_solute", text) else ""
     lines = [f"units {'si' if file else 'lj'}", f"dimension {3 if solid else 2}", f"atom_style {style}{room}", "atom_modify map yes",
              f"region box block -6 6 -6 6 {z} units box", f"create_box {types} box",
              f"lattice {'sc' if solid else 'sq'} 1.0", "create_atoms 1 box", "set group all mass 1.0",
@@ -113,6 +114,8 @@ ANSWERS = {
     "SDPD": "Howto_sph_fluctuations", "fluctuating hydrodynamics": "Howto_sph_fluctuations", "fluctuation-dissipation": "Howto_sph_fluctuations",
     "no-slip": "Howto_sph_walls", "boundary condition": "Howto_sph_walls",
     "dam break": "Howto_sph_surface", "sloshing": "Howto_sph_surface", "water level": "Howto_sph_surface", "pressure tap": "Howto_sph_surface",
+    "acoustic streaming": "Howto_sph_streaming", "Stokes drift": "Howto_sph_streaming",
+    "floating body": "Howto_sph_bodies", "buoyancy": "Howto_sph_bodies",
     "non-reflecting": "Howto_sph_open", "buffer zone": "Howto_sph_open",
     "adaptive particle refinement": "Howto_sph_refine", "variable resolution": "Howto_sph_refine",
 }

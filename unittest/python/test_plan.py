@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from helpers import LMP
+import sph_dissipation as sph
 from sph_dissipation import fluids
 from sph_dissipation import plan as planner
 
@@ -54,6 +55,34 @@ def test_plan(lammps, case):
     if "temperature" in case:
         rate = float(re.search(r"largest viscous rate times time step (\S+)", result.log)[1])
         assert rate == pytest.approx(plan.rate * plan.dt, rel=5e-3)
+
+
+COLUMNS = ["--rho 1 --mu 1e-6 --column 1 --particles 10", "--fluid water --column 0.6 --tank 3.22 --particles 12 --kernel wendland/c4",
+           "--rho 2 --mu 0.01 --kappa 0.3 --column 3 --width 2 --tank 2 --gravity 5 --particles 15 --shear mg/fr",
+           "--rho 1000 --mu 1 --units si --column 0.1 --width 0.1 --dim 3 --particles 8"]
+
+
+@pytest.mark.parametrize("case", COLUMNS)
+def test_column(lammps, case):
+    """A column in a tank: it starts with the hydrostatic pressure and without a warning; nobody leaves; at rest it stays."""
+    plan = planner.Column(planner.arguments(case.split()))
+    text = plan.input()
+    steps = min(plan.steps, 400 if plan.dim == 2 else 30)
+    result = lammps(re.sub(r"(variable +steps index) .*", rf"\g<1> {steps}", text)
+                    + 'print "largest $(bound(water,xmax)) $(bound(water,xmin)) $(bound(water,ymin))"\n')
+    assert not result.warnings, result.warnings
+    assert sum(int(count) for count in re.findall(r"Created (\d+) atoms", result.log)) == plan.number
+    limits = table(result.log)
+    assert {name: limits[name] for name in ("shear", "bulk", "diffusion")} == pytest.approx(
+        {name: plan.limits[name] for name in ("shear", "bulk", "diffusion")}, rel=1e-3)
+    assert plan.dt < plan.largest < limits["all"]
+    right, left, low = (float(word) for word in re.search(r"^largest (.*)", result.output, re.MULTILINE)[1].split())
+    assert min(left, low, plan.tank * plan.dx - right) > -0.15 * plan.dx
+    first, last = (result.thermo()[0]["v_front"][k] for k in (0, -1))
+    assert abs(first / (plan.width * plan.dx) - 1) < 1e-6 and (last - first > 0.1 * plan.dx) == (plan.falls and plan.dim == 2)
+    if not plan.falls:
+        push = plan.rho * plan.gravity * plan.args.column**2 / 2
+        assert result.thermo()[0]["v_push"].mean() == pytest.approx(push, rel=0.02)
 
 
 def test_command(tmp_path):
@@ -105,6 +134,42 @@ def test_wave_lasts(lammps):
     assert table["Time"][-1] * 30e3 > 10 and np.abs(table["c_amplitude"] / plan.args.velocity / decay).max() < 1.1
 
 
+LJ = "--rho 1.3 --wavelength 2 --c 1.5"
+
+
+@pytest.mark.parametrize("case", [
+    f"{LJ} --mu 0.02 --kappa 0.05 --particles 20", f"{LJ} --mu 0.02 --kappa 0.05 --particles 20 --kernel wendland/c2",
+    f"{LJ} --mu 0.02 --kappa 0.05 --particles 30 --support 4 --kernel wendland/c2",
+    f"{LJ} --mu 0.01 --kappa 0.08 --particles 24 --kernel wendland/c4 --shear mg/fr", f"{LJ} --mu 0.05 --kappa 0 --particles 24 --kernel quintic --shear morris",
+    f"{LJ} --mu 0.04 --kappa 0.02 --particles 24 --kernel cubic --support 5 --shear espanol", f"{LJ} --mu 0.02 --kappa 0.03 --particles 10 --dim 3 --support 4 --kernel wendland/c2",
+    f"{LJ} --mu 0.05 --kappa 0.01 --particles 10 --dim 3 --support 4 --kernel wendland/c6 --shear morris", "--fluid CO2 --frequency 30e3 --particles 30",
+    "--fluid air/50 --wavelength 0.05 --particles 24 --kernel lucy"])
+def test_errors_of_sound(lammps, case):
+    """Frequency and decay of the wave in LAMMPS are off by what is printed, within a quarter of it."""
+    plan = planner.Plan(planner.arguments(case.split()))
+    text = plan.input()
+    printed = re.search(r"^# errors +frequency (\S+) %, decay (\S+) %", text, re.MULTILINE).groups()
+    every = max(1, round(plan.args.length / plan.c0 / plan.dt / 12))
+    text = re.sub(r"(variable +steps index) .*", rf"\g<1> {48 * every}", re.sub(r"thermo  .*", f"thermo {every}", text))
+    (table,) = lammps(text).thermo()
+    s = max(sph.exponents(every * plan.dt, table["c_amplitude"], 2 + len(plan.fluid.relax)), key=lambda mode: mode.imag)
+    rho, mu, zeta = plan.rho, plan.mu, plan.zeta
+    k2 = (2 * np.pi / plan.args.length)**2
+    longitudinal = zeta + mu * {"mg": 3, "mg/fr": 3, "morris": 1, "espanol": 1 + 2 / (plan.dim + 3)}[plan.args.shear]    # eq. "limits"
+    # s^2 + s D + w^2 + s sum(g/(1 + s tau)) = 0 as a polynomial
+    polynomial = np.polynomial.Polynomial([k2 * plan.c0**2, k2 * longitudinal / rho, 1])
+    others = np.polynomial.Polynomial([1])
+    for kappa, tau in plan.fluid.relax:
+        process = np.polynomial.Polynomial([1, tau])
+        polynomial = polynomial * process + others * np.polynomial.Polynomial([0, k2 * kappa / rho])
+        others = others * process
+    exact = max(polynomial.roots(), key=lambda root: root.imag)
+    found = 100 * (s.imag / exact.imag - 1), 100 * (s.real / exact.real - 1)
+    print(case, printed, found)
+    for measured, word in zip(found, printed):
+        assert measured == pytest.approx(float(word), rel=0.25)
+
+
 def test_wave_that_dies_at_once():
     for case, dies in [("--fluid water --wavelength 1e-10", True), ("--fluid water --wavelength 1e-8", False),
                        ("--rho 1 --mu 0 --kappa 0 --c 10 --frequency 2", False)]:
@@ -142,7 +207,9 @@ def test_proposal():
 @pytest.mark.parametrize("case, message", [
     ("--fluid water --length 1", "give --length and --velocity, or"), ("--fluid water --length 1 --wavelength 1", "give --length and --velocity, or"),
     ("--fluid water --frequency 1 --wavelength 1", "or --frequency"), ("--fluid He --wavelength 1 --relax", "--relax is for a gas"),
-    ("--rho 1 --mu 1 --wavelength 1", "needs its speed"), ("--fluid air/101 --wavelength 1", "no fluid air/101"),
+    ("--rho 1 --mu 1 --wavelength 1", "needs its speed"), ("--rho 1 --mu 1 --column 1 --length 1", "--length is not for --column"),
+    ("--rho 1 --mu 1 --column 1 --tank 1", "shorter than the column"), ("--rho 1 --mu 1 --length 1 --velocity 1 --tank 3", "are for --column"),
+    ("--rho 1 --mu 1 --column 1 --shear morris", "torque at a free surface"), ("--rho 1 --mu 1 --column 1 --temperature 1", "--temperature is not"), ("--fluid air/101 --wavelength 1", "no fluid air/101"),
     ("--fluid air/50/0 --wavelength 1", "no fluid air/50/0"), ("--fluid air/50/20 --frequency 1e3", "no fluid air/50/20: ISO 9613-1 holds from 253 to 323 K"),
     ("--fluid air/50/1e308 --frequency 1e3", "253 to 323 K"), ("--fluid air/50/293/1e308 --wavelength 1", "up to 200e3 Pa"),
     ("--fluid air/50/293/1e-300 --wavelength 1", "water boils"), ("--fluid air/wet --wavelength 1", "no fluid air/wet: air/HUMIDITY["),

@@ -1,0 +1,157 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "sph_dissipation_engine_surface.h"
+
+#include "atom.h"
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+void SurfacePairs::set(const std::vector<SurfacePair> &unsorted, const std::vector<int> &number,
+                       int n)
+{
+  std::vector<int> end(n + 1, 0);
+  for (const SurfacePair &pair : unsorted) end[number[pair.wall] + 1]++;
+  walls.clear();
+  begin.clear();
+  for (int k = 0; k < n; k++) {
+    if (end[k + 1] > 0) begin.push_back(end[k]);
+    end[k + 1] += end[k];
+  }
+  begin.push_back(static_cast<int>(unsorted.size()));
+  pairs.resize(unsorted.size());
+  for (const SurfacePair &pair : unsorted) pairs[end[number[pair.wall]]++] = pair;
+  for (std::size_t row = 0; row + 1 < begin.size(); row++) walls.push_back(pairs[begin[row]].wall);
+}
+
+/* ----------------------------------------------------------------------
+   a number of each particle of the rows and of the pairs, by value(index of the atom)
+------------------------------------------------------------------------- */
+
+template <class T, class Value> void SurfacePairs::fill(std::vector<T> &values, Value &&value)
+{
+  values.clear();
+  for (const int w : walls) values.push_back(value(w));
+  for (const SurfacePair &pair : pairs) values.push_back(value(pair.fluid));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_friction(SurfacePairs &some, Friction kind, int thread)
+{
+  const std::size_t nrow = some.rows(), spare = some.size(), n = spare + BLOCK;
+  some.force.assign(n, ForceSum());
+  some.side.set(side.columns);
+  some.side.resize(n);
+  std::fill(some.side.rows.begin(), some.side.rows.end(), 0.0);
+  if (nrow == 0) return;
+
+  some.fill(some.particle, [&](int i) {
+    Particle one = particle[i];
+    one.vol = atom->vfrac[i];    // pass 2 has none of a boundary particle
+    one.g = one.u[0] = one.u[1] = one.u[2] = 0.0;
+    return one;
+  });
+  some.fill(some.type, [&](int i) {
+    return atom->type[i];
+  });
+  some.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
+    some.particle[k].vol = particle[pair.fluid].vol;
+    for (int d = 0; d < 3; d++) some.particle[k].u[d] = pair.u[d];
+  });
+  some.particle.resize(n);
+  some.type.resize(n, 1);
+  some.weight.assign(n, 1.0);
+  if (has_spin()) {
+    some.spin.assign(n, Spin());
+    some.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
+      for (int d = 0; d < 3; d++) some.spin[k].w[d] = pair.w[d];
+    });
+  }
+
+  // the pairs of each row, with spare particles up to a whole block
+
+  some.ilist.resize(nrow);
+  some.first.resize(nrow);
+  some.count.resize(nrow);
+  some.neighbor.clear();
+  some.slope.clear();
+  for (std::size_t k = 0; k < nrow; k++) {
+    some.ilist[k] = static_cast<int>(k);
+    some.first[k] = static_cast<bigint>(some.neighbor.size());
+    some.count[k] = some.begin[k + 1] - some.begin[k];
+    for (int p = some.begin[k]; p < some.begin[k + 1]; p++) {
+      some.neighbor.push_back(static_cast<int>(nrow) + p);
+      some.slope.push_back(some.pairs[p].slope);
+    }
+    for (int l = 0; some.neighbor.size() % BLOCK; l++) {
+      some.neighbor.push_back(static_cast<int>(spare) + l);
+      some.slope.push_back(0.0);
+    }
+  }
+  some.neighbor.resize(some.neighbor.size() + 3 * BLOCK, static_cast<int>(spare));
+
+  LoopData part = data;
+  part.inum = static_cast<int>(nrow);
+  part.ilist = some.ilist.data();
+  part.first = some.first.data();
+  part.count = some.count.data();
+  part.neighbor = some.neighbor.data();
+  part.slope = some.slope.data();
+  part.spare = static_cast<int>(spare);
+  part.particle = some.particle.data();
+  part.spin = some.spin.data();
+  part.type = some.type.data();
+  part.weight = some.weight.data();
+  part.force = some.force.data();
+  part.side = some.side.rows.data();
+  part.tally = nullptr;
+  if (kind != Friction::WITH_NOISE || !surface_loop) return force_loop(part);
+
+  NoiseData noise = *surface_noise;
+  some.fill(some.tag, [&](int i) {
+    return surface_noise->tag[i];
+  });
+  some.tag.resize(n);
+  noise.tag = some.tag.data();
+  if (par->own_temperatures) {
+    some.fill(some.row, [&](int i) {
+      return surface_noise->row[i];
+    });
+    some.fill(some.mobility, [&](int i) {
+      return surface_noise->mobility[i];
+    });
+    some.row.resize(n);
+    some.mobility.resize(n);
+    noise.row = some.row.data();
+    noise.mobility = some.mobility.data();
+  }
+  part.noise = &noise;
+  part.random = room_for_numbers(thread, part);
+  surface_loop(part);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double SurfacePairs::memory_usage() const
+{
+  const auto bytes = [](const auto &...list) {
+    return (... + (static_cast<double>(list.capacity()) * sizeof(list[0])));
+  };
+  return bytes(pairs, walls, begin, force, particle, spin, weight, slope, type, ilist, count,
+               neighbor, first, tag, mobility, row) +
+      side.memory_usage();
+}

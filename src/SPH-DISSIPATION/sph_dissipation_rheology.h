@@ -1,0 +1,155 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_RHEOLOGY_H
+#define LMP_SPH_DISSIPATION_RHEOLOGY_H
+
+// Shear viscosities that depend on the rate of shear gamma = sqrt(2 E:E), E = deviator of the rate of strain.
+// Three laws begin with the mu of pair_coeff, of which a fluid has one at most:
+//   power:    mu gamma^(n-1), between two bounds
+//   carreau:  mu_inf + (mu - mu_inf) [1 + (lambda gamma)^a]^((n-1)/a)
+//             P. J. Carreau, Trans. Soc. Rheol. 16, 99 (1972); K. Yasuda, R. C. Armstrong, R. E. Cohen, Rheol. Acta 20,
+//             163 (1981)
+//   cross:    mu_inf + (mu - mu_inf)/[1 + (lambda gamma)^m]       M. M. Cross, J. Colloid Sci. 20, 417 (1965)
+// Two terms are added to these, or to a constant mu:
+//   yield:        tau_y [1 - exp(-m gamma)]/gamma                 T. C. Papanastasiou, J. Rheol. 31, 385 (1987)
+//   smagorinsky:  rho l^2 gamma up to a bound                     J. Smagorinsky, Mon. Weather Rev. 91, 99 (1963)
+// Bingham's fluid is yield, the one of Herschel and Bulkley is yield with power.  No LAMMPS include.
+
+#include "sph_dissipation_function.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  struct Rheology {
+    // coefficients of a type; the first one of each law is 0 where there is none
+    enum {
+      POWER_N,
+      POWER_LEAST,
+      POWER_MOST,
+      CARREAU_LAMBDA,
+      CARREAU_N,
+      CARREAU_A,
+      CARREAU_INF,
+      CROSS_LAMBDA,
+      CROSS_M,
+      CROSS_INF,
+      YIELD_STRESS,
+      YIELD_M,
+      SMAGORINSKY_LENGTH,
+      SMAGORINSKY_MOST,
+      NUMBER
+    };
+
+    static bool any(const double *a)
+    {
+      return a[POWER_N] != 0.0 || a[CARREAU_LAMBDA] != 0.0 || a[CROSS_LAMBDA] != 0.0 ||
+          a[YIELD_STRESS] != 0.0 || a[SMAGORINSKY_LENGTH] != 0.0;
+    }
+
+    SPH_FUNCTION static double between(double least, double value, double most)
+    {
+      return (value < least) ? least : (value > most) ? most : value;
+    }
+
+    // at this rate and mass density
+    SPH_FUNCTION static double viscosity(const double *a, double mu, double rho, double rate)
+    {
+      double sum = mu;
+      if (a[POWER_N] != 0.0) {
+        const double exponent = a[POWER_N] - 1.0;
+        if (exponent == 0.0 || rate > 0.0)
+          sum = between(a[POWER_LEAST], (exponent == 0.0) ? mu : mu * pow(rate, exponent),
+                        a[POWER_MOST]);
+        else
+          sum = (exponent < 0.0) ? a[POWER_MOST] : a[POWER_LEAST];
+      } else if (a[CARREAU_LAMBDA] != 0.0)
+        sum = a[CARREAU_INF] +
+            (mu - a[CARREAU_INF]) *
+                pow(1.0 + pow(a[CARREAU_LAMBDA] * rate, a[CARREAU_A]),
+                    (a[CARREAU_N] - 1.0) / a[CARREAU_A]);
+      else if (a[CROSS_LAMBDA] != 0.0)
+        sum = a[CROSS_INF] + (mu - a[CROSS_INF]) / (1.0 + pow(a[CROSS_LAMBDA] * rate, a[CROSS_M]));
+      if (a[YIELD_STRESS] != 0.0)
+        sum += a[YIELD_STRESS] * ((rate > 0.0) ? -expm1(-a[YIELD_M] * rate) / rate : a[YIELD_M]);
+      if (a[SMAGORINSKY_LENGTH] != 0.0)
+        sum += between(0.0, rho * a[SMAGORINSKY_LENGTH] * a[SMAGORINSKY_LENGTH] * rate,
+                       a[SMAGORINSKY_MOST]);
+      return sum;
+    }
+
+    // the smallest and the largest one
+    struct Range {
+      double least, most;
+    };
+    static Range range(const double *a, double mu)
+    {
+      Range of = {mu, mu};
+      if (a[POWER_N] == 1.0)
+        of.least = of.most = between(a[POWER_LEAST], mu, a[POWER_MOST]);
+      else if (a[POWER_N] != 0.0)
+        of = {a[POWER_LEAST], a[POWER_MOST]};
+      else if (a[CARREAU_LAMBDA] != 0.0 || a[CROSS_LAMBDA] != 0.0) {
+        const double at_end = a[CARREAU_LAMBDA] != 0.0 ? a[CARREAU_INF] : a[CROSS_INF];
+        of = {std::min(mu, at_end), std::max(mu, at_end)};
+      }
+      if (a[YIELD_STRESS] != 0.0) of.most += a[YIELD_STRESS] * a[YIELD_M];
+      if (a[SMAGORINSKY_LENGTH] != 0.0) of.most += a[SMAGORINSKY_MOST];
+      return of;
+    }
+
+    // the inequality that they violate, or nullptr
+    static const char *inadmissible(const double *a)
+    {
+      for (int k = 0; k < NUMBER; k++)
+        if (!(a[k] >= 0.0 && std::isfinite(a[k])))
+          return "power, carreau, cross, yield, and smagorinsky must have numbers >= 0";
+      if ((a[POWER_N] != 0.0) + (a[CARREAU_LAMBDA] != 0.0) + (a[CROSS_LAMBDA] != 0.0) > 1)
+        return "power, carreau, and cross must not be given together";
+      const auto some = [a](int from, int to) {
+        return std::any_of(a + from, a + to + 1, [](double one) {
+          return one != 0.0;
+        });
+      };
+      if (some(POWER_N, POWER_MOST) &&
+          !(a[POWER_N] > 0.0 && a[POWER_MOST] > 0.0 && a[POWER_LEAST] <= a[POWER_MOST]))
+        return "power must have n > 0 and 0 <= mu_min <= mu_max > 0";
+      if (some(CARREAU_LAMBDA, CARREAU_INF) &&
+          !(a[CARREAU_LAMBDA] > 0.0 && a[CARREAU_N] <= 1.0 && a[CARREAU_A] > 0.0))
+        return "carreau must have lambda > 0, n <= 1, and a > 0";
+      if (some(CROSS_LAMBDA, CROSS_INF) && !(a[CROSS_LAMBDA] > 0.0 && a[CROSS_M] > 0.0))
+        return "cross must have lambda > 0 and m > 0";
+      if (some(YIELD_STRESS, YIELD_M) && !(a[YIELD_STRESS] > 0.0 && a[YIELD_M] > 0.0))
+        return "yield must have tau_y > 0 and m > 0";
+      if (some(SMAGORINSKY_LENGTH, SMAGORINSKY_MOST) &&
+          !(a[SMAGORINSKY_LENGTH] > 0.0 && a[SMAGORINSKY_MOST] > 0.0))
+        return "smagorinsky must have length > 0 and mu_max > 0";
+      return nullptr;
+    }
+  };
+
+  // Square of the rate of shear of a particle, of sum = sum_j V_j F (e.u)^2 and rate = cdot/c in dimension n: 2 E:E to
+  // second order.  V (mu gamma^2 + kappa (cdot/c)^2) is the heat of mg and of the bulk term, so that the derivative of
+  // sum_i V_i phi(gamma_i), phi' = mu gamma, is the force of mg with the mean of mu_i and mu_j (theory page).
+  SPH_FUNCTION double shear_rate_squared(int n, double sum, double rate)
+  {
+    return (n + 2.0) * sum - (1.0 + 2.0 / n) * rate * rate;
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,242 @@
+"""Rigid bodies that the fluid moves, fix sph/wall move rigid.
+
+Values of forces are those of an independent program with dense matrices.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+FULL = "thermo_modify norm no format float %.17g\n"
+FLUID = [(1.005, 1.18), (.858, -.821), (-1.075, .969), (-.869, -1.036), (2.02, -.189), (-1.899, .015), (-.068, 2.115),
+         (-.079, -2.019), (1.854, .961), (-2.119, -1.095), (1.1, -2.088), (-1.006, 2.192)]
+SPEED = [(-2.711, -1.889), (-.175, -.422), (.214, .217), (2.118, -1.112), (-.378, 2.043), (.647, .663), (-.514, -1.648),
+         (.167, .109), (-1.227, -.683), (-.072, -.945), (-.098, .095), (.036, -.506)]
+BODY = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)]
+VELOCITY, OMEGA = np.array([.594, .891]), .321
+
+
+def write(path, x, v, body, mass=None, size=8.0):
+    """Atoms of type 1, those of the body of type 2."""
+    text = [f"particles\n\n{len(x)} atoms\n2 atom types\n{-size} {size} xlo xhi\n{-size} {size} ylo yhi\n-0.5 0.5 zlo zhi\n\n"
+            "Atoms # sph/bulk\n"]
+    mass = np.ones(len(x)) if mass is None else mass
+    for k, at in enumerate(x):
+        text.append(f"{k + 1} {1 + int(body[k])} {mass[k]} 0.0 {at[0]:.17g} {at[1]:.17g} 0.0")
+    text.append("\nVelocities\n")
+    for k, u in enumerate(v):
+        text.append(f"{k + 1} {u[0]:.17g} {u[1]:.17g} 0.0")
+    path.write_text("\n".join(text) + "\n")
+
+
+def cross_of(at, omega):
+    return omega * np.array([-at[1], at[0]])
+
+
+def small(lammps, coeff, options="", shift=(0.0, 0.0)):
+    """The five particles of a body and twelve of the fluid."""
+    x = [np.array(at) + shift for at in FLUID + BODY]
+    v = list(SPEED) + [VELOCITY + cross_of(at, OMEGA) for at in BODY]
+    write(lammps.path("small.data"), x, v, [False] * 12 + [True] * 5)
+    return ("units lj\ndimension 2\nboundary f f p\natom_style sph/bulk\nread_data small.data\nneighbor 0.5 bin\n"
+            f"group fluid type 1\ngroup body type 2\npair_style sph/bulk {options}\npair_coeff * * {coeff}\n"
+            "fix 1 fluid sph/bulk\nfix 2 body rigid single\nfix 3 body sph/wall move rigid\n"
+            "dump D all custom 1 out.dump id x y z vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\n"
+            "variable e equal pe\nthermo_style custom step pe f_3[1] f_3[2] f_3[6]\n" + FULL)
+
+
+def forces(lammps, text, ranks=1):
+    table = lammps(text, ranks=ranks).thermo()[-1]
+    return table, lammps.frame("out.dump")["f"]
+
+
+def test_friction(lammps):
+    """Shear and bulk friction; on two ranks, without newton."""
+    want = {0: (13.2165988456283, 7.38176025623968), 11: (-2.73824880598193, 2.25322531915990)}
+    for ranks, newton in ((1, "on"), (2, "on"), (2, "off")):
+        text = f"newton {newton}\n" + small(lammps, "1.0 1e-9 0.7 1.8 2.5") + "run 0\n"
+        table, f = forces(lammps, text, ranks)
+        body = [table[f"f_3[{k}]"][0] for k in (1, 2, 6)]
+        np.testing.assert_allclose(body, (-15.5329482961025, -28.1252933530866, .0553027406775916), rtol=0, atol=1e-11)
+        for k, value in want.items():
+            np.testing.assert_allclose(f[k, :2], value, rtol=0, atol=1e-11)
+        assert np.abs(f.sum(axis=0)).max() < 1e-13
+
+
+def test_pressure(lammps):
+    """That of frozen fluid, with its energy."""
+    table, f = forces(lammps, small(lammps, "1.0 5.0 0.0 0.0 2.5 pb 1.5") + "run 0\n")
+    np.testing.assert_allclose(f[0, :2], (2.42140826151609, -2.60524334087034), rtol=0, atol=1e-11)
+    np.testing.assert_allclose(f[11, :2], (12.2645774690028, -8.77529336832857), rtol=0, atol=1e-11)
+    body = [table[f"f_3[{k}]"][0] for k in (1, 2, 6)]
+    np.testing.assert_allclose(body, (.660496783511102, .640642182414606, 5.51094445681440), rtol=0, atol=1e-11)
+    assert abs(table["PotEng"][0] - 22.7714189679794) < 1e-11
+
+
+# ---- motion ---------------------------------------------------------------------------------------------------------
+
+
+def drop(dim=2, options="", coeff="1.0 10.0 0.3 0.8", mass=1.0, newton="on", extra="", rigid="rigid single", jitter=0.1,
+         boundary="f f f", body="sphere 0.3 0.2 0.0 2.3", step=0.01, sph="", shift=0.0, box=9):
+    """A drop of fluid in an open box, or a fluid in a periodic one, with bodies in it that turn and travel."""
+    z = f"{-box} {box}" if dim == 3 else "-0.5 0.5"
+    lattice = "sq" if dim == 2 else "sc"
+    region = f"sphere 0 0 0 {6.5 if dim == 2 else 5.2}" if boundary[0] == "f" else "block EDGE EDGE EDGE EDGE EDGE EDGE"
+    return (f"units lj\ndimension {dim}\nboundary {boundary if dim == 3 else boundary[:-1] + 'p'}\nnewton {newton}\n"
+            f"atom_style sph/bulk\nfix mol all property/atom mol\nlattice {lattice} 1.0\n"
+            f"region box block {-box} {box} {-box} {box} {z}\ncreate_box 2 box\nregion drop {region}\n"
+            f"create_atoms 1 region drop\nreset_atoms id sort yes\nregion body {body}\nset region body type 2\nset type 1 mass 1.0\n"
+            f"set type 2 mass {mass}\nset type 2 mol 1\ngroup fluid type 1\ngroup body type 2\n"
+            f"displace_atoms fluid random {jitter} {jitter} {jitter if dim == 3 else 0.0} 5\n"
+            "velocity fluid create 0.05 4 loop geom\nvelocity body set 0.3 -0.2 0.0\nvelocity all ramp vx -0.3 0.3 y -6 6 sum yes\n"
+            f"displace_atoms all move {shift} 0 0\n"
+            f"neighbor 0.5 bin\npair_style sph/bulk {options}\npair_coeff * * {coeff} 2.6\npair_coeff 2 2 {mass} "
+            f"{10.0 * mass**-0.5:.12g} {' '.join(coeff.split()[2:4])} 2.6\n"
+            f"fix 1 fluid sph/bulk\nfix 2 body {rigid}\nfix 3 body sph/wall move rigid\n{sph}timestep {step}\n"
+            "variable px atom mass*vx\nvariable py atom mass*vy\nvariable pz atom mass*vz\n"
+            "compute U all property/atom xu yu zu\nvariable lx atom mass*(c_U[2]*vz-c_U[3]*vy)\n"
+            "variable ly atom mass*(c_U[3]*vx-c_U[1]*vz)\nvariable lz atom mass*(c_U[1]*vy-c_U[2]*vx)\n"
+            "compute L all reduce sum v_lx v_ly v_lz\ncompute P all reduce sum v_px v_py v_pz\ncompute E all sph/energy\n"
+            "thermo_style custom step c_P[*] c_L[*] ke pe c_E\n" + FULL + extra)
+
+
+@pytest.mark.parametrize("dim, options, mass, rigid, ranks, newton", [
+    (2, "", 1.0, "rigid single", 1, "on"), (2, "temp 0.02 7", 3.0, "rigid molecule", 2, "off"),
+    (3, "shear mg/fr", 0.5, "rigid single", 2, "on"), (3, "temp 0.02 7", 1.0, "rigid/nve single", 1, "on")])
+def test_momentum_and_angular_momentum(lammps, dim, options, mass, rigid, ranks, newton):
+    text = drop(dim, options, mass=mass, newton=newton, rigid=rigid)
+    table = lammps(text + "thermo 20\nrun 300\n", ranks=ranks).thermo()[-1]
+    for kind in "PL":
+        value = np.column_stack([table[f"c_{kind}[{k}]"] for k in (1, 2, 3)])
+        scale = np.abs(value).max()
+        assert scale > 1.0 and np.abs(value - value[0]).max() < 2e-13 * max(scale, 20.0), (kind, value[-1] - value[0])
+
+
+def test_free_fall(lammps):
+    """Fluid and body under the same gravity: nothing moves relatively; fix rigid with fluid particles is half a step off."""
+    extra = ("velocity all set 0.0 0.0 0.0\n"
+             "variable r equal vcm(body,y)-vcm(fluid,y)\n"
+             "thermo_style custom step v_r\nthermo 100\n" + FULL)
+    text = drop(boundary="p p p", jitter=0.0, extra=extra, step=0.004)
+    text = text.replace("fix 1 fluid", "fix g all gravity 1.0 vector 0 -1 0\nfix 1 fluid")    # fix rigid sums the forces before it
+    table = lammps(text + "run 1000\n").thermo()[-1]
+    assert np.abs(table["v_r"]).max() < 1e-12
+
+
+@pytest.mark.parametrize("dim, mass", [(2, 1.0), (3, 2.0)])
+def test_energy(lammps, dim, mass):
+    """Kinetic energy of fluid and bodies and all internal energies, to second order in the step."""
+    drift = {}
+    for step in (0.01, 0.005):
+        table = lammps(drop(dim, mass=mass, step=step) + f"thermo 5\nrun {round(1.0 / step)}\n").thermo()[-1]
+        drift[step] = np.abs(table["c_E"] - table["c_E"][0]).max()
+        turned = np.ptp(table["PotEng"])
+    print(drift, turned)
+    assert turned > 50.0 and drift[0.01] < 4e-3 * turned and drift[0.005] < 0.35 * drift[0.01]
+
+
+TWO = "region second sphere {x} {y} 0.0 2.1\nset region second type 2\nset region second mol 2\n"
+
+
+def periodic(newton="on", rigid="rigid molecule", extra="", options="", **settings):
+    """Two bodies in a periodic box; one lies across its border."""
+    text = drop(boundary="p p p", newton=newton, rigid=rigid, extra=extra, options=options, **settings)
+    return text.replace("set type 1 mass 1.0\n", "").replace("set type 2 mol 1\n", "set region body mol 1\n" + TWO.format(
+        x=8.0, y=-4.0) + "region third sphere -10.0 -4.0 0.0 2.1\nset region third type 2\nset region third mol 2\n"
+        "set group all mass 1.0\nset region third image 1 NULL NULL\n").replace("set type 2 mass 1.0\n", "")
+
+
+def test_ranks_and_periodic_borders(lammps):
+    """Two bodies that cross the borders of box and processors; momentum is that of the start."""
+    dump = "dump D all custom 100 out.dump id xu yu zu vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\n"
+    reference = None
+    for ranks, newton in ((1, "on"), (2, "off"), (4, "on")):
+        text = periodic(newton, extra=dump + "velocity body set 3.0 -2.0 0.0\n")
+        table = lammps(text + "thermo 100\nrun 100\n", ranks=ranks).thermo()[-1]
+        for k in (1, 2):
+            assert np.abs(table[f"c_P[{k}]"] - table[f"c_P[{k}]"][0]).max() < 1e-12
+        frame = lammps.frames("out.dump")[-1]
+        reference = reference or frame
+        for name in ("x", "v"):
+            assert np.abs(frame[name] - reference[name]).max() < 1e-11, (ranks, newton, name)
+
+
+@pytest.mark.parametrize("options", ["", "temp 0.02 7"])
+def test_restart(lammps, options):
+    """A continued run, and one from a restart file, go on as a single run."""
+    dump = "dump D all custom 40 {}.dump id xu yu zu vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\n"
+    text = periodic(options=options)
+    lammps(text + dump.format("single") + "run 80\n")
+    lammps(text + dump.format("twice") + "run 40\nwrite_restart box.restart\nrun 40\n")
+    after = text[text.index("neighbor 0.5 bin"):]
+    lammps("fix mol all property/atom mol\n".join(("atom_style sph/bulk\n", "read_restart box.restart\n")).replace(
+        "atom_style sph/bulk\nfix mol all property/atom mol\n", "") + "fix mol all property/atom mol\n"
+        + after[:after.index("pair_style")] + after[after.index("fix 1 fluid"):] + dump.format("read") + "run 40\n")
+    want = lammps.frames("single.dump")[-1]
+    for name in ("twice", "read"):
+        frame = lammps.frames(f"{name}.dump")[-1]
+        for what in ("x", "v", "f"):
+            assert np.abs(frame[what] - want[what]).max() < 1e-10, (name, what)
+
+
+def test_a_body_behaves_as_a_wall_if_it_is_heavy(lammps):
+    """With the same surface, the friction of a body that does not move is that of a wall with thermal noise."""
+    fluid = {}
+    for name, wall in (("body", "fix 2 body rigid single\nfix 3 body sph/wall move rigid\n"), ("wall", "fix 3 body sph/wall\n")):
+        text = small(lammps, "1.0 1e-9 0.7 1.8 2.5", "temp 1e-30 1").replace(
+            "fix 2 body rigid single\nfix 3 body sph/wall move rigid\n", "velocity body set 0.0 0.0 0.0\n" + wall)
+        fluid[name] = forces(lammps, text + "run 0\n")[1][:12]
+    assert np.abs(fluid["wall"]).max() > 1.0
+    assert np.abs(fluid["body"] - fluid["wall"]).max() < 1e-12
+
+
+@pytest.mark.parametrize("change, words", [
+    (("move rigid", "move rigid velocity 1 0 0"), "move rigid cannot be used with velocity"),
+    (("move rigid", "move rigid slip free"), "move rigid cannot be used with slip"),
+    (("move rigid", "move rigid heat temp 1.0"), "move rigid cannot be used with heat"),
+    (("move rigid", "gravity 0 1 0 move rigid"), "cannot be used with gravity"),
+    (("move rigid", "move rigid body molecule"), "requires molecule IDs"),
+    (("move rigid", "move yes body single"), "body requires move rigid"),
+    (("pair_style sph/bulk ", "pair_style sph/bulk shear morris"), "shear morris or espanol"),
+    (("pair_style sph/bulk ", "pair_style sph/bulk bulk volume"), "bulk volume"),
+    (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk viscous implicit"), "viscous rkl2 or implicit"),
+    (("fix 1 fluid sph/bulk", "fix 1 all sph/bulk"), "is also moved by fix 1"),
+    (("fix 2 body rigid single\n", ""), "must be moved by one fix for rigid bodies"),
+    (("fix 2 body rigid single\n", "fix 2 body rigid single\nfix 4 body rigid/nve single\n"), ""),
+    (("run 0", "minimize 0 0 1 1"), "a minimization"),
+    (("fix 2 body rigid single\n", "group a id 13 14\ngroup b id 15 16 17\nfix 2 body rigid group 2 a b\n"),
+     "do not move as a rigid body"),
+])
+def test_errors(lammps, change, words):
+    text = small(lammps, "1.0 5.0 0.7 1.8 2.5") + ("run 20\n" if "rigid body" in words else "run 0\n")
+    assert change[0] in text
+    result = lammps(text.replace(*change), check=False)
+    assert result.code and words in result.error
+
+
+def test_buoyancy(lammps):
+    """A disc of the density of the fluid, held in a column at rest, is carried by its weight."""
+    (table,) = lammps(
+        "units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nlattice sq 1.0 origin 0.5 0.5 0.0\n"
+        "region domain block 0 24 -5 24 -0.5 0.5\ncreate_box 3 domain\ncreate_atoms 1 region domain\n"
+        "region floor block INF INF INF -0.01 INF INF\nregion top block INF INF 19.99 INF INF INF\n"
+        "region body sphere 12.0 10.0 0.0 4.2\nset region floor type 2\nset region top type 2\nset region body type 3\n"
+        "group fluid type 1\ngroup wall type 2\ngroup body type 3\nset group all mass 1.0\n"
+        "displace_atoms fluid random 0.05 0.05 0.0 3\nneighbor 0.5 bin\npair_style sph/bulk\n"
+        "pair_coeff * * 1.0 10.0 2.0 1.0 4.0\nfix g fluid gravity 0.01 vector 0 -1 0\nfix w wall sph/wall gravity 0 -0.01 0\n"
+        "fix r body rigid single force * off off off torque * off off off\nfix b body sph/wall move rigid\n"
+        "fix 1 fluid sph/bulk\ntimestep 0.05\nvariable B equal f_b[2]/mass(body)/0.01\nthermo_style custom step v_B f_b[1]\n"
+        + FULL + "thermo 3000\nrun 3000\n").thermo()
+    print(table["v_B"])
+    assert abs(table["v_B"][-1] - 1.0) < 0.002 and abs(table["f_b[1]"][-1]) < 1e-3
+
+
+@pytest.mark.parametrize("mass", [0.1, 100.0])
+def test_density_ratios(lammps, mass):
+    """Light and heavy bodies at the time step of the table."""
+    text = drop(boundary="p p p", mass=mass, coeff="1.0 10.0 0.3 0.8 ", step=0.001, jitter=0.05)
+    log = lammps(text + "run 0\n").log
+    step = float(re.search(r"largest stable time step with viscous explicit (\S+),", log)[1])
+    table = lammps(text.replace("timestep 0.001", f"timestep {0.98 * step}") + "thermo 50\nrun 1000\n").thermo()[-1]
+    assert table["KinEng"].max() < 1.05 * table["KinEng"][0] and table["KinEng"][-1] < table["KinEng"][0]
