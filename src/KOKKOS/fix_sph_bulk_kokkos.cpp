@@ -225,7 +225,7 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::post_integrate()
   atomKK->sync(space, MOTION | EXTRAPOLATION | MASK_MASK);
   const ParticlesKokkos<DeviceType> particles(atomKK);
   const TimeStep step = time_step();
-  const int except = integrated_groups;
+  const int except = bits_not_followed();
 
   Kokkos::parallel_for(
       "sph:follow", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
