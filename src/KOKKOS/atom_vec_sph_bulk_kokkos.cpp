@@ -200,7 +200,7 @@ void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
 {
   if (mask & DVECTOR_MASK) {
     show_custom_vectors();
-    mask |= DESPH_BEFORE_MASK | INERTIA_MASK | STATES_MASK;
+    mask |= DESPH_BEFORE_MASK | OFFSET_MASK | INERTIA_MASK | STATES_MASK;
   }
   if (mask & DARRAY_MASK) mask |= OMEGAEST_MASK;
   with_fields(mask, [=](FieldKokkos &field) {

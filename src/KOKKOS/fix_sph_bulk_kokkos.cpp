@@ -83,6 +83,7 @@ static constexpr uint64_t MOTION = V_MASK | OMEGA_MASK;
 static constexpr uint64_t EXTRAPOLATION = VEST_MASK | OMEGAEST_MASK;
 static constexpr uint64_t IDENTITY = X_MASK | IMAGE_MASK | MASK_MASK | TAG_MASK | TYPE_MASK;
 static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK | STATES_MASK;
+static constexpr uint64_t DIFFUSION = SPH_RHO_MASK | OFFSET_MASK | STATES_MASK;    // of volume
 
 /* ---------------------------------------------------------------------- */
 
@@ -101,9 +102,9 @@ FixSPHBulkKokkos<DeviceType>::FixSPHBulkKokkos(LAMMPS *lmp, int narg, char **arg
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_exchange()
 {
-  atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
+  atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | OFFSET_MASK | IDENTITY);
   FixSPHBulk::setup_pre_exchange();
-  atomKK->modified(Host, EXTRAPOLATION | ENERGY);
+  atomKK->modified(Host, EXTRAPOLATION | ENERGY | OFFSET_MASK);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -137,10 +138,9 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_force(i
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup(int vflag)
 {
-  atomKK->sync(Host, TYPE_MASK | MASK_MASK | VFRAC_MASK | INERTIA_MASK | ENERGY);
-  atomKK->modified(Host,
-                   INERTIA_MASK | ESPH_MASK);    // what follows synchronizes the particles
-  FixSPHBulk::setup(vflag);
+  atomKK->sync(Host, TYPE_MASK | MASK_MASK | VFRAC_MASK | INERTIA_MASK | ENERGY | OFFSET_MASK);
+  atomKK->modified(Host, INERTIA_MASK | ESPH_MASK | OFFSET_MASK);
+  FixSPHBulk::setup(vflag);    // whose reports synchronize the particles
 }
 
 /* ---------------------------------------------------------------------- */
@@ -154,7 +154,7 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::initial_integrate
   }
   atomKK->sync(Host, ALL_MASK);
   FixSPHBulk::initial_integrate(vflag);
-  atomKK->modified(Host, MODIFIED[BEGIN]);
+  atomKK->modified(Host, MODIFIED[BEGIN] | (diffuses ? DIFFUSION : EMPTY_MASK));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -193,7 +193,7 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_devi
 
 template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
 {
-  if (remap_v_flag || exact) return true;
+  if (remap_v_flag || exact || diffuses) return true;
   if (shift_speed == 0.0) return false;
   const auto *const fluidKK = dynamic_cast<FluidKokkos<DeviceType> *>(fluid);
   return !fluidKK || !fluidKK->computes_on_device();
@@ -225,7 +225,7 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::post_integrate()
   atomKK->sync(space, MOTION | EXTRAPOLATION | MASK_MASK);
   const ParticlesKokkos<DeviceType> particles(atomKK);
   const TimeStep step = time_step();
-  const int except = integrated_groups;
+  const int except = bits_not_followed();
 
   Kokkos::parallel_for(
       "sph:follow", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {

@@ -31,8 +31,8 @@ FixStyle(sph/micropolar/kk/host,FixSPHBulkKokkos<LMPHostType>);
 namespace LAMMPS_NS {
 
 // The device does the work of every step, except for the exchange of energy of thermal noise, large
-// viscosities, and the velocities that fix deform remaps.  The CPU style does these, and the start
-// of a run, on the host.
+// viscosities, the diffusion of volume, and the velocities that fix deform remaps.  The CPU style does
+// these, and the start of a run, on the host.
 
 template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
  public:

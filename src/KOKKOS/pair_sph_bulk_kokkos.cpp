@@ -76,6 +76,7 @@ template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::runs_on_device()
 template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_because() const
 {
   if (fluid->model->choice.thermal) return "keyword temp";
+  if (fluid->model->choice.continuity) return "density continuity";
   if (update->whichflag == 2) return "a minimization";
   if (fluid->model->has_rheology()) return "a viscosity that depends on the rate of shear";
   for (const auto &ifix : modify->get_fix_list()) {
@@ -102,10 +103,6 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
   if (neighbor->includegroup)    // which the neighbor lists of KOKKOS ignore
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {}/kk cannot be used with neigh_modify include", fluid->style);
-  if (fluid->model->choice.continuity)
-    error->all(FLERR, Error::NOLASTLINE,
-               "Pair style {}/kk cannot be used with density continuity: use {}", fluid->style,
-               fluid->style);
   const std::string reason = runs_on_device() ? on_host_because() : "";
   const bool on_device = runs_on_device() && reason.empty();
   device->choose(on_device);
@@ -118,7 +115,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
                      fluid->style, reason);
     execution_space = Host;
     datamask_read = ALL_MASK;
-    datamask_modify = FLUID_MODIFIED | RMASS_MASK;
+    datamask_modify = F_MASK | TORQUE_MASK | DESPH_MASK | FLUID_SET_ON_HOST;
     no_virial_fdotr_compute = 0;
     return;
   }

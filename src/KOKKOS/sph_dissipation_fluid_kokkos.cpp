@@ -101,7 +101,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::fun
   atomKK->sync(Host, ALL_MASK);
   if (!on_device) {
     task();
-    return atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK | STATES_MASK);
+    return atomKK->modified(Host, FLUID_SET_ON_HOST);
   }
   build_host_list();
   NeighList *const device_list = pair->list;
@@ -110,7 +110,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::fun
   task();
   pair->execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
   pair->list = device_list;
-  atomKK->modified(Host, FLUID_DERIVED | RMASS_MASK | STATES_MASK);
+  atomKK->modified(Host, FLUID_SET_ON_HOST);
 }
 
 /* ----------------------------------------------------------------------

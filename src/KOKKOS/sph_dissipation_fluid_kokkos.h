@@ -39,6 +39,7 @@ namespace SPHDissipation {
   constexpr uint64_t FLUID_DERIVED = SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK;
   constexpr uint64_t FLUID_MODIFIED =
       F_MASK | TORQUE_MASK | DESPH_MASK | STATES_MASK | FLUID_DERIVED;
+  constexpr uint64_t FLUID_SET_ON_HOST = RMASS_MASK | STATES_MASK | OFFSET_MASK | FLUID_DERIVED;
 
   // The fluid on the device, with full neighbor lists; or on the host by the loops of the CPU style and
   // half lists, with the threads of KOKKOS.  The reports at the start of a run are made on the host.

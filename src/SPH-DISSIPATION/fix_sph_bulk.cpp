@@ -571,9 +571,14 @@ void FixSPHBulk::reset_extrapolation()
 {
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
+  const int except = bits_not_followed();
   for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & integrated_groups) && !(fluid && fluid->boundary->is_body(i)))
-      step.follow(particles, i);
+    if (!(atom->mask[i] & except)) step.follow(particles, i);
+}
+
+int FixSPHBulk::bits_not_followed() const
+{
+  return integrated_groups | (fluid ? fluid->boundary->bits_of_bodies() : 0);
 }
 
 /* ----------------------------------------------------------------------

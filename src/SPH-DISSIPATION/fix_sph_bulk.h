@@ -87,6 +87,7 @@ class FixSPHBulk : public Fix {
   void check_set_up();
   void begin_step();
   int nlocal_group() const;
+  int bits_not_followed() const;    // of groups whose particles get their extrapolation elsewhere
   SPHDissipation::TimeStep time_step() const;
 
   bool sets_temperatures() const;    // in setup_pre_force()

@@ -117,7 +117,7 @@ void FixSPHWall::check_particles() const
 void FixSPHWall::read_bodies(const std::string &others)
 {
   if (!others.empty()) error->all(FLERR, "Fix {} move rigid cannot be used with {}", style, others);
-  if (utils::strmatch(style, "/kk$"))
+  if (utils::strmatch(style, "/kk"))
     error->all(FLERR, "Fix {} move rigid requires the style without suffix, sph/wall", style);
   if (by_molecule && !atom->molecule_flag)
     error->all(FLERR, "Fix {} body molecule requires molecule IDs, fix property/atom mol", style);

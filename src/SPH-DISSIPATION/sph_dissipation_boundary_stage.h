@@ -43,6 +43,7 @@ namespace SPHDissipation {
     bool has_symmetric_friction() const { return symmetric_bits != 0; }    // any of them
     bool is_body(int i) const;    // of one that the fluid moves
     bool has_bodies() const { return body_bits != 0; }
+    int bits_of_bodies() const { return body_bits; }
     bool all_symmetric() const { return symmetric_bits == group_bits; }
     bool conducts() const;      // they take part in the conduction of heat
     bool gives_heat() const;    // any of them, to a fluid that conducts it

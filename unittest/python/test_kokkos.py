@@ -7,7 +7,8 @@ SPHD_SWITCHES has the switches that turn the suffix on, for instance "-k on t 2 
 import numpy as np
 import pytest
 
-from helpers import DEVICE_LOOPS, FIELDS, KOKKOS, SUPPORT, SWITCHES, VECTORS, disordered, dump, fluid, header, relative
+from helpers import DEVICE_LOOPS, FIELDS, KOKKOS, SUPPORT, SWITCHES, VECTORS, disordered, dump, fluid, header, lattice, relative
+import test_continuity as continuity
 import test_micropolar as micropolar
 import test_relax as relax
 
@@ -306,14 +307,15 @@ def test_output_on_the_way(lammps, style):
     assert_same_totals(thermo, thermo_kokkos, 1e-10)
 
 
+@pytest.mark.parametrize("options", ["", "density continuity"])
 @pytest.mark.parametrize("writer", ["cpu", "kk"])
-def test_restart(lammps, style, writer):
+def test_restart(lammps, style, writer, options):
     """A run continued by the other family goes on as one without a break."""
     particles = disordered(2, 14, seed=11, jitter=0.1, spread=0.0)
     write(lammps, style, particles)
     frames = []
     for first, then in (([], []), ([], SWITCHES) if writer == "cpu" else (SWITCHES, [])):
-        lammps(script(style, particles, fluids(style, 2), 40) + "write_restart file.restart\n", switches=first, ranks=2)
+        lammps(script(style, particles, fluids(style, 2, options=options), 40) + "write_restart file.restart\n", switches=first, ranks=2)
         result = lammps(f"read_restart file.restart\n{integrate(style)}{output(style, 20)}run 20\n", switches=then)
         assert (f"{style}/kk" in result.log) == bool(then)
         frames.append(lammps.frame("dump.txt"))
@@ -329,6 +331,25 @@ def test_data_file(lammps, style):
         lammps(script(style, particles, fluids(style, 2), 40) + "write_data then.data nocoeff\n", switches=switches, ranks=2)
         lammps(f"{header(2, style=style)}read_data then.data\n{fluids(style, 2)}{integrate(style)}{output(style, 1)}run 0\n",
                switches=[])
+        frames.append(lammps.frame("dump.txt"))
+    assert_same(style, *frames, 1e-9)
+
+
+@pytest.mark.parametrize("writer", ["cpu", "kk"])
+def test_data_file_with_densities(lammps, writer):
+    """Of density continuity, written by one family, read by the other."""
+    style = "sph/bulk"
+    particles = disordered(2, 14, seed=11, jitter=0.1, spread=0.0)
+    rho = 1.0 + 0.01 * np.sin(particles.x[:, 0])
+    room = f"atom_style {style} rho"
+    model = fluids(style, 2, options="density continuity")
+    frames = []
+    for first, then in (([], []), ([], SWITCHES) if writer == "cpu" else (SWITCHES, [])):
+        continuity.write(lammps.path("data.txt"), particles, rho)
+        text = script(style, particles, model, 40).replace(f"atom_style {style}", room)
+        lammps(text + "write_data then.data nocoeff\n", switches=first, ranks=2)
+        head = header(2, style=style).replace(f"atom_style {style}", room)
+        lammps(f"{head}read_data then.data\n{model}{integrate(style)}{output(style, 1)}run 0\n", switches=then)
         frames.append(lammps.frame("dump.txt"))
     assert_same(style, *frames, 1e-9)
 
@@ -532,6 +553,7 @@ def test_particle_in_a_wall(lammps, style, ranks):
 
 @pytest.mark.parametrize("reason, options, keywords, extra", [
     ("keyword temp", "temp 0.01 1234", "", ""),
+    ("density continuity", "density continuity tension yes", "", ""),
     ("viscous", "", "viscous implicit", ""),
     ("fix sph/wall", "", "", "suffix off\nfix WALL WALL sph/wall\n"),
 ])
@@ -580,6 +602,30 @@ def test_noise_at_walls(lammps, style, ranks, newton):
     (cpu, thermo, _), (kokkos, thermo_kokkos, _) = both(lammps, style, particles, text, ranks)
     assert_same(style, cpu, kokkos, 1e-9)
     assert_same_totals(thermo, thermo_kokkos, 1e-9)
+
+
+@pytest.mark.parametrize("ranks, newton, options", [(1, "on", ""), (2, "off", "delta 0"), (2, "on", "volume mass"),
+                                                    (4, "on", "tension yes delta 0.5")])
+def test_dam_break(lammps, style, ranks, newton, options):
+    """A column of fluid that falls between walls: densities that were set, their diffusion, particles that change processors and places."""
+    particles = lattice(2, 20)
+    x, y = particles.x[:, :2].T
+    inside = (np.abs(x - 10) < 6.8) & (np.abs(y - 10) < 6.8)
+    particles.x[inside, :2] += np.random.default_rng(31).uniform(-0.1, 0.1, (inside.sum(), 2))
+    particles = particles.where(~inside | ((x < 10) & (y < 14)))
+    text = with_walls(style, particles, "cavity", fluids(style, 2, options=f"density continuity {options}"), 200, newton)
+    text = text.replace("fix FLOOR FLOOR sph/wall", "variable R atom 1.0+0.01*(14-y)\nset group REST sph/rho v_R\n"
+                        "fix G REST gravity 2.0 vector 0 -1 0\nfix B all balance 40 1.0 shift x 5 1.01\natom_modify sort 25 2.0\n"
+                        f"compute G all property/atom offset {'id' if options == 'delta 0' else 'surface'}\nfix FLOOR FLOOR sph/wall gravity 0 -2 0", 1)
+    own = ("c_G[1]", "c_G[2]", "d_rho_sum", "d_vol_rate", "d_vol_rate_before", "d_vol_heat", "d_vol_support")
+    text = text.replace("c_F[*] ", f"c_F[*] {' '.join(own)} ")
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, ranks)
+    assert_same(style, cpu, kokkos, 1e-9)
+    assert_same_totals(thermo, thermo_kokkos, 1e-9)
+    for name in (*own, *(name for name in cpu.columns if name.startswith("f_"))):
+        assert np.abs(cpu[name] - kokkos[name]).max() <= 1e-9 * max(np.abs(cpu[name]).max(), 1e-3), name
+    assert (np.abs(cpu["d_vol_rate"]).max() > 0.0) == (options != "delta 0")
+    assert any("on the host" in line and "density continuity" in line for line in result.warnings) == DEVICE_LOOPS, result.warnings
 
 
 def test_noise_of_relaxing_processes_and_drag(lammps, style):
