@@ -405,7 +405,7 @@ def test_power_at_walls(lammps, form):
 @pytest.mark.parametrize("options, kappa", [("", 0.8), (STOKES, 0.0)])
 def test_temperature_between_walls(lammps, options, kappa):
     """Of the whole fluid and of the layer next to the walls; what the fluid loses the walls get."""
-    text = ("units lj\ndimension 2\nboundary p f p\natom_style {style}\nlattice sq 1.0\n"
+    text = ("units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nlattice sq 1.0\n"
             "region box block 0 20 -4 14 -0.5 0.5\ncreate_box 1 box\ncreate_atoms 1 box\nset group all mass 1.0\n"
             "region fluid block INF INF -0.25 9.75 INF INF\ngroup fluid region fluid\ngroup wall subtract all fluid\n"
             "displace_atoms fluid random 0.1 0.1 0.0 5\nvelocity fluid create 0.3 87 loop geom\n"
