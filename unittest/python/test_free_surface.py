@@ -136,7 +136,7 @@ def tank_at_rest(n, end):
     (16, 4.0, 0.012, 4e-3), pytest.param(40, 50.0, 0.006, 5e-4, marks=pytest.mark.long)])
 def test_tank_at_rest(lammps, n, end, pressure, speed):
     """The pressure stays hydrostatic without any viscosity: diffusion does not lift the surface, and the particles come to rest."""
-    result = lammps(tank_at_rest(n, end))
+    result = lammps(tank_at_rest(n, end), timeout=900)
     assert not result.warnings, result.warnings
     last = lammps.frame("dam_break.particles.txt")
     y, rho, vx, vy = (last.columns[name] for name in ("y", "c_rho", "vx", "vy"))

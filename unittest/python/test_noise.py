@@ -427,7 +427,7 @@ def channel(style="sph/bulk", size=(20, 14), options="limit yes temp 0.3 1", coe
     """A fluid between two walls of four rows, with a thermal speed of 0.09 of that of sound and no pressure on average."""
     spin = " 0.2 0.02 -0.02" if style == "sph/micropolar" else ""
     width, height = size
-    return (f"units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nlattice sq 1.0\n"
+    return (f"units lj\ndimension 2\nboundary p f p\natom_style {style}\nlattice sq 1.0\n"
             f"region box block 0 {width} -4 {height + 4} -0.5 0.5\ncreate_box 1 box\ncreate_atoms 1 box\n"
             f"set group all mass 1.0\nregion fluid block INF INF -0.25 {height - 0.25} INF INF\n"
             "group fluid region fluid\ngroup wall subtract all fluid\nvelocity fluid create 0.3 1 loop geom\n"
