@@ -166,7 +166,7 @@ void FixSPHWall::check_movers() const
     error->all(FLERR, "Fix {} group {} has no particles", style, group->names[igroup]);
   std::vector<int> movers(atom->nlocal, 0);
   for (const auto &other : modify->get_fix_list()) {
-    if (!other->time_integrate || other == this) continue;
+    if (other == this || !(other->time_integrate || dynamic_cast<FixSPHWall *>(other))) continue;
     if (other->rigid_flag) {
       const bool thermostat = (other->setmask() & FixConst::POST_FORCE) ||
           utils::strmatch(other->style, "/n[pv]t|/nph");

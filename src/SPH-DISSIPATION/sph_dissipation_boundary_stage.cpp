@@ -437,8 +437,9 @@ void BoundaryStage::add_friction(PairTally *tally)
   }
   if (!directed) return;
 
-  run_friction(FrictionPart::BODY, Friction::WITHOUT_NOISE,
-               false);    // the half that pass 2 gave the wall
+  // the half of the heat that pass 2 gave the wall
+
+  run_friction(FrictionPart::BODY, Friction::WITHOUT_NOISE, false);
   for (const auto &own : surface_pairs)
     own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
       engine.force[pair.fluid].heat += own.force[k].heat;

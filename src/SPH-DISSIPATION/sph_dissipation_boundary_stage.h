@@ -164,9 +164,10 @@ namespace SPHDissipation {
     std::vector<int> number;
     int nboundary;
 
-    std::vector<double> body_of;    // of owned and ghost atoms, 0: none; empty without bodies
-    std::vector<double>
-        own_numden;    // sum over the other particles of the same body, of owned atoms
+    // numbers of the bodies of owned and ghost atoms, 0: none; sums over the other particles of the same body, of owned
+    // atoms; empty without bodies
+
+    std::vector<double> body_of, own_numden;
 
     void find_bodies();
     void sum_bodies();

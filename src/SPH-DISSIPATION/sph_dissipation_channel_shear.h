@@ -40,9 +40,8 @@ struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE
   {
     const auto a = pair.mu[0] + if_positive(-pair.mu[0], pair.mu[1] - pair.mu[0]);
     const auto b = pair.mu[1] + if_positive(-pair.mu[1], pair.mu[0] - pair.mu[1]);
-    const auto sum = a + b;
     const auto mean =
-        pair.coeff[FIRST] * (0.5 * sum) + pair.coeff[LAST] * (2.0 * a * b / (sum + TINY));
+        pair.coeff[FIRST] * (0.5 * (a + b)) + pair.coeff[LAST] * mean_coefficient(a, b);
     const auto drag = mean * pair.by_metric * pair.approach;
     pair.central -= drag;
     pair.heat[CHANNEL] += 0.5 * drag * pair.approach;

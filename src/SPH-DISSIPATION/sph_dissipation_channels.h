@@ -362,10 +362,11 @@ namespace SPHDissipation {
   // clang-format on
 
   constexpr int NCHANNEL = Channels::NUMBER;    // of those that turn motion into heat
-  constexpr int BULK_HEAT =
-      Channels::place<BulkChannel>();    // place of the heat of the bulk term, which no pair has
-  constexpr int HEAT_FLOW =
-      Flows::place<HeatChannel>();    // place of the flow that walls and open zones take part in
+
+  // places of the heat of the bulk term, which no pair has, and of the flow that walls and open zones take part in
+
+  constexpr int BULK_HEAT = Channels::place<BulkChannel>();
+  constexpr int HEAT_FLOW = Flows::place<HeatChannel>();
 
   // Coefficients of the terms of two types, one channel after the other:
   //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]

@@ -103,7 +103,7 @@ template <class Of, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTe
 // A flow, see sph_dissipation_flows.h: mean of the coefficients of two particles, 0 if one of them has none; what i gets from
 // j per time, F V_i V_j = vv
 
-template <class Real> SPH_INLINE Real mean_coefficient(double a, Real b)
+template <class Own, class Real> SPH_INLINE Real mean_coefficient(Own a, Real b)
 {
   return 2.0 * a * b / (a + b + TINY);
 }

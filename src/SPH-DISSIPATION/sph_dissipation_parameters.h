@@ -67,8 +67,8 @@ namespace SPHDissipation {
   struct TypeParameters {
     EosParams eos;
     double zeta = 0.0;    // coefficient of the bulk term
-    double mu = 0.0, zeta_at_0 = 0.0,
-           zeta_by_mu = 0.0;            // if mu depends on the rate of shear, and zeta on mu
+    // if mu depends on the rate of shear, and zeta on mu: zeta = zeta_at_0 + zeta_by_mu mu
+    double mu = 0.0, zeta_at_0 = 0.0, zeta_by_mu = 0.0;
     double heat_capacity = 0.0;         // per mass
     double flow[Flows::NUMBER] = {};    // coefficients
     TypeCoeffs keywords;                // of the channels
@@ -114,8 +114,8 @@ namespace SPHDissipation {
     void set_uniform();          // uniform, inviscid, and optional, from pair
     void set_alike();            // what belongs to flows and sound, from type
     void set_step(double dt);    // the time step of the states
-    bool
-    directed_noise() const;    // each partner of a pair has a number of its own, see NoiseStage
+    // each partner of a pair has a random number of its own, see NoiseStage
+    bool directed_noise() const;
   };
 
   inline void Constants::set_kernel(Kernel kernel_in, int dim_in, double support_in)

@@ -178,8 +178,7 @@ namespace SPHDissipation {
     double *state_pressure;          // read if there are states
     FlowRow *flow[Flows::NUMBER];    // of the flows of any type
     double *rho_sum = nullptr;       // see Fields; with density continuity
-    double *viscosity =
-        nullptr;    // mu of owned and ghost particles, if any depends on the rate of shear
+    double *viscosity = nullptr;     // mu, if that of any type depends on the rate of shear
 
     // w of the form volume mass
 

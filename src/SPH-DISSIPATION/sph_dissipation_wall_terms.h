@@ -34,8 +34,7 @@ namespace SPHDissipation {
 
   constexpr double CLOSEST = 0.25;
   constexpr double CLOSEST_MEAN = 0.45;
-  constexpr double CLOSEST_PAIR =
-      0.5;    // of surface_factor(): on lattices, that of the first layer
+  constexpr double CLOSEST_PAIR = 0.5;    // of surface_factor(): the first layer of a lattice
 
   // q = level + slope d + bend d^2 next to the surface, d < 0 behind it
 

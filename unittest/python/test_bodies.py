@@ -203,6 +203,7 @@ def test_a_body_behaves_as_a_wall_if_it_is_heavy(lammps):
     (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk viscous implicit"), "viscous rkl2 or implicit"),
     (("fix 1 fluid sph/bulk", "fix 1 all sph/bulk"), "is also moved by fix 1"),
     (("fix 2 body rigid single\n", ""), "must be moved by one fix for rigid bodies"),
+    (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk\nfix 4 body sph/wall move rigid"), "is also moved by fix 4 sph/wall"),
     (("fix 2 body rigid single\n", "fix 2 body rigid single\nfix 4 body rigid/nve single\n"), ""),
     (("run 0", "minimize 0 0 1 1"), "a minimization"),
     (("fix 2 body rigid single\n", "group a id 13 14\ngroup b id 15 16 17\nfix 2 body rigid group 2 a b\n"),
@@ -216,7 +217,7 @@ def test_errors(lammps, change, words):
 
 
 def test_buoyancy(lammps):
-    """A disc of the density of the fluid, held in a column at rest, is carried by its weight."""
+    """The pressure of a column at rest carries a disc of the density of the fluid."""
     (table,) = lammps(
         "units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nlattice sq 1.0 origin 0.5 0.5 0.0\n"
         "region domain block 0 24 -5 24 -0.5 0.5\ncreate_box 3 domain\ncreate_atoms 1 region domain\n"
@@ -228,7 +229,6 @@ def test_buoyancy(lammps):
         "fix r body rigid single force * off off off torque * off off off\nfix b body sph/wall move rigid\n"
         "fix 1 fluid sph/bulk\ntimestep 0.05\nvariable B equal f_b[2]/mass(body)/0.01\nthermo_style custom step v_B f_b[1]\n"
         + FULL + "thermo 3000\nrun 3000\n").thermo()
-    print(table["v_B"])
     assert abs(table["v_B"][-1] - 1.0) < 0.002 and abs(table["f_b[1]"][-1]) < 1e-3
 
 
