@@ -203,7 +203,7 @@ def test_a_body_behaves_as_a_wall_if_it_is_heavy(lammps):
     (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk viscous implicit"), "viscous rkl2 or implicit"),
     (("fix 1 fluid sph/bulk", "fix 1 all sph/bulk"), "is also moved by fix 1"),
     (("fix 2 body rigid single\n", ""), "must be moved by one fix for rigid bodies"),
-    (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk\nfix 4 body sph/wall move rigid"), "is also moved by fix 4 sph/wall"),
+    (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk\nfix 4 body sph/wall move rigid"), "is also moved by fix 3 sph/wall"),
     (("fix 2 body rigid single\n", "fix 2 body rigid single\nfix 4 body rigid/nve single\n"), ""),
     (("run 0", "minimize 0 0 1 1"), "a minimization"),
     (("fix 2 body rigid single\n", "group a id 13 14\ngroup b id 15 16 17\nfix 2 body rigid group 2 a b\n"),
