@@ -61,7 +61,13 @@ STYLES = {
 
 RENAMED = {
     "theory_sph_dissipation": "Howto_sph_theory",
+    "theory_sph_equations": "Howto_sph_theory_equations",
+    "theory_sph_walls": "Howto_sph_theory_walls",
+    "theory_sph_noise": "Howto_sph_theory_noise",
+    "theory_sph_heat": "Howto_sph_theory_heat",
+    "theory_sph_time": "Howto_sph_theory_time",
     "design_sph_dissipation": "Developer_sph_dissipation",
+    "design_sph_stages": "Developer_sph_stages",
     "index": None,
     "Build_SPH_DISSIPATION": None,
     "Howto_sph_citing": None,
@@ -302,7 +308,7 @@ def add_pages(tree):
                     if (page_name(page.stem) or "").startswith("Howto_"))
     tree.replace("doc/src/Howto.rst", "   Howto_rheo\n", "   Howto_rheo\n" + "".join(f"   {name}\n" for name in howtos))
     toctree = re.search(r"(   Developer_\w+\n)+", tree.read("doc/src/Developer.rst"))[0]
-    tree.replace("doc/src/Developer.rst", toctree, toctree + "   Developer_sph_dissipation\n")
+    tree.replace("doc/src/Developer.rst", toctree, toctree + "   Developer_sph_dissipation\n   Developer_sph_stages\n")
     tree.replace("doc/src/Packages_details.rst", "   * :ref:`SPH <PKG-SPH>`\n",
                  f"   * :ref:`SPH <PKG-SPH>`\n   * :ref:`{PACKAGE} <PKG-{PACKAGE}>`\n")
     links = "\n".join(f"* :doc:`{name.replace('_', ' ')} <{name}>`" for name in howtos)
