@@ -1,4 +1,4 @@
-"""Every warning and error of the package is explained on the page about troubleshooting.
+"""Every warning and error of the package is explained on the page about messages.
 
 Left out are errors that say by themselves what they want: a name that is unknown, what a number must be, what is required.
 
@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "doc" / "src" / "Howto_sph_troubleshooting.rst"
+PAGE = ROOT / "doc" / "src" / "Howto_sph_messages.rst"
 SOURCES = sorted((ROOT / "src" / "SPH-DISSIPATION").glob("*.[ch]*"))
 STRINGS = r'\s*"((?:[^"\\]|\\.)*)"'
 
