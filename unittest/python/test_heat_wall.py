@@ -281,6 +281,28 @@ def test_flux_of_small_bodies(lammps, dim, radius, error):
     assert table["f_WALL[7]"][0] == pytest.approx(area, rel=error)
 
 
+# what edges take of a flux: part of the heat of a square or a cube, inside or around the fluid, of so many spacings
+
+EDGES = {("body", 2, 6): 0.93, ("body", 3, 6): 0.85, ("vessel", 2, 10): 0.98, ("vessel", 2, 12): 0.98, ("vessel", 3, 10): 0.95, ("vessel", 3, 12): 0.96}
+
+
+@pytest.mark.parametrize("wall, dim, size", EDGES)
+def test_flux_at_edges(lammps, wall, dim, size):
+    """The numbers of the page of the fix."""
+    length = size + 8 + size % 2
+    low, high = (length - size) // 2, (length + size) // 2
+    depth, where, z = ("-0.5 0.5", "lattice sq 1.0 origin 0.5 0.5 0", "INF INF") if dim == 2 else (f"0 {length}", "lattice sc 1.0 origin 0.5 0.5 0.5", f"{low} {high}")
+    outside = " side out" if wall == "vessel" else ""
+    table = lammps(f"units lj\ndimension {dim}\natom_style sph/bulk\n{where}\nregion BOX block 0 {length} 0 {length} {depth}\ncreate_box 1 BOX\n"
+                   f"create_atoms 1 box\nset group all mass 1.0\nregion WALL block {low} {high} {low} {high} {z}{outside}\ngroup solid region WALL\n"
+                   "group fluid subtract all solid\npair_style sph/bulk\npair_coeff 1 1 1.0 10.0 0.5 2.0 2.7 cv 1.0 conductivity 1.0\n"
+                   "fix FLUID fluid sph/bulk temperature 1.0\nfix WALL solid sph/wall heat flux 1.0\nthermo_style custom step f_WALL[7]\n"
+                   + FULL + "run 0\n").thermo()[0]
+    ratio = table["f_WALL[7]"][0] / (2 * dim * size ** (dim - 1))
+    print(wall, dim, size, ratio)
+    assert round(ratio, 2) == EDGES[wall, dim, size]
+
+
 @pytest.mark.parametrize("flux, run, warned", [(-50.0, 60, True), (-50.0, 0, False), (50.0, 60, False)])
 def test_more_heat_than_there_is(lammps, flux, run, warned):
     """A warning at the end of the run, one for each wall."""
