@@ -2,7 +2,8 @@
 
 * the code-block language ``LAMMPS`` gets a small lexer,
 * ``:doc:`` links to pages of the LAMMPS manual become links to its public web site,
-* ``versionadded:: TBD``, which LAMMPS's maintainers replace by a release, is left out.
+* ``versionadded:: TBD``, which LAMMPS's maintainers replace by a release, is left out,
+* the number of an equation of another page, each of which counts its own, gets the last word of that page's name: (3, heat).
 """
 
 from docutils import nodes
@@ -61,8 +62,17 @@ def remove_versions(app, doctree):
             node.parent.remove(node)
 
 
+def name_pages_of_equations(app, doctree, docname):
+    for node in doctree.findall(nodes.reference):
+        page, _, place = node.get("refuri", "").partition("#equation-")
+        if place and page:
+            word = page.rpartition("/")[2].partition(".")[0].rpartition("_")[2]
+            node.replace(node[0], nodes.Text(node.astext().replace(")", f", {word})")))
+
+
 def setup(app):
     app.add_lexer("LAMMPS", LAMMPSLexer)
     app.connect("missing-reference", link_to_manual)
     app.connect("doctree-read", remove_versions)
+    app.connect("doctree-resolved", name_pages_of_equations)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
