@@ -74,7 +74,7 @@ def rows():
     for row in re.split(r"^   \* - ", table, flags=re.MULTILINE)[2:]:
         cells = [" ".join(cell.split()) for cell in re.split(r"^     -", row, flags=re.MULTILINE)]
         if any(cells[1:]):    # no heading
-            yield cells
+            yield [*cells[:-1], cells[-1].strip("`")]
 
 
 ROWS = {cells[0]: cells[1:] for cells in rows()}
