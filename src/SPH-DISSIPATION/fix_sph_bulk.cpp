@@ -487,7 +487,7 @@ void FixSPHBulk::change_volume(const Fields &kept, int i, double change) const
   const double part = -change * atom->rho[i] / atom->rmass[i];
   atom->rho[i] *= 1.0 + part;
   for (int slot : kept.slots)
-    if (States::info(slot).kind == StateKind::STRAIN) kept.state[slot][i] *= 1.0 + part;
+    if (state_info(slot).kind == StateKind::STRAIN) kept.state[slot][i] *= 1.0 + part;
 }
 
 /* ---------------------------------------------------------------------- */

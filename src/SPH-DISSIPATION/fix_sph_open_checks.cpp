@@ -238,7 +238,7 @@ void FixSPHOpen::check_heat()
 
 void FixSPHOpen::warn_of_cold_zone()
 {
-  const Parameters &par = fluid->model->parameters();
+  const Constants &par = fluid->model->constants();
   if (par.eos == Eos::IDEAL || !(par.thermal_pressure || par.conducts())) return;
   bigint number[2] = {0, 0}, all[2];
   for (const int i : members) {

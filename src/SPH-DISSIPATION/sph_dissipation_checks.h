@@ -26,7 +26,6 @@ class LAMMPS;
 namespace SPHDissipation {
   class Engine;
   class FluidModel;
-  struct StateRows;
 
   // Particles alike in all that decides whether they have pairs: type and bits of groups
 
@@ -105,8 +104,8 @@ namespace SPHDissipation {
   // with an equation of state that needs it, no neighbors inside the support.  Particles with one of boundary_bits in their mask are
   // no fluid.
 
-  void check_energies(LAMMPS *, const std::string &style, const FluidModel &, const StateRows &,
-                      int boundary_bits);
+  void check_energies(LAMMPS *, const std::string &style, const FluidModel &,
+                      const std::function<double(int i)> &heat, int boundary_bits);
   void check_neighbors(LAMMPS *, const std::string &style, const FluidModel &, const Engine &,
                        int boundary_bits, int dim, double support);
 

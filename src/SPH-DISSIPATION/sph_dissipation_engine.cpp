@@ -18,6 +18,7 @@
 #include "neigh_list.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_noise_data.h"
+#include "sph_dissipation_particle_terms.h"
 #include "update.h"
 
 #include <algorithm>
@@ -34,11 +35,12 @@ static const Parameters NO_PARAMETERS;    // of an engine before its setup()
 
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
-    state_pressure(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
-    par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
-    noisy_loop(nullptr), surface_loop(nullptr), surface_noise(nullptr), drag_noise(nullptr), data(),
-    atom_rows(), threads(&one_thread), weights(nullptr), not_fluid(0), nlocal_forces(-1),
-    nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
+    state_pressure(nullptr), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), divergence(nullptr),
+    spin(nullptr), loops(&loops_plain), par(&NO_PARAMETERS), fixed(&NO_PARAMETERS),
+    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), noisy_loop(nullptr),
+    surface_loop(nullptr), surface_noise(nullptr), drag_noise(nullptr), data(),
+    atom_rows(new ParticleRows()), threads(&one_thread), weights(nullptr), not_fluid(0),
+    nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
   choose_loops("auto");
 }
@@ -89,6 +91,7 @@ bool Engine::choose_loops(const std::string &simd)
 void Engine::setup(const Parameters &parameters)
 {
   par = &parameters;
+  fixed = &parameters;
   density_loop = loops->density(par->kernel, par->volume);
   rate_loop = loops->rates(par->volume);
   const Terms terms = (par->inviscid && !par->spins()) ? Terms{Shear::NONE, false, false}
@@ -217,13 +220,13 @@ void Engine::set_rows()
     energy.assign(atom->esph, atom->esph + atom->nlocal + atom->nghost);
     with_states.esph = energies = energy.data();
   }
-  atom_rows = {*par,        par->type.data(), atom->nlocal, particle,
-               density,     zeta_term,        &ONE,         0,
-               atom->type,  atom->mask,       atom->rmass,  energies,
-               atom->rho,   atom->drho,       atom->vfrac,  atom->desph,
-               with_states, state_pressure,   {},           Fields::of(atom)->rho_sum};
-  for (int k = 0; k < Flows::NUMBER; k++) atom_rows.flow[k] = flow[k].data();
-  atom_rows.viscosity = viscosity.data();
+  *atom_rows = {*par,        par->type.data(), atom->nlocal, particle,
+                density,     zeta_term,        &ONE,         0,
+                atom->type,  atom->mask,       atom->rmass,  energies,
+                atom->rho,   atom->drho,       atom->vfrac,  atom->desph,
+                with_states, state_pressure,   {},           Fields::of(atom)->rho_sum};
+  for (int k = 0; k < Flows::NUMBER; k++) atom_rows->flow[k] = flow[k].data();
+  atom_rows->viscosity = viscosity.data();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -289,12 +292,12 @@ void Engine::set_weights()
   }
   const int nall = atom->nlocal + atom->nghost;
   for_each(nall, [&](int i) {
-    weights[i] = by_mass ? atom_rows.reference_volume(i) : 1.0;
+    weights[i] = by_mass ? atom_rows->reference_volume(i) : 1.0;
     density[i].c *= weights[i];
   });
   std::fill_n(weights + nall, BLOCK, 0.0);
-  data.weight = atom_rows.weight = weights;
-  atom_rows.each = 1;
+  data.weight = atom_rows->weight = weights;
+  atom_rows->each = 1;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -17,10 +17,12 @@
 #include "pointers.h"
 #include "sph_dissipation_diffusion_terms.h"
 #include "sph_dissipation_exchange.h"
-#include "sph_dissipation_particle_terms.h"
+#include "sph_dissipation_rows.h"
+#include "sph_dissipation_settings.h"
 #include "sph_dissipation_threads.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,9 @@ namespace SPHDissipation {
 
   struct NoiseData;
   struct NoiseForm;
+  struct Parameters;
+  struct ParticleRows;
+  struct StateRows;
   enum class NoiseChannel;
 
   // Pairs are worked off in blocks of as many as a vector has doubles; this is the widest one.  The
@@ -160,7 +165,7 @@ namespace SPHDissipation {
     // by channel, added to heat[]; of all channels
     void add_heat(int i, double *heat) const
     {
-      for (int c = 1; c < NCHANNEL; c++)
+      for (int c = 1; columns.bits >> c; c++)
         if (columns.heats(c)) heat[c] += torque(i)[columns.heat(c)];
     }
     double heat(int i) const
@@ -306,12 +311,13 @@ namespace SPHDissipation {
     }
 
     const Parameters &parameters() const { return *par; }
+    const Constants &constants() const { return *fixed; }    // of these parameters
     // what is between the passes, of owned and ghost atoms; from pass 1 until atoms move to other processors
-    const ParticleRows &rows() const { return atom_rows; }
+    const ParticleRows &rows() const { return *atom_rows; }
     StateRows states() const;    // of the owned atoms as they are
     // reference volume of a particle, owned or ghost
     double weight(int i) const { return data.weight ? data.weight[i] : 1.0; }
-    bool has_spin() const { return par->spins(); }
+    bool has_spin() const { return fixed->spins(); }
     double memory_usage() const;
     const char *instruction_set() const { return loops->name; }
 
@@ -325,9 +331,9 @@ namespace SPHDissipation {
     }
     double *zeta_term;         // zeta cdot/c, set by the caller on owned and ghost atoms
     double *state_pressure;    // of their states, as zeta_term; set if there are any
-    std::vector<FlowRow> flow[Flows::NUMBER];    // the same, of the flows of any type
+    std::vector<std::vector<FlowRow>> flow;    // the same, of the flows of any type
     std::vector<FlowRow> &heat() { return flow[HEAT_FLOW]; }
-    std::vector<double> flow_rate[Flows::NUMBER];    // what each flow has given in the last forces
+    std::vector<std::vector<double>> flow_rate;    // what each flow has given in the last forces
     std::vector<double> viscosity;    // the same, mu, if any depends on the rate of shear
     std::vector<double>
         energy;    // the same, internal energy, if particles have the noise of their temperatures
@@ -342,13 +348,14 @@ namespace SPHDissipation {
     void follow_atoms() const;
     const LoopSet *loops;
     const Parameters *par;
+    const Constants *fixed;
     Loop density_loop, rate_loop, force_loop;
     Loop noisy_loop;      // force_loop with noise, or nullptr
     Loop surface_loop;    // the same for pairs of surfaces
     const NoiseData *surface_noise;
     const double *drag_noise;
     LoopData data;
-    ParticleRows atom_rows;
+    const std::unique_ptr<ParticleRows> atom_rows;
     Threads one_thread, *threads;
     double *weights;           // reference volumes of atoms
     std::vector<int> types;    // of owned, ghost, and spare particles, if their coefficients differ

@@ -127,7 +127,7 @@ void Engine::accumulate_friction(SurfacePairs &some, Friction kind, int thread)
   });
   some.tag.resize(n);
   noise.tag = some.tag.data();
-  if (par->own_temperatures) {
+  if (fixed->own_temperatures) {
     some.fill(some.row, [&](int i) {
       return surface_noise->row[i];
     });

@@ -32,6 +32,7 @@
 #include "sph_dissipation_neighbors.h"
 #include "sph_dissipation_noise.h"
 #include "sph_dissipation_open_stage.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_state.h"
 #include "sph_dissipation_viscous.h"
@@ -166,7 +167,7 @@ void Fluid::check_setup()
                "on the heat of the particles, not on their positions alone",
                style);
   for (int i = 1; i <= atom->ntypes && update->whichflag == 2; i++)
-    if (model->coeffs[i].keywords.gamma() > 0.0)
+    if (TypeCoeffs(model->coeffs[i].keywords).gamma() > 0.0)
       error->all(
           FLERR,
           "Pair style {} with gruneisen cannot be used in a minimization: its energy depends "
@@ -278,7 +279,7 @@ bigint Fluid::compute(PairTally *tally)
   if (model->choice.own_temperatures && (neighbor->ago == 0 || update->setupflag))
     noise->find_masses(boundary->bits());
 
-  const Parameters &par = model->parameters();
+  const Constants &par = model->constants();
   const bool known = continued && !changed && update->setupflag;
   const bool stiff_heat = par.conducts() && temperature->active() && !known;
   const bool find_rates = !viscous->active();    // which finds them itself
@@ -318,7 +319,7 @@ bigint Fluid::sum_before_forces(bool find_rates)
   // noise needs the bound of the limit for the volumes that act in its pairs, those of walls as well
 
   const bool walls = !boundary->empty();
-  const Parameters &par = model->parameters();
+  const Constants &par = model->constants();
   if (walls && model->choice.thermal) set_reference_volume();
   if (model->choice.limit != Limit::NO) sum_bound();
   if (walls && !model->choice.thermal) set_reference_volume();
@@ -405,14 +406,14 @@ void Fluid::keep_densities()
 
 void Fluid::begin_step(double dt)
 {
-  if (!engine->parameters().states) return;
+  if (!engine->constants().states) return;
   set_step(dt);
   advance_states();
 }
 
 void Fluid::set_step(double dt)
 {
-  if (dt != model->parameters().step) model->set_step(dt);
+  if (dt != model->constants().step) model->set_step(dt);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -477,7 +478,7 @@ void Fluid::sum_flows()
 
 double Fluid::received_heat(int groupbit) const
 {
-  if (!model->parameters().conducts() || !pair->compute_flag) return 0.0;
+  if (!model->constants().conducts() || !pair->compute_flag) return 0.0;
   if (!model->choice.own_temperatures) return flows->received(groupbit);
   double total = 0.0;    // pass 2 leaves nothing else with them
   for (int i = 0; i < atom->nlocal; i++)
@@ -568,7 +569,7 @@ double Fluid::elastic_energy(Moment moment)
 
 double Fluid::state_energy(int groupbits) const
 {
-  return engine->parameters().states ? state->energy(groupbits, not_fluid()) : 0.0;
+  return engine->constants().states ? state->energy(groupbits, not_fluid()) : 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -699,7 +700,7 @@ void Fluid::set_mean_density(int groupbit)
     std::vector<double> factor(atom->ntypes + 1, 1.0);
     for (int k = 0; k < MOST; k++) {
       density->run(neighbors(), nullptr, nullptr, not_fluid());
-      state.run(groupbit, not_fluid());
+      state.run(groupbit, not_fluid(), pressures());
       if (state.scale_masses(factor, open->bits()) < CLOSE) break;
     }
     state.report_masses(factor, style);
@@ -722,7 +723,7 @@ void Fluid::report()
     model->warn_of_ignored();
     warned_step = noise_step = 0.0;
     FluidState state(lmp, *engine, *exchange, *model);
-    state.run(1, not_fluid());
+    state.run(1, not_fluid(), pressures());
     if (comm->me == 0)
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", style, model->summary(dim, support),
                      engine->instruction_set(), table.text(update->dt) + skin_text(table),
@@ -737,7 +738,11 @@ void Fluid::report()
   if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
 
   if (!step_follows()) check_time_step(table);
-  check_energies(lmp, style, *model, engine->states(), not_fluid());
+  const StateRows states = engine->states();
+  const auto heat = [&](int i) {
+    return states.thermal_energy(i);
+  };
+  check_energies(lmp, style, *model, heat, not_fluid());
   check_neighbors(lmp, style, *model, *engine, not_fluid(), dim, support);
 }
 
@@ -766,7 +771,7 @@ void Fluid::announce_noise(double rate)
                    "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
                    "step {:.3g}\n",
                    style, temperature, model->choice.seed, rate * update->dt);
-  const bool other = model->parameters().states || model->parameters().conducts();
+  const bool other = model->constants().states || model->constants().conducts();
   if (rate == 0.0 && !other &&
       (model->choice.own_temperatures || model->choice.temperature > 0.0) && comm->me == 0)
     error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", style);
@@ -823,12 +828,12 @@ CoeffTable Fluid::coeff_table()
   // in the place of type 0, which does not exist: of all types
 
   double &fastest = most(mine, MOTION, 0);
-  const StateRows states = engine->states();
+  const auto sound_of = sound();
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
     const TypeCoeff &coeff = model->coeffs[type];
     if (coeff.other) continue;
-    const double rho = atom->rho[i], c = sound(states, i, rho), v = MathExtra::len3(atom->v[i]);
+    const double rho = atom->rho[i], c = sound_of(i, rho), v = MathExtra::len3(atom->v[i]);
     fastest = std::max(fastest, v);
     const double values[NMOST] = {c + v, c, v, is_boundary(i) ? 0.0 : coeff.eos.rho0 / rho};
     for (int k = 0; k < NMOST; k++) most(mine, k, type) = std::max(most(mine, k, type), values[k]);
@@ -843,10 +848,9 @@ CoeffTable Fluid::coeff_table()
   const double h = stability_length(), hsq = h * h;
   CoeffTable table(most(all, MOTION, 0));
   const auto sound_step = [&](int type) {
-    const TypeCoeff &one = model->coeffs[type];
     const double speed = most(all, SPEED, type), c = most(all, SOUND, type);
     return acoustic_step(h, speed, [&](double dt) {
-      const double more = States::stiffness(one.keywords, one.eos.rho0, dt);
+      const double more = model->stiffness(type, dt);
       return (more > 0.0) ? most(all, MOTION, type) + sqrt(c * c + more) - speed : 0.0;
     });
   };
@@ -877,26 +881,40 @@ CoeffTable Fluid::coeff_table()
   return table;
 }
 
-/* ---------------------------------------------------------------------- */
-
-StateRows Fluid::states() const
-{
-  return engine->states();
-}
-
 /* ----------------------------------------------------------------------
    with the heat that it has now; of fast sound, in which states stay as they are.  Walls of a liquid
    have no heat.
 ------------------------------------------------------------------------- */
 
-double Fluid::sound(const StateRows &states, int i, double rho) const
+std::function<double(int, double)> Fluid::sound() const
 {
-  const Eos eos = model->choice.eos;
-  const EosParams &par = model->coeffs[atom->type[i]].eos;
-  if (is_boundary(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
-  const double q = (atom->esph[i] - states.energy(i)) / atom->rmass[i] -
-      SPHDissipation::elastic_energy(eos, par, atom->rho[i]);
-  return sound_speed(eos, par, rho, SPHDissipation::elastic_energy(eos, par, rho) + q);
+  return [this, states = engine->states()](int i, double rho) {
+    const Eos eos = model->choice.eos;
+    const EosParams &par = model->coeffs[atom->type[i]].eos;
+    if (is_boundary(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
+    const double q = (atom->esph[i] - states.energy(i)) / atom->rmass[i] -
+        SPHDissipation::elastic_energy(eos, par, atom->rho[i]);
+    return sound_speed(eos, par, rho, SPHDissipation::elastic_energy(eos, par, rho) + q);
+  };
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::function<double(int)> Fluid::pressures() const
+{
+  return [this, states = engine->states()](int i) {
+    const double energy = (atom->esph[i] - states.energy(i)) / atom->rmass[i];
+    return SPHDissipation::pressure(model->choice.eos, model->coeffs[atom->type[i]].eos,
+                                    atom->rho[i], energy) +
+        states.pressure(i);
+  };
+}
+
+/* ---------------------------------------------------------------------- */
+
+int Fluid::number_of_heats()
+{
+  return NCHANNEL;
 }
 
 /* ----------------------------------------------------------------------

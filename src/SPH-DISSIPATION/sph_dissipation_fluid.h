@@ -35,7 +35,6 @@ namespace SPHDissipation {
   class Exchange;
   class FluidModel;
   struct ForceSum;
-  struct StateRows;
   class ForceStage;
   class FlowStage;
   class LimitStage;
@@ -151,6 +150,7 @@ namespace SPHDissipation {
     bool
     has_forces() const;    // on all processors, for the particles that are there now; asked by all
     virtual void heating(double *heat, double *power) const;
+    static int number_of_heats();                        // by channel
     virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank
     const ForceSum *own_forces() const;
     const double *own_torque(int i) const;
@@ -178,9 +178,8 @@ namespace SPHDissipation {
     int not_fluid() const;            // bits of the groups of all boundaries and open zones
     bool is_boundary(int i) const;    // owned or ghost particle
     bool has_type(int type) const;    // its particles are of this fluid
-    // speed of sound of an owned particle that had this density; with the states of all of them
-    double sound(const StateRows &, int i, double rho) const;
-    StateRows states() const;
+    // of the owned particles as they are now: speed of sound of particle i if it had this density
+    std::function<double(int i, double rho)> sound() const;
     int dimension() const { return dim; }    // of the kernel
     Threads &team() const;                   // that share its work
     double support_radius() const { return support; }
@@ -249,6 +248,7 @@ namespace SPHDissipation {
     double stability_length() const;
     double smallest_inertia() const;
     std::string skin_text(const CoeffTable &) const;
+    std::function<double(int i)> pressures() const;    // of owned particles, with that of states
     void announce_noise(double rate);
   };
 

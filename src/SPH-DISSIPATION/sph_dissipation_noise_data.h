@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_NOISE_DATA_H
 #define LMP_SPH_DISSIPATION_NOISE_DATA_H
 
-#include "sph_dissipation_channels.h"
+#include "sph_dissipation_settings.h"
 
 #include <cstdint>
 

@@ -24,6 +24,7 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_integrate.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_solvers.h"
 #include "sph_dissipation_stages.h"
 #include "update.h"
@@ -323,7 +324,7 @@ void ViscousStage::set_velocities(const Unknowns &values)
 void ViscousStage::set_bulk_term()
 {
   DensitySum *const density = engine.density;
-  if (engine.parameters().bulk != Bulk::NONE) {
+  if (engine.constants().bulk != Bulk::NONE) {
     engine.accumulate_rates();
     const Field cdot = field(density, &density->cdot, 1);
     exchange.reverse({cdot});
@@ -414,7 +415,7 @@ void StiffStage::sum(double *values, int n) const
 
 double ViscousStage::scale_sq() const
 {
-  const double distance = DBL_EPSILON * engine.parameters().support;
+  const double distance = DBL_EPSILON * engine.constants().support;
   const double rest = (update->dt > 0.0) ? distance / (update->dt * settings.tolerance) : 0.0;
   return team().sum<double>(static_cast<int>(x.size()), [&](int k, double &total) {
     const int d = k % width;
@@ -552,7 +553,7 @@ double StiffStage::estimated_rate()
 {
   constexpr int NITERATION = 12;
   constexpr double WAVES[6] = {391.7, 577.3, 733.1, 811.9, 929.3, 1117.7};    // per support radius
-  const double unit = 1.0 / engine.parameters().support;
+  const double unit = 1.0 / engine.constants().support;
   const std::size_t n = mass.size();
   Unknowns u(n), drag(n);
   for (std::size_t k = 0; k < n; k++) {
