@@ -245,7 +245,6 @@ void FixSPHBulk::init()
   if (first_instance) check_integrated_once();
 
   fluid = find_own_fluid();
-  if (fluid) fluid->integrated = integrated_groups;
   const bool noise = fluid && fluid->model->choice.thermal;
   extrapolation = viscous->extrapolation(noise);
   balanced = fluid && fluid->model->choice.own_temperatures && fluid->pair->compute_flag;
@@ -454,9 +453,9 @@ void FixSPHBulk::setup_pre_exchange()
   if (update->whichflag == 0) return;    // from a command that moves particles between processors
   const bool continued = is_continued();
   if (first_instance) reset_extrapolation();
-  if (fluid) fluid->continued = continued && (first_instance || fluid->continued);
   if (!continued || !(dt_of_states > 0.0)) dt_of_states = dtv;
-  if (fluid && first_instance) fluid->begin_run(dt_of_states);
+  if (fluid && first_instance) fluid->begin_run(dt_of_states, continued);
+  if (fluid && !continued) fluid->begin_anew();
   double *const desph_before = fields().desph_before;
   const Particles particles(atom, fields());
   const TimeStep step = time_step();

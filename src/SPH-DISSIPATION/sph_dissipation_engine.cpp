@@ -37,10 +37,9 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
     state_pressure(nullptr), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), divergence(nullptr),
     spin(nullptr), loops(&loops_plain), par(&NO_PARAMETERS), fixed(&NO_PARAMETERS),
-    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), noisy_loop(nullptr),
-    surface_loop(nullptr), surface_noise(nullptr), drag_noise(nullptr), data(),
-    atom_rows(new ParticleRows()), threads(&one_thread), weights(nullptr), not_fluid(0),
-    nlocal_forces(-1), nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
+    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), data(),
+    atom_rows(new ParticleRows()), threads(&one_thread), weights(nullptr), nlocal_forces(-1),
+    nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
   choose_loops("auto");
 }
@@ -98,24 +97,7 @@ void Engine::setup(const Parameters &parameters)
                                                        : par->terms();
   force_loop = loops->forces(terms, par->bulk, par->volume);
   side.set({par->spins(), loops->channels(terms)});
-  noisy_loop = surface_loop = nullptr;
-  drag_noise = nullptr;
   data.par = par;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void Engine::add_noise(const NoiseForm &form, const NoiseData *noise)
-{
-  data.noise = noise;
-  noisy_loop = loops->noisy_forces(form);
-  add_surface_noise(form, noise);
-}
-
-void Engine::add_surface_noise(const NoiseForm &form, const NoiseData *noise)
-{
-  surface_noise = noise;
-  surface_loop = loops->noisy_forces(form);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -252,6 +234,13 @@ void Engine::set_wall_energy(const double *energies)
 {
   wall_energy.assign(energies, energies + atom->nlocal);
   wall_energy_tags.assign(atom->tag, atom->tag + atom->nlocal);
+  atom_rows->states.by_walls = wall_energy.data();
+}
+
+void Engine::forget_wall_energy()
+{
+  wall_energy.clear();
+  atom_rows->states.by_walls = nullptr;
 }
 
 /* ----------------------------------------------------------------------
@@ -344,10 +333,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     viscosity.resize(nmax + BLOCK);
     std::fill_n(viscosity.begin() + nall, BLOCK, 0.0);
   }
-  if (!par->own_temperatures || !has_walls)
-    wall_energy.clear();
-  else if (wall_energy.empty())
-    set_wall_energy(std::vector<double>(nlocal).data());
+  if (!par->own_temperatures) forget_wall_energy();
   set_rows();
   set_weights();
 
@@ -479,27 +465,29 @@ double *Engine::room_for_numbers(int thread, const LoopData &rows)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_forces(NeighList *list, PairTally *tally)
+void Engine::accumulate_forces(NeighList *list, PairTally *tally, const StepPlan &plan)
 {
   data.tally = tally;
-  run_forces(list, noisy_loop ? noisy_loop : force_loop, false);
+  run_forces(list, plan, false);
   nlocal_forces = atom->nlocal;
   nghost_forces = atom->nghost;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_friction(NeighList *list)
+void Engine::accumulate_friction(NeighList *list, int not_fluid)
 {
   data.tally = nullptr;
-  run_forces(list, force_loop, true);
+  run_forces(list, {not_fluid}, true);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::run_forces(NeighList *list, Loop loop, bool linear)
+void Engine::run_forces(NeighList *list, const StepPlan &plan, bool linear)
 {
-  const bool by_volume = (par->bulk == Bulk::VOLUME), noisy = (loop == noisy_loop);
+  const StepNoise &noise = plan.noise;
+  const bool by_volume = (par->bulk == Bulk::VOLUME), noisy = noise.pairs.data;
+  const Loop loop = noisy ? loops->noisy_forces(noise.pairs.form) : force_loop;
   const int nall = atom->nlocal + atom->nghost;
   const std::size_t nrow = (std::size_t) nall + BLOCK;
   data.inum = list->inum;
@@ -507,6 +495,7 @@ void Engine::run_forces(NeighList *list, Loop loop, bool linear)
   data.viscosity = viscosity.data();
   data.spin = spin;
   data.random = nullptr;
+  data.noise = noise.pairs.data;
   force_sums.begin(*threads);
   scalar_sums.begin(*threads);
   side_sums.begin(*threads);
@@ -534,15 +523,15 @@ void Engine::run_forces(NeighList *list, Loop loop, bool linear)
   if (!par->drag) return;
   for_each(atom->nlocal, [&](int i) {
     double heat[NCHANNEL] = {};
-    add_drag(i, linear, force[i].f, heat);
-    if (drag_noise && !linear)
-      for (int d = 0; d < 3; d++) force[i].f[d] += drag_noise[3 * i + d];
+    add_drag(i, plan.not_fluid, linear, force[i].f, heat);
+    if (noise.drag)
+      for (int d = 0; d < 3; d++) force[i].f[d] += noise.drag[3 * i + d];
   });
 }
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::add_drag(int i, bool linear, double *force_of, double *heat) const
+void Engine::add_drag(int i, int not_fluid, bool linear, double *force_of, double *heat) const
 {
   const TypeParameters &type = par->type[atom->type[i]];
   if (!par->drag || type.other || (atom->mask[i] & not_fluid)) return;

@@ -16,6 +16,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix.h"
 #include "force.h"
 #include "math_extra.h"
 #include "modify.h"
@@ -68,10 +69,9 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false),
-    integrated(0), dim(0), support(0.0), stale(false), own_list(false), set_up(false),
-    announced(false), touched(false), changed(false), warned_step(0.0), noise_step(0.0),
-    fast_lists(0)
+    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), dim(0), support(0.0),
+    stale(false), own_list(false), set_up(false), announced(false), continued(false), integrated(0),
+    touched(false), changed(false), warned_step(0.0), noise_step(0.0), fast_lists(0)
 {
 }
 
@@ -112,6 +112,8 @@ void Fluid::coeff(int narg, char **arg)
 void Fluid::init()
 {
   shift->wanted = continued = false;
+  integrated = 0;
+  for (const Fix *const fix : modify->get_fix_by_style("^" + style)) integrated |= fix->groupbit;
   viscous->configure(ViscousSettings(), 0, style);
   temperature->configure(ViscousSettings(), 0, style);
   check_setup();
@@ -280,6 +282,8 @@ bigint Fluid::compute(PairTally *tally)
     noise->find_masses(boundary->bits());
 
   const Constants &par = model->constants();
+  StepPlan plan;
+  plan.not_fluid = not_fluid();
   const bool known = continued && !changed && update->setupflag;
   const bool stiff_heat = par.conducts() && temperature->active() && !known;
   const bool find_rates = !viscous->active();    // which finds them itself
@@ -287,17 +291,17 @@ bigint Fluid::compute(PairTally *tally)
     viscous->begin_run();
     temperature->begin_run();
   } else if (viscous->active())
-    find_viscous_velocity();
+    find_viscous_velocity(plan);
   if (stiff_heat && par.thermal_pressure) {
     temperature->set_aside();
-    sum_before_forces(find_rates);
-    sum_forces(nullptr);
+    sum_before_forces(plan, find_rates);
+    sum_forces(nullptr, plan);
     find_temperature();
     temperature->restore();
   }
-  const bigint nbeyond = sum_before_forces(find_rates);
+  const bigint nbeyond = sum_before_forces(plan, find_rates);
   if (shift->wanted) sum_gradient();
-  sum_forces(tally);
+  sum_forces(tally, plan);
   if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
   if (par.loops_of_flows) sum_flows();
   if (par.delta > 0.0) sum_diffusion();
@@ -312,7 +316,7 @@ bigint Fluid::compute(PairTally *tally)
    all that pass 2 needs; returns the number of particles beyond the bound of the limit
 ------------------------------------------------------------------------- */
 
-bigint Fluid::sum_before_forces(bool find_rates)
+bigint Fluid::sum_before_forces(StepPlan &plan, bool find_rates)
 {
   sum_density();
 
@@ -328,7 +332,7 @@ bigint Fluid::sum_before_forces(bool find_rates)
   if (!open->empty()) open->run();
   if (walls) set_boundary();
   if (walls && model->choice.own_temperatures) boundary->find_energies(missing_time());
-  if (model->choice.thermal) noise->run(bound(), boundary->bits(), continued);
+  if (model->choice.thermal) plan.noise = noise->run(bound(), boundary->bits(), continued);
   return nbeyond;
 }
 
@@ -386,8 +390,9 @@ bool Fluid::at_rest() const
 
 /* ---------------------------------------------------------------------- */
 
-void Fluid::begin_run(double dt)
+void Fluid::begin_run(double dt, bool continues)
 {
+  continued = continues;
   set_step(dt);
   flows->forget();
   if (Fields::of(atom)->slots.empty()) return;
@@ -460,11 +465,10 @@ void Fluid::sum_gradient()
 
 /* ---------------------------------------------------------------------- */
 
-void Fluid::sum_forces(PairTally *tally)
+void Fluid::sum_forces(PairTally *tally, const StepPlan &plan)
 {
-  engine->set_not_fluid(not_fluid());
-  forces->run(neighbors(), tally, [&]() {
-    boundary->add_friction(tally);
+  forces->run(neighbors(), tally, plan, [&]() {
+    boundary->add_friction(tally, plan.noise);
   });
   if (!boundary->empty()) boundary->repel(tally);
 }
@@ -490,13 +494,13 @@ double Fluid::received_heat(int groupbit) const
    friction that is extended behind walls, and the form P1 (64), have no symmetric matrix
 ------------------------------------------------------------------------- */
 
-void Fluid::find_viscous_velocity()
+void Fluid::find_viscous_velocity(StepPlan &plan)
 {
   viscous->begin(not_fluid(), extrapolated_spin(), spins ? Fields::of(atom)->inertia : nullptr);
-  sum_before_forces();
+  sum_before_forces(plan);
   if (neighbor->ago == 0 || viscous->has_old_rates())
     viscous->set_rate(coeff_table().fastest_rate());
-  sum_forces(nullptr);
+  sum_forces(nullptr, plan);
   const bool symmetric = boundary->all_symmetric() && model->choice.bulk != Bulk::VOLUME;
   viscous->run(neighbors(), bound(), symmetric);
 }

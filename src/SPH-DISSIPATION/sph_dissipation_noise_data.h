@@ -108,6 +108,18 @@ namespace SPHDissipation {
     NoiseKind kind;
   };
 
+  // the noise of one pass 2: of pairs, and of the pairs of surfaces, data = nullptr: none; a random force of each owned
+  // particle, or nullptr
+
+  struct StepNoise {
+    struct Part {
+      NoiseForm form;
+      const NoiseData *data;
+    };
+    Part pairs, surfaces;
+    const double *drag;
+  };
+
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS
 

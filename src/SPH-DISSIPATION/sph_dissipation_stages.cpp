@@ -473,9 +473,10 @@ int ForceStage::nforce() const
 
 /* ---------------------------------------------------------------------- */
 
-void ForceStage::run(NeighList *list, PairTally *tally, const std::function<void()> &add_more)
+void ForceStage::run(NeighList *list, PairTally *tally, const StepPlan &plan,
+                     const std::function<void()> &add_more)
 {
-  engine.accumulate_forces(list, tally);
+  engine.accumulate_forces(list, tally, plan);
   add_more();
 
   double **f = atom->f;
@@ -493,7 +494,7 @@ void ForceStage::run(NeighList *list, PairTally *tally, const std::function<void
   if (engine.parameters().drag)
     engine.for_each(atom->nlocal, [&](int i) {
       double channel[NCHANNEL] = {};
-      add_drag_heat(i, channel);
+      add_drag_heat(i, plan.not_fluid, channel);
       for (const double heat : channel) desph[i] += heat;
     });
 
@@ -530,10 +531,10 @@ double ForceStage::bulk_heat(int i) const
 
 /* ---------------------------------------------------------------------- */
 
-void ForceStage::add_drag_heat(int i, double *channel) const
+void ForceStage::add_drag_heat(int i, int not_fluid, double *channel) const
 {
   double force[3] = {0.0, 0.0, 0.0};
-  engine.add_drag(i, false, force, channel);
+  engine.add_drag(i, not_fluid, false, force, channel);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -550,7 +551,7 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
     channel[BULK_HEAT] = bulk_heat(i);
     engine.side.add_heat(i, channel);
     if (i < atom->nlocal) {
-      add_drag_heat(i, channel);
+      add_drag_heat(i, not_fluid, channel);
       states.add_heat(i, channel);
     }
     for (int k = 0; k < NCHANNEL; k++) {

@@ -371,7 +371,7 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
     }
   }
 
-  engine.accumulate_friction(list);
+  engine.accumulate_friction(list, prescribed);
   boundary.add_linear_friction();
   const Field f = field(engine.force, engine.force->f, 3);
   if (omegaest)
