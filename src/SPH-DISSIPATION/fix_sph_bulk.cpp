@@ -381,10 +381,9 @@ void FixSPHBulk::check_integrated_once()
   for (std::size_t k = 0; k < fixes.size(); k++)
     for (std::size_t l = k + 1; l < fixes.size(); l++) {
       if (!dynamic_cast<FixSPHBulk *>(fixes[k]) || !dynamic_cast<FixSPHBulk *>(fixes[l])) continue;
-      bigint count = 0, all;
-      for (int i = 0; i < atom->nlocal; i++)
-        if ((atom->mask[i] & fixes[k]->groupbit) && (atom->mask[i] & fixes[l]->groupbit)) count++;
-      MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+      const bigint all = count_particles(lmp, [&](int i) {
+        return (atom->mask[i] & fixes[k]->groupbit) && (atom->mask[i] & fixes[l]->groupbit);
+      });
       if (all)
         error->all(FLERR,
                    "Fixes {} and {} both integrate {} particles: a particle must be in the group "
@@ -426,13 +425,10 @@ void FixSPHBulk::warn_not_integrated()
   for (const auto &ifix : modify->get_fix_list())
     if (ifix->time_integrate) integrated |= ifix->groupbit;
 
-  bigint count = 0, all;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const int type = atom->type[i];
-    if (!(atom->mask[i] & integrated) && fluid->has_type(type) && !fluid->is_boundary(i)) count++;
-  }
-  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-
+  const bigint all = count_particles(lmp, [&](int i) {
+    return !(atom->mask[i] & integrated) && fluid->has_type(atom->type[i]) &&
+        !fluid->is_boundary(i);
+  });
   if (all && all != not_integrated && comm->me == 0)
     error->warning(FLERR,
                    "{} particles of the fluid are in the group of no fix that integrates them: "
@@ -716,10 +712,9 @@ void FixSPHBulk::check_inertia() const
 {
   if (!has_torques()) return;
   const double *const inertia = fields().inertia;
-  bigint count = 0, all;
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && !(inertia[i] > 0.0)) count++;
-  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint all = count_particles(lmp, [&](int i) {
+    return (atom->mask[i] & groupbit) && !(inertia[i] > 0.0);
+  });
   if (all)
     error->all(FLERR,
                "Fix {}: inertia must be > 0 where the fluid exerts torques, which that of {} "

@@ -83,10 +83,9 @@ void FixSPHOpen::check_groups(int fluid_group)
 
   for (const auto &other : modify->get_fix_list()) {
     if (other == this || !other->time_integrate) continue;
-    bigint count = 0, total;
-    for (int i = 0; i < atom->nlocal; i++)
-      if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) count++;
-    MPI_Allreduce(&count, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    const bigint total = count_particles(lmp, [&](int i) {
+      return (atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit);
+    });
     if (total)
       error->all(FLERR,
                  "Fix {}: {} particles of group {} are also moved by fix {} of style {}; that "

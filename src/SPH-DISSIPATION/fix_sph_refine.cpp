@@ -252,10 +252,9 @@ void FixSPHRefine::check_overlap()
 {
   for (const auto &other : modify->get_fix_by_style("^sph/refine$")) {
     if (other == this) continue;
-    bigint count = 0, all;
-    for (int i = 0; i < atom->nlocal; i++)
-      if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) count++;
-    MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    const bigint all = count_particles(lmp, [&](int i) {
+      return (atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit);
+    });
     if (all)
       error->all(FLERR, "Fixes {} and {} of style {} both have {} particles in their groups", id,
                  other->id, style, all);

@@ -225,11 +225,10 @@ void FixSPHWall::init()
                "pair_coeff",
                style);
   if (!gives_heat() || !fluid->model->choice.own_temperatures) return;
-  int cold = 0, any;    // where only the coefficients of pairs of types act
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && !conducts(atom->type[i])) cold = 1;
-  MPI_Allreduce(&cold, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any)
+  const auto is_cold = [&](int i) {    // where only the coefficients of pairs of types act
+    return (atom->mask[i] & groupbit) && !conducts(atom->type[i]);
+  };
+  if (count_particles(lmp, is_cold))
     error->all(FLERR,
                "Fix {} heat: with temp energy of the pair style, the types of the wall need "
                "a conductivity as well, keyword conductivity of pair_coeff",

@@ -805,15 +805,10 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 
 double BoundaryStage::memory_usage() const
 {
-  return (double) nmax * sizeof(BoundarySum) +
-      (double) heat_sum.capacity() * sizeof(BoundaryHeatSum) + pairs.memory_usage() +
-      sums.memory_usage() + heat_sums.memory_usage() + flow_sums.memory_usage() +
-      repulsion_sums.memory_usage() + (double) repulsion.capacity() * sizeof(ForceSum) +
-      (double) (near.capacity() + contact.capacity()) * sizeof(NearKernel) +
-      surface.memory_usage() + (double) number.capacity() * sizeof(int) +
-      (double) (body_of.capacity() + own_numden.capacity()) * sizeof(double) +
-      std::accumulate(surface_pairs.begin(), surface_pairs.end(), 0.0,
-                      [](double bytes, const SurfacePairs &own) {
-                        return bytes + own.memory_usage();
-                      });
+  double own = 0.0;
+  for (const SurfacePairs &some : surface_pairs) own += some.memory_usage();
+  return own + (double) nmax * sizeof(BoundarySum) + pairs.memory_usage() + sums.memory_usage() +
+      heat_sums.memory_usage() + flow_sums.memory_usage() + repulsion_sums.memory_usage() +
+      surface.memory_usage() +
+      bytes(heat_sum, repulsion, near, contact, number, body_of, own_numden);
 }

@@ -59,6 +59,16 @@ std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool
 
 /* ---------------------------------------------------------------------- */
 
+bigint SPHDissipation::count_particles(LAMMPS *lmp, const std::function<bool(int)> &counts)
+{
+  bigint mine = 0, all;
+  for (int i = 0; i < lmp->atom->nlocal; i++) mine += counts(i) ? 1 : 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void SPHDissipation::check_set_up(LAMMPS *lmp, const Fix *fix, bool set_up)
 {
   if (!set_up)

@@ -14,6 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_CHECKS_H
 #define LMP_SPH_DISSIPATION_CHECKS_H
 
+#include "lmptype.h"
+
 #include <functional>
 #include <set>
 #include <string>
@@ -40,6 +42,10 @@ namespace SPHDissipation {
   // one: "particle 17"; empty if there is none
 
   std::string first_particle(LAMMPS *, const std::function<bool(int)> &wrong);
+
+  // how many there are
+
+  bigint count_particles(LAMMPS *, const std::function<bool(int)> &counts);
 
   // a fix that was defined after the last run was set up cannot take part in a run with pre no
 

@@ -615,9 +615,7 @@ void PairSubset::end_row(int spare)
 
 double PairSubset::memory_usage() const
 {
-  return static_cast<double>((rows.capacity() + count.capacity() + neighbor.capacity()) *
-                                 sizeof(int) +
-                             first.capacity() * sizeof(bigint) + slope.capacity() * sizeof(double));
+  return bytes(rows, count, neighbor, first, slope);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -626,16 +624,13 @@ double Engine::memory_usage() const
 {
   double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double);
   if (has_spin()) per_atom += sizeof(Spin);
-  double bytes = nmax * per_atom + (double) nmax_weights * sizeof(double) +
+  double sum = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double)) +
-      (double) viscosity.capacity() * sizeof(double) +
-      (double) (energy.capacity() + wall_energy.capacity()) * sizeof(double) +
-      (double) types.capacity() * sizeof(int);
-  for (const auto &rows : flow) bytes += (double) rows.capacity() * sizeof(FlowRow);
-  for (const auto &rates : flow_rate) bytes += (double) rates.capacity() * sizeof(double);
-  for (const auto &numbers : random)
-    bytes += static_cast<double>(numbers.capacity() * sizeof(double));
-  return bytes + side.memory_usage() + density_sums.memory_usage() + force_sums.memory_usage() +
+      bytes(viscosity, energy, wall_energy, wall_energy_tags, types);
+  for (const auto &rows : flow) sum += bytes(rows);
+  for (const auto &rates : flow_rate) sum += bytes(rates);
+  for (const auto &numbers : random) sum += bytes(numbers);
+  return sum + side.memory_usage() + density_sums.memory_usage() + force_sums.memory_usage() +
       side_sums.memory_usage() + scalar_sums.memory_usage();
 }

@@ -173,7 +173,7 @@ namespace SPHDissipation {
       return sum;
     }
     void clear(int i) { std::fill_n(rows.begin() + (std::size_t) i * width, width, 0.0); }
-    double memory_usage() const { return static_cast<double>(rows.capacity() * sizeof(double)); }
+    double memory_usage() const { return bytes(rows); }
   };
 
   // Some of the pairs that pass 1 has found, in the form that pass 2 works off: begin(); for each

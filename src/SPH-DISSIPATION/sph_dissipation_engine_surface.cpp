@@ -149,10 +149,7 @@ void Engine::accumulate_friction(SurfacePairs &some, const StepNoise *of_step, i
 
 double SurfacePairs::memory_usage() const
 {
-  const auto bytes = [](const auto &...list) {
-    return (... + (static_cast<double>(list.capacity()) * sizeof(list[0])));
-  };
-  return bytes(pairs, walls, begin, force, particle, spin, weight, slope, type, ilist, count,
-               neighbor, first, tag, mobility, row) +
-      side.memory_usage();
+  return side.memory_usage() +
+      bytes(pairs, walls, begin, force, particle, spin, weight, slope, type, ilist, count, neighbor,
+            first, tag, mobility, row);
 }

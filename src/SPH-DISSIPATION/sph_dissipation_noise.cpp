@@ -431,11 +431,6 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
 
 double NoiseStage::memory_usage() const
 {
-  return static_cast<double>(row.capacity() * sizeof(NoiseRow) +
-                             acceleration.capacity() * sizeof(Acceleration)) +
-      static_cast<double>((mobility.capacity() + tag.capacity() + reach.capacity() +
-                           share.capacity() + eta.capacity() + drag.capacity() +
-                           numbers.capacity() + change.capacity() + flow.capacity() +
-                           drag_force.capacity() + pressure.capacity()) *
-                          sizeof(double));
+  return bytes(row, acceleration, mobility, tag, reach, share, eta, drag, numbers, change, flow,
+               drag_force, pressure);
 }

@@ -256,11 +256,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
 
 double OpenStage::memory_usage() const
 {
-  double bytes = pairs.memory_usage();
-  for (const auto &row : rows) bytes += static_cast<double>(row.capacity() * sizeof(int));
-  return bytes +
-      static_cast<double>(zone_of.capacity() * sizeof(double) +
-                          forces.capacity() * sizeof(ForceSum) +
-                          (divergence.capacity() + flow.capacity()) * sizeof(double)) +
-      side.memory_usage();
+  double sum = pairs.memory_usage() + side.memory_usage();
+  for (const auto &row : rows) sum += bytes(row);
+  return sum + bytes(zone_of, forces, divergence, flow);
 }

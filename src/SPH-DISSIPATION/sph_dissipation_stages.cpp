@@ -181,7 +181,7 @@ void ViscosityStage::keep(int not_fluid)
 
 double ViscosityStage::memory_usage() const
 {
-  return (double) rates.capacity() * sizeof(double);
+  return bytes(rates);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -394,9 +394,7 @@ void DiffusionStage::set_rows(int not_fluid, int integrated)
 
 double DiffusionStage::memory_usage() const
 {
-  return (double) rows.capacity() * sizeof(DiffusionRow) +
-      (double) impedances.capacity() * sizeof(double) +
-      (double) (sums.capacity() + flow.capacity()) * sizeof(SumBlock);
+  return bytes(rows, impedances, sums, flow);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -460,8 +458,7 @@ void ShiftStage::run()
 
 double ShiftStage::memory_usage() const
 {
-  return (double) nmax * 3 * sizeof(double) + (double) contact.capacity() * sizeof(double) +
-      sums.memory_usage();
+  return (double) nmax * 3 * sizeof(double) + bytes(contact) + sums.memory_usage();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -278,9 +278,9 @@ double SurfaceStage::memory_usage() const
 
 double BoundaryPairs::memory_usage() const
 {
-  std::size_t bytes = 0;
-  for (const auto &pairs : of_thread) bytes += pairs.capacity() * sizeof(BoundaryPair);
+  double sum = 0.0;
+  for (const auto &pairs : of_thread) sum += bytes(pairs);
   for (const auto &lists : {&rows, &touched})
-    for (const auto &one : *lists) bytes += one.capacity() * sizeof(int);
-  return static_cast<double>(bytes);
+    for (const auto &one : *lists) sum += bytes(one);
+  return sum;
 }

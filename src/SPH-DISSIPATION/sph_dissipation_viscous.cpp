@@ -659,24 +659,18 @@ void ViscousStage::add_velocities(const Unknowns &increment)
 
 double StiffStage::memory_usage() const
 {
-  double values = 0.0;
-  for (const Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force,
-                              &forces_before, &torques_before, &heat_before})
-    values += static_cast<double>(one->capacity());
-  return values * sizeof(double) + static_cast<double>(unknown.capacity() * sizeof(int));
+  return bytes(mass, inverse_mass, x, residual, before, guess, force, forces_before, torques_before,
+               heat_before, unknown);
 }
 
 double ViscousStage::memory_usage() const
 {
-  const std::size_t values = others.capacity() + ahead.capacity() + ahead_spin.capacity();
-  return StiffStage::memory_usage() + static_cast<double>(values * sizeof(double)) +
-      static_cast<double>(rest.capacity() * sizeof(Rest));
+  return StiffStage::memory_usage() + bytes(others, ahead, ahead_spin, rest);
 }
 
 double TemperatureStage::memory_usage() const
 {
-  const std::size_t values = flow.capacity() + temperature.capacity();
-  return StiffStage::memory_usage() + static_cast<double>(values * sizeof(double));
+  return StiffStage::memory_usage() + bytes(flow, temperature);
 }
 
 /* ----------------------------------------------------------------------
