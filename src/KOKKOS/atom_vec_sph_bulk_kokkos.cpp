@@ -86,7 +86,7 @@ void AtomVecSPHBulkKokkos::process_args(int narg, char **arg)
   add_columns(narg, arg);
   for (int slot : slots) {
     std::vector<Occasion> occasions = {EXCHANGE};
-    if (States::info(slot).ghosts) occasions = {COMM, BORDER, EXCHANGE};
+    if (state_info(slot).ghosts) occasions = {COMM, BORDER, EXCHANGE};
     add_own_field(STATES_MASK, k_state[slot], state[slot], occasions);
   }
   for (const auto occasion : {COMM, BORDER, EXCHANGE}) datamask_bonus |= sent_mask(occasion);

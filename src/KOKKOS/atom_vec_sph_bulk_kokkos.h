@@ -79,7 +79,7 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
   tdual_field_3 k_vest;
   tdual_field k_inertia;    // empty without spins, as the next one
   tdual_field_3 k_omegaest;
-  tdual_field k_state[SPHDissipation::States::MOST];    // empty where there is no room
+  tdual_field k_state[SPHDissipation::MOST_STATES];    // empty where there is no room
 
  protected:
   AtomVecSPHBulkKokkos(class LAMMPS *, bool spins);

@@ -18,8 +18,8 @@
 // the package's own fields, which the pack and unpack functions of AtomVecKokkos do not know.
 
 #include "kokkos_type.h"
-#include "sph_dissipation_channels.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_states.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -29,7 +29,7 @@ namespace SPHDissipation {
   struct ColumnsKokkos {
     // own fields that migrate: rho, esph, vest, desph_before, rho_sum, vol_rate, vol_rate_before, vol_heat, vol_support,
     // shear_rate, inertia, omegaest, states; or a message of a stage
-    static constexpr int OWN = 1 + 1 + 3 + 1 + 6 + 1 + 3 + States::MOST;
+    static constexpr int OWN = 1 + 1 + 3 + 1 + 6 + 1 + 3 + MOST_STATES;
     static constexpr int MOST = (OWN > Exchange::ROOM) ? OWN : Exchange::ROOM;
     int n = 0;
     double *base[MOST];

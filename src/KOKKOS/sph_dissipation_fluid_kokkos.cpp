@@ -243,10 +243,10 @@ template <class DeviceType> void FluidKokkos<DeviceType>::adopt()
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::begin_run(double dt)
+template <class DeviceType> void FluidKokkos<DeviceType>::begin_run(double dt, bool continues)
 {
   rates_known = false;
-  Fluid::begin_run(dt);
+  Fluid::begin_run(dt, continues);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -612,9 +612,10 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_gradient()
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(PairTally *tally)
+template <class DeviceType>
+void FluidKokkos<DeviceType>::sum_forces(PairTally *tally, const StepPlan &plan)
 {
-  if (!on_device) return Fluid::sum_forces(tally);
+  if (!on_device) return Fluid::sum_forces(tally, plan);
   data->vatom = {};
   if (pair->vflag_atom) data->vatom = decltype(data->vatom)("sph:vatom", atom->nlocal);
 

@@ -70,7 +70,7 @@ namespace SPHDissipation {
     // on the device where that computes; public because CUDA asks for it of functions with lambdas
 
     void sum_density() override;
-    void begin_run(double dt) override;
+    void begin_run(double dt, bool continues) override;
     void set_step(double dt) override;
     void advance_states() override;
     void sum_bound() override;
@@ -78,7 +78,7 @@ namespace SPHDissipation {
     bigint set_pressure() override;
     void set_boundary() override;
     void sum_gradient() override;
-    void sum_forces(PairTally *) override;
+    void sum_forces(PairTally *, const StepPlan &) override;
     void sum_flows() override;
     void set_particles();
     void set_spins();

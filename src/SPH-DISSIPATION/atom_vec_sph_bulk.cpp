@@ -127,10 +127,10 @@ void AtomVecSPHBulk::add_columns(int narg, char **arg)
     const std::string keyword = arg[iarg];
     if (keyword == "rho") continue;
     const auto owner =
-        std::find_if(States::table().begin(), States::table().end(), [&](const StateInfo &one) {
+        std::find_if(state_table().begin(), state_table().end(), [&](const StateInfo &one) {
           return one.has_column() && keyword == one.keyword && !room(one);
         });
-    if (owner == States::table().end())
+    if (owner == state_table().end())
       error->all(FLERR, "Unknown atom_style {} keyword: {}", style, keyword);
     int n = 1;
     if (owner->most > 1) {
@@ -141,7 +141,7 @@ void AtomVecSPHBulk::add_columns(int narg, char **arg)
         error->all(FLERR, "Atom_style {} {} must be 1 to {}, not {}", style, keyword, owner->most,
                    arg[iarg]);
     }
-    for (const StateInfo &one : States::table())
+    for (const StateInfo &one : state_table())
       for (int slot = one.first; slot < one.first + std::min(n, one.most); slot++) {
         if (one.owner != owner->first) continue;
         const std::string name = state_name(slot);
@@ -162,10 +162,10 @@ void AtomVecSPHBulk::add_columns(int narg, char **arg)
 
 void AtomVecSPHBulk::share_columns(int ilocal, bool used) const
 {
-  for (const StateInfo &one : States::table())
+  for (const StateInfo &one : state_table())
     if (!one.has_column() && room(one) && state[one.first][ilocal] > 0.0)
-      state[one.owner + room(States::info(one.owner)) - 1][ilocal] = used ? state[one.first][ilocal]
-                                                                          : 0.0;
+      state[one.owner + room(state_info(one.owner)) - 1][ilocal] = used ? state[one.first][ilocal]
+                                                                        : 0.0;
 }
 
 void AtomVecSPHBulk::pack_data_pre(int ilocal)
@@ -344,7 +344,7 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
   unpack_restart_init(ilocal);
   desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;
   for (int slot : slots)
-    if (!States::info(slot).has_column()) state[slot][ilocal] = -1.0;
+    if (!state_info(slot).has_column()) state[slot][ilocal] = -1.0;
   if (!has_spins) return;
   if (!(inertia[ilocal] >= 0.0))
     error->one(FLERR, "Invalid inertia {} in Atoms section of data file: must be >= 0",
@@ -451,7 +451,7 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
 double AtomVecSPHBulk::state_value(int slot, int i) const
 {
   const double value = state[slot][i];
-  return (States::info(slot).kind == StateKind::EXTENSIVE) ? value : std::max(value, 0.0);
+  return (state_info(slot).kind == StateKind::EXTENSIVE) ? value : std::max(value, 0.0);
 }
 
 /* ----------------------------------------------------------------------

@@ -27,6 +27,8 @@
 #include "sph_dissipation_stages.h"
 #include "update.h"
 
+#include <vector>
+
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
@@ -39,7 +41,7 @@ ComputeSPHDissipation::ComputeSPHDissipation(LAMMPS *lmp, int narg, char **arg) 
   if (igroup != 0) error->all(FLERR, "Compute {} must use group all", style);
 
   scalar_flag = vector_flag = peratom_flag = 1;
-  size_vector = NCHANNEL;
+  size_vector = Fluid::number_of_heats();
   size_peratom_cols = 0;
   extscalar = extvector = 1;
   comm_reverse = 1;
@@ -74,9 +76,9 @@ void ComputeSPHDissipation::collect(double *heat_of_each, double *power)
                "Compute {} needs the forces of the particles that are there now: use run 0 first",
                style);
 
-  double own[NCHANNEL];
-  fluid->heating(heat_of_each, own);
-  MPI_Allreduce(own, power, NCHANNEL, MPI_DOUBLE, MPI_SUM, world);
+  std::vector<double> own(size_vector);
+  fluid->heating(heat_of_each, own.data());
+  MPI_Allreduce(own.data(), power, size_vector, MPI_DOUBLE, MPI_SUM, world);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -110,8 +112,8 @@ void ComputeSPHDissipation::compute_peratom()
     vector_atom = heat;
   }
 
-  double power[NCHANNEL];
-  collect(heat, power);
+  std::vector<double> power(size_vector);
+  collect(heat, power.data());
   if (force->newton_pair) comm->reverse_comm(this);
 }
 

@@ -245,7 +245,6 @@ void FixSPHBulk::init()
   if (first_instance) check_integrated_once();
 
   fluid = find_own_fluid();
-  if (fluid) fluid->integrated = integrated_groups;
   const bool noise = fluid && fluid->model->choice.thermal;
   extrapolation = viscous->extrapolation(noise);
   balanced = fluid && fluid->model->choice.own_temperatures && fluid->pair->compute_flag;
@@ -382,10 +381,9 @@ void FixSPHBulk::check_integrated_once()
   for (std::size_t k = 0; k < fixes.size(); k++)
     for (std::size_t l = k + 1; l < fixes.size(); l++) {
       if (!dynamic_cast<FixSPHBulk *>(fixes[k]) || !dynamic_cast<FixSPHBulk *>(fixes[l])) continue;
-      bigint count = 0, all;
-      for (int i = 0; i < atom->nlocal; i++)
-        if ((atom->mask[i] & fixes[k]->groupbit) && (atom->mask[i] & fixes[l]->groupbit)) count++;
-      MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+      const bigint all = count_particles(lmp, [&](int i) {
+        return (atom->mask[i] & fixes[k]->groupbit) && (atom->mask[i] & fixes[l]->groupbit);
+      });
       if (all)
         error->all(FLERR,
                    "Fixes {} and {} both integrate {} particles: a particle must be in the group "
@@ -427,13 +425,10 @@ void FixSPHBulk::warn_not_integrated()
   for (const auto &ifix : modify->get_fix_list())
     if (ifix->time_integrate) integrated |= ifix->groupbit;
 
-  bigint count = 0, all;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const int type = atom->type[i];
-    if (!(atom->mask[i] & integrated) && fluid->has_type(type) && !fluid->is_boundary(i)) count++;
-  }
-  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-
+  const bigint all = count_particles(lmp, [&](int i) {
+    return !(atom->mask[i] & integrated) && fluid->has_type(atom->type[i]) &&
+        !fluid->is_boundary(i);
+  });
   if (all && all != not_integrated && comm->me == 0)
     error->warning(FLERR,
                    "{} particles of the fluid are in the group of no fix that integrates them: "
@@ -454,9 +449,9 @@ void FixSPHBulk::setup_pre_exchange()
   if (update->whichflag == 0) return;    // from a command that moves particles between processors
   const bool continued = is_continued();
   if (first_instance) reset_extrapolation();
-  if (fluid) fluid->continued = continued && (first_instance || fluid->continued);
   if (!continued || !(dt_of_states > 0.0)) dt_of_states = dtv;
-  if (fluid && first_instance) fluid->begin_run(dt_of_states);
+  if (fluid && first_instance) fluid->begin_run(dt_of_states, continued);
+  if (fluid && !continued) fluid->begin_anew();
   double *const desph_before = fields().desph_before;
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
@@ -487,7 +482,7 @@ void FixSPHBulk::change_volume(const Fields &kept, int i, double change) const
   const double part = -change * atom->rho[i] / atom->rmass[i];
   atom->rho[i] *= 1.0 + part;
   for (int slot : kept.slots)
-    if (States::info(slot).kind == StateKind::STRAIN) kept.state[slot][i] *= 1.0 + part;
+    if (state_info(slot).kind == StateKind::STRAIN) kept.state[slot][i] *= 1.0 + part;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -717,10 +712,9 @@ void FixSPHBulk::check_inertia() const
 {
   if (!has_torques()) return;
   const double *const inertia = fields().inertia;
-  bigint count = 0, all;
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && !(inertia[i] > 0.0)) count++;
-  MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint all = count_particles(lmp, [&](int i) {
+    return (atom->mask[i] & groupbit) && !(inertia[i] > 0.0);
+  });
   if (all)
     error->all(FLERR,
                "Fix {}: inertia must be > 0 where the fluid exerts torques, which that of {} "

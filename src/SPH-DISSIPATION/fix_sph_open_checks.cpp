@@ -83,10 +83,9 @@ void FixSPHOpen::check_groups(int fluid_group)
 
   for (const auto &other : modify->get_fix_list()) {
     if (other == this || !other->time_integrate) continue;
-    bigint count = 0, total;
-    for (int i = 0; i < atom->nlocal; i++)
-      if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) count++;
-    MPI_Allreduce(&count, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    const bigint total = count_particles(lmp, [&](int i) {
+      return (atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit);
+    });
     if (total)
       error->all(FLERR,
                  "Fix {}: {} particles of group {} are also moved by fix {} of style {}; that "
@@ -238,7 +237,7 @@ void FixSPHOpen::check_heat()
 
 void FixSPHOpen::warn_of_cold_zone()
 {
-  const Parameters &par = fluid->model->parameters();
+  const Constants &par = fluid->model->constants();
   if (par.eos == Eos::IDEAL || !(par.thermal_pressure || par.conducts())) return;
   bigint number[2] = {0, 0}, all[2];
   for (const int i : members) {

@@ -34,7 +34,6 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_refine.h"
 #include "sph_dissipation_value.h"
 #include "update.h"
@@ -237,11 +236,11 @@ void FixSPHRefine::evaluate_target()
    of sound of now.
 ------------------------------------------------------------------------- */
 
-double FixSPHRefine::waiting(const StateRows &states, int i) const
+double FixSPHRefine::waiting(const Sound &sound, int i) const
 {
   constexpr double ROUNDOFF = 1.0e-6;
   const double rho0 = fluid->model->coeffs[atom->type[i]].eos.rho0;
-  const double time = (wait < 0.0) ? fluid->support_radius() / fluid->sound(states, i, rho0) : wait;
+  const double time = (wait < 0.0) ? fluid->support_radius() / sound(i, rho0) : wait;
   return ceil(time / update->dt - ROUNDOFF);
 }
 
@@ -253,10 +252,9 @@ void FixSPHRefine::check_overlap()
 {
   for (const auto &other : modify->get_fix_by_style("^sph/refine$")) {
     if (other == this) continue;
-    bigint count = 0, all;
-    for (int i = 0; i < atom->nlocal; i++)
-      if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) count++;
-    MPI_Allreduce(&count, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    const bigint all = count_particles(lmp, [&](int i) {
+      return (atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit);
+    });
     if (all)
       error->all(FLERR, "Fixes {} and {} of style {} both have {} particles in their groups", id,
                  other->id, style, all);
@@ -282,10 +280,10 @@ bool FixSPHRefine::is_fluid(int i) const
    fix existed, it seems to be in the future: such an event does not count.
 ------------------------------------------------------------------------- */
 
-bool FixSPHRefine::may_change(const StateRows &states, int i) const
+bool FixSPHRefine::may_change(const Sound &sound, int i) const
 {
   const double since = static_cast<double>(update->ntimestep) - past[i][STEP];
-  return since < 0.0 || since >= waiting(states, i);
+  return since < 0.0 || since >= waiting(sound, i);
 }
 
 /* ----------------------------------------------------------------------
@@ -363,7 +361,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
   enum { FLUID, EVENTS, DAUGHTERS, CROWDED, NSUM };
   double sum[NSUM] = {0.0, 0.0, 0.0, 0.0}, all[NSUM];
   const double smallest = list_volume() / neighbor->oneatom;
-  const StateRows states = fluid->states();
+  const Sound sound = fluid->sound();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !is_fluid(i)) continue;
     sum[FLUID] += 1.0;
@@ -372,7 +370,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
       sum[DAUGHTERS] += ratio;
       if (target_volume((*target)(i)) < smallest) sum[CROWDED] += 1.0;
     }
-    if ((ratio > split_above || ratio < merge_below) && may_change(states, i)) sum[EVENTS] += 1.0;
+    if ((ratio > split_above || ratio < merge_below) && may_change(sound, i)) sum[EVENTS] += 1.0;
   }
   MPI_Allreduce(sum, all, NSUM, MPI_DOUBLE, MPI_SUM, world);
   const double room =
@@ -397,7 +395,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
 void FixSPHRefine::set_items()
 {
   event->begin();
-  const StateRows states = fluid->states();
+  const Sound sound = fluid->sound();
   for (int i = 0; i < atom->nlocal; i++) {
     RefineState state = is_fluid(i) ? KEEPS : NOT_FLUID;
     double goal = 0.0;
@@ -405,8 +403,7 @@ void FixSPHRefine::set_items()
       goal = target_volume((*target)(i));
       const double ratio = atom->vfrac[i] / goal;
       const bool splits = ratio > split_above;
-      if ((splits || ratio < merge_below) && may_change(states, i))
-        state = splits ? SPLITS : MERGES;
+      if ((splits || ratio < merge_below) && may_change(sound, i)) state = splits ? SPLITS : MERGES;
     }
     event->set(i, state, atom->vfrac[i], split_above * goal, goal, past[i][FAMILY]);
   }

@@ -22,6 +22,7 @@ FixStyle(sph/refine,FixSPHRefine);
 
 #include "fix.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,7 +33,6 @@ namespace SPHDissipation {
   class RefineEvent;
   class RefineBalance;
   class Value;
-  struct StateRows;
 }    // namespace SPHDissipation
 
 // Splits particles of the fluids sph/bulk and sph/micropolar that are larger than a target, merges those
@@ -89,9 +89,10 @@ class FixSPHRefine : public Fix {
   double target_volume(double value) const;
   void check_target(double value, tagint tag) const;
   void evaluate_target();
-  double waiting(const SPHDissipation::StateRows &, int i) const;
+  typedef std::function<double(int, double)> Sound;
+  double waiting(const Sound &, int i) const;
   bool is_fluid(int i) const;
-  bool may_change(const SPHDissipation::StateRows &, int i) const;
+  bool may_change(const Sound &, int i) const;
   void count_anew(bigint step);
   double list_volume() const;
   void set_items();

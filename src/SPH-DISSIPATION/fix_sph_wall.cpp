@@ -187,7 +187,7 @@ void FixSPHWall::init()
         "Fix {} heat flux cannot be used with temp energy of the pair style: a given flow of "
         "heat has no equilibrium that a noise can be in balance with",
         style);
-  if (fluid->model->choice.own_temperatures && fluid->model->parameters().thermal_pressure)
+  if (fluid->model->choice.own_temperatures && fluid->model->constants().thermal_pressure)
     error->all(FLERR,
                "Fix {} cannot be used with temp energy and eos ideal or gruneisen of the pair "
                "style: the pressure of a wall, whose force must have an energy, does not follow "
@@ -215,21 +215,20 @@ void FixSPHWall::init()
     check_particles();
   const std::set<int> felt = interacting_types(fluid);
   const auto conducts = [&](int type) {
-    return fluid->model->parameters().type[type].flow[HEAT_FLOW] > 0.0;
+    return fluid->model->conducts(type);
   };
   if (gives_heat() &&
-      (!fluid->model->parameters().conducts() ||
+      (!fluid->model->constants().conducts() ||
        (!felt.empty() && std::none_of(felt.begin(), felt.end(), conducts))))
     error->all(FLERR,
                "Fix {} heat: the fluid at the wall conducts no heat, keyword conductivity of "
                "pair_coeff",
                style);
   if (!gives_heat() || !fluid->model->choice.own_temperatures) return;
-  int cold = 0, any;    // where only the coefficients of pairs of types act
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && !conducts(atom->type[i])) cold = 1;
-  MPI_Allreduce(&cold, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any)
+  const auto is_cold = [&](int i) {    // where only the coefficients of pairs of types act
+    return (atom->mask[i] & groupbit) && !conducts(atom->type[i]);
+  };
+  if (count_particles(lmp, is_cold))
     error->all(FLERR,
                "Fix {} heat: with temp energy of the pair style, the types of the wall need "
                "a conductivity as well, keyword conductivity of pair_coeff",

@@ -143,9 +143,9 @@ void FixSPHWall::check_bodies(const Fluid *fluid) const
          "shear morris or espanol of the pair style, whose forces have no angular momentum");
   refuse(choice.bulk == Bulk::VOLUME, "bulk volume of the pair style");
   refuse(choice.own_temperatures, "temp energy of the pair style");
-  refuse(fluid->model->parameters().thermal_pressure,
+  refuse(fluid->model->constants().thermal_pressure,
          "eos ideal or gruneisen: the pressure of a body does not follow the heat of the fluid");
-  refuse(fluid->model->parameters().optional, "vortex viscosity or interdrag of the fluid");
+  refuse(fluid->model->constants().optional, "vortex viscosity or interdrag of the fluid");
   refuse(fluid->model->has_rheology(), "viscosities that depend on the rate of shear");
   refuse(!modify->get_fix_by_style("^sph/open").empty(), "fix sph/open");
   refuse(!modify->get_fix_by_style("^sph/torque").empty(), "fix sph/torque");

@@ -152,7 +152,7 @@ Fluid *SPHDissipation::find_fluid(LAMMPS *lmp, const std::string &user)
 
 void PairSPHBulk::sum_virial_by_pairs()
 {
-  if (fluid->model->parameters().drag)
+  if (fluid->model->constants().drag)
     no_virial_fdotr_compute = force->pair->no_virial_fdotr_compute = 1;
 }
 

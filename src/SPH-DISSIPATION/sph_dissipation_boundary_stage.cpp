@@ -87,7 +87,7 @@ void BoundaryStage::find_bits()
     if (one->has_bodies()) body_bits |= one->boundary_bit();
     if (one->has_frozen_pressure()) frozen_bits |= one->boundary_bit();
   }
-  engine.has_walls = !boundaries.empty();
+  if (boundaries.empty()) engine.forget_wall_energy();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -369,7 +369,7 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
    sums of surface_pairs
 ------------------------------------------------------------------------- */
 
-void BoundaryStage::run_friction(FrictionPart part, Friction kind, bool linear)
+void BoundaryStage::run_friction(FrictionPart part, const StepNoise *noise, bool linear)
 {
   surface_pairs.resize(engine.team().size());
   engine.team().run([&](int k) {
@@ -393,7 +393,7 @@ void BoundaryStage::run_friction(FrictionPart part, Friction kind, bool linear)
       found.push_back(one);
     }
     surface_pairs[k].set(found, number, nboundary);
-    engine.accumulate_friction(surface_pairs[k], kind, k);
+    engine.accumulate_friction(surface_pairs[k], noise, k);
   });
 }
 
@@ -402,7 +402,7 @@ void BoundaryStage::run_friction(FrictionPart part, Friction kind, bool linear)
    elsewhere half of it to each, of which the fluid gets both.
 ------------------------------------------------------------------------- */
 
-void BoundaryStage::add_friction(PairTally *tally)
+void BoundaryStage::add_friction(PairTally *tally, const StepNoise &noise)
 {
   if (!symmetric_bits) return;
   const bool directed = engine.parameters().directed_noise();
@@ -417,7 +417,7 @@ void BoundaryStage::add_friction(PairTally *tally)
     engine.force[to].heat += part * own.force[from].heat;
   };
 
-  run_friction(directed ? FrictionPart::ADDED : FrictionPart::ALL, Friction::WITH_NOISE, false);
+  run_friction(directed ? FrictionPart::ADDED : FrictionPart::ALL, &noise, false);
   for (const auto &own : surface_pairs) {
     own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
       const double *const f = own.force[k].f;
@@ -439,7 +439,7 @@ void BoundaryStage::add_friction(PairTally *tally)
 
   // the half of the heat that pass 2 gave the wall
 
-  run_friction(FrictionPart::BODY, Friction::WITHOUT_NOISE, false);
+  run_friction(FrictionPart::BODY, nullptr, false);
   for (const auto &own : surface_pairs)
     own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
       engine.force[pair.fluid].heat += own.force[k].heat;
@@ -454,7 +454,7 @@ void BoundaryStage::add_linear_friction()
 {
   if (!symmetric_bits) return;
   run_friction(engine.parameters().directed_noise() ? FrictionPart::ADDED : FrictionPart::ALL,
-               Friction::WITHOUT_NOISE, true);
+               nullptr, true);
   for (const auto &own : surface_pairs)
     own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
       for (int d = 0; d < 3; d++) {
@@ -805,15 +805,10 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 
 double BoundaryStage::memory_usage() const
 {
-  return (double) nmax * sizeof(BoundarySum) +
-      (double) heat_sum.capacity() * sizeof(BoundaryHeatSum) + pairs.memory_usage() +
-      sums.memory_usage() + heat_sums.memory_usage() + flow_sums.memory_usage() +
-      repulsion_sums.memory_usage() + (double) repulsion.capacity() * sizeof(ForceSum) +
-      (double) (near.capacity() + contact.capacity()) * sizeof(NearKernel) +
-      surface.memory_usage() + (double) number.capacity() * sizeof(int) +
-      (double) (body_of.capacity() + own_numden.capacity()) * sizeof(double) +
-      std::accumulate(surface_pairs.begin(), surface_pairs.end(), 0.0,
-                      [](double bytes, const SurfacePairs &own) {
-                        return bytes + own.memory_usage();
-                      });
+  double own = 0.0;
+  for (const SurfacePairs &some : surface_pairs) own += some.memory_usage();
+  return own + (double) nmax * sizeof(BoundarySum) + pairs.memory_usage() + sums.memory_usage() +
+      heat_sums.memory_usage() + flow_sums.memory_usage() + repulsion_sums.memory_usage() +
+      surface.memory_usage() +
+      bytes(heat_sum, repulsion, near, contact, number, body_of, own_numden);
 }

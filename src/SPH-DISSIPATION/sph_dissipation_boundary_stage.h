@@ -63,7 +63,7 @@ namespace SPHDissipation {
     // After pass 2: add the friction, with its noise, of boundaries where it is symmetric to the sums of the engine; all its
     // heat goes to the fluid
 
-    void add_friction(PairTally *);
+    void add_friction(PairTally *, const StepNoise &);
 
     // the same of given velocities, linear and without noise: forces and torques alone
 
@@ -172,7 +172,7 @@ namespace SPHDissipation {
     void find_bodies();
     void sum_bodies();
     enum class FrictionPart { ALL, ADDED, BODY };    // factor of surface_factor(), less 1, 1
-    void run_friction(FrictionPart, Friction, bool linear);
+    void run_friction(FrictionPart, const StepNoise *, bool linear);
 
     bool has_energy() const;    // with thermal noise, or free surfaces
     double conductivity(int i) const;

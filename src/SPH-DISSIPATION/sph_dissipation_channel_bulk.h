@@ -36,12 +36,6 @@ namespace SPHDissipation {
 
   // density: f_i = zeta sum_j (V_i^3 cdot_i + V_j^3 cdot_j) F r_ij             P1 (18)
   // volume:  f_i = zeta sum_j (V_i cdot_i + V_j cdot_j) F r_ij V_i V_j         P1 (64)
-  enum class Bulk { NONE, DENSITY, VOLUME };
-
-  inline const char *bulk_name(Bulk bulk)
-  {
-    return (bulk == Bulk::DENSITY) ? "density" : (bulk == Bulk::VOLUME) ? "volume" : "none";
-  }
 
   // coefficient of the bulk term; intrinsic = bulk viscosity of the pair terms; P1 (67)
   inline double bulk_coefficient(double kappa, double intrinsic)

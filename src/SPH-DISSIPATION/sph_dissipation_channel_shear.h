@@ -73,17 +73,6 @@ namespace SPHDissipation {
   // espanol: f_i = -a sum_j F [u + (u.e) e] V_i V_j           P. Espanol, M. Revenga, Phys. Rev. E 67,
   //                                                           026705 (2003), with bulk term zero
   // micropolar: f_i = -sum_j F V_i V_j [zeta1 (e.u*) e + zeta2 u*], u* = u - Omega_mean x r   P3 (12)
-  enum class Shear { NONE, MG, MG_FR, MORRIS, ESPANOL, MICROPOLAR };
-
-  inline const char *shear_name(Shear shear)
-  {
-    return (shear == Shear::MG)        ? "mg"
-        : (shear == Shear::MG_FR)      ? "mg/fr"
-        : (shear == Shear::MORRIS)     ? "morris"
-        : (shear == Shear::ESPANOL)    ? "espanol"
-        : (shear == Shear::MICROPOLAR) ? "micropolar"
-                                       : "none";
-  }
 
   // prefactor of the shear term per unit mu, in dimension n; mean_radius = integral of r W
   inline double shear_factor(Shear shear, int n, double mean_radius)

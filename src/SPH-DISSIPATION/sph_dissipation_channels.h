@@ -120,8 +120,8 @@ template <class Function> void with_form(const Terms &terms, Function &&function
 #ifndef LMP_SPH_DISSIPATION_CHANNELS_H
 #define LMP_SPH_DISSIPATION_CHANNELS_H
 
-#include "sph_dissipation_flows.h"
 #include "sph_dissipation_rheology.h"
+#include "sph_dissipation_settings.h"
 
 #include <algorithm>
 #include <array>
@@ -133,40 +133,6 @@ template <class Function> void with_form(const Terms &terms, Function &&function
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-
-  // viscosities of the pairs of types, in the order of pair_coeff
-  enum Viscosity { MU, MU_R, GAMMA1, GAMMA2, NVISCOSITY };
-  constexpr const char *VISCOSITY_NAMES[] = {"mu", "mu_r", "gamma1", "gamma2"};
-  inline int number_of_viscosities(bool spins)
-  {
-    return spins ? NVISCOSITY : MU_R;
-  }
-
-  // What a keyword of pair_coeff requires of pair_style, see FluidModel::keyword_that_needs()
-  enum Requirement {
-    NOTHING = 0,
-    HEAT_CAPACITY = 1,    // temperatures: a heat capacity, and no heat bath of one temperature
-    NO_NOISE = 2,
-    EOS_IDEAL = 4,
-    NOT_EOS_IDEAL = 8,
-    NO_OPEN_ENDS = 16,
-    TENSION = 32,
-    RHEOLOGY = 64    // mu that may depend on the rate of shear, see FluidModel::check_rheology()
-  };
-
-  // A keyword of pair_coeff and its numbers, coefficients of a type, one after another: once, or in groups of which there
-  // may be fewer.
-  struct TypeKeyword {
-    const char *name;
-    int count;    // of coefficients
-    int group;    // as many belong together; 0: all
-    int needs;    // of enum Requirement
-    // it acts with the number 0, too: the first of its coefficients is 1 where it is given, and no number of the command
-    bool marked = false;
-    int first = 0;    // number among the coefficients of all channels, set by type_keywords()
-
-    int numbers() const { return marked ? count - 1 : count; }    // of the command
-  };
 
   // Name by which another command may vary a coefficient of a type, of this number in its channel.  In the second and
   // further groups of a keyword the name has the number of the group behind it.
@@ -181,8 +147,6 @@ namespace SPHDissipation {
   struct PairFriction {
     double along, across, spin_along, spin_across, along_by_square;
   };
-
-  enum class Shear;
 
   // what the coefficients of a pair of types follow from
   struct PairFluid {
@@ -363,10 +327,12 @@ namespace SPHDissipation {
 
   constexpr int NCHANNEL = Channels::NUMBER;    // of those that turn motion into heat
 
-  // places of the heat of the bulk term, which no pair has, and of the flow that walls and open zones take part in
+  // place of the heat of the bulk term, which no pair has
 
   constexpr int BULK_HEAT = Channels::place<BulkChannel>();
-  constexpr int HEAT_FLOW = Flows::place<HeatChannel>();
+
+  static_assert(HEAT_FLOW == Flows::place<HeatChannel>(), "HEAT_FLOW is the place of another flow");
+  static_assert(States::MOST <= MOST_STATES, "MOST_STATES is too small");
 
   // Coefficients of the terms of two types, one channel after the other:
   //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
@@ -384,11 +350,18 @@ namespace SPHDissipation {
   struct TypeCoeffs {
     double a[Channels::NTYPE] = {};
 
-    // those of a channel
-    template <class Channel> const double *of() const
+    TypeCoeffs() = default;
+    explicit TypeCoeffs(const std::vector<double> &all)
     {
-      return a + Channels::first_of_type<Channel>();
+      std::copy_n(all.begin(), Channels::NTYPE, a);
     }
+
+    // those of a channel
+    template <class Channel> static constexpr int first_of()
+    {
+      return Channels::first_of_type<Channel>();
+    }
+    template <class Channel> const double *of() const { return a + first_of<Channel>(); }
     const double *rheology() const { return of<ShearChannel>(); }
     double drag() const { return Channels::drag(a); }
     double gamma() const { return of<HeatChannel>()[HeatChannel::GAMMA]; }    // gruneisen
@@ -457,28 +430,6 @@ namespace SPHDissipation {
     return all;
   }
 
-  // Columns of a row of sums over pairs: torque, if there are spins, then the heat of each of the channels with these bits
-  // but the first
-  struct ChannelColumns {
-    bool spins;
-    int bits;
-    constexpr bool heats(int channel) const { return channel > 0 && (bits >> channel & 1); }
-    constexpr int heat(int channel) const
-    {
-      int column = spins ? 3 : 0;
-      for (int c = 1; c < channel; c++) column += heats(c) ? 1 : 0;
-      return column;
-    }
-    constexpr int width() const { return heat(NCHANNEL); }
-  };
-
-  // the terms of pairs that a run has: those of a form of the shear force, and the optional ones or not
-  struct Terms {
-    Shear shear;
-    bool optional;
-    bool by_rate;    // mu depends on the rate of shear
-  };
-
   // whether these coefficients have any of the optional terms: the name of their channel, or nullptr
   inline const char *optional_channel(const PairCoeff &coeff)
   {
@@ -536,14 +487,7 @@ namespace SPHDissipation {
     });
   }
 
-  // the inequality that the viscosities violate, or nullptr if the fluid dissipates: those of a type,
-  // 2 mu |dev E|^2 + kappa (tr E)^2 >= 0, and all those of a pair of types
-  inline const char *inadmissible(double mu, double kappa)
-  {
-    if (!(mu >= 0.0)) return "mu must be >= 0";
-    if (!(kappa >= 0.0)) return "kappa must be >= 0";
-    return nullptr;
-  }
+  // the inequality that a pair of types violates, or nullptr if the fluid dissipates
   inline const char *inadmissible(const TypePair &pair)
   {
     const char *violated = nullptr;

@@ -59,6 +59,16 @@ std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool
 
 /* ---------------------------------------------------------------------- */
 
+bigint SPHDissipation::count_particles(LAMMPS *lmp, const std::function<bool(int)> &counts)
+{
+  bigint mine = 0, all;
+  for (int i = 0; i < lmp->atom->nlocal; i++) mine += counts(i) ? 1 : 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void SPHDissipation::check_set_up(LAMMPS *lmp, const Fix *fix, bool set_up)
 {
   if (!set_up)
@@ -110,15 +120,14 @@ void SPHDissipation::check_rerun(LAMMPS *lmp, const std::string &style, const Fl
                     "densities of the particles",
                     style);
   for (int i = 1; i <= lmp->atom->ntypes; i++)
-    States::visit([&](auto one) {
-      if (one.KIND == StateKind::STRAIN && States::count(one, model.coeffs[i].keywords) &&
+    for (const StateInfo &one : state_table())
+      if (one.kind == StateKind::STRAIN && one.count(model.coeffs[i].keywords.data()) &&
           lmp->comm->me == 0)
         lmp->error->warning(
             FLERR,
             "Pair style {} with rerun: snapshots have no strains of {}, which for type {} are "
             "taken to be zero",
-            style, one.NAME, i);
-    });
+            style, one.name, i);
   if (Fields::with_spins(lmp->atom) && lmp->comm->me == 0)
     lmp->error->warning(FLERR,
                         "Pair style {} with rerun: snapshots have no spins, forces are those of "
@@ -360,12 +369,10 @@ void SPHDissipation::check_room(LAMMPS *lmp, const std::string &style, const Flu
 {
   const Fields &fields = *Fields::of(lmp->atom);
   for (int i = 1; i <= lmp->atom->ntypes; i++)
-    for (const StateInfo &one : States::table()) {
+    for (const StateInfo &one : state_table()) {
       int count = 0;
-      States::visit([&](auto channel) {
-        if (one.first == States::first<States::Owner<decltype(channel)>>())
-          count += States::count(channel, model.coeffs[i].keywords);
-      });
+      for (const StateInfo &guest : state_table())
+        if (guest.owner == one.first) count += guest.count(model.coeffs[i].keywords.data());
       if (model.coeffs[i].other || count <= fields.room(one)) continue;
       lmp->error->all(FLERR, Error::NOLASTLINE,
                       "Pair style {}: the states of {} of type {} are {}, but particles have room "
@@ -383,19 +390,16 @@ void SPHDissipation::check_state_times(LAMMPS *lmp, const std::string &style,
   constexpr double SHORT = 1.0e-3;    // over the time step
   if (lmp->comm->me != 0) return;
   for (int i = 1; i <= lmp->atom->ntypes; i++) {
-    const TypeCoeffs &keywords = model.coeffs[i].keywords;
-    States::visit([&](auto one) {
-      if constexpr (one.INSTEAD != nullptr) {
-        const double *const type = keywords.of<decltype(one)>();
-        for (int k = 0; k < one.count(type) && !model.coeffs[i].other; k++)
-          if (one.time(type, k) < SHORT * lmp->update->dt)
-            lmp->error->warning(FLERR,
-                                "Pair style {}: the time {:g} of {} of type {} is far below the "
-                                "time step {:g}; {} does the same",
-                                style, one.time(type, k), one.NAME, i, lmp->update->dt,
-                                one.INSTEAD);
-      }
-    });
+    if (model.coeffs[i].other) continue;
+    const double *const coeffs = model.coeffs[i].keywords.data();
+    for (const StateInfo &one : state_table())
+      for (int k = 0; one.instead && k < one.count(coeffs); k++)
+        if (one.time(coeffs, k) < SHORT * lmp->update->dt)
+          lmp->error->warning(FLERR,
+                              "Pair style {}: the time {:g} of {} of type {} is far below the "
+                              "time step {:g}; {} does the same",
+                              style, one.time(coeffs, k), one.name, i, lmp->update->dt,
+                              one.instead);
   }
 }
 
@@ -413,7 +417,7 @@ void SPHDissipation::check_surface(LAMMPS *lmp, const std::string &style, const 
                           style, type.eos.pb, i);
   }
   const Shear shear = model.choice.shear;
-  if ((shear == Shear::MORRIS || shear == Shear::ESPANOL) && !model.parameters().inviscid)
+  if ((shear == Shear::MORRIS || shear == Shear::ESPANOL) && !model.constants().inviscid)
     lmp->error->warning(FLERR,
                         "Pair style {} density continuity: shear {} exerts a torque on a fluid "
                         "with a free surface that rotates; use shear mg",
@@ -503,7 +507,7 @@ void SPHDissipation::check_sizes(LAMMPS *lmp, const std::string &style, const Fl
 /* ---------------------------------------------------------------------- */
 
 void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const FluidModel &model,
-                                    const StateRows &states, int boundary_bits)
+                                    const std::function<double(int)> &heat, int boundary_bits)
 {
   Atom *atom = lmp->atom;
   const bool gas = (model.choice.eos == Eos::IDEAL);
@@ -511,10 +515,9 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
   for (int i = 0; i < atom->nlocal; i++) {
     const TypeCoeff &type = model.coeffs[atom->type[i]];
     if (type.other || (atom->mask[i] & boundary_bits)) continue;
-    if (type.eos.gruneisen == 0.0 && model.parameters().type[atom->type[i]].flow[HEAT_FLOW] == 0.0)
-      continue;
+    if (type.eos.gruneisen == 0.0 && !model.conducts(atom->type[i])) continue;
     number[0]++;
-    if (atom->esph[i] == 0.0 || !(states.thermal_energy(i) > 0.0)) number[1]++;
+    if (atom->esph[i] == 0.0 || !(heat(i) > 0.0)) number[1]++;
   }
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
   if (all[1] && !gas && lmp->comm->me == 0)

@@ -14,6 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_CHECKS_H
 #define LMP_SPH_DISSIPATION_CHECKS_H
 
+#include "lmptype.h"
+
 #include <functional>
 #include <set>
 #include <string>
@@ -26,7 +28,6 @@ class LAMMPS;
 namespace SPHDissipation {
   class Engine;
   class FluidModel;
-  struct StateRows;
 
   // Particles alike in all that decides whether they have pairs: type and bits of groups
 
@@ -41,6 +42,10 @@ namespace SPHDissipation {
   // one: "particle 17"; empty if there is none
 
   std::string first_particle(LAMMPS *, const std::function<bool(int)> &wrong);
+
+  // how many there are
+
+  bigint count_particles(LAMMPS *, const std::function<bool(int)> &counts);
 
   // a fix that was defined after the last run was set up cannot take part in a run with pre no
 
@@ -105,8 +110,8 @@ namespace SPHDissipation {
   // with an equation of state that needs it, no neighbors inside the support.  Particles with one of boundary_bits in their mask are
   // no fluid.
 
-  void check_energies(LAMMPS *, const std::string &style, const FluidModel &, const StateRows &,
-                      int boundary_bits);
+  void check_energies(LAMMPS *, const std::string &style, const FluidModel &,
+                      const std::function<double(int i)> &heat, int boundary_bits);
   void check_neighbors(LAMMPS *, const std::string &style, const FluidModel &, const Engine &,
                        int boundary_bits, int dim, double support);
 

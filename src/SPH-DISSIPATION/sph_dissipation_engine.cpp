@@ -18,6 +18,7 @@
 #include "neigh_list.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_noise_data.h"
+#include "sph_dissipation_particle_terms.h"
 #include "update.h"
 
 #include <algorithm>
@@ -34,10 +35,10 @@ static const Parameters NO_PARAMETERS;    // of an engine before its setup()
 
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
-    state_pressure(nullptr), divergence(nullptr), spin(nullptr), loops(&loops_plain),
-    par(&NO_PARAMETERS), density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr),
-    noisy_loop(nullptr), surface_loop(nullptr), surface_noise(nullptr), drag_noise(nullptr), data(),
-    atom_rows(), threads(&one_thread), weights(nullptr), not_fluid(0), nlocal_forces(-1),
+    state_pressure(nullptr), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), divergence(nullptr),
+    spin(nullptr), loops(&loops_plain), par(&NO_PARAMETERS), fixed(&NO_PARAMETERS),
+    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), data(),
+    atom_rows(new ParticleRows()), threads(&one_thread), weights(nullptr), nlocal_forces(-1),
     nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
   choose_loops("auto");
@@ -89,30 +90,14 @@ bool Engine::choose_loops(const std::string &simd)
 void Engine::setup(const Parameters &parameters)
 {
   par = &parameters;
+  fixed = &parameters;
   density_loop = loops->density(par->kernel, par->volume);
   rate_loop = loops->rates(par->volume);
   const Terms terms = (par->inviscid && !par->spins()) ? Terms{Shear::NONE, false, false}
                                                        : par->terms();
   force_loop = loops->forces(terms, par->bulk, par->volume);
   side.set({par->spins(), loops->channels(terms)});
-  noisy_loop = surface_loop = nullptr;
-  drag_noise = nullptr;
   data.par = par;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void Engine::add_noise(const NoiseForm &form, const NoiseData *noise)
-{
-  data.noise = noise;
-  noisy_loop = loops->noisy_forces(form);
-  add_surface_noise(form, noise);
-}
-
-void Engine::add_surface_noise(const NoiseForm &form, const NoiseData *noise)
-{
-  surface_noise = noise;
-  surface_loop = loops->noisy_forces(form);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -217,13 +202,13 @@ void Engine::set_rows()
     energy.assign(atom->esph, atom->esph + atom->nlocal + atom->nghost);
     with_states.esph = energies = energy.data();
   }
-  atom_rows = {*par,        par->type.data(), atom->nlocal, particle,
-               density,     zeta_term,        &ONE,         0,
-               atom->type,  atom->mask,       atom->rmass,  energies,
-               atom->rho,   atom->drho,       atom->vfrac,  atom->desph,
-               with_states, state_pressure,   {},           Fields::of(atom)->rho_sum};
-  for (int k = 0; k < Flows::NUMBER; k++) atom_rows.flow[k] = flow[k].data();
-  atom_rows.viscosity = viscosity.data();
+  *atom_rows = {*par,        par->type.data(), atom->nlocal, particle,
+                density,     zeta_term,        &ONE,         0,
+                atom->type,  atom->mask,       atom->rmass,  energies,
+                atom->rho,   atom->drho,       atom->vfrac,  atom->desph,
+                with_states, state_pressure,   {},           Fields::of(atom)->rho_sum};
+  for (int k = 0; k < Flows::NUMBER; k++) atom_rows->flow[k] = flow[k].data();
+  atom_rows->viscosity = viscosity.data();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -249,6 +234,13 @@ void Engine::set_wall_energy(const double *energies)
 {
   wall_energy.assign(energies, energies + atom->nlocal);
   wall_energy_tags.assign(atom->tag, atom->tag + atom->nlocal);
+  atom_rows->states.by_walls = wall_energy.data();
+}
+
+void Engine::forget_wall_energy()
+{
+  wall_energy.clear();
+  atom_rows->states.by_walls = nullptr;
 }
 
 /* ----------------------------------------------------------------------
@@ -289,12 +281,12 @@ void Engine::set_weights()
   }
   const int nall = atom->nlocal + atom->nghost;
   for_each(nall, [&](int i) {
-    weights[i] = by_mass ? atom_rows.reference_volume(i) : 1.0;
+    weights[i] = by_mass ? atom_rows->reference_volume(i) : 1.0;
     density[i].c *= weights[i];
   });
   std::fill_n(weights + nall, BLOCK, 0.0);
-  data.weight = atom_rows.weight = weights;
-  atom_rows.each = 1;
+  data.weight = atom_rows->weight = weights;
+  atom_rows->each = 1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -341,10 +333,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     viscosity.resize(nmax + BLOCK);
     std::fill_n(viscosity.begin() + nall, BLOCK, 0.0);
   }
-  if (!par->own_temperatures || !has_walls)
-    wall_energy.clear();
-  else if (wall_energy.empty())
-    set_wall_energy(std::vector<double>(nlocal).data());
+  if (!par->own_temperatures) forget_wall_energy();
   set_rows();
   set_weights();
 
@@ -476,27 +465,29 @@ double *Engine::room_for_numbers(int thread, const LoopData &rows)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_forces(NeighList *list, PairTally *tally)
+void Engine::accumulate_forces(NeighList *list, PairTally *tally, const StepPlan &plan)
 {
   data.tally = tally;
-  run_forces(list, noisy_loop ? noisy_loop : force_loop, false);
+  run_forces(list, plan, false);
   nlocal_forces = atom->nlocal;
   nghost_forces = atom->nghost;
 }
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_friction(NeighList *list)
+void Engine::accumulate_friction(NeighList *list, int not_fluid)
 {
   data.tally = nullptr;
-  run_forces(list, force_loop, true);
+  run_forces(list, {not_fluid}, true);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::run_forces(NeighList *list, Loop loop, bool linear)
+void Engine::run_forces(NeighList *list, const StepPlan &plan, bool linear)
 {
-  const bool by_volume = (par->bulk == Bulk::VOLUME), noisy = (loop == noisy_loop);
+  const StepNoise &noise = plan.noise;
+  const bool by_volume = (par->bulk == Bulk::VOLUME), noisy = noise.pairs.data;
+  const Loop loop = noisy ? loops->noisy_forces(noise.pairs.form) : force_loop;
   const int nall = atom->nlocal + atom->nghost;
   const std::size_t nrow = (std::size_t) nall + BLOCK;
   data.inum = list->inum;
@@ -504,6 +495,7 @@ void Engine::run_forces(NeighList *list, Loop loop, bool linear)
   data.viscosity = viscosity.data();
   data.spin = spin;
   data.random = nullptr;
+  data.noise = noise.pairs.data;
   force_sums.begin(*threads);
   scalar_sums.begin(*threads);
   side_sums.begin(*threads);
@@ -531,15 +523,15 @@ void Engine::run_forces(NeighList *list, Loop loop, bool linear)
   if (!par->drag) return;
   for_each(atom->nlocal, [&](int i) {
     double heat[NCHANNEL] = {};
-    add_drag(i, linear, force[i].f, heat);
-    if (drag_noise && !linear)
-      for (int d = 0; d < 3; d++) force[i].f[d] += drag_noise[3 * i + d];
+    add_drag(i, plan.not_fluid, linear, force[i].f, heat);
+    if (noise.drag)
+      for (int d = 0; d < 3; d++) force[i].f[d] += noise.drag[3 * i + d];
   });
 }
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::add_drag(int i, bool linear, double *force_of, double *heat) const
+void Engine::add_drag(int i, int not_fluid, bool linear, double *force_of, double *heat) const
 {
   const TypeParameters &type = par->type[atom->type[i]];
   if (!par->drag || type.other || (atom->mask[i] & not_fluid)) return;
@@ -623,9 +615,7 @@ void PairSubset::end_row(int spare)
 
 double PairSubset::memory_usage() const
 {
-  return static_cast<double>((rows.capacity() + count.capacity() + neighbor.capacity()) *
-                                 sizeof(int) +
-                             first.capacity() * sizeof(bigint) + slope.capacity() * sizeof(double));
+  return bytes(rows, count, neighbor, first, slope);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -634,16 +624,13 @@ double Engine::memory_usage() const
 {
   double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double);
   if (has_spin()) per_atom += sizeof(Spin);
-  double bytes = nmax * per_atom + (double) nmax_weights * sizeof(double) +
+  double sum = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double)) +
-      (double) viscosity.capacity() * sizeof(double) +
-      (double) (energy.capacity() + wall_energy.capacity()) * sizeof(double) +
-      (double) types.capacity() * sizeof(int);
-  for (const auto &rows : flow) bytes += (double) rows.capacity() * sizeof(FlowRow);
-  for (const auto &rates : flow_rate) bytes += (double) rates.capacity() * sizeof(double);
-  for (const auto &numbers : random)
-    bytes += static_cast<double>(numbers.capacity() * sizeof(double));
-  return bytes + side.memory_usage() + density_sums.memory_usage() + force_sums.memory_usage() +
+      bytes(viscosity, energy, wall_energy, wall_energy_tags, types);
+  for (const auto &rows : flow) sum += bytes(rows);
+  for (const auto &rates : flow_rate) sum += bytes(rates);
+  for (const auto &numbers : random) sum += bytes(numbers);
+  return sum + side.memory_usage() + density_sums.memory_usage() + force_sums.memory_usage() +
       side_sums.memory_usage() + scalar_sums.memory_usage();
 }

@@ -17,10 +17,13 @@
 #include "pointers.h"
 #include "sph_dissipation_diffusion_terms.h"
 #include "sph_dissipation_exchange.h"
-#include "sph_dissipation_particle_terms.h"
+#include "sph_dissipation_noise_data.h"
+#include "sph_dissipation_rows.h"
+#include "sph_dissipation_settings.h"
 #include "sph_dissipation_threads.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -47,9 +50,9 @@ namespace SPHDissipation {
     virtual void tally(int i, int j, const double *force_on_i, const double *rij) = 0;
   };
 
-  struct NoiseData;
-  struct NoiseForm;
-  enum class NoiseChannel;
+  struct Parameters;
+  struct ParticleRows;
+  struct StateRows;
 
   // Pairs are worked off in blocks of as many as a vector has doubles; this is the widest one.  The
   // last block of a particle is filled up with spare particles, of which there are as many behind the
@@ -160,7 +163,7 @@ namespace SPHDissipation {
     // by channel, added to heat[]; of all channels
     void add_heat(int i, double *heat) const
     {
-      for (int c = 1; c < NCHANNEL; c++)
+      for (int c = 1; columns.bits >> c; c++)
         if (columns.heats(c)) heat[c] += torque(i)[columns.heat(c)];
     }
     double heat(int i) const
@@ -170,7 +173,7 @@ namespace SPHDissipation {
       return sum;
     }
     void clear(int i) { std::fill_n(rows.begin() + (std::size_t) i * width, width, 0.0); }
-    double memory_usage() const { return static_cast<double>(rows.capacity() * sizeof(double)); }
+    double memory_usage() const { return bytes(rows); }
   };
 
   // Some of the pairs that pass 1 has found, in the form that pass 2 works off: begin(); for each
@@ -199,7 +202,13 @@ namespace SPHDissipation {
   };
 
   class SurfacePairs;
-  enum class Friction { WITH_NOISE, WITHOUT_NOISE };
+
+  // of one step: what the loops add to forces besides what the parameters say
+  struct StepPlan {
+    int not_fluid =
+        0;    // bits of the groups of particles of walls and open zones, which have no drag
+    StepNoise noise = {};
+  };
 
   // Pair engine of the particle fluid styles: number density and its rate in one loop over the
   // neighbor list, forces and heating in a second one.  Between them the stages of the pair style set
@@ -222,10 +231,6 @@ namespace SPHDissipation {
 
     // choose the loops; the parameters are read until the next call
     void setup(const Parameters &);
-    // pass 2 then adds the random forces and torques of the pairs, until setup() is called again; noise is read by each
-    // pass 2.  The same for the pairs of accumulate_friction(SurfacePairs)
-    void add_noise(const NoiseForm &, const NoiseData *noise);
-    void add_surface_noise(const NoiseForm &, const NoiseData *noise);
 
     // pass 1: particle[] from atom->x and vest, spin[] from omegaest (micropolar), which are zero
     // where these are nullptr; density[] of owned atoms (with the particle itself) and the
@@ -238,7 +243,7 @@ namespace SPHDissipation {
 
     // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller
     // on owned and ghost atoms, and the drag of single particles
-    void accumulate_forces(NeighList *, PairTally *);
+    void accumulate_forces(NeighList *, PairTally *, const StepPlan &);
 
     // what the noise needs before, or the heat that partners share after pass 2: added to noise.total of owned and ghost
     // atoms, with room for the spare ones
@@ -249,10 +254,10 @@ namespace SPHDissipation {
     void draw_numbers(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
 
     // the same as accumulate_forces() without noise, linear in the velocities: without the streams of the drag
-    void accumulate_friction(NeighList *);
+    void accumulate_friction(NeighList *, int not_fluid);
 
-    // friction of those pairs alone, with or without its noise, by this thread; after pass 2, which the noise is set for
-    void accumulate_friction(SurfacePairs &, Friction, int thread);
+    // friction of those pairs alone, with the noise of surfaces, or nullptr, by this thread; after pass 2
+    void accumulate_friction(SurfacePairs &, const StepNoise *, int thread);
 
     // sum_j V_j F (e.u)^2 of owned and ghost atoms, of the volumes and velocities in particle[]; room for the spare ones
     void accumulate_shear_rates(std::vector<double> &rates);
@@ -271,10 +276,7 @@ namespace SPHDissipation {
 
     // drag of an owned particle, added to its force and, by channel, to its heat, energy per time; linear, and in a
     // minimization, which has no velocities: relative to rest
-    void add_drag(int i, bool linear, double *force_of, double *heat) const;
-    // random force of each owned particle, added by each pass 2 until setup() is called again
-    void add_drag_noise(const double *forces) { drag_noise = forces; }
-    void set_not_fluid(int bits) { not_fluid = bits; }    // groups whose particles have no drag
+    void add_drag(int i, int not_fluid, bool linear, double *force_of, double *heat) const;
     bool has_forces() const;    // force[] is of the owned and ghost atoms that are there now
 
     // the pairs inside the support that pass 1 has found, for the sums of other stages: function(i, j, entry) for each of
@@ -306,12 +308,13 @@ namespace SPHDissipation {
     }
 
     const Parameters &parameters() const { return *par; }
+    const Constants &constants() const { return *fixed; }    // of these parameters
     // what is between the passes, of owned and ghost atoms; from pass 1 until atoms move to other processors
-    const ParticleRows &rows() const { return atom_rows; }
+    const ParticleRows &rows() const { return *atom_rows; }
     StateRows states() const;    // of the owned atoms as they are
     // reference volume of a particle, owned or ghost
     double weight(int i) const { return data.weight ? data.weight[i] : 1.0; }
-    bool has_spin() const { return par->spins(); }
+    bool has_spin() const { return fixed->spins(); }
     double memory_usage() const;
     const char *instruction_set() const { return loops->name; }
 
@@ -325,14 +328,14 @@ namespace SPHDissipation {
     }
     double *zeta_term;         // zeta cdot/c, set by the caller on owned and ghost atoms
     double *state_pressure;    // of their states, as zeta_term; set if there are any
-    std::vector<FlowRow> flow[Flows::NUMBER];    // the same, of the flows of any type
+    std::vector<std::vector<FlowRow>> flow;    // the same, of the flows of any type
     std::vector<FlowRow> &heat() { return flow[HEAT_FLOW]; }
-    std::vector<double> flow_rate[Flows::NUMBER];    // what each flow has given in the last forces
+    std::vector<std::vector<double>> flow_rate;    // what each flow has given in the last forces
     std::vector<double> viscosity;    // the same, mu, if any depends on the rate of shear
     std::vector<double>
         energy;    // the same, internal energy, if particles have the noise of their temperatures
     void set_wall_energy(const double *);    // what walls hold of it, of owned atoms
-    bool has_walls = false;
+    void forget_wall_energy();
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     Spin *spin;            // micropolar only
 
@@ -342,13 +345,10 @@ namespace SPHDissipation {
     void follow_atoms() const;
     const LoopSet *loops;
     const Parameters *par;
+    const Constants *fixed;
     Loop density_loop, rate_loop, force_loop;
-    Loop noisy_loop;      // force_loop with noise, or nullptr
-    Loop surface_loop;    // the same for pairs of surfaces
-    const NoiseData *surface_noise;
-    const double *drag_noise;
     LoopData data;
-    ParticleRows atom_rows;
+    const std::unique_ptr<ParticleRows> atom_rows;
     Threads one_thread, *threads;
     double *weights;           // reference volumes of atoms
     std::vector<int> types;    // of owned, ghost, and spare particles, if their coefficients differ
@@ -365,7 +365,6 @@ namespace SPHDissipation {
     ThreadSums<double> side_sums;
     ThreadSums<double> scalar_sums;    // of all else that is one number
 
-    int not_fluid;
     int nlocal_forces, nghost_forces;    // # of atoms that force[] is of
     int nmax, nmax_weights, imax;
     bigint pair_max;
@@ -379,7 +378,7 @@ namespace SPHDissipation {
     double *room_for_numbers(int thread, const LoopData &);
     void run_density(Loop);
     void run_noise(NoiseLoop, const NoiseData &);
-    void run_forces(NeighList *, Loop, bool linear);
+    void run_forces(NeighList *, const StepPlan &, bool linear);
   };
 
 }    // namespace SPHDissipation

@@ -13,6 +13,7 @@
 
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_noise_data.h"
+#include "sph_dissipation_parameters.h"
 
 #include <cmath>
 #include <cstdint>

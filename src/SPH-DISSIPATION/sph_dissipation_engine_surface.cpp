@@ -50,7 +50,7 @@ template <class T, class Value> void SurfacePairs::fill(std::vector<T> &values, 
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_friction(SurfacePairs &some, Friction kind, int thread)
+void Engine::accumulate_friction(SurfacePairs &some, const StepNoise *of_step, int thread)
 {
   const std::size_t nrow = some.rows(), spare = some.size(), n = spare + BLOCK;
   some.force.assign(n, ForceSum());
@@ -119,20 +119,21 @@ void Engine::accumulate_friction(SurfacePairs &some, Friction kind, int thread)
   part.force = some.force.data();
   part.side = some.side.rows.data();
   part.tally = nullptr;
-  if (kind != Friction::WITH_NOISE || !surface_loop) return force_loop(part);
+  if (!of_step || !of_step->surfaces.data) return force_loop(part);
 
-  NoiseData noise = *surface_noise;
+  const NoiseData &of_all = *of_step->surfaces.data;
+  NoiseData noise = of_all;
   some.fill(some.tag, [&](int i) {
-    return surface_noise->tag[i];
+    return of_all.tag[i];
   });
   some.tag.resize(n);
   noise.tag = some.tag.data();
-  if (par->own_temperatures) {
+  if (fixed->own_temperatures) {
     some.fill(some.row, [&](int i) {
-      return surface_noise->row[i];
+      return of_all.row[i];
     });
     some.fill(some.mobility, [&](int i) {
-      return surface_noise->mobility[i];
+      return of_all.mobility[i];
     });
     some.row.resize(n);
     some.mobility.resize(n);
@@ -141,17 +142,14 @@ void Engine::accumulate_friction(SurfacePairs &some, Friction kind, int thread)
   }
   part.noise = &noise;
   part.random = room_for_numbers(thread, part);
-  surface_loop(part);
+  loops->noisy_forces(of_step->surfaces.form)(part);
 }
 
 /* ---------------------------------------------------------------------- */
 
 double SurfacePairs::memory_usage() const
 {
-  const auto bytes = [](const auto &...list) {
-    return (... + (static_cast<double>(list.capacity()) * sizeof(list[0])));
-  };
-  return bytes(pairs, walls, begin, force, particle, spin, weight, slope, type, ilist, count,
-               neighbor, first, tag, mobility, row) +
-      side.memory_usage();
+  return side.memory_usage() +
+      bytes(pairs, walls, begin, force, particle, spin, weight, slope, type, ilist, count, neighbor,
+            first, tag, mobility, row);
 }

@@ -15,11 +15,29 @@
 
 #include "atom.h"
 #include "atom_vec.h"
+#include "sph_dissipation_channels.h"
 
 #include <algorithm>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+const std::vector<StateInfo> &SPHDissipation::state_table()
+{
+  static const std::vector<StateInfo> table = States::table<TypeCoeffs>();
+  return table;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const StateInfo &SPHDissipation::state_info(int slot)
+{
+  const StateInfo *one = state_table().data();
+  while (slot >= one->first + one->most) one++;
+  return *one;
+}
 
 /* ---------------------------------------------------------------------- */
 
@@ -52,6 +70,6 @@ int Fields::room(const StateInfo &one) const
 
 std::string Fields::state_name(int slot)
 {
-  const StateInfo &one = States::info(slot);
+  const StateInfo &one = state_info(slot);
   return (one.most > 1) ? one.field + std::to_string(slot - one.first + 1) : one.field;
 }

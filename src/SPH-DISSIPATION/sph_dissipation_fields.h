@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_FIELDS_H
 #define LMP_SPH_DISSIPATION_FIELDS_H
 
-#include "sph_dissipation_channels.h"
+#include "sph_dissipation_states.h"
 
 #include <string>
 #include <vector>
@@ -26,6 +26,10 @@ namespace SPHDissipation {
 
   // characters of a line of a data file that read_data takes
   constexpr std::size_t MOST_OF_DATA_LINE = 254;
+
+  // the states of all channels; those of the channel that has this place
+  const std::vector<StateInfo> &state_table();
+  const StateInfo &state_info(int slot);
 
   // What the fluid keeps of a particle beyond class Atom, per atom.  The atom style derives from
   // this class and keeps the pointers up to date; class Atom owns the arrays, as custom properties
@@ -54,7 +58,7 @@ namespace SPHDissipation {
     // States of channels, by their place in the list States; nullptr where there is no room.  Of a new particle 0; of
     // StateKind::STRAIN also minus the factor by which it differs from the density that the next forces find; -1 of a particle
     // from a data file where the file has it in the column of another one
-    double *state[States::MOST];
+    double *state[MOST_STATES];
     std::vector<int> slots;    // places of those that there is room for
 
     int room(const StateInfo &) const;    // number of them, of a channel

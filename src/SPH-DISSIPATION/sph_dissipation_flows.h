@@ -35,6 +35,9 @@ namespace SPHDissipation {
     double flux;           // per area and time, from a boundary particle to the fluid
   };
 
+  // place of the flow that walls and open zones take part in, the one of heat
+  constexpr int HEAT_FLOW = 0;
+
   // k_ij of two types with these coefficients
   inline double mean_coefficient(double a, double b)
   {

@@ -16,6 +16,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix.h"
 #include "force.h"
 #include "math_extra.h"
 #include "modify.h"
@@ -32,6 +33,7 @@
 #include "sph_dissipation_neighbors.h"
 #include "sph_dissipation_noise.h"
 #include "sph_dissipation_open_stage.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_state.h"
 #include "sph_dissipation_viscous.h"
@@ -67,10 +69,9 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), continued(false),
-    integrated(0), dim(0), support(0.0), stale(false), own_list(false), set_up(false),
-    announced(false), touched(false), changed(false), warned_step(0.0), noise_step(0.0),
-    fast_lists(0)
+    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), dim(0), support(0.0),
+    stale(false), own_list(false), set_up(false), announced(false), continued(false), integrated(0),
+    touched(false), changed(false), warned_step(0.0), noise_step(0.0), fast_lists(0)
 {
 }
 
@@ -111,6 +112,8 @@ void Fluid::coeff(int narg, char **arg)
 void Fluid::init()
 {
   shift->wanted = continued = false;
+  integrated = 0;
+  for (const Fix *const fix : modify->get_fix_by_style("^" + style)) integrated |= fix->groupbit;
   viscous->configure(ViscousSettings(), 0, style);
   temperature->configure(ViscousSettings(), 0, style);
   check_setup();
@@ -166,7 +169,7 @@ void Fluid::check_setup()
                "on the heat of the particles, not on their positions alone",
                style);
   for (int i = 1; i <= atom->ntypes && update->whichflag == 2; i++)
-    if (model->coeffs[i].keywords.gamma() > 0.0)
+    if (TypeCoeffs(model->coeffs[i].keywords).gamma() > 0.0)
       error->all(
           FLERR,
           "Pair style {} with gruneisen cannot be used in a minimization: its energy depends "
@@ -278,7 +281,9 @@ bigint Fluid::compute(PairTally *tally)
   if (model->choice.own_temperatures && (neighbor->ago == 0 || update->setupflag))
     noise->find_masses(boundary->bits());
 
-  const Parameters &par = model->parameters();
+  const Constants &par = model->constants();
+  StepPlan plan;
+  plan.not_fluid = not_fluid();
   const bool known = continued && !changed && update->setupflag;
   const bool stiff_heat = par.conducts() && temperature->active() && !known;
   const bool find_rates = !viscous->active();    // which finds them itself
@@ -286,17 +291,17 @@ bigint Fluid::compute(PairTally *tally)
     viscous->begin_run();
     temperature->begin_run();
   } else if (viscous->active())
-    find_viscous_velocity();
+    find_viscous_velocity(plan);
   if (stiff_heat && par.thermal_pressure) {
     temperature->set_aside();
-    sum_before_forces(find_rates);
-    sum_forces(nullptr);
+    sum_before_forces(plan, find_rates);
+    sum_forces(nullptr, plan);
     find_temperature();
     temperature->restore();
   }
-  const bigint nbeyond = sum_before_forces(find_rates);
+  const bigint nbeyond = sum_before_forces(plan, find_rates);
   if (shift->wanted) sum_gradient();
-  sum_forces(tally);
+  sum_forces(tally, plan);
   if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
   if (par.loops_of_flows) sum_flows();
   if (par.delta > 0.0) sum_diffusion();
@@ -311,14 +316,14 @@ bigint Fluid::compute(PairTally *tally)
    all that pass 2 needs; returns the number of particles beyond the bound of the limit
 ------------------------------------------------------------------------- */
 
-bigint Fluid::sum_before_forces(bool find_rates)
+bigint Fluid::sum_before_forces(StepPlan &plan, bool find_rates)
 {
   sum_density();
 
   // noise needs the bound of the limit for the volumes that act in its pairs, those of walls as well
 
   const bool walls = !boundary->empty();
-  const Parameters &par = model->parameters();
+  const Constants &par = model->constants();
   if (walls && model->choice.thermal) set_reference_volume();
   if (model->choice.limit != Limit::NO) sum_bound();
   if (walls && !model->choice.thermal) set_reference_volume();
@@ -327,7 +332,7 @@ bigint Fluid::sum_before_forces(bool find_rates)
   if (!open->empty()) open->run();
   if (walls) set_boundary();
   if (walls && model->choice.own_temperatures) boundary->find_energies(missing_time());
-  if (model->choice.thermal) noise->run(bound(), boundary->bits(), continued);
+  if (model->choice.thermal) plan.noise = noise->run(bound(), boundary->bits(), continued);
   return nbeyond;
 }
 
@@ -385,8 +390,9 @@ bool Fluid::at_rest() const
 
 /* ---------------------------------------------------------------------- */
 
-void Fluid::begin_run(double dt)
+void Fluid::begin_run(double dt, bool continues)
 {
+  continued = continues;
   set_step(dt);
   flows->forget();
   if (Fields::of(atom)->slots.empty()) return;
@@ -405,14 +411,14 @@ void Fluid::keep_densities()
 
 void Fluid::begin_step(double dt)
 {
-  if (!engine->parameters().states) return;
+  if (!engine->constants().states) return;
   set_step(dt);
   advance_states();
 }
 
 void Fluid::set_step(double dt)
 {
-  if (dt != model->parameters().step) model->set_step(dt);
+  if (dt != model->constants().step) model->set_step(dt);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -459,11 +465,10 @@ void Fluid::sum_gradient()
 
 /* ---------------------------------------------------------------------- */
 
-void Fluid::sum_forces(PairTally *tally)
+void Fluid::sum_forces(PairTally *tally, const StepPlan &plan)
 {
-  engine->set_not_fluid(not_fluid());
-  forces->run(neighbors(), tally, [&]() {
-    boundary->add_friction(tally);
+  forces->run(neighbors(), tally, plan, [&]() {
+    boundary->add_friction(tally, plan.noise);
   });
   if (!boundary->empty()) boundary->repel(tally);
 }
@@ -477,7 +482,7 @@ void Fluid::sum_flows()
 
 double Fluid::received_heat(int groupbit) const
 {
-  if (!model->parameters().conducts() || !pair->compute_flag) return 0.0;
+  if (!model->constants().conducts() || !pair->compute_flag) return 0.0;
   if (!model->choice.own_temperatures) return flows->received(groupbit);
   double total = 0.0;    // pass 2 leaves nothing else with them
   for (int i = 0; i < atom->nlocal; i++)
@@ -489,13 +494,13 @@ double Fluid::received_heat(int groupbit) const
    friction that is extended behind walls, and the form P1 (64), have no symmetric matrix
 ------------------------------------------------------------------------- */
 
-void Fluid::find_viscous_velocity()
+void Fluid::find_viscous_velocity(StepPlan &plan)
 {
   viscous->begin(not_fluid(), extrapolated_spin(), spins ? Fields::of(atom)->inertia : nullptr);
-  sum_before_forces();
+  sum_before_forces(plan);
   if (neighbor->ago == 0 || viscous->has_old_rates())
     viscous->set_rate(coeff_table().fastest_rate());
-  sum_forces(nullptr);
+  sum_forces(nullptr, plan);
   const bool symmetric = boundary->all_symmetric() && model->choice.bulk != Bulk::VOLUME;
   viscous->run(neighbors(), bound(), symmetric);
 }
@@ -568,7 +573,7 @@ double Fluid::elastic_energy(Moment moment)
 
 double Fluid::state_energy(int groupbits) const
 {
-  return engine->parameters().states ? state->energy(groupbits, not_fluid()) : 0.0;
+  return engine->constants().states ? state->energy(groupbits, not_fluid()) : 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -699,7 +704,7 @@ void Fluid::set_mean_density(int groupbit)
     std::vector<double> factor(atom->ntypes + 1, 1.0);
     for (int k = 0; k < MOST; k++) {
       density->run(neighbors(), nullptr, nullptr, not_fluid());
-      state.run(groupbit, not_fluid());
+      state.run(groupbit, not_fluid(), pressures());
       if (state.scale_masses(factor, open->bits()) < CLOSE) break;
     }
     state.report_masses(factor, style);
@@ -722,7 +727,7 @@ void Fluid::report()
     model->warn_of_ignored();
     warned_step = noise_step = 0.0;
     FluidState state(lmp, *engine, *exchange, *model);
-    state.run(1, not_fluid());
+    state.run(1, not_fluid(), pressures());
     if (comm->me == 0)
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", style, model->summary(dim, support),
                      engine->instruction_set(), table.text(update->dt) + skin_text(table),
@@ -737,7 +742,11 @@ void Fluid::report()
   if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
 
   if (!step_follows()) check_time_step(table);
-  check_energies(lmp, style, *model, engine->states(), not_fluid());
+  const StateRows states = engine->states();
+  const auto heat = [&](int i) {
+    return states.thermal_energy(i);
+  };
+  check_energies(lmp, style, *model, heat, not_fluid());
   check_neighbors(lmp, style, *model, *engine, not_fluid(), dim, support);
 }
 
@@ -766,7 +775,7 @@ void Fluid::announce_noise(double rate)
                    "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
                    "step {:.3g}\n",
                    style, temperature, model->choice.seed, rate * update->dt);
-  const bool other = model->parameters().states || model->parameters().conducts();
+  const bool other = model->constants().states || model->constants().conducts();
   if (rate == 0.0 && !other &&
       (model->choice.own_temperatures || model->choice.temperature > 0.0) && comm->me == 0)
     error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", style);
@@ -823,12 +832,12 @@ CoeffTable Fluid::coeff_table()
   // in the place of type 0, which does not exist: of all types
 
   double &fastest = most(mine, MOTION, 0);
-  const StateRows states = engine->states();
+  const auto sound_of = sound();
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
     const TypeCoeff &coeff = model->coeffs[type];
     if (coeff.other) continue;
-    const double rho = atom->rho[i], c = sound(states, i, rho), v = MathExtra::len3(atom->v[i]);
+    const double rho = atom->rho[i], c = sound_of(i, rho), v = MathExtra::len3(atom->v[i]);
     fastest = std::max(fastest, v);
     const double values[NMOST] = {c + v, c, v, is_boundary(i) ? 0.0 : coeff.eos.rho0 / rho};
     for (int k = 0; k < NMOST; k++) most(mine, k, type) = std::max(most(mine, k, type), values[k]);
@@ -843,10 +852,9 @@ CoeffTable Fluid::coeff_table()
   const double h = stability_length(), hsq = h * h;
   CoeffTable table(most(all, MOTION, 0));
   const auto sound_step = [&](int type) {
-    const TypeCoeff &one = model->coeffs[type];
     const double speed = most(all, SPEED, type), c = most(all, SOUND, type);
     return acoustic_step(h, speed, [&](double dt) {
-      const double more = States::stiffness(one.keywords, one.eos.rho0, dt);
+      const double more = model->stiffness(type, dt);
       return (more > 0.0) ? most(all, MOTION, type) + sqrt(c * c + more) - speed : 0.0;
     });
   };
@@ -877,26 +885,40 @@ CoeffTable Fluid::coeff_table()
   return table;
 }
 
-/* ---------------------------------------------------------------------- */
-
-StateRows Fluid::states() const
-{
-  return engine->states();
-}
-
 /* ----------------------------------------------------------------------
    with the heat that it has now; of fast sound, in which states stay as they are.  Walls of a liquid
    have no heat.
 ------------------------------------------------------------------------- */
 
-double Fluid::sound(const StateRows &states, int i, double rho) const
+std::function<double(int, double)> Fluid::sound() const
 {
-  const Eos eos = model->choice.eos;
-  const EosParams &par = model->coeffs[atom->type[i]].eos;
-  if (is_boundary(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
-  const double q = (atom->esph[i] - states.energy(i)) / atom->rmass[i] -
-      SPHDissipation::elastic_energy(eos, par, atom->rho[i]);
-  return sound_speed(eos, par, rho, SPHDissipation::elastic_energy(eos, par, rho) + q);
+  return [this, states = engine->states()](int i, double rho) {
+    const Eos eos = model->choice.eos;
+    const EosParams &par = model->coeffs[atom->type[i]].eos;
+    if (is_boundary(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
+    const double q = (atom->esph[i] - states.energy(i)) / atom->rmass[i] -
+        SPHDissipation::elastic_energy(eos, par, atom->rho[i]);
+    return sound_speed(eos, par, rho, SPHDissipation::elastic_energy(eos, par, rho) + q);
+  };
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::function<double(int)> Fluid::pressures() const
+{
+  return [this, states = engine->states()](int i) {
+    const double energy = (atom->esph[i] - states.energy(i)) / atom->rmass[i];
+    return SPHDissipation::pressure(model->choice.eos, model->coeffs[atom->type[i]].eos,
+                                    atom->rho[i], energy) +
+        states.pressure(i);
+  };
+}
+
+/* ---------------------------------------------------------------------- */
+
+int Fluid::number_of_heats()
+{
+  return NCHANNEL;
 }
 
 /* ----------------------------------------------------------------------

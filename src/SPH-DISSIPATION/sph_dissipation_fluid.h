@@ -35,7 +35,6 @@ namespace SPHDissipation {
   class Exchange;
   class FluidModel;
   struct ForceSum;
-  struct StateRows;
   class ForceStage;
   class FlowStage;
   class LimitStage;
@@ -43,6 +42,7 @@ namespace SPHDissipation {
   class NoiseStage;
   class OpenStage;
   class PairTally;
+  struct StepPlan;
   class PressureStage;
   class StateStage;
   class TemperatureStage;
@@ -112,7 +112,7 @@ namespace SPHDissipation {
     // From the integrator: a run begins, with the states as a step of dt has left them; such a
     // step begins
 
-    virtual void begin_run(double dt);
+    virtual void begin_run(double dt, bool continues);
     // with density continuity: owned particles keep their densities where sums change that are not due to motion, of
     // particles that come, go, split, or merge, and at the start of a run, before which anything may have changed
     void keep_densities();
@@ -151,6 +151,7 @@ namespace SPHDissipation {
     bool
     has_forces() const;    // on all processors, for the particles that are there now; asked by all
     virtual void heating(double *heat, double *power) const;
+    static int number_of_heats();                        // by channel
     virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank
     const ForceSum *own_forces() const;
     const double *own_torque(int i) const;
@@ -164,11 +165,10 @@ namespace SPHDissipation {
     void find_volumes();
     virtual void announce();
 
-    // the run continues the last one, and the velocities in the friction are those of its last step; but
-    // not if any rank notes, before the first forces, that what the fluid touches moves otherwise
+    // before the first forces of a run that may continue the last one: one of the integrators begins anew; on any rank,
+    // what the fluid touches moves otherwise
 
-    bool continued;
-    int integrated;    // bits of the groups of its integrators
+    void begin_anew() { continued = false; }
     void note_change() { changed = true; }
 
     bool is_set_up() const;    // what the commands say is in effect
@@ -178,9 +178,8 @@ namespace SPHDissipation {
     int not_fluid() const;            // bits of the groups of all boundaries and open zones
     bool is_boundary(int i) const;    // owned or ghost particle
     bool has_type(int type) const;    // its particles are of this fluid
-    // speed of sound of an owned particle that had this density; with the states of all of them
-    double sound(const StateRows &, int i, double rho) const;
-    StateRows states() const;
+    // of the owned particles as they are now: speed of sound of particle i if it had this density
+    std::function<double(int i, double rho)> sound() const;
     int dimension() const { return dim; }    // of the kernel
     Threads &team() const;                   // that share its work
     double support_radius() const { return support; }
@@ -215,7 +214,7 @@ namespace SPHDissipation {
     virtual bigint set_pressure();
     virtual void set_boundary();
     virtual void sum_gradient();    // of the concentration, for shifting
-    virtual void sum_forces(PairTally *);
+    virtual void sum_forces(PairTally *, const StepPlan &);
     virtual void sum_flows();    // of conduction
     void sum_diffusion();        // of volume
 
@@ -227,8 +226,11 @@ namespace SPHDissipation {
     double **extrapolated_spin() const;    // nullptr without spins
 
    private:
-    bool set_up;           // since pair_style and pair_coeff
-    bool announced;        // the table of coefficients is up to date
+    bool set_up;       // since pair_style and pair_coeff
+    bool announced;    // the table of coefficients is up to date
+    bool
+        continued;    // the run continues the last one, with the velocities in the friction of its last step
+    int integrated;        // bits of the groups of its integrators
     bool touched;          // by a command, which may have given the same coefficients
     bool changed;          // other coefficients, or motions of walls, than those of the last forces
     double warned_step;    // the time step that the last warning was about
@@ -241,14 +243,15 @@ namespace SPHDissipation {
     void check_all_interact();
     bool step_follows() const;    // a fix sets the time step by the limits
     void derive_coeffs();
-    bigint sum_before_forces(bool find_rates = true);
+    bigint sum_before_forces(StepPlan &, bool find_rates = true);
     void find_viscosities(bool find_rates);
     const double *bound() const;    // of the limit, nullptr without
-    void find_viscous_velocity();
+    void find_viscous_velocity(StepPlan &);
     void find_temperature();
     double stability_length() const;
     double smallest_inertia() const;
     std::string skin_text(const CoeffTable &) const;
+    std::function<double(int i)> pressures() const;    // of owned particles, with that of states
     void announce_noise(double rate);
   };
 

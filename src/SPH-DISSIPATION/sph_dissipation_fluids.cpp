@@ -16,7 +16,7 @@
 #include "comm.h"
 #include "error.h"
 #include "lammps.h"
-#include "sph_dissipation_channels.h"
+#include "sph_dissipation_settings.h"
 #include "tokenizer.h"
 #include "update.h"
 #include "utils.h"

@@ -32,43 +32,6 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-TypeCoeff::TypeCoeff() :
-    viscosity(), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0), other(0)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
-FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
-    Pointers(lmp), hash_of_forces(0), diffusion_age(0), simd("auto"), coeffs(nullptr),
-    shared(false), style(style), spins(spins), keywords(type_keywords()),
-    of_types(type_variables()), of_pairs(unlike_keywords(spins)), pair_given(nullptr),
-    is_given(nullptr)
-{
-  auto add = [&](const std::string &name) {
-    variables.push_back({name, nullptr, nullptr});
-  };
-  for (int k = 0; k < nviscosity(); k++) add(VISCOSITY_NAMES[k]);
-  for (const auto &one : of_pairs) add(one.first);
-  for (const auto &name : {"c0", "kappa", "pb"}) add(name);
-  for (const auto &one : of_types) add(one.first);
-}
-
-/* ---------------------------------------------------------------------- */
-
-FluidModel::~FluidModel()
-{
-  memory->destroy(pair_given);
-  memory->destroy(is_given);
-  for (auto &one : variables) {
-    memory->destroy(one.value);
-    memory->destroy(one.known);
-  }
-  delete[] coeffs;
-}
-
-/* ---------------------------------------------------------------------- */
-
 void FluidModel::allocate()
 {
   const int n = atom->ntypes + 1;
@@ -374,7 +337,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
       error->all(FLERR, place(arg[iarg]), "Pair_coeff keyword {} is given twice", keyword);
     given.push_back(keyword);
     if (own) {
-      double *a = one.keywords.a + own->first;
+      double *a = one.keywords.data() + own->first;
       const double *const end = a + own->count;
       while (own->group && a < end && *a != 0.0) a += own->group;    // the keyword was there before
       if (end - a < nwords - 1)
@@ -382,7 +345,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
                    keyword, own->count / own->group);
       if (own->marked) *a++ = 1.0;
       for (int k = 1; k < nwords; k++) a[k - 1] = utils::numeric(FLERR, arg[iarg + k], false, lmp);
-      if (const char *violated = inadmissible(one.keywords, domain->dimension)) {
+      if (const char *violated = inadmissible_keywords(one)) {
         std::string words;
         for (int k = 1; k < nwords; k++) words += std::string(" ") + arg[iarg + k];
         error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff {}, not{}", violated, words);

@@ -16,14 +16,19 @@
 
 #include "pointers.h"
 #include "sph_dissipation_noise_data.h"
-#include "sph_dissipation_parameters.h"
+#include "sph_dissipation_settings.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+
+  struct Parameters;
+  struct TypePair;
 
   // what pair_coeff I I sets and what follows from it
 
@@ -32,7 +37,7 @@ namespace SPHDissipation {
 
     EosParams eos;
     double viscosity[NVISCOSITY];
-    TypeCoeffs keywords;    // of the channels
+    std::vector<double> keywords;    // coefficients of the channels, see TypeCoeffs
     double kappa;
     double rc;
     double gamma;     // 0: default of the equation of state
@@ -73,9 +78,12 @@ namespace SPHDissipation {
     // support radius; errors if a fluid would not dissipate
 
     void derive(int dim, double support);
-    const Parameters &parameters() const { return par; }
+    const Parameters &parameters() const { return *par; }
+    const Constants &constants() const;    // of these parameters
+    bool conducts(int type) const;
+    double stiffness(int type, double dt) const;    // of the states, see BaseState
     double diffusion_rate() const;    // of volume, its fastest mode at the reference densities
-    void set_step(double dt) { par.set_step(dt); }    // of the states
+    void set_step(double dt);         // of the states
 
     // of a pair of types: what its coefficients follow from, the bulk viscosity that its pair terms give
 
@@ -132,7 +140,7 @@ namespace SPHDissipation {
 
     const std::string style;
     const bool spins;
-    Parameters par;
+    const std::unique_ptr<Parameters> par;
     std::vector<Variable> variables;
     const std::vector<TypeKeyword> keywords;    // of types, of all channels
     const std::vector<std::pair<std::string, int>> of_types,
@@ -141,6 +149,7 @@ namespace SPHDissipation {
     int ***is_given;         // 1 if it did, 0 if the value is mixed from the types
 
     int npair() const { return nviscosity() + static_cast<int>(of_pairs.size()); }
+    const char *inadmissible_keywords(const TypeCoeff &) const;
     int variable_of_pairs(const std::string &name) const;    // its number, or -1
     const TypeKeyword *keyword(const std::string &name) const;
     bool is_type_keyword(const std::string &name) const;
@@ -163,6 +172,7 @@ namespace SPHDissipation {
     void set_temperature(char **words, bool energy);
     void set_surface(const char *delta, const char *tension);
     int place(const char *) const;
+    int format_number() const;    // of restart files
     std::string type_line(int) const;
     void warn_of_lost_densities() const;
     void put_line(FILE *, const std::string &line, const std::string &what) const;

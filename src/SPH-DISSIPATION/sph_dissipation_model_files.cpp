@@ -31,13 +31,12 @@ using namespace SPHDissipation;
 
 static constexpr int VERSION = 1007;
 
-static int format_number(bool spins)
+int FluidModel::format_number() const
 {
   std::string names;
-  for (int k = 0; k < number_of_viscosities(spins); k++)
-    names += fmt::format("{} ", VISCOSITY_NAMES[k]);
-  for (const auto &one : unlike_keywords(spins)) names += one.first + " ";
-  for (const auto &one : type_keywords()) names += fmt::format("{} {} ", one.name, one.count);
+  for (int k = 0; k < nviscosity(); k++) names += fmt::format("{} ", VISCOSITY_NAMES[k]);
+  for (const auto &one : of_pairs) names += one.first + " ";
+  for (const auto &one : keywords) names += fmt::format("{} {} ", one.name, one.count);
   std::uint32_t sum = 2166136261u;    // FNV-1a
   for (const char c : names) sum = (sum ^ static_cast<unsigned char>(c)) * 16777619u;
   return VERSION + static_cast<int>((sum >> 17) << 16);
@@ -107,7 +106,7 @@ class Reader : protected Pointers {
 
 void FluidModel::write_settings(FILE *fp) const
 {
-  put(fp, format_number(spins));
+  put(fp, format_number());
   put(fp, static_cast<int>(choice.kernel));
   put(fp, static_cast<int>(choice.eos));
   put(fp, static_cast<int>(choice.shear));
@@ -137,7 +136,7 @@ void FluidModel::write_settings(FILE *fp) const
 void FluidModel::read_settings(FILE *fp)
 {
   Reader read(lmp, fp, style);
-  const int format = read.format(), own = format_number(spins), version = format & 0xffff;
+  const int format = read.format(), own = format_number(), version = format & 0xffff;
   if (format != own)
     error->all(FLERR, Error::NOLASTLINE,
                "Restart file was written by {} version of pair style {}, format {}, not {}",
@@ -205,7 +204,7 @@ std::uint64_t FluidModel::hash() const
     for (const double value : {type.eos.rho0, type.eos.c0, type.eos.pb, type.gamma, type.cv,
                                type.intrinsic ? -1.0 : type.kappa, type.rc})
       add(value);
-    for (const double value : type.keywords.a) add(value);
+    for (const double value : type.keywords) add(value);
     for (int j = 1; j <= i; j++)
       for (int k = 0; k < npair(); k++) add(viscosity(k, i, j));
   }
@@ -228,7 +227,7 @@ void FluidModel::write_coeffs(FILE *fp, int **setflag) const
            {type.eos.rho0, type.eos.c0, type.eos.pb, type.gamma, type.cv, type.kappa, type.rc})
         put(fp, value);
       put(fp, type.intrinsic);
-      for (const double value : type.keywords.a) put(fp, value);
+      for (const double value : type.keywords) put(fp, value);
       for (int k = 0; k < nviscosity(); k++) put(fp, type.viscosity[k]);
     }
     for (int j = i + 1; j <= atom->ntypes; j++)
@@ -259,7 +258,7 @@ void FluidModel::read_coeffs(FILE *fp, int **setflag)
       type.kappa = read.number("kappa");
       type.rc = read.number("rc", true);
       type.intrinsic = read.integer("flag of intrinsic kappa", 0, 1);
-      for (double &value : type.keywords.a) value = read.number("coefficient of a channel");
+      for (double &value : type.keywords) value = read.number("coefficient of a channel");
       for (int k = 0; k < nviscosity(); k++) type.viscosity[k] = read.number(VISCOSITY_NAMES[k]);
     }
     for (int j = i + 1; j <= atom->ntypes; j++)
@@ -344,7 +343,7 @@ std::string FluidModel::type_line(int i) const
   if (c.eos.pb != 0.0) line += fmt::format(" pb {}", c.eos.pb);
   if (c.cv > 0.0) line += fmt::format(" cv {}", c.cv);
   for (const TypeKeyword &one : keywords) {
-    const double *const a = c.keywords.a + one.first;
+    const double *const a = c.keywords.data() + one.first;
     if (std::all_of(a, a + one.count, [](double value) {
           return value == 0.0;
         }))

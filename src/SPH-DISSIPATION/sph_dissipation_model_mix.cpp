@@ -17,7 +17,9 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "memory.h"
 #include "sph_dissipation_diffusion_terms.h"
+#include "sph_dissipation_parameters.h"
 #include "sph_dissipation_steps.h"
 
 #include <algorithm>
@@ -30,34 +32,72 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
+TypeCoeff::TypeCoeff() :
+    viscosity(), keywords(Channels::NTYPE), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0),
+    other(0)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
+    Pointers(lmp), hash_of_forces(0), diffusion_age(0), simd("auto"), coeffs(nullptr),
+    shared(false), style(style), spins(spins), par(new Parameters), keywords(type_keywords()),
+    of_types(type_variables()), of_pairs(unlike_keywords(spins)), pair_given(nullptr),
+    is_given(nullptr)
+{
+  auto add = [&](const std::string &name) {
+    variables.push_back({name, nullptr, nullptr});
+  };
+  for (int k = 0; k < nviscosity(); k++) add(VISCOSITY_NAMES[k]);
+  for (const auto &one : of_pairs) add(one.first);
+  for (const auto &name : {"c0", "kappa", "pb"}) add(name);
+  for (const auto &one : of_types) add(one.first);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FluidModel::~FluidModel()
+{
+  memory->destroy(pair_given);
+  memory->destroy(is_given);
+  for (auto &one : variables) {
+    memory->destroy(one.value);
+    memory->destroy(one.known);
+  }
+  delete[] coeffs;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void FluidModel::derive(int dim, double support)
 {
   const int n = atom->ntypes;
-  static_cast<Settings &>(par) = choice;
-  par.drag = false;
-  par.by_rate = has_rheology();
-  par.set_kernel(choice.kernel, dim, support);
-  par.ntypes_1 = n + 1;
-  par.type.assign(n + 1, TypeParameters());
-  par.pair.assign((n + 1) * (n + 1), PairCoeff());
+  static_cast<Settings &>(*par) = choice;
+  par->drag = false;
+  par->by_rate = has_rheology();
+  par->set_kernel(choice.kernel, dim, support);
+  par->ntypes_1 = n + 1;
+  par->type.assign(n + 1, TypeParameters());
+  par->pair.assign((n + 1) * (n + 1), PairCoeff());
   for (int i = 1; i <= n; i++) {
     mix(i);
-    par.type[i].keywords = coeffs[i].keywords;
-    Flows::coefficients(coeffs[i].keywords, coeffs[i].eos.rho0, par.type[i].flow);
-    par.type[i].mu = coeffs[i].viscosity[MU];
-    par.type[i].heat_capacity = heat_capacity(i);
+    par->type[i].keywords = TypeCoeffs(coeffs[i].keywords);
+    Flows::coefficients(par->type[i].keywords, coeffs[i].eos.rho0, par->type[i].flow);
+    par->type[i].mu = coeffs[i].viscosity[MU];
+    par->type[i].heat_capacity = heat_capacity(i);
     for (int j = 1; j <= i; j++) {
       if (!coeffs[i].other && !coeffs[j].other) check_pair(i, j);
-      par.pair[i * (n + 1) + j] = par.pair[j * (n + 1) + i] = pair_coefficients(pair_fluid(i, j));
+      par->pair[i * (n + 1) + j] = par->pair[j * (n + 1) + i] = pair_coefficients(pair_fluid(i, j));
     }
     TypeCoeff &type = coeffs[i];
     const double intrinsic = intrinsic_kappa(i, i);
-    TypeParameters &derived = par.type[i];
+    TypeParameters &derived = par->type[i];
     if (!type.intrinsic && choice.bulk != Bulk::NONE)
       derived.zeta = bulk_coefficient(type.kappa, intrinsic);
     derived.zeta_at_0 = derived.zeta;
     derived.zeta_by_mu = 0.0;
-    if (Rheology::any(type.keywords.rheology()) && !type.intrinsic) {
+    if (Rheology::any(derived.keywords.rheology()) && !type.intrinsic) {
       derived.zeta_at_0 = type.kappa;
       derived.zeta_by_mu = -SPHDissipation::intrinsic_kappa(choice.shear, dim, 1.0);
     }
@@ -65,32 +105,32 @@ void FluidModel::derive(int dim, double support)
     publish(npair() + KAPPA, i);
     derived.eos = type.eos;
     derived.other = type.other;
-    if (!type.other && type.keywords.drag() > 0.0) par.drag = true;
+    if (!type.other && derived.keywords.drag() > 0.0) par->drag = true;
     if (!type.other) check_keywords(i);
-    if (!type.other && par.by_rate) check_rheology(i);
+    if (!type.other && par->by_rate) check_rheology(i);
     if (choice.thermal) check_balance(i);
   }
-  par.set_uniform();
-  for (const PairCoeff &one : par.pair)
-    if (par.by_rate && optional_channel(one))
+  par->set_uniform();
+  for (const PairCoeff &one : par->pair)
+    if (par->by_rate && optional_channel(one))
       error->all(
           FLERR, Error::NOLASTLINE,
           "Pair style {}: viscosities that depend on the rate of shear cannot be used with {}",
           style, optional_channel(one));
-  for (const PairCoeff &one : par.pair)
+  for (const PairCoeff &one : par->pair)
     if (choice.shear == Shear::MG_FR && optional_channel(one))
       error->all(FLERR, Error::NOLASTLINE, "Pair style {} shear mg/fr cannot be used with {}",
                  style, optional_channel(one));
-  par.set_alike();
-  par.set_step(par.step);
-  if (par.drag && choice.own_temperatures)
+  par->set_alike();
+  par->set_step(par->step);
+  if (par->drag && choice.own_temperatures)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} temp energy cannot be used with a drag of single particles", style);
-  if (par.drag && choice.thermal && dim == 1)
+  if (par->drag && choice.thermal && dim == 1)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} temp with dim 1 cannot be used with a drag of single particles",
                style);
-  par.shared = shared;
+  par->shared = shared;
 }
 
 /* ----------------------------------------------------------------------
@@ -105,7 +145,8 @@ void FluidModel::mix(int i)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair_coeff gamma must be > 1 with eos ideal, not {} for type {}", type.eos.gamma,
                i);
-  type.eos.derive(choice.eos, type.keywords.gamma(), heat_capacity(i) * type.keywords.T0(),
+  const TypeCoeffs keywords_of(type.keywords);
+  type.eos.derive(choice.eos, keywords_of.gamma(), heat_capacity(i) * keywords_of.T0(),
                   choice.tension);
   for (int k = 0; k < static_cast<int>(variables.size()); k++)
     if (k != npair() + KAPPA) publish(k, i);
@@ -117,20 +158,20 @@ TypePair FluidModel::pair_fluid(int i, int j) const
 {
   TypePair fluid;
   fluid.shear = choice.shear;
-  fluid.dim = par.dim;
-  fluid.mean_radius = kernel_mean_radius(par.kernel, par.dim, par.support);
-  fluid.zeta = 0.5 * (par.type[i].zeta + par.type[j].zeta);
+  fluid.dim = par->dim;
+  fluid.mean_radius = kernel_mean_radius(par->kernel, par->dim, par->support);
+  fluid.zeta = 0.5 * (par->type[i].zeta + par->type[j].zeta);
   for (int k = 0; k < Flows::NUMBER; k++)
-    fluid.flow[k] = mean_coefficient(par.type[i].flow[k], par.type[j].flow[k]);
+    fluid.flow[k] = mean_coefficient(par->type[i].flow[k], par->type[j].flow[k]);
   fluid.heat_capacity = std::min(heat_capacity(i), heat_capacity(j));
   for (int k = 0; k < Channels::NTYPE; k++)
-    fluid.type.a[k] = std::max(par.type[i].keywords.a[k], par.type[j].keywords.a[k]);
+    fluid.type.a[k] = std::max(par->type[i].keywords.a[k], par->type[j].keywords.a[k]);
   for (int k = 0; k < nviscosity(); k++) fluid.viscosity[k] = viscosity(k, i, j);
-  fluid.by_rate = par.by_rate;
+  fluid.by_rate = par->by_rate;
   if (fluid.by_rate) {
     Rheology::Range range[2];
     for (int k = 0; k < 2; k++) {
-      const TypeParameters &one = par.type[k ? j : i];
+      const TypeParameters &one = par->type[k ? j : i];
       range[k] = Rheology::range(one.keywords.rheology(), one.mu);
       for (const double mu : {range[k].least, range[k].most})
         fluid.largest_zeta =
@@ -149,15 +190,15 @@ TypePair FluidModel::pair_fluid(int i, int j) const
 double FluidModel::diffusion_rate() const
 {
   const double hsq =
-      stability_length_squared(kernel_slope_integral(par.kernel, par.dim, par.support));
+      stability_length_squared(kernel_slope_integral(par->kernel, par->dim, par->support));
   double rate = 0.0;
-  for (int i = 1; i < par.ntypes_1; i++)
+  for (int i = 1; i < par->ntypes_1; i++)
     for (int j = 1; j <= i; j++) {
-      const EosParams &a = par.type[i].eos, &b = par.type[j].eos;
-      if (par.type[i].other || par.type[j].other) continue;
+      const EosParams &a = par->type[i].eos, &b = par->type[j].eos;
+      if (par->type[i].other || par->type[j].other) continue;
       rate = std::max(
           rate,
-          SPHDissipation::diffusion_rate(par.delta, 0.5 * par.support, hsq,
+          SPHDissipation::diffusion_rate(par->delta, 0.5 * par->support, hsq,
                                          std::max(a.impedance() * a.c0, b.impedance() * b.c0),
                                          0.5 * (a.impedance() + b.impedance())));
     }
@@ -213,7 +254,7 @@ void FluidModel::check_balance(int i) const
   constexpr double ROUNDOFF = 1.0e-12;
   const TypeCoeff &type = coeffs[i];
   const double intrinsic = intrinsic_kappa(i, i);
-  if (type.other || par.type[i].zeta >= -ROUNDOFF * std::fabs(intrinsic)) return;
+  if (type.other || par->type[i].zeta >= -ROUNDOFF * std::fabs(intrinsic)) return;
   if (choice.own_temperatures)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} temp energy cannot be used with kappa {} of type {}, below the {} of "
@@ -256,7 +297,7 @@ void FluidModel::check_keywords(int i) const
     error->all(
         FLERR, Error::NOLASTLINE,
         "Pair_coeff gruneisen {} {} of type {}: the heat alone makes sound faster than c0 {}",
-        coeffs[i].keywords.gamma(), coeffs[i].keywords.T0(), i, coeffs[i].eos.c0);
+        par->type[i].keywords.gamma(), par->type[i].keywords.T0(), i, coeffs[i].eos.c0);
 }
 
 /* ----------------------------------------------------------------------
@@ -276,7 +317,7 @@ void FluidModel::check_rheology(int i) const
     refuse(fmt::format("requires pair style sph/bulk with shear mg and bulk density, not {} with "
                        "shear {} and bulk {}",
                        style, shear_name(choice.shear), bulk_name(choice.bulk)));
-  if (par.dim == 1) refuse("requires dim 2 or 3: on a line there is no shear");
+  if (par->dim == 1) refuse("requires dim 2 or 3: on a line there is no shear");
   if (choice.limit != Limit::NO) refuse("cannot be used with limit of pair_style");
   if (choice.thermal)
     refuse("cannot be used with temp of pair_style: no noise without drift is in balance with a "
@@ -293,7 +334,7 @@ void FluidModel::check_rheology(int i) const
 bool FluidModel::has_rheology() const
 {
   for (int i = 1; coeffs && i <= atom->ntypes; i++)
-    if (!coeffs[i].other && Rheology::any(coeffs[i].keywords.rheology())) return true;
+    if (!coeffs[i].other && Rheology::any(TypeCoeffs(coeffs[i].keywords).rheology())) return true;
   return false;
 }
 
@@ -303,7 +344,8 @@ bool FluidModel::has_rheology() const
 
 bool FluidModel::is_alike(int i, int j) const
 {
-  const double *const a = coeffs[i].keywords.rheology(), *const b = coeffs[j].keywords.rheology();
+  const TypeCoeffs of_i(coeffs[i].keywords), of_j(coeffs[j].keywords);
+  const double *const a = of_i.rheology(), *const b = of_j.rheology();
   return coeffs[i].viscosity[MU] == coeffs[j].viscosity[MU] &&
       std::equal(a, a + Rheology::NUMBER, b);
 }
@@ -313,7 +355,7 @@ bool FluidModel::is_alike(int i, int j) const
 const char *FluidModel::keyword_that_needs(int requirements, int type) const
 {
   for (const TypeKeyword &one : keywords)
-    if ((one.needs & requirements) && coeffs[type].keywords.a[one.first] != 0.0) return one.name;
+    if ((one.needs & requirements) && coeffs[type].keywords[one.first] != 0.0) return one.name;
   return nullptr;
 }
 
@@ -325,7 +367,7 @@ bool FluidModel::varies_no_flow(const char *name) const
   Flows::visit(~0, [&](auto channel, int k) {
     double of[Flows::NUMBER], sum = 0.0;
     for (int i = 1; i <= atom->ntypes; i++) {
-      Flows::coefficients(coeffs[i].keywords, coeffs[i].eos.rho0, of);
+      Flows::coefficients(TypeCoeffs(coeffs[i].keywords), coeffs[i].eos.rho0, of);
       sum += of[k];
     }
     for (const TypeVariable &one : channel.TYPE_VARIABLES)
@@ -362,7 +404,7 @@ void FluidModel::warn_of_ignored() const
     if (choice.eos == Eos::LINEAR && type.gamma > 0.0)
       error->warning(FLERR, "Pair_coeff gamma {} of type {} is ignored with eos linear", type.gamma,
                      i);
-    report_ignored(type.keywords, [&](const char *what) {
+    report_ignored(TypeCoeffs(type.keywords), [&](const char *what) {
       error->warning(FLERR, "Pair_coeff: {} of type {} is ignored", what, i);
     });
     const double intrinsic = intrinsic_kappa(i, i);
@@ -410,7 +452,7 @@ double &FluidModel::type_value(int k, int i)
     case PB:
       return type.eos.pb;
     default:
-      return type.keywords.a[of_types[k - npair() - NOTHER].second];
+      return type.keywords[of_types[k - npair() - NOTHER].second];
   }
 }
 
@@ -449,7 +491,7 @@ bool FluidModel::is_of_missing_group(int coefficient, int type) const
         coefficient < one.first + one.count) {
       const int each = one.group ? one.group : one.count;
       const int first = coefficient - (coefficient - one.first) % each;
-      return coeffs[type].keywords.a[first] == 0.0;
+      return coeffs[type].keywords[first] == 0.0;
     }
   return false;
 }
@@ -494,7 +536,7 @@ bool FluidModel::adopt()
             "Pair style {}: {} of type {} cannot be changed: its pair_coeff does not have it",
             style, one.name, i);
       type_value(k, i) = one.value[i][i];
-      if (const char *violated = inadmissible(coeffs[i].keywords, domain->dimension))
+      if (const char *violated = inadmissible_keywords(coeffs[i]))
         error->all(FLERR, Error::NOLASTLINE, "Pair style {}: {}, not {} of type {}", style,
                    violated, one.value[i][i], i);
     }
@@ -515,4 +557,39 @@ bool FluidModel::adopt()
       }
   }
   return changed;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const char *FluidModel::inadmissible_keywords(const TypeCoeff &type) const
+{
+  return inadmissible(TypeCoeffs(type.keywords), domain->dimension);
+}
+
+/* ---------------------------------------------------------------------- */
+
+const Constants &FluidModel::constants() const
+{
+  return *par;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidModel::set_step(double dt)
+{
+  par->set_step(dt);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FluidModel::conducts(int type) const
+{
+  return par->type[type].flow[HEAT_FLOW] > 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FluidModel::stiffness(int type, double dt) const
+{
+  return States::stiffness(par->type[type].keywords, par->type[type].eos.rho0, dt);
 }

@@ -23,6 +23,7 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_particle_terms.h"
 #include "update.h"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClo
 
 /* ---------------------------------------------------------------------- */
 
-void NoiseStage::run(const double *bound, int not_fluid, bool continued)
+StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
 {
   if (neighbor->ago == 0) check_box();
   const bool energy = engine.parameters().own_temperatures;
@@ -63,25 +64,29 @@ void NoiseStage::run(const double *bound, int not_fluid, bool continued)
   if (energy) set_temperatures(continued, not_fluid);
   data.heat = 2.0 * force->boltz / update->dt;
   add_pressure(factor, not_fluid);
-  if (engine.parameters().drag) add_drag(factor, not_fluid);
-  if (!set_coeffs(factor) && !energy) return;    // pairs share the work of a random pressure
-  if (form.kind == NoiseKind::DIRECTED) set_shares(bound, not_fluid);
-  engine.add_noise(form, &data);
-  if (form.kind == NoiseKind::DIRECTED) add_surface_noise();
+  StepNoise noise = {};
+  if (engine.parameters().drag) noise.drag = draw_drag(factor, not_fluid);
+  if (!set_coeffs(factor) && !energy) return noise;    // pairs share the work of a random pressure
+  noise.pairs = noise.surfaces = {form, &data};
+  if (form.kind == NoiseKind::DIRECTED) {
+    set_shares(bound, not_fluid);
+    set_surface_noise();
+    noise.surfaces = {{form.terms, form.dim, NoiseKind::PLAIN}, &surface_data};
+  }
+  return noise;
 }
 
 /* ----------------------------------------------------------------------
    what surfaces add to the friction of their pairs has numbers of its own, one along e
 ------------------------------------------------------------------------- */
 
-void NoiseStage::add_surface_noise()
+void NoiseStage::set_surface_noise()
 {
   surface_coeff = coeff;
   for (NoiseCoeff &one : surface_coeff) one.central *= sqrt(2.0);
   surface_data = data;
   surface_data.of_pairs = NoiseChannel::SURFACE;
   surface_data.coeff = surface_coeff.data();
-  engine.add_surface_noise({form.terms, form.dim, NoiseKind::PLAIN}, &surface_data);
 }
 
 /* ----------------------------------------------------------------------
@@ -297,7 +302,7 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
    random force of each owned particle, sqrt(2 kT b V/dt) xi, of the drags b of single particles
 ------------------------------------------------------------------------- */
 
-void NoiseStage::add_drag(double factor, int not_fluid)
+const double *NoiseStage::draw_drag(double factor, int not_fluid)
 {
   const Parameters &par = engine.parameters();
   const int nlocal = atom->nlocal, n = nlocal + BLOCK;
@@ -310,7 +315,7 @@ void NoiseStage::add_drag(double factor, int not_fluid)
     const double strength = sqrt(factor * type.keywords.drag() * engine.particle[i].vol);
     for (int d = 0; d < par.dim; d++) drag_force[3 * i + d] = strength * drag[d * n + i];
   });
-  engine.add_drag_noise(drag_force.data());
+  return drag_force.data();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -426,11 +431,6 @@ void NoiseStage::set_shares(const double *bound, int not_fluid)
 
 double NoiseStage::memory_usage() const
 {
-  return static_cast<double>(row.capacity() * sizeof(NoiseRow) +
-                             acceleration.capacity() * sizeof(Acceleration)) +
-      static_cast<double>((mobility.capacity() + tag.capacity() + reach.capacity() +
-                           share.capacity() + eta.capacity() + drag.capacity() +
-                           numbers.capacity() + change.capacity() + flow.capacity() +
-                           drag_force.capacity() + pressure.capacity()) *
-                          sizeof(double));
+  return bytes(row, acceleration, mobility, tag, reach, share, eta, drag, numbers, change, flow,
+               drag_force, pressure);
 }

@@ -46,11 +46,11 @@ namespace SPHDissipation {
 
     void count_step();
 
-    // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and has it add the rest.
+    // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and returns the rest, for pass 2.
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure
     // of their own; continued = the first forces of a run are to be the last ones of the run before
 
-    void run(const double *bound, int not_fluid, bool continued);
+    StepNoise run(const double *bound, int not_fluid, bool continued);
 
     // After pass 2, with the forces on owned particles complete, in a fluid of different masses whose particles have
     // temperatures: adds to the heating what each pair has of the work of pressures and friction at the mean velocities
@@ -87,9 +87,9 @@ namespace SPHDissipation {
     bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);
-    void add_drag(double factor, int not_fluid);
+    const double *draw_drag(double factor, int not_fluid);
     void set_shares(const double *bound, int not_fluid);
-    void add_surface_noise();
+    void set_surface_noise();
   };
 
 }    // namespace SPHDissipation

@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_NOISE_DATA_H
 #define LMP_SPH_DISSIPATION_NOISE_DATA_H
 
-#include "sph_dissipation_channels.h"
+#include "sph_dissipation_settings.h"
 
 #include <cstdint>
 
@@ -106,6 +106,18 @@ namespace SPHDissipation {
     Terms terms;
     int dim;    // of the kernel
     NoiseKind kind;
+  };
+
+  // the noise of one pass 2: of pairs, and of the pairs of surfaces, data = nullptr: none; a random force of each owned
+  // particle, or nullptr
+
+  struct StepNoise {
+    struct Part {
+      NoiseForm form;
+      const NoiseData *data;
+    };
+    Part pairs, surfaces;
+    const double *drag;
   };
 
 }    // namespace SPHDissipation

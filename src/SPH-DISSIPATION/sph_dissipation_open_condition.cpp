@@ -195,7 +195,7 @@ void OpenCondition::init(const FluidModel &fluid_in)
 {
   fluid = &fluid_in;
   fields = Fields::of(atom);
-  const Parameters &par = fluid->parameters();
+  const Constants &par = fluid->constants();
   warm = par.thermal_pressure || par.conducts() || values.given(OpenValues::TEMPERATURE);
 }
 
@@ -223,11 +223,9 @@ const EosParams &OpenCondition::eos(int i) const
 double OpenCondition::sound(int i, double rho, double q) const
 {
   const Eos form = fluid->choice.eos;
-  const int type = atom->type[i];
   const double e = warm ? elastic_energy(form, eos(i), rho) + q : 0.0;
   const double c = sound_speed(form, eos(i), rho, e);
-  const double more =
-      States::stiffness(fluid->coeffs[type].keywords, eos(i).rho0, fluid->parameters().step);
+  const double more = fluid->stiffness(atom->type[i], fluid->constants().step);
   return (more > 0.0) ? sqrt(c * c + 0.5 * more) : c;
 }
 

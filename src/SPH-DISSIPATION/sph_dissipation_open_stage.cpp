@@ -19,6 +19,7 @@
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_particle_terms.h"
 
 #include <algorithm>
 
@@ -81,7 +82,7 @@ int OpenStage::bits_of(int fluid_bit) const
 
 double OpenStage::state_energy(int i) const
 {
-  return engine.parameters().states ? engine.states().energy(i) : 0.0;
+  return engine.constants().states ? engine.states().energy(i) : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -92,7 +93,7 @@ void OpenStage::run()
   set_zones();
   Particle *const particle = engine.particle;
   FlowRow *const heat = engine.heat().data();
-  const bool conducts = engine.parameters().conducts();
+  const bool conducts = engine.constants().conducts();
   exchange.forward({field(particle, &particle->vol, 2),
                     {zone_of.data(), 1, 1},
                     field(heat, conducts ? &heat->vol : nullptr, conducts ? 3 : 0)});
@@ -120,7 +121,7 @@ void OpenStage::set_states()
 
 void OpenStage::set_state(int i, double rho, double pressure)
 {
-  if (engine.parameters().bulk == Bulk::DENSITY) pressure += engine.zeta_term[i];
+  if (engine.constants().bulk == Bulk::DENSITY) pressure += engine.zeta_term[i];
   engine.rows().set_state(i, rho, pressure);
 }
 
@@ -128,7 +129,7 @@ void OpenStage::set_state(int i, double rho, double pressure)
 
 void OpenStage::set_temperature(int i, double temperature)
 {
-  if (!engine.parameters().conducts()) return;
+  if (!engine.constants().conducts()) return;
   engine.rows().set_flow(HEAT_FLOW, i, 0);
   engine.heat()[i].value = temperature;
 }
@@ -183,7 +184,7 @@ void OpenStage::sum_impacts(NeighList *list)
 
 void OpenStage::find_rows(NeighList *list)
 {
-  const double reach = engine.parameters().support + neighbor->skin;
+  const double reach = engine.constants().support + neighbor->skin;
   rows.assign(zones.size(), {});
   for (int ii = 0; ii < list->inum; ii++)
     for (std::size_t k = 0; k < zones.size(); k++)
@@ -200,8 +201,8 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   const LoopData &all = engine.pairs();
   const double zone = static_cast<double>(k + 1);
   const Particle *const particle = engine.particle;
-  const bool by_volume = (engine.parameters().bulk == Bulk::VOLUME);
-  const bool conducts = engine.parameters().conducts();
+  const bool by_volume = (engine.constants().bulk == Bulk::VOLUME);
+  const bool conducts = engine.constants().conducts();
 
   // with newton off, what a pair of two processors gives to the ghost atom is known to its owner
 
@@ -255,11 +256,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
 
 double OpenStage::memory_usage() const
 {
-  double bytes = pairs.memory_usage();
-  for (const auto &row : rows) bytes += static_cast<double>(row.capacity() * sizeof(int));
-  return bytes +
-      static_cast<double>(zone_of.capacity() * sizeof(double) +
-                          forces.capacity() * sizeof(ForceSum) +
-                          (divergence.capacity() + flow.capacity()) * sizeof(double)) +
-      side.memory_usage();
+  double sum = pairs.memory_usage() + side.memory_usage();
+  for (const auto &row : rows) sum += bytes(row);
+  return sum + bytes(zone_of, forces, divergence, flow);
 }

@@ -55,7 +55,7 @@ namespace SPHDissipation {
     const Particle &particle(int i) const { return engine.particle[i]; }
     double state_pressure(int i) const    // pressure of states
     {
-      return engine.parameters().states ? engine.state_pressure[i] : 0.0;
+      return engine.constants().states ? engine.state_pressure[i] : 0.0;
     }
 
     void run();                       // after the pressures, before those of boundaries

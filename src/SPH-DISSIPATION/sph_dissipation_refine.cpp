@@ -25,7 +25,6 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_particle_terms.h"
 #include "update.h"
 
 #include <algorithm>
@@ -393,7 +392,7 @@ Lump RefineEvent::lump(int i) const
   one.diffusion[2] = fields->vol_heat[i];
   const double rho = atom->rho[i] + update->dt * atom->drho[i];    // at the end of the step
   for (int slot : fields->slots)
-    one.state[slot] = handed_on(States::info(slot).kind, fields->state[slot][i], rho);
+    one.state[slot] = handed_on(state_info(slot).kind, fields->state[slot][i], one.mass, rho);
   std::copy_n(atom->x[i], 3, one.x);
   std::copy_n(atom->v[i], 3, one.u);
   std::copy_n(atom->vest[i], 3, one.u_end);
@@ -432,7 +431,7 @@ void RefineEvent::set_states(int i, const Lump &one)
 {
   for (int slot : fields->slots) {
     double &state = fields->state[slot][i];
-    state = taken_over(States::info(slot).kind, state, one.state[slot]);
+    state = taken_over(state_info(slot).kind, state, one.mass, one.state[slot]);
   }
 }
 

@@ -16,7 +16,7 @@
 
 // What the pair loops read of each particle, and what they sum up for it.  No LAMMPS include.
 
-#include "sph_dissipation_channels.h"
+#include "sph_dissipation_function.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {

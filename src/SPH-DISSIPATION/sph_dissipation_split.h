@@ -25,7 +25,7 @@
 // Omega: by the theorem of parallel axes that keeps angular momentum and energy if
 // sum m d_perp^2 + sum m_k I_k = m I, which is the case by itself for the inertia V^(2/n)/6 of cubes.
 
-#include "sph_dissipation_channels.h"
+#include "sph_dissipation_states.h"
 
 #include <algorithm>
 #include <cmath>
@@ -126,8 +126,8 @@ namespace SPHDissipation {
     double inertia = 0.0;    // per mass
     double energy = 0.0;     // internal, and its rate
     double energy_rate = 0.0;
-    double diffusion[3] = {};           // of volume: its rate, the one before, heat
-    double state[States::MOST] = {};    // handed on, see handed_on()
+    double diffusion[3] = {};          // of volume: its rate, the one before, heat
+    double state[MOST_STATES] = {};    // handed on, see handed_on()
     double x[3] = {};
     double u[3] = {}, spin[3] = {};
     double u_end[3] = {}, spin_end[3] = {};
@@ -196,8 +196,6 @@ namespace SPHDissipation {
       one.energy_rate = parent.energy_rate / stencil.n;
       for (double &rate : one.diffusion) rate /= stencil.n;
       one.inertia = inertia;
-      for (int l = 0; l < States::MOST; l++)
-        if (States::info(l).kind == StateKind::EXTENSIVE) one.state[l] /= stencil.n;
       for (int d = 0; d < 3; d++) one.x[d] += stencil.d[k][d];
       if (!rotate) continue;
       add_cross(1.0, parent.spin, stencil.d[k], one.u);
@@ -253,10 +251,8 @@ namespace SPHDissipation {
       for (int d = 0; d < 3; d++) whole.diffusion[d] += parts[k].diffusion[d];
     }
     for (int k = 0; k < n; k++)
-      for (int l = 0; l < States::MOST; l++)
-        whole.state[l] += States::info(l).kind == StateKind::EXTENSIVE
-            ? parts[k].state[l]
-            : parts[k].mass / whole.mass * parts[k].state[l];
+      for (int l = 0; l < MOST_STATES; l++)
+        whole.state[l] += parts[k].mass / whole.mass * parts[k].state[l];
 
     // relative to one of the parts, for the sake of round-off
 

@@ -19,6 +19,7 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_shift_terms.h"
 
 #include <algorithm>
@@ -180,7 +181,7 @@ void ViscosityStage::keep(int not_fluid)
 
 double ViscosityStage::memory_usage() const
 {
-  return (double) rates.capacity() * sizeof(double);
+  return bytes(rates);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -393,9 +394,7 @@ void DiffusionStage::set_rows(int not_fluid, int integrated)
 
 double DiffusionStage::memory_usage() const
 {
-  return (double) rows.capacity() * sizeof(DiffusionRow) +
-      (double) impedances.capacity() * sizeof(double) +
-      (double) (sums.capacity() + flow.capacity()) * sizeof(SumBlock);
+  return bytes(rows, impedances, sums, flow);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -459,8 +458,7 @@ void ShiftStage::run()
 
 double ShiftStage::memory_usage() const
 {
-  return (double) nmax * 3 * sizeof(double) + (double) contact.capacity() * sizeof(double) +
-      sums.memory_usage();
+  return (double) nmax * 3 * sizeof(double) + bytes(contact) + sums.memory_usage();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -472,9 +470,10 @@ int ForceStage::nforce() const
 
 /* ---------------------------------------------------------------------- */
 
-void ForceStage::run(NeighList *list, PairTally *tally, const std::function<void()> &add_more)
+void ForceStage::run(NeighList *list, PairTally *tally, const StepPlan &plan,
+                     const std::function<void()> &add_more)
 {
-  engine.accumulate_forces(list, tally);
+  engine.accumulate_forces(list, tally, plan);
   add_more();
 
   double **f = atom->f;
@@ -492,7 +491,7 @@ void ForceStage::run(NeighList *list, PairTally *tally, const std::function<void
   if (engine.parameters().drag)
     engine.for_each(atom->nlocal, [&](int i) {
       double channel[NCHANNEL] = {};
-      add_drag_heat(i, channel);
+      add_drag_heat(i, plan.not_fluid, channel);
       for (const double heat : channel) desph[i] += heat;
     });
 
@@ -529,10 +528,10 @@ double ForceStage::bulk_heat(int i) const
 
 /* ---------------------------------------------------------------------- */
 
-void ForceStage::add_drag_heat(int i, double *channel) const
+void ForceStage::add_drag_heat(int i, int not_fluid, double *channel) const
 {
   double force[3] = {0.0, 0.0, 0.0};
-  engine.add_drag(i, false, force, channel);
+  engine.add_drag(i, not_fluid, false, force, channel);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -549,7 +548,7 @@ void ForceStage::heating(double *heat, double *power, int not_fluid) const
     channel[BULK_HEAT] = bulk_heat(i);
     engine.side.add_heat(i, channel);
     if (i < atom->nlocal) {
-      add_drag_heat(i, channel);
+      add_drag_heat(i, not_fluid, channel);
       states.add_heat(i, channel);
     }
     for (int k = 0; k < NCHANNEL; k++) {

@@ -30,6 +30,7 @@ namespace SPHDissipation {
   class Engine;
   class Exchange;
   class PairTally;
+  struct StepPlan;
 
   // A stage of the force computation: sums of its own over the pairs that pass 1 of the engine has
   // found, and what it sends to ghost atoms or gets back from them.  Fluid::compute() lists the stages
@@ -229,7 +230,7 @@ namespace SPHDissipation {
     using Stage::Stage;
 
     // tally of each pair, or nullptr; add_more: to the sums of the engine, after pass 2
-    void run(NeighList *, PairTally *, const std::function<void()> &add_more);
+    void run(NeighList *, PairTally *, const StepPlan &, const std::function<void()> &add_more);
 
     // also add the force and torque of ghosts to those of their owners in the engine
 
@@ -244,7 +245,7 @@ namespace SPHDissipation {
    private:
     int nforce() const;    // atoms that forces act on
     double bulk_heat(int) const;
-    void add_drag_heat(int, double *channel) const;
+    void add_drag_heat(int, int not_fluid, double *channel) const;
   };
 
 }    // namespace SPHDissipation

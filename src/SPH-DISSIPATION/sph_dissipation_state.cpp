@@ -43,12 +43,12 @@ FluidState::FluidState(LAMMPS *lmp, Engine &engine, Exchange &exchange, const Fl
 
 /* ---------------------------------------------------------------------- */
 
-void FluidState::run(int group_in, int not_fluid_in)
+void FluidState::run(int group_in, int not_fluid_in, const std::function<double(int)> &pressure)
 {
   group = group_in;
   not_fluid = not_fluid_in;
   find_full_support();
-  add_up();
+  add_up(pressure);
 }
 
 /* ----------------------------------------------------------------------
@@ -77,7 +77,7 @@ void FluidState::find_full_support()
 
   for (int i = 0; i < nlocal; i++) {
     const double *const a = &lopsided[3 * i];
-    const double limit = SURFACE * engine.density[i].c / engine.parameters().support;
+    const double limit = SURFACE * engine.density[i].c / engine.constants().support;
     if (!(atom->mask[i] & not_fluid) && a[0] * a[0] + a[1] * a[1] + a[2] * a[2] > limit * limit)
       surface[i] = 1.0;
   }
@@ -98,13 +98,12 @@ void FluidState::find_full_support()
 
 /* ---------------------------------------------------------------------- */
 
-void FluidState::add_up()
+void FluidState::add_up(const std::function<double(int)> &pressure)
 {
   constexpr double FAR = 1.0e300;
   const int n = (atom->ntypes + 1) * NSET;
   std::vector<Mean> my_means(n, Mean());
   std::vector<Range> my_ranges(n, {FAR, FAR});
-  const StateRows states = engine.states();
   const double *const sum = model.choice.continuity ? Fields::of(atom)->rho_sum : atom->rho;
 
   for (int i = 0; i < atom->nlocal; i++) {
@@ -113,9 +112,7 @@ void FluidState::add_up()
     if (model.coeffs[type].other) continue;
     const EosParams &eos = model.coeffs[type].eos;
     const double excess = atom->rho[i] / eos.rho0 - 1.0;
-    const double energy = atom->esph[i] - states.energy(i);
-    const double p =
-        pressure(model.choice.eos, eos, atom->rho[i], energy / atom->rmass[i]) + states.pressure(i);
+    const double p = pressure(i);
     for (int set = ALL; set <= (full[i] > 0.0 ? FULL : ALL); set++) {
       Mean &mean = my_means[type * NSET + set];
       mean.count += 1.0;
@@ -177,7 +174,7 @@ double FluidState::scale_masses(std::vector<double> &factor, int also) const
       atom->rmass[i] *= one;
       if (i >= atom->nlocal) continue;
       for (int slot : fields->slots)
-        fields->state[slot][i] = rescaled(States::info(slot).kind, fields->state[slot][i], one);
+        fields->state[slot][i] = rescaled(state_info(slot).kind, fields->state[slot][i], one);
     }
   return largest;
 }
@@ -240,7 +237,7 @@ double FluidState::longest_wave() const
   MPI_Allreduce(edge, all, 6, MPI_DOUBLE, MPI_MIN, world);
 
   double length = 0.0;
-  for (int d = 0; d < engine.parameters().dim; d++)
+  for (int d = 0; d < engine.constants().dim; d++)
     length =
         std::max(length, domain->periodicity[d] ? domain->prd[d] : -(all[2 * d] + all[2 * d + 1]));
   return length;
@@ -262,7 +259,7 @@ void LatticeStrain::run(const std::vector<double> &weight)
   std::vector<Sum> my_sums(n, Sum());
   std::vector<double> curl(3 * (std::size_t)(atom->nlocal + atom->nghost), 0.0);
 
-  with_kernel(engine.parameters().kernel, [&](auto k) {
+  with_kernel(engine.constants().kernel, [&](auto k) {
     engine.visit_pairs([&](int i, int j, bigint entry) {
       if (weight[i] + weight[j] == 0.0) return;
       double r[3], v[3], turn[3];
@@ -279,10 +276,10 @@ void LatticeStrain::run(const std::vector<double> &weight)
                                  r[1] * r[2], r[0] * r[2], r[0] * r[1]};
       const double dist = sqrt(product[0] + product[1] + product[2]);
       if (dist == 0.0) return;
-      const double q = dist / engine.parameters().support;
+      const double q = dist / engine.constants().support;
       const double from = std::max(q - DQ, 0.0), to = std::min(q + DQ, 1.0);
-      const double derivative = engine.parameters().slope_norm * (k.slope(to) - k.slope(from)) /
-          (to - from) / (engine.parameters().support * dist);
+      const double derivative = engine.constants().slope_norm * (k.slope(to) - k.slope(from)) /
+          (to - from) / (engine.constants().support * dist);
       for (const int one : {i, j}) {
         const double each = weight[one] * engine.weight(i + j - one) / engine.density[one].c;
         Sum &sum = my_sums[type[one]];
@@ -316,7 +313,7 @@ double LatticeStrain::largest(int type) const
 {
   constexpr int MOST = 3, TURNS = 12;
   const Sum &sum = sums[type];
-  const bool flat = (engine.parameters().dim == 2);
+  const bool flat = (engine.constants().dim == 2);
   const int most_z = flat ? 0 : MOST, turns = flat ? 1 : TURNS;
   double found = 0.0;
 
@@ -373,7 +370,7 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
 
   // with density continuity, the pressure is that of the flow, and equal densities are no regular arrangement
 
-  const bool shears = (engine.parameters().dim > 1) && !evened_out && !model.choice.continuity;
+  const bool shears = (engine.constants().dim > 1) && !evened_out && !model.choice.continuity;
   LatticeStrain strain(lmp, engine, exchange);
   double length = 0.0;
   if (shears) {
@@ -421,7 +418,7 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
     const double rate_sq = strain.rate_squared(type) / count(type, FULL);
     const bool sheared = (vorticity_sq > SHEARED * SHEARED * rate_sq);
     const double growth = std::min(
-        fabs(elasticity) / mu, MY_2PI * sqrt(fabs(elasticity) / rho) / engine.parameters().support);
+        fabs(elasticity) / mu, MY_2PI * sqrt(fabs(elasticity) / rho) / engine.constants().support);
     const bool rearranges =
         (elasticity < 0.0 && growth * update->dt * update->nsteps > FROM_ROUNDOFF);
     if (part < largest_part || !(sheared || rearranges) ||

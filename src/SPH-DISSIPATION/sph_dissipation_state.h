@@ -16,6 +16,7 @@
 
 #include "sph_dissipation_stages.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -62,7 +63,7 @@ namespace SPHDissipation {
 
     // with the densities of pass 1; of particles with the bit of group, without one of not_fluid
 
-    void run(int group, int not_fluid);
+    void run(int group, int not_fluid, const std::function<double(int)> &pressure);
 
     bool has_type(int type) const { return count(type, ALL) > 0.0; }
     bool has_full_support(int type) const { return count(type, FULL) > 0.0; }
@@ -107,7 +108,7 @@ namespace SPHDissipation {
     double count(int type, Set set) const { return means[type * NSET + set].count; }
     int best(int type) const { return type * NSET + (has_full_support(type) ? FULL : ALL); }
     void find_full_support();
-    void add_up();
+    void add_up(const std::function<double(int)> &pressure);
     double longest_wave() const;
   };
 

@@ -20,12 +20,14 @@
 
 #include "sph_dissipation_function.h"
 
-#include <array>
 #include <cmath>
 #include <type_traits>
+#include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+
+  constexpr int MOST_STATES = 16;    // of a particle: room in arrays
 
   // what becomes of a state where particles split, merge, or get another mass
   enum class StateKind {
@@ -113,11 +115,15 @@ namespace SPHDissipation {
 
   // the states of a channel as data, for code that is not about what they do
   struct StateInfo {
-    const char *field, *keyword;
+    const char *name, *field, *keyword;
     StateKind kind;
     int first, most;    // places of its states
     int owner;          // first place of the channel whose keyword makes room
     bool ghosts;
+    // of a type with these coefficients by keyword: how many it has; time of one of them, nullptr where nothing does the same
+    int (*count)(const double *coeffs);
+    double (*time)(const double *coeffs, int k);
+    const char *instead;
     bool has_column() const { return owner == first; }    // of its own in data files
   };
 
@@ -144,18 +150,11 @@ namespace SPHDissipation {
     using Owner = std::conditional_t<std::is_void<typename Channel::Room>::value, Channel,
                                      typename Channel::Room>;
 
-    static const auto &table()
+    template <class Coeffs> static std::vector<StateInfo> table()
     {
-      static constexpr std::array<StateInfo, sizeof...(One)> infos = {
-          {{One::FIELD, One::KEYWORD, One::KIND, first<One>(), One::MOST, first<Owner<One>>(),
-            One::GHOSTS}...}};
-      return infos;
-    }
-    static const StateInfo &info(int slot)
-    {
-      int k = 0;
-      while (slot >= table()[k].first + table()[k].most) k++;
-      return table()[k];
+      return {{One::NAME, One::FIELD, One::KEYWORD, One::KIND, first<One>(), One::MOST,
+               first<Owner<One>>(), One::GHOSTS, count_of<One, Coeffs>, time_of<One, Coeffs>(),
+               One::INSTEAD}...};
     }
 
     // call function(channel) of each channel; function(channel, site) of each state that a particle has
@@ -172,11 +171,6 @@ namespace SPHDissipation {
       Numbers result;
       (set(type, rho0, cv, dt, static_cast<Slots<One> &>(result)), ...);
       return result;
-    }
-    // how many states of a channel a type has
-    template <class Channel, class Coeffs> static int count(Channel, const Coeffs &type)
-    {
-      return Channel::count(type.template of<Channel>());
     }
     template <class Coeffs> static double stiffness(const Coeffs &type, double rho0, double dt)
     {
@@ -199,6 +193,19 @@ namespace SPHDissipation {
     }
 
    private:
+    template <class Channel, class Coeffs> static int count_of(const double *coeffs)
+    {
+      return Channel::count(coeffs + Coeffs::template first_of<Channel>());
+    }
+    template <class Channel, class Coeffs> static auto time_of()
+    {
+      double (*time)(const double *, int) = nullptr;
+      if constexpr (Channel::INSTEAD != nullptr)
+        time = [](const double *coeffs, int k) {
+          return Channel::time(coeffs + Coeffs::template first_of<Channel>(), k);
+        };
+      return time;
+    }
     template <class Channel, class Rows, class Function>
     SPH_FUNCTION static void each_of(const Slots<Channel> &own, const Rows &rows, int i,
                                      Function &&function)
@@ -234,17 +241,19 @@ namespace SPHDissipation {
     }
   };
 
-  // What a particle of this density hands on of a state where it splits or merges; the state of one that gets this, as
-  // minus the factor by which a density at rest differs from the density that the next forces find; the state of one
-  // whose mass is multiplied with a factor, at the same volume
+  // What a particle of this mass and density hands on of a state where it splits or merges, a number per mass; the state
+  // of one that gets this, as minus the factor by which a density at rest differs from the density that the next forces
+  // find; the state of one whose mass is multiplied with a factor, at the same volume
 
-  inline double handed_on(StateKind kind, double state, double rho)
+  inline double handed_on(StateKind kind, double state, double mass, double rho)
   {
+    if (kind == StateKind::EXTENSIVE) return state / mass;
     return (kind == StateKind::STRAIN) ? strain_at(rho, state) : state;
   }
-  inline double taken_over(StateKind kind, double state, double value)
+  inline double taken_over(StateKind kind, double state, double mass, double value)
   {
-    if (kind != StateKind::STRAIN) return value;
+    if (kind == StateKind::EXTENSIVE) return value * mass;
+    if (kind == StateKind::PER_MASS) return value;
     return (state != 0.0) ? -std::exp(-value) : 0.0;    // 0: its type does not have it
   }
   inline double rescaled(StateKind kind, double state, double factor)

@@ -109,9 +109,9 @@ void SurfaceStage::begin()
 
 void SurfaceStage::find(int bits)
 {
-  const int dim = engine.parameters().dim;
+  const int dim = engine.constants().dim;
   std::vector<int> owned, all, outer;
-  const double support = engine.parameters().support;
+  const double support = engine.constants().support;
   double spacing = 0.0, last = 0.0, factor = 0.0;
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     if (!(atom->mask[i] & bits)) continue;
@@ -119,7 +119,7 @@ void SurfaceStage::find(int bits)
     surface[i].spacing = own;
     if (has_flux && own != last)
       factor =
-          flux_factor(kernel_lattice_sums(engine.parameters().kernel, dim, support, last = own));
+          flux_factor(kernel_lattice_sums(engine.constants().kernel, dim, support, last = own));
     surface[i].flux_volume = factor * atom->vfrac[i];
     spacing = std::max(spacing, own);
     all.push_back(i);
@@ -177,8 +177,8 @@ template <class Task> void SurfaceStage::for_each(const std::vector<int> &owned,
 
 void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &owned)
 {
-  const double support = engine.parameters().support;
-  const int dim = engine.parameters().dim;
+  const double support = engine.constants().support;
+  const int dim = engine.constants().dim;
   for_each(owned, [&](int i) {
     Surface &s = surface[i];
     const double width = WIDTH * s.spacing;
@@ -211,7 +211,7 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
 
 void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
 {
-  const double support = engine.parameters().support;
+  const double support = engine.constants().support;
   std::vector<Surface> found(owned.size());
   const auto nowned = static_cast<int>(owned.size());
   engine.for_each(nowned, [&](int k) {
@@ -249,7 +249,7 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
 void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &owned)
 {
   constexpr double HOLLOW = -0.25;    // times the spacing
-  const double support = engine.parameters().support;
+  const double support = engine.constants().support;
   for_each(owned, [&](int i) {
     Surface &s = surface[i];
     if (!(MathExtra::lensq3(s.normal) > 0.0)) return;
@@ -278,9 +278,9 @@ double SurfaceStage::memory_usage() const
 
 double BoundaryPairs::memory_usage() const
 {
-  std::size_t bytes = 0;
-  for (const auto &pairs : of_thread) bytes += pairs.capacity() * sizeof(BoundaryPair);
+  double sum = 0.0;
+  for (const auto &pairs : of_thread) sum += bytes(pairs);
   for (const auto &lists : {&rows, &touched})
-    for (const auto &one : *lists) bytes += one.capacity() * sizeof(int);
-  return static_cast<double>(bytes);
+    for (const auto &one : *lists) sum += bytes(one);
+  return sum;
 }

@@ -13,6 +13,7 @@
 
 #include "sph_dissipation_table.h"
 
+#include "sph_dissipation_channels.h"
 #include "sph_dissipation_solvers.h"
 #include "utils.h"
 

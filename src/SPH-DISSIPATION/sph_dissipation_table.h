@@ -14,7 +14,6 @@
 #ifndef LMP_SPH_DISSIPATION_TABLE_H
 #define LMP_SPH_DISSIPATION_TABLE_H
 
-#include "sph_dissipation_channels.h"
 #include "sph_dissipation_steps.h"
 
 #include <set>
@@ -23,6 +22,9 @@
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+
+  struct PairInertia;
+  struct TypePair;
 
   // Table of the coefficients and the largest stable time steps of the pairs of types, as it goes to
   // the log: a row each, the same columns in all rows.

@@ -25,6 +25,13 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
+  // memory of vectors
+
+  template <class... List> double bytes(const List &...list)
+  {
+    return (... + (static_cast<double>(list.capacity()) * sizeof(typename List::value_type)));
+  }
+
   // Here there is one; those of the KOKKOS package derive from it.
 
   class Threads {
@@ -128,9 +135,9 @@ namespace SPHDissipation {
 
     double memory_usage() const
     {
-      double rows = 0.0;
-      for (const auto &other : others) rows += static_cast<double>(other.capacity());
-      return rows * sizeof(Row);
+      double sum = 0.0;
+      for (const auto &other : others) sum += bytes(other);
+      return sum;
     }
 
    private:

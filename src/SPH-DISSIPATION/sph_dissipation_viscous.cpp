@@ -24,6 +24,7 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_integrate.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_solvers.h"
 #include "sph_dissipation_stages.h"
 #include "update.h"
@@ -323,7 +324,7 @@ void ViscousStage::set_velocities(const Unknowns &values)
 void ViscousStage::set_bulk_term()
 {
   DensitySum *const density = engine.density;
-  if (engine.parameters().bulk != Bulk::NONE) {
+  if (engine.constants().bulk != Bulk::NONE) {
     engine.accumulate_rates();
     const Field cdot = field(density, &density->cdot, 1);
     exchange.reverse({cdot});
@@ -370,7 +371,7 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
     }
   }
 
-  engine.accumulate_friction(list);
+  engine.accumulate_friction(list, prescribed);
   boundary.add_linear_friction();
   const Field f = field(engine.force, engine.force->f, 3);
   if (omegaest)
@@ -414,7 +415,7 @@ void StiffStage::sum(double *values, int n) const
 
 double ViscousStage::scale_sq() const
 {
-  const double distance = DBL_EPSILON * engine.parameters().support;
+  const double distance = DBL_EPSILON * engine.constants().support;
   const double rest = (update->dt > 0.0) ? distance / (update->dt * settings.tolerance) : 0.0;
   return team().sum<double>(static_cast<int>(x.size()), [&](int k, double &total) {
     const int d = k % width;
@@ -552,7 +553,7 @@ double StiffStage::estimated_rate()
 {
   constexpr int NITERATION = 12;
   constexpr double WAVES[6] = {391.7, 577.3, 733.1, 811.9, 929.3, 1117.7};    // per support radius
-  const double unit = 1.0 / engine.parameters().support;
+  const double unit = 1.0 / engine.constants().support;
   const std::size_t n = mass.size();
   Unknowns u(n), drag(n);
   for (std::size_t k = 0; k < n; k++) {
@@ -658,24 +659,18 @@ void ViscousStage::add_velocities(const Unknowns &increment)
 
 double StiffStage::memory_usage() const
 {
-  double values = 0.0;
-  for (const Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force,
-                              &forces_before, &torques_before, &heat_before})
-    values += static_cast<double>(one->capacity());
-  return values * sizeof(double) + static_cast<double>(unknown.capacity() * sizeof(int));
+  return bytes(mass, inverse_mass, x, residual, before, guess, force, forces_before, torques_before,
+               heat_before, unknown);
 }
 
 double ViscousStage::memory_usage() const
 {
-  const std::size_t values = others.capacity() + ahead.capacity() + ahead_spin.capacity();
-  return StiffStage::memory_usage() + static_cast<double>(values * sizeof(double)) +
-      static_cast<double>(rest.capacity() * sizeof(Rest));
+  return StiffStage::memory_usage() + bytes(others, ahead, ahead_spin, rest);
 }
 
 double TemperatureStage::memory_usage() const
 {
-  const std::size_t values = flow.capacity() + temperature.capacity();
-  return StiffStage::memory_usage() + static_cast<double>(values * sizeof(double));
+  return StiffStage::memory_usage() + bytes(flow, temperature);
 }
 
 /* ----------------------------------------------------------------------

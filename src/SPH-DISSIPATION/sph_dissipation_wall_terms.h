@@ -18,7 +18,8 @@
 // one of them: S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012), and the extension of
 // velocity, spin and temperature behind the surface.  No LAMMPS include.
 
-#include "sph_dissipation_particle_terms.h"
+#include "sph_dissipation_rows.h"
+#include "sph_dissipation_settings.h"
 
 #include <cmath>
 
@@ -469,7 +470,8 @@ namespace SPHDissipation {
   // Values of particle i of a wall with this acceleration in pass 2, extrapolated from the fluid,
   // sum.weight > 0.  A wall does not pull on a fluid without tension.
 
-  SPH_FUNCTION void extend_fluid(const ParticleRows &rows, int i, const WallCondition &condition,
+  template <class Rows>    // ParticleRows
+  SPH_FUNCTION void extend_fluid(const Rows &rows, int i, const WallCondition &condition,
                                  const Surface &surface, const BoundarySum &sum,
                                  const double *acceleration, double *spin)
   {

@@ -19,7 +19,7 @@
 using namespace LAMMPS_NS::SPHDissipation;
 
 struct Solute : BaseState {
-  static constexpr const char *FIELD = "solute", *KEYWORD = "solute";
+  static constexpr const char *NAME = "solute", *FIELD = "solute", *KEYWORD = "solute";
   static constexpr StateKind KIND = StateKind::EXTENSIVE;
   static constexpr bool GHOSTS = true, READS_RATE = true;
   struct Numbers {
@@ -90,12 +90,21 @@ static Coeffs coefficients(int nprocess, bool vibrates, double modulus)
 TEST(States, list)
 {
   EXPECT_EQ(Three::MOST, RelaxChannel::MOST + VibrationChannel::MOST + 1);
-  const StateInfo &last = Three::info(Three::MOST - 1);
-  EXPECT_STREQ(last.field, "solute");
-  EXPECT_TRUE(last.has_column() && last.ghosts);
-  EXPECT_STREQ(Three::info(0).field, Three::info(7).field);
-  EXPECT_FALSE(Three::info(8).has_column());
-  EXPECT_EQ(Three::info(8).owner, 0);
+  const std::vector<StateInfo> table = Three::table<TypeCoeffs>();
+  ASSERT_EQ(table.size(), 3u);
+  EXPECT_STREQ(table[2].field, "solute");
+  EXPECT_TRUE(table[2].has_column() && table[2].ghosts);
+  EXPECT_EQ(table[0].most, RelaxChannel::MOST);
+  EXPECT_EQ(table[1].first, RelaxChannel::MOST);
+  EXPECT_FALSE(table[1].has_column());
+  EXPECT_EQ(table[1].owner, 0);
+
+  // with coefficients of all channels
+  const TypeCoeffs type = coefficients(2, true, 0.0).type;
+  EXPECT_EQ(table[0].count(type.a), 2);
+  EXPECT_EQ(table[1].count(type.a), 1);
+  EXPECT_EQ(table[0].time(type.a, 1), RelaxChannel::time(type.of<RelaxChannel>(), 1));
+  EXPECT_EQ(table[2].time, nullptr);
   EXPECT_TRUE(Three::numbers(coefficients(0, false, 1.0), 2.0, 1.0, 0.1).read_rate());
   EXPECT_FALSE(Three::numbers(coefficients(2, false, 0.0), 2.0, 1.0, 0.1).read_rate());
   EXPECT_FALSE(Three::numbers(coefficients(0, false, 0.0), 2.0, 1.0, 0.1).any());
@@ -145,15 +154,15 @@ TEST(States, keep)
 TEST(States, kinds)
 {
   const auto strain = StateKind::STRAIN, mean = StateKind::PER_MASS, sum = StateKind::EXTENSIVE;
-  EXPECT_NEAR(handed_on(strain, 2.0, 3.0), std::log(1.5), 1e-15);
-  EXPECT_NEAR(taken_over(strain, 2.0, 0.5), -std::exp(-0.5), 1e-15);
-  EXPECT_EQ(taken_over(strain, 0.0, 0.5), 0.0);
+  EXPECT_NEAR(handed_on(strain, 2.0, 4.0, 3.0), std::log(1.5), 1e-15);
+  EXPECT_NEAR(taken_over(strain, 2.0, 4.0, 0.5), -std::exp(-0.5), 1e-15);
+  EXPECT_EQ(taken_over(strain, 0.0, 4.0, 0.5), 0.0);
   EXPECT_EQ(rescaled(strain, 2.0, 3.0), 6.0);
   EXPECT_EQ(rescaled(strain, -0.9, 3.0), -0.9);
-  for (const auto kind : {mean, sum}) {
-    EXPECT_EQ(handed_on(kind, 2.0, 3.0), 2.0);
-    EXPECT_EQ(taken_over(kind, 2.0, 3.0), 3.0);
-  }
+  EXPECT_EQ(handed_on(mean, 2.0, 4.0, 3.0), 2.0);
+  EXPECT_EQ(taken_over(mean, 2.0, 4.0, 3.0), 3.0);
+  EXPECT_EQ(handed_on(sum, 2.0, 4.0, 3.0), 0.5);
+  EXPECT_EQ(taken_over(sum, 2.0, 4.0, 3.0), 12.0);
   EXPECT_EQ(rescaled(mean, 2.0, 3.0), 2.0);
   EXPECT_EQ(rescaled(sum, 2.0, 3.0), 6.0);
   EXPECT_EQ(rescaled(sum, -2.0, 3.0), -6.0);    // an extensive state may be negative
@@ -162,7 +171,7 @@ TEST(States, kinds)
 /* ---------------------------------------------------------------------- */
 
 struct Dye : FlowingState {
-  static constexpr const char *FIELD = "dye", *KEYWORD = "dye";
+  static constexpr const char *NAME = "dye", *FIELD = "dye", *KEYWORD = "dye";
   static int count(const double *diffusivity) { return *diffusivity > 0.0 ? 1 : 0; }
   static double coefficient(const double *diffusivity, double rho0) { return rho0 * *diffusivity; }
 };
@@ -203,7 +212,7 @@ TEST(Flows, list)
   Two::coefficients(type, 2.0, coefficient);
   EXPECT_EQ(coefficient[0], 5.0);
   EXPECT_EQ(coefficient[1], 0.6);
-  EXPECT_EQ(WithDye::info(0).kind, StateKind::EXTENSIVE);
+  EXPECT_EQ(WithDye::table<TypeCoeffs>()[0].kind, StateKind::EXTENSIVE);
 
   DyeRows rows;
   for (const int bits : {1, 2, 3}) {

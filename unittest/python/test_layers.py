@@ -111,6 +111,21 @@ def test_conductivity_is_in_few_files():
     assert len(named) <= 8, named
 
 
+def test_a_formula_is_in_few_objects():
+    """A change of a channel compiles the files with loops, the coefficients, and the table again, no others."""
+    sources = set(files())
+
+    def add_included(name, found):
+        for other in sources.intersection(includes(name)) - found:
+            found.add(other)
+            add_included(other, found)
+        return found
+
+    compiled = [name for name in files()
+                if name.endswith(".cpp") and "sph_dissipation_channel_list.h" in add_included(name, set())]
+    assert 3 < len(compiled) < 15, compiled
+
+
 def walks():
     """The stations (file, names) of each walk, from the tables of the section "A stranger's walk"."""
     section = re.search(r"^A stranger's walk\n-+\n(.*?)^[^\n]+\n-{3,}\n", PAGE.read_text(), re.M | re.S)[1]

@@ -1,0 +1,200 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_SETTINGS_H
+#define LMP_SPH_DISSIPATION_SETTINGS_H
+
+// Choices of pair_style, words of pair_coeff, and what follows from them without the formulas of the channels: nearly all
+// files read no more of the fluid.  No LAMMPS include.
+
+#include "sph_dissipation_eos.h"
+#include "sph_dissipation_flows.h"
+#include "sph_dissipation_kernel.h"
+
+#include <cmath>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // forms of the shear force and of the bulk force, see the headers of these channels
+
+  enum class Shear { NONE, MG, MG_FR, MORRIS, ESPANOL, MICROPOLAR };
+
+  inline const char *shear_name(Shear shear)
+  {
+    return (shear == Shear::MG)        ? "mg"
+        : (shear == Shear::MG_FR)      ? "mg/fr"
+        : (shear == Shear::MORRIS)     ? "morris"
+        : (shear == Shear::ESPANOL)    ? "espanol"
+        : (shear == Shear::MICROPOLAR) ? "micropolar"
+                                       : "none";
+  }
+
+  enum class Bulk { NONE, DENSITY, VOLUME };
+
+  inline const char *bulk_name(Bulk bulk)
+  {
+    return (bulk == Bulk::DENSITY) ? "density" : (bulk == Bulk::VOLUME) ? "volume" : "none";
+  }
+
+  // number: c_i = sum_j W, V_i = 1/c_i                                         P1 (5)
+  // mass:   c_i = sum_j w_j W, V_i = w_i/c_i with the reference volume w_i = m_i/rho0 of particle i
+  enum class Volume { NUMBER, MASS };
+
+  inline const char *volume_name(Volume volume)
+  {
+    return (volume == Volume::MASS) ? "mass" : "number";
+  }
+
+  // negative coefficients of the bulk term beyond the bound of a particle: ignore, count, limit
+
+  enum class Limit { NO, COUNT, YES };
+
+  // defaults of density continuity
+
+  constexpr double DEFAULT_DELTA = 0.1;
+
+  // choices of the pair_style command
+
+  struct Settings {
+    Kernel kernel = Kernel::WENDLAND_C2;
+    Eos eos = Eos::LINEAR;
+    Shear shear = Shear::MG;
+    Bulk bulk = Bulk::DENSITY;
+    int dim = 0;    // 0: dimension of the simulation
+    Limit limit = Limit::NO;
+    Volume volume = Volume::NUMBER;
+    bool thermal = false;             // thermal noise
+    double temperature = 0.0;         // of it
+    bool own_temperatures = false;    // each particle has that of its internal energy instead
+    double heat_capacity = 0.0;       // per mass, of types that have none of their own
+    int seed = 0;
+    bool continuity = false;    // the density is a sum and an offset that particles keep
+    double delta = 0.0;         // of the diffusion of volume
+    bool tension = true;        // the pressure may be negative
+  };
+
+  // viscosities of the pairs of types, in the order of pair_coeff
+  enum Viscosity { MU, MU_R, GAMMA1, GAMMA2, NVISCOSITY };
+  constexpr const char *VISCOSITY_NAMES[] = {"mu", "mu_r", "gamma1", "gamma2"};
+  inline int number_of_viscosities(bool spins)
+  {
+    return spins ? NVISCOSITY : MU_R;
+  }
+
+  // What a keyword of pair_coeff requires of pair_style, see FluidModel::keyword_that_needs()
+  enum Requirement {
+    NOTHING = 0,
+    HEAT_CAPACITY = 1,    // temperatures: a heat capacity, and no heat bath of one temperature
+    NO_NOISE = 2,
+    EOS_IDEAL = 4,
+    NOT_EOS_IDEAL = 8,
+    NO_OPEN_ENDS = 16,
+    TENSION = 32,
+    RHEOLOGY = 64    // mu that may depend on the rate of shear, see FluidModel::check_rheology()
+  };
+
+  // A keyword of pair_coeff and its numbers, coefficients of a type, one after another: once, or in groups of which there
+  // may be fewer.
+  struct TypeKeyword {
+    const char *name;
+    int count;    // of coefficients
+    int group;    // as many belong together; 0: all
+    int needs;    // of enum Requirement
+    // it acts with the number 0, too: the first of its coefficients is 1 where it is given, and no number of the command
+    bool marked = false;
+    int first = 0;    // number among the coefficients of all channels, set by type_keywords()
+
+    int numbers() const { return marked ? count - 1 : count; }    // of the command
+  };
+
+  // the inequality that the viscosities of a type violate, or nullptr if the fluid dissipates:
+  // 2 mu |dev E|^2 + kappa (tr E)^2 >= 0
+  inline const char *inadmissible(double mu, double kappa)
+  {
+    if (!(mu >= 0.0)) return "mu must be >= 0";
+    if (!(kappa >= 0.0)) return "kappa must be >= 0";
+    return nullptr;
+  }
+
+  // the terms of pairs that a run has: those of a form of the shear force, and the optional ones or not
+  struct Terms {
+    Shear shear;
+    bool optional;
+    bool by_rate;    // mu depends on the rate of shear
+  };
+
+  // Columns of a row of sums over pairs: torque, if there are spins, then the heat of each of the channels with these bits
+  // but the first
+  struct ChannelColumns {
+    bool spins;
+    int bits;
+    constexpr bool heats(int channel) const { return channel > 0 && (bits >> channel & 1); }
+    constexpr int heat(int channel) const
+    {
+      int column = spins ? 3 : 0;
+      for (int c = 1; c < channel; c++) column += heats(c) ? 1 : 0;
+      return column;
+    }
+    constexpr int width() const
+    {
+      int channel = 1;
+      while (bits >> channel) channel++;
+      return heat(channel);
+    }
+  };
+
+  // what belongs to all types: a device copies it as a whole
+
+  struct Constants : Settings {
+    double support = 0.0;             // R
+    double self_weight = 0.0;         // W(0)
+    double weight_norm = 0.0;         // W = weight_norm * shape(r/R)
+    double slope_norm = 0.0;          // F = slope_norm * slope(r/R)
+    int ntypes_1 = 1;                 // number of types + 1
+    bool uniform = true;              // the coefficients of type 1 hold for all pairs
+    bool inviscid = true;             // they are zero
+    bool optional = false;            // pairs have optional terms
+    bool by_rate = false;             // mu of any type depends on the rate of shear
+    bool drag = false;                // of single particles, of any type
+    bool thermal_pressure = false;    // of any type: it depends on the internal energy
+    int flows = 0;                    // bits of the flows of any type
+    int loops_of_flows = 0;           // of those that pass 2 does not have
+    int flows_alike = 0;              // of those with the same coefficient of all types
+    bool impedes_alike = true;        // all types have the same rho0 c0
+    bool shared = false;              // there are types of other styles
+    bool states = false;              // any type has some
+    double step = 0.0;                // time step that their numbers are of
+
+    bool spins() const { return shear == Shear::MICROPOLAR; }
+    bool conducts() const { return flows >> HEAT_FLOW & 1; }
+    Terms terms() const { return {shear, optional, by_rate}; }
+    void set_kernel(Kernel, int dim, double support);
+  };
+
+  inline void Constants::set_kernel(Kernel kernel_in, int dim_in, double support_in)
+  {
+    kernel = kernel_in;
+    dim = dim_in;
+    support = support_in;
+    self_weight = kernel_weight(kernel, dim, 0.0, support);
+    weight_norm = self_weight / with_kernel(kernel, [](auto k) {
+                    return k.shape(0.0);
+                  });
+    slope_norm = weight_norm / (support * support);
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
