@@ -1,4 +1,4 @@
-"""Every input on every page of the manual runs as printed.
+"""Every input on every page of the manual runs as printed; searches find the page that answers; pages are short.
 
 A code block of language LAMMPS that sets up a box and runs is an input of its own. Any other one is a fragment: its parts
 (between empty lines) are commands for a fluid that is there already, and LAMMPS must take them. Blocks below the heading
@@ -133,6 +133,21 @@ def test_search_finds_the_page_that_answers(word, page):
     texts = {path.stem: path.read_text() for path in (ROOT / "doc" / "src").glob("*.rst")}
     assert [name for name, text in texts.items() if word.lower() in found_first(text)] == [page]
     assert re.search(rf"\b{word}", re.sub(r"^\.\. index::.*", "", texts[page], flags=re.MULTILINE), re.IGNORECASE), "the page does not say it"
+
+
+# -- Length --------------------------------------------------------------------------------------------------------
+
+LONGEST = 6000
+REFERENCE = ("theory_sph_", "Howto_sph_messages")    # to look something up
+NO_TEXT = re.compile(r"^( *)\.\. (?:code-block|parsed-literal|math|figure|image|index|contents|toctree|_).*\n(?:\s*\n|\1 +.*\n)*", re.MULTILINE)
+
+
+@pytest.mark.parametrize("page", [page for page in sorted((ROOT / "doc" / "src").glob("*.rst")) if not page.stem.startswith(REFERENCE)],
+                         ids=lambda page: page.stem)
+def test_page_is_short(page):
+    """words that a reader reads: without blocks of code and formulas"""
+    text = re.sub(r":math:`[^`]*`|<[^<>`]*>(?=`)", "", NO_TEXT.sub("\n", page.read_text(encoding="utf-8")))
+    assert len(re.findall(r"[A-Za-z][A-Za-z'-]+", text)) <= LONGEST
 
 
 # -- Runs ----------------------------------------------------------------------------------------------------------
