@@ -83,7 +83,7 @@ static constexpr uint64_t MOTION = V_MASK | OMEGA_MASK;
 static constexpr uint64_t EXTRAPOLATION = VEST_MASK | OMEGAEST_MASK;
 static constexpr uint64_t IDENTITY = X_MASK | IMAGE_MASK | MASK_MASK | TAG_MASK | TYPE_MASK;
 static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK | STATES_MASK;
-static constexpr uint64_t DIFFUSION = SPH_RHO_MASK | OFFSET_MASK | STATES_MASK;    // of volume
+static constexpr uint64_t DIFFUSION = CONTINUITY_MASK | STATES_MASK;    // of volume
 
 /* ---------------------------------------------------------------------- */
 
@@ -154,7 +154,7 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::initial_integrate
   }
   atomKK->sync(Host, ALL_MASK);
   FixSPHBulk::initial_integrate(vflag);
-  atomKK->modified(Host, MODIFIED[BEGIN] | (diffuses ? DIFFUSION : EMPTY_MASK));
+  atomKK->modified(Host, modified_mask(BEGIN));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -164,7 +164,14 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::final_integrate()
   if (!on_host()) return integrate_on_device(END);
   atomKK->sync(Host, ALL_MASK);
   FixSPHBulk::final_integrate();
-  atomKK->modified(Host, MODIFIED[END]);
+  atomKK->modified(Host, modified_mask(END));
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> uint64_t FixSPHBulkKokkos<DeviceType>::modified_mask(Half half) const
+{
+  return MODIFIED[half] | (diffuses && half == BEGIN ? DIFFUSION : EMPTY_MASK);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -172,9 +179,11 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::final_integrate()
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_device(Half half)
 {
   const auto space = execution_space;
-  atomKK->sync(space, READ);
+  const bool changes_volume = diffuses && half == BEGIN;
+  atomKK->sync(space, changes_volume ? READ | DIFFUSION : READ);
   const ParticlesKokkos<DeviceType> particles(atomKK);
   const TimeStep step = time_step();
+  const VolumeStep volume = changes_volume ? volume_step_on_device() : VolumeStep();
   const int bit = groupbit;
 
   Kokkos::parallel_for(
@@ -184,16 +193,33 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_devi
           step.begin(particles, i);
         else
           step.end(particles, i);
+        if (changes_volume) volume.begin(i);
       });
   if (half == BEGIN && shift_speed > 0.0) shift_on_device();
-  atomKK->modified(space, MODIFIED[half]);
+  atomKK->modified(space, modified_mask(half));
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> VolumeStep FixSPHBulkKokkos<DeviceType>::volume_step_on_device() const
+{
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+  VolumeStep volume = volume_step();
+  volume.rho = avec.k_rho.template view<DeviceType>().data();
+  volume.rmass = atomKK->k_rmass.template view<DeviceType>().data();
+  volume.rate = avec.k_vol_rate.template view<DeviceType>().data();
+  volume.rate_before = avec.k_vol_rate_before.template view<DeviceType>().data();
+  for (int slot : avec.slots)
+    if (state_info(slot).kind == StateKind::STRAIN)
+      volume.strain[volume.nstrains++] = avec.k_state[slot].template view<DeviceType>().data();
+  return volume;
 }
 
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
 {
-  if (remap_v_flag || exact || diffuses) return true;
+  if (remap_v_flag || exact) return true;
   if (shift_speed == 0.0) return false;
   const auto *const fluidKK = dynamic_cast<FluidKokkos<DeviceType> *>(fluid);
   return !fluidKK || !fluidKK->computes_on_device();

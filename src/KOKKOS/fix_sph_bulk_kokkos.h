@@ -31,8 +31,8 @@ FixStyle(sph/micropolar/kk/host,FixSPHBulkKokkos<LMPHostType>);
 namespace LAMMPS_NS {
 
 // The device does the work of every step, except for the exchange of energy of thermal noise, large
-// viscosities, the diffusion of volume, and the velocities that fix deform remaps.  The CPU style does
-// these, and the start of a run, on the host.
+// viscosities, and the velocities that fix deform remaps.  The CPU style does these, and the start of a
+// run, on the host.
 
 template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
  public:
@@ -55,6 +55,8 @@ template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
 
  private:
   bool on_host() const;
+  uint64_t modified_mask(Half) const;
+  SPHDissipation::VolumeStep volume_step_on_device() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -76,7 +76,6 @@ template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::runs_on_device()
 template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_because() const
 {
   if (fluid->model->choice.thermal) return "keyword temp";
-  if (fluid->model->choice.continuity) return "density continuity";
   if (update->whichflag == 2) return "a minimization";
   if (fluid->model->has_rheology()) return "a viscosity that depends on the rate of shear";
   for (const auto &ifix : modify->get_fix_list()) {
@@ -120,8 +119,8 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
     return;
   }
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  datamask_read = FLUID_READ;
-  datamask_modify = FLUID_MODIFIED;
+  datamask_read = device->read_mask();
+  datamask_modify = device->modified_mask();
   no_virial_fdotr_compute = 1;
 
   auto *request = neighbor->find_request(static_cast<Pair *>(this));

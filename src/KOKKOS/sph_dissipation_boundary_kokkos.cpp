@@ -88,8 +88,19 @@ void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<Device
   boundary.sum = decltype(boundary.sum)(Kokkos::NoInit("sph:boundary_sum"), boundary.nowned);
   boundary.near = decltype(boundary.near)(Kokkos::NoInit("sph:boundary_near"), boundary.nall);
 
+  const bool repels = fluid.par.continuity;
+  const double contact_norm = ContactKernel::norm(fluid.par.dim);
+  boundary.contact = {};
+  boundary.occupied = {};
+  if (repels) {
+    boundary.contact =
+        decltype(boundary.contact)(Kokkos::NoInit("sph:boundary_contact"), boundary.nall);
+    boundary.occupied = decltype(boundary.occupied)("sph:boundary_occupied", nall);
+  }
+
   auto particles = boundary.particles;
   auto near = boundary.near;
+  auto contact = boundary.contact;
   Kokkos::parallel_scan(
       "sph:boundary", Range(0, nall), KOKKOS_LAMBDA(int i, int &k, bool last) {
         const bool is_boundary = fluid.mask[i] & some;
@@ -97,8 +108,10 @@ void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<Device
           number(i) = is_boundary ? k : -1;
           if (is_boundary) {
             particles(k) = i;
-            near(k) = near_kernel(fluid.par.dim, fluid.par.support, fluid.par.weight_norm,
-                                  fluid.particle[i].vol);
+            const double volume = fluid.particle[i].vol;
+            near(k) = near_kernel(fluid.par.dim, fluid.par.support, fluid.par.weight_norm, volume);
+            if (repels)
+              contact(k) = contact_kernel(fluid.par.dim, fluid.par.support, contact_norm, volume);
           }
         }
         if (is_boundary) k++;
@@ -286,7 +299,8 @@ void BoundaryStageKokkos<DeviceType>::sum_surface_heat(const LoopDataKokkos<Devi
 }
 
 /* ----------------------------------------------------------------------
-   the first particle of the fluid that is inside a wall stops the run
+   how much of the support of a particle of the fluid boundary particles fill; the first particle that is inside a wall
+   stops the run
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
@@ -296,16 +310,23 @@ void BoundaryStageKokkos<DeviceType>::check(const LoopDataKokkos<DeviceType> &da
   auto list = rows;
   auto number = boundary.number;
   auto near = boundary.near;
+  auto contact = boundary.contact;
+  auto occupied = boundary.occupied;
+  const bool repels = data.par.continuity;
   auto loop = data;
   int first;
   Kokkos::parallel_reduce(
       "sph:boundary_check", Range(0, nrows),
       KOKKOS_LAMBDA(int k, int &smallest) {
         const int i = list(k);
-        double filled = 0.0;
+        double filled = 0.0, touched = 0.0;
         for_neighbors(loop, i, [&](int j, const double *, double rsq) {
-          if (number(j) >= 0) filled += near(number(j)).template at<K>(Kokkos::sqrt(rsq));
+          if (number(j) < 0) return;
+          const double distance = Kokkos::sqrt(rsq);
+          filled += near(number(j)).template at<K>(distance);
+          if (repels) touched += contact(number(j)).template at<ContactKernel>(distance);
         });
+        if (repels) occupied(i) = touched;
         if (filled > INSIDE_WALL && i < smallest) smallest = i;
       },
       Kokkos::Min<int>(first));
@@ -316,11 +337,22 @@ void BoundaryStageKokkos<DeviceType>::check(const LoopDataKokkos<DeviceType> &da
 
 /* ---------------------------------------------------------------------- */
 
+template <class DeviceType>
+RepulsionKokkos<DeviceType>
+BoundaryStageKokkos<DeviceType>::repulsion(const LoopDataKokkos<DeviceType> &data) const
+{
+  return {data, boundary, rows, nrows};
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class DeviceType> double BoundaryStageKokkos<DeviceType>::memory_usage() const
 {
   return (double) (boundary.number.extent(0) + rows.extent(0)) * sizeof(int) +
       (double) boundary.nall * (sizeof(int) + sizeof(Surface) + sizeof(NearKernel)) +
       (double) boundary.nowned * sizeof(BoundarySum) +
+      (double) boundary.contact.extent(0) * sizeof(NearKernel) +
+      (double) boundary.occupied.extent(0) * sizeof(double) +
       (double) boundary.heat_sum.extent(0) * sizeof(BoundaryHeatSum);
 }
 

@@ -20,7 +20,7 @@
 #include "pointers.h"
 
 #include "sph_dissipation_boundary.h"
-#include "sph_dissipation_loops_kokkos.h"
+#include "sph_dissipation_sums_kokkos.h"
 #include "sph_dissipation_wall_terms.h"
 
 #include <vector>
@@ -41,6 +41,83 @@ namespace SPHDissipation {
     Kokkos::View<BoundarySum *, DeviceType> sum;             // of owned ones
     Kokkos::View<BoundaryHeatSum *, DeviceType> heat_sum;    // the same; empty if nothing conducts
     Kokkos::View<NearKernel *, DeviceType> near;
+
+    // with density continuity: for BoundarySum::occupied; that sum, of each owned and ghost particle
+
+    Kokkos::View<NearKernel *, DeviceType> contact;
+    Kokkos::View<double *, DeviceType> occupied;
+  };
+
+  // The repulsion of the surfaces, as BoundaryStage::repel(): each particle sums up its own pairs, first those of the fluid
+  // in rows, then the boundary particles
+
+  template <class DeviceType> struct RepulsionKokkos {
+    LoopDataKokkos<DeviceType> data;
+    BoundaryDataKokkos<DeviceType> boundary;
+    Kokkos::View<int *, DeviceType> rows;
+    int nrows;
+
+    int size() const { return nrows + boundary.nowned; }
+
+    KOKKOS_INLINE_FUNCTION void operator()(int k) const
+    {
+      double virial[6];
+      row<false>(k, virial);
+    }
+
+    // with the virial
+
+    KOKKOS_INLINE_FUNCTION void operator()(int k, EV_FLOAT &ev) const
+    {
+      double virial[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+      const int i = row<true>(k, virial);
+      for (int c = 0; c < 6; c++) ev.v[c] += virial[c];
+      if (data.vatom.extent(0))
+        for (int c = 0; c < 6; c++) data.vatom(i, c) += virial[c];
+    }
+
+    // Return the particle of a row.
+
+    template <bool VIRIAL> KOKKOS_INLINE_FUNCTION int row(int k, double *virial) const
+    {
+      const bool is_wall = k >= nrows;
+      const int i = is_wall ? boundary.particles(k - nrows) : rows(k);
+      if (!is_wall && !(beyond_surface(boundary.occupied(i)) > 0.0)) return i;
+      const Particle &pi = data.particle[i];
+      double total[3] = {0.0, 0.0, 0.0}, heat = 0.0;
+      for_neighbors(data, i, [&](int j, const double *r, double rsq) {
+        if ((boundary.number(j) >= 0) == is_wall) return;
+        const double force = is_wall ? push(j, i, rsq) : push(i, j, rsq);
+        if (force == 0.0) return;
+        const Particle &pj = data.particle[j];
+        for (int d = 0; d < 3; d++) {
+          total[d] += force * r[d];
+          heat -= force * r[d] * (pi.u[d] - pj.u[d]);
+        }
+        if constexpr (VIRIAL) {    // half for each partner
+          virial[0] += 0.5 * force * r[0] * r[0];
+          virial[1] += 0.5 * force * r[1] * r[1];
+          virial[2] += 0.5 * force * r[2] * r[2];
+          virial[3] += 0.5 * force * r[0] * r[1];
+          virial[4] += 0.5 * force * r[0] * r[2];
+          virial[5] += 0.5 * force * r[1] * r[2];
+        }
+      });
+      for (int d = 0; d < 3; d++) data.f(i, d) += total[d];
+      if (!is_wall) data.desph[i] += heat;
+      return i;
+    }
+
+    // force of a pair over its distance
+
+    KOKKOS_INLINE_FUNCTION double push(int fluid, int wall, double rsq) const
+    {
+      const double s = beyond_surface(boundary.occupied(fluid));
+      if (!(s > 0.0)) return 0.0;
+      const double stiffness = stiffness_of_surface(HARDNESS_OF_SURFACE, data.rmass[fluid],
+                                                    data.types[data.type[fluid]].eos.c0);
+      return repulsion_of(stiffness, s, boundary.contact(boundary.number(wall)), Kokkos::sqrt(rsq));
+    }
   };
 
   // As class Boundary, whose functions these are on the device
@@ -67,6 +144,11 @@ namespace SPHDissipation {
     // the heat per time that they get, and heating of LAMMPS of the fluid
 
     void add_surface_heat(const LoopDataKokkos<DeviceType> &, double *flow);
+
+    // after pass 2, when ghosts have occupied() of their owners: the loop of the repulsion, see BoundaryStage::repel()
+
+    RepulsionKokkos<DeviceType> repulsion(const LoopDataKokkos<DeviceType> &) const;
+    Kokkos::View<double *, DeviceType> occupied() const { return boundary.occupied; }
 
     double memory_usage() const;
 

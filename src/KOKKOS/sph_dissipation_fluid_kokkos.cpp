@@ -25,6 +25,7 @@
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_loops_kokkos.h"
 #include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_model.h"
@@ -89,6 +90,18 @@ template <class DeviceType> void FluidKokkos<DeviceType>::request_list()
   if (!on_device) return Fluid::request_list();
   own_list = false;
   neighbor->add_request(pair);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> uint64_t FluidKokkos<DeviceType>::read_mask() const
+{
+  return model->choice.continuity ? FLUID_READ | CONTINUITY_MASK : FLUID_READ;
+}
+
+template <class DeviceType> uint64_t FluidKokkos<DeviceType>::modified_mask() const
+{
+  return model->choice.continuity ? FLUID_MODIFIED | CONTINUITY_MASK : FLUID_MODIFIED;
 }
 
 /* ----------------------------------------------------------------------
@@ -179,10 +192,13 @@ template <class DeviceType> void FluidKokkos<DeviceType>::announce()
       const int n = atom->nlocal + atom->nghost;
       const std::vector<double> rho(atom->rho, atom->rho + n), drho(atom->drho, atom->drho + n),
           vfrac(atom->vfrac, atom->vfrac + n);
+      double *const sum = Fields::of(atom)->rho_sum;
+      const std::vector<double> rho_sum(sum, sum + atom->nlocal);
       density->run(pair->list, atom->vest, nullptr, not_fluid());
       std::copy(rho.begin(), rho.end(), atom->rho);
       std::copy(drho.begin(), drho.end(), atom->drho);
       std::copy(vfrac.begin(), vfrac.end(), atom->vfrac);
+      std::copy(rho_sum.begin(), rho_sum.end(), sum);
     }
     report();
   });
@@ -322,9 +338,11 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
   if (update->setupflag)
     atomKK->sync(Host, ALL_MASK);
   else if (neighbor->ago == 0)
-    atomKK->sync(Host, RMASS_MASK | TAG_MASK | TYPE_MASK);
+    atomKK->sync(Host,
+                 RMASS_MASK | TAG_MASK | TYPE_MASK |
+                     (model->choice.continuity ? V_MASK | MASK_MASK : EMPTY_MASK));
   const bigint nbeyond = Fluid::compute(tally);
-  atomKK->modified(pair->execution_space, FLUID_MODIFIED);
+  atomKK->modified(pair->execution_space, modified_mask());
 
   if (pair->eflag_either) atomKK->sync(Host, ENERGY);
   nlocal_device = atom->nlocal;
@@ -358,6 +376,9 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
   data->weight = reach(weight, "sph:weight", data->each ? n : 1);
   if (model->choice.limit != Limit::NO) reach(bound_of, "sph:bound", n);
   if (shift->wanted) reach(gradient_of, "sph:gradient", n);
+  if (!(engine->parameters().delta > 0.0)) return;
+  reach(diffusion_row, "sph:diffusion_row", n);
+  reach(impedance, "sph:impedance", n);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -411,6 +432,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
   data->drho = avec.k_drho.template view<DeviceType>().data();
   data->vfrac = avec.k_vfrac.template view<DeviceType>().data();
   data->desph = avec.k_desph.template view<DeviceType>().data();
+  data->rho_sum = avec.k_rho_sum.template view<DeviceType>().data();
   data->not_fluid = not_fluid();
   data->f = atomKK->k_f.template view<DeviceType>();
 
@@ -492,7 +514,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
   if (!on_device) return Fluid::sum_density();
   if (!copied) copy_coeffs();
   grow();
-  atomKK->sync(pair->execution_space, FLUID_READ);
+  atomKK->sync(pair->execution_space, read_mask());
   set_particles();
   with_kernel(model->choice.kernel, [&](auto kernel) {
     typedef decltype(kernel) K;
@@ -506,17 +528,18 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
   const ParticleRows rows = *data;
   Part<double> pressure_of_states = {{}, 0, 1};
   std::array<Part<FlowRow>, Flows::NUMBER> values;
-  const bool states = engine->parameters().states;
+  const bool states = engine->parameters().states, continuity = engine->parameters().continuity;
   const int bits = not_fluid(), flows = engine->parameters().loops_of_flows;
   if (states) pressure_of_states.array = state_pressure;
   for (int k = 0; k < Flows::NUMBER; k++) {
     values[k] = {{}, 1, 1};
     if (flows >> k & 1) values[k].array = flow[k];
   }
-  if (states || flows) {
+  if (states || flows || continuity) {
     const bool rest = at_rest();
     Kokkos::parallel_for(
         "sph:states", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+          if (continuity) rows.add_offset(i, bits);
           rows.set_density(i);
           if (states) rows.set_state_pressure(i, bits, rest);
           if (flows) rows.set_flow_values(i);
@@ -596,7 +619,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
   Part<FlowRow> heat = {{}, 0, 4};
   if (boundary->conducts()) heat.array = flow[HEAT_FLOW];
   send_to_ghosts(Part<Particle>{particle, 3, 5},    // u, vol and g
-                 Part<double>{zeta_term, 0, 1}, spins_of, heat);
+                 Part<double>{zeta_term, 0, 1}, spins_of, heat,
+                 Part<double>{boundary_device->occupied(), 0, 1});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -624,6 +648,10 @@ void FluidKokkos<DeviceType>::sum_forces(PairTally *tally, const StepPlan &plan)
       run_force_loop<decltype(kernel), decltype(form)>(tally);
     });
   });
+  if (!boundary->empty() && data->par.continuity) {
+    const auto repulsion = boundary_device->repulsion(*data);
+    run_loop("sph:repulsion", repulsion.size(), repulsion, tally);
+  }
 
   if (!pair->vflag_atom) return;
   const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->vatom);
@@ -647,6 +675,88 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_flows()
     });
     if (rate && k == HEAT_FLOW) boundary_device->add_surface_heat(*data, rate);
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::evaluate_diffusion()
+{
+  if (!on_device) return Fluid::evaluate_diffusion();
+  const ParticleRows rows = *data;
+  const int bits = not_fluid(), some = integrated;
+  auto row = diffusion_row;
+  auto impedances = impedance;
+  Kokkos::parallel_for(
+      "sph:diffusion_row", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+      KOKKOS_LAMBDA(int i) { rows.set_diffusion(i, bits, some, row(i), impedances(i)); });
+  with_kernel(model->choice.kernel, [&](auto kernel) {
+    typedef decltype(kernel) K;
+    if (rows.par.dim == 3)
+      run_diffusion<K, 3>();
+    else if (rows.par.dim == 2)
+      run_diffusion<K, 2>();
+    else
+      run_diffusion<K, 1>();
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class K, int DIM>
+void FluidKokkos<DeviceType>::run_diffusion()
+{
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+  const Parameters &par = engine->parameters();
+  const double shared = par.impedes_alike ? par.type[1].eos.impedance() : 1.0;
+  const DiffusionRowsKokkos rows = {diffusion_row.data(),
+                                    impedance.data(),
+                                    par.delta * par.support / shared,
+                                    avec.k_vol_rate.template view<DeviceType>().data(),
+                                    avec.k_vol_heat.template view<DeviceType>().data(),
+                                    avec.k_vol_support.template view<DeviceType>().data()};
+  const auto range = Kokkos::RangePolicy<DeviceType>(0, pair->list->inum);
+  Kokkos::parallel_for("sph:gradient", range, GradientLoopKokkos<DeviceType, K, DIM>{*data, rows});
+  send_to_ghosts(Part<DiffusionRow>{diffusion_row, DiffusionPlaces<DIM>::G, DIM});
+  Kokkos::parallel_for("sph:diffusion", range,
+                       DiffusionLoopKokkos<DeviceType, K, DIM>{*data, rows});
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::add_diffusion_heat()
+{
+  if (!on_device) return Fluid::add_diffusion_heat();
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+  auto rate = avec.k_vol_rate.template view<DeviceType>();
+  auto heat = avec.k_vol_heat.template view<DeviceType>();
+  const ParticleRows rows = *data;
+  const int bits = not_fluid(), some = integrated;
+  Kokkos::parallel_for(
+      "sph:diffusion_heat", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+        if (!rows.diffuses(i, bits, some)) rate(i) = heat(i) = 0.0;
+        rows.desph[i] += heat(i);
+      });
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> double FluidKokkos<DeviceType>::wall_energy(double *each_atom) const
+{
+  if (!on_device) return Fluid::wall_energy(each_atom);
+  if (!model->choice.continuity) return 0.0;
+  const auto occupied =
+      Kokkos::create_mirror_view_and_copy(LMPHostType(), boundary_device->occupied());
+  double total = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (is_boundary(i)) continue;
+    const double stiffness = stiffness_of_surface(HARDNESS_OF_SURFACE, atom->rmass[i],
+                                                  model->coeffs[atom->type[i]].eos.c0);
+    const double energy = energy_of_repulsion(stiffness, beyond_surface(occupied(i)));
+    total += energy;
+    if (each_atom) each_atom[i] += energy;
+  }
+  return total;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -676,21 +786,23 @@ template <class K, class Form>
 void FluidKokkos<DeviceType>::run_force_loop(bool virial)
 {
   if (model->choice.bulk == Bulk::VOLUME)
-    run_loop(ForceLoopKokkos<DeviceType, K, Form, true>{*data}, virial);
+    run_loop("sph:forces", pair->list->inum, ForceLoopKokkos<DeviceType, K, Form, true>{*data},
+             virial);
   else
-    run_loop(ForceLoopKokkos<DeviceType, K, Form, false>{*data}, virial);
+    run_loop("sph:forces", pair->list->inum, ForceLoopKokkos<DeviceType, K, Form, false>{*data},
+             virial);
 }
 
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
 template <class Loop>
-void FluidKokkos<DeviceType>::run_loop(const Loop &loop, bool tally)
+void FluidKokkos<DeviceType>::run_loop(const char *name, int n, const Loop &loop, bool tally)
 {
-  const auto range = Kokkos::RangePolicy<DeviceType>(0, pair->list->inum);
-  if (!tally) return Kokkos::parallel_for("sph:forces", range, loop);
+  const auto range = Kokkos::RangePolicy<DeviceType>(0, n);
+  if (!tally) return Kokkos::parallel_for(name, range, loop);
   EV_FLOAT ev;
-  Kokkos::parallel_reduce("sph:forces", range, loop, ev);
+  Kokkos::parallel_reduce(name, range, loop, ev);
   if (pair->vflag_global)
     for (int k = 0; k < 6; k++) pair->virial[k] += ev.v[k];
 }
@@ -707,7 +819,8 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
   double of_flows = 0.0;
   for (int k = 0; k < Flows::NUMBER; k++) of_flows += bytes(flow[k], flow_rate[k]);
   return Fluid::memory_usage() + boundary_device->memory_usage() + of_flows +
-      bytes(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of, gradient_of) +
+      bytes(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of, gradient_of,
+            diffusion_row, impedance) +
       (double) NCHANNEL * bytes(data->heat[0]);
 }
 

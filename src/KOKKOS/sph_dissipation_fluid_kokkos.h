@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_FLUID_KOKKOS_H
 
 #include "sph_dissipation_columns_kokkos.h"
+#include "sph_dissipation_diffusion_terms.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_parameters.h"
@@ -54,6 +55,8 @@ namespace SPHDissipation {
     void choose(bool device);
     void request_list() override;
     bool computes_on_device() const { return on_device; }
+    uint64_t read_mask() const;    // fields that the forces read on the device, and modify
+    uint64_t modified_mask() const;
     ColumnsKokkos sent;    // to ghosts, by the pair style's packing on the device
 
     void adopt() override;
@@ -80,6 +83,8 @@ namespace SPHDissipation {
     void sum_gradient() override;
     void sum_forces(PairTally *, const StepPlan &) override;
     void sum_flows() override;
+    void evaluate_diffusion() override;
+    void add_diffusion_heat() override;
     void set_particles();
     void set_spins();
 
@@ -112,9 +117,12 @@ namespace SPHDissipation {
         flow_rate[Flows::NUMBER];    // of states, and of heat if boundaries give it, see FlowStage
     Array<double> bound_of;          // of the limit, see LimitStage
     Gradient gradient_of;
+    Array<DiffusionRow> diffusion_row;    // see DiffusionStage
+    Array<double> impedance;
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
 
     bool has_own_forces() const override;
+    double wall_energy(double *) const override;
     void on_host(const std::function<void()> &) override;
     void build_host_list();
     void grow();
@@ -123,7 +131,8 @@ namespace SPHDissipation {
     template <class T> struct Part;
     template <class... T> void send_to_ghosts(const Part<T> &...);
     bool has_rate(int place) const;    // of a flow
-    template <class Loop> void run_loop(const Loop &, bool virial);
+    template <class Loop> void run_loop(const char *name, int n, const Loop &, bool virial);
+    template <class K, int DIM> void run_diffusion();
     template <class K, class Form> void run_force_loop(bool virial);
   };
 

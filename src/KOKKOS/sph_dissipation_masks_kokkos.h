@@ -34,6 +34,10 @@ namespace SPHDissipation {
   constexpr uint64_t STATES_MASK = uint64_t(1) << 54;    // all of them
   constexpr uint64_t OFFSET_MASK = uint64_t(1) << 53;    // rho_sum, vol_rate, ...
 
+  // what density continuity reads and modifies besides
+
+  constexpr uint64_t CONTINUITY_MASK = SPH_RHO_MASK | OFFSET_MASK;
+
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS
 

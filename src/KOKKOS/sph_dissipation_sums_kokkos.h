@@ -14,7 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 #define LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 
-// Further sums over the pairs of each particle: as classes LimitStage, FlowStage and ShiftStage of the CPU styles
+// Further sums over the pairs of each particle: as classes LimitStage, FlowStage, DiffusionStage and ShiftStage of the CPU
+// styles
 
 #include "sph_dissipation_loops_kokkos.h"
 #include "sph_dissipation_shift_terms.h"
@@ -63,6 +64,85 @@ namespace SPHDissipation {
       });
       if (of_energy) data.desph[i] += sum;
       if (rate) rate[i] = sum;
+    }
+  };
+
+  // the diffusion of volume: what DiffusionStage has, on the device
+
+  struct DiffusionRowsKokkos {
+    DiffusionRow *row;      // of owned and ghost particles, as the next one
+    double *impedance;      // not read if it is the same for all
+    double factor;          // of a_ij, which the loops leave out
+    double *rate, *heat;    // of owned particles, see Fields, as the next one
+    double *support;
+  };
+
+  // a F of a pair without that factor
+
+  template <class K, class DeviceType>
+  KOKKOS_FORCEINLINE_FUNCTION double diffusion_slope(const LoopDataKokkos<DeviceType> &data,
+                                                     const DiffusionRowsKokkos &rows, int i, int j,
+                                                     double rsq)
+  {
+    const double slope = data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
+    if (data.par.impedes_alike) return slope;
+    return slope_by_impedance(slope, rows.impedance[i], rows.impedance[j]);
+  }
+
+  // the gradient of the pressure, into the row of each particle, as diffusion_sums() of the CPU styles
+
+  template <class DeviceType, class K, int DIM> struct GradientLoopKokkos {
+    typedef DiffusionPlaces<DIM> At;
+    LoopDataKokkos<DeviceType> data;
+    DiffusionRowsKokkos rows;
+
+    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+    {
+      const int i = data.ilist(ii);
+      double *const own = rows.row[i].a;
+      rows.support[i] = 0.0;
+      for (int d = 0; d < DIM; d++) own[At::G + d] = 0.0;
+      if (own[At::VOL] == 0.0) return;
+      double sum[At::NSUM] = {};
+      for_neighbors(data, i, [&](int j, const double *, double rsq) {
+        const double *const other = rows.row[j].a;
+        const double slope = diffusion_slope<K>(data, rows, i, j, rsq);
+        double r[DIM], term[At::NSUM];
+        for (int d = 0; d < DIM; d++) r[d] = own[d] - other[d];
+        gradient_terms<DIM>(slope, own[At::P] - other[At::P], r, term);
+        for (int m = 0; m < At::NSUM; m++) sum[m] += other[At::VOL] * term[m];
+      });
+      const double scale = data.par.impedes_alike ? 1.0 : rows.impedance[i];
+      rows.support[i] = pressure_gradient(DIM, sum, scale, own + At::G);
+    }
+  };
+
+  // the rates, with the gradients, as diffusion_flow()
+
+  template <class DeviceType, class K, int DIM> struct DiffusionLoopKokkos {
+    typedef DiffusionPlaces<DIM> At;
+    LoopDataKokkos<DeviceType> data;
+    DiffusionRowsKokkos rows;
+
+    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+    {
+      const int i = data.ilist(ii);
+      const DiffusionRow row = rows.row[i];
+      const double *const own = row.a;
+      double flow[2] = {0.0, 0.0};
+      if (own[At::VOL] > 0.0)
+        for_neighbors(data, i, [&](int j, const double *, double rsq) {
+          const double *const other = rows.row[j].a;
+          double r[DIM];
+          for (int d = 0; d < DIM; d++) r[d] = own[d] - other[d];
+          const double difference = own[At::P] - other[At::P];
+          const double by_i = without_gradient<DIM>(difference, own + At::G, r);
+          const double by_j = without_gradient<DIM>(difference, other + At::G, r);
+          const double from_j = diffusion_slope<K>(data, rows, i, j, rsq) * other[At::VOL];
+          flow[0] += from_j * (0.5 * (by_i + by_j));
+          flow[1] += from_j * by_i * by_i;
+        });
+      volume_rates(own + At::VOL, flow, rows.factor, rows.rate[i], rows.heat[i]);
     }
   };
 

@@ -471,20 +471,6 @@ void FixSPHBulk::setup_pre_exchange()
   setup_step = update->ntimestep;
 }
 
-/* ----------------------------------------------------------------------
-   of an owned particle, by diffusion, at constant strains.  As internal energies, volumes get the old rate in a step, and
-   at its end half of the change of this rate; but this half only when the next step begins, so that between steps
-   densities are those of the forces
-------------------------------------------------------------------------- */
-
-void FixSPHBulk::change_volume(const Fields &kept, int i, double change) const
-{
-  const double part = -change * atom->rho[i] / atom->rmass[i];
-  atom->rho[i] *= 1.0 + part;
-  for (int slot : kept.slots)
-    if (state_info(slot).kind == StateKind::STRAIN) kept.state[slot][i] *= 1.0 + part;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void FixSPHBulk::post_run()
@@ -729,6 +715,11 @@ TimeStep FixSPHBulk::time_step() const
   return {dtv, dtf, remap_v_flag ? 0.0 : 1.0, extrapolation, balanced};
 }
 
+VolumeStep FixSPHBulk::volume_step() const
+{
+  return {dtv, fluid->diffusion_interval() * dt_of_forces, fluid->diffusion_is_new()};
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FixSPHBulk::initial_integrate(int /*vflag*/)
@@ -757,8 +748,19 @@ void FixSPHBulk::integrate(Half half)
   const int nlocal = nlocal_group();
   const bool carries = half == BEGIN && has_viscous_stage();
   if (carries) fluid->viscous->begin_carrying();
-  const bool is_new = diffuses && fluid->diffusion_is_new();
-  const double interval = diffuses ? fluid->diffusion_interval() * dt_of_forces : 0.0;
+  const bool changes_volume = diffuses && half == BEGIN;
+  VolumeStep volume = {};
+  if (changes_volume) {
+    const Fields &kept = fields();
+    volume = volume_step();
+    volume.rho = atom->rho;
+    volume.rmass = atom->rmass;
+    volume.rate = kept.vol_rate;
+    volume.rate_before = kept.vol_rate_before;
+    for (int slot : kept.slots)
+      if (state_info(slot).kind == StateKind::STRAIN)
+        volume.strain[volume.nstrains++] = kept.state[slot];
+  }
 
   Threads one_thread;
   (fluid ? fluid->team() : one_thread).in_parts(nlocal, [&](int, int from, int to) {
@@ -782,14 +784,7 @@ void FixSPHBulk::integrate(Half half)
         step.begin(particles, i);
       else
         step.end(particles, i);
-      if (diffuses && half == BEGIN) {
-        double change = dtv * kept.vol_rate[i];
-        if (is_new) {
-          change += 0.5 * interval * (kept.vol_rate[i] - kept.vol_rate_before[i]);
-          kept.vol_rate_before[i] = kept.vol_rate[i];
-        }
-        change_volume(kept, i, change);
-      }
+      if (changes_volume) volume.begin(i);
       if (exact)
         for (const double heat : rest) {
           atom->esph[i] += heat;

@@ -30,6 +30,7 @@ namespace SPHDissipation {
   class Value;
   struct ViscousSettings;
   struct TimeStep;
+  struct VolumeStep;
 }    // namespace SPHDissipation
 
 // Velocity Verlet for position, velocity and internal energy of a particle fluid, with the
@@ -89,6 +90,7 @@ class FixSPHBulk : public Fix {
   int nlocal_group() const;
   int bits_not_followed() const;    // of groups whose particles get their extrapolation elsewhere
   SPHDissipation::TimeStep time_step() const;
+  SPHDissipation::VolumeStep volume_step() const;    // without arrays
 
   bool sets_temperatures() const;    // in setup_pre_force()
 
@@ -109,7 +111,6 @@ class FixSPHBulk : public Fix {
   SPHDissipation::Fields &fields() const;
   void read_keywords(int narg, char **arg);
   void integrate(Half);
-  void change_volume(const SPHDissipation::Fields &, int i, double change) const;
 
   void reset_extrapolation();    // of particles that no such fix integrates
 

@@ -34,15 +34,10 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// Repulsion of the surfaces with thermal noise or free surfaces: a particle of the fluid has the energy HARDNESS kT s^2,
-// where s is the part beyond one half of a support of CONTACT spacings that boundary particles fill.  It is half full at
-// the surface and at least 0.96 full inside of lattices: 32 kT.
+// Repulsion of the surfaces with thermal noise, see contact_kernel(): half of the stiffness, 32 kT inside of lattices
 
-static constexpr double HARDNESS = 150.0;
+static constexpr double HARDNESS = 150.0;           // of kT
 static constexpr double HARDNESS_OF_SOUND = 0.5;    // where particles have temperatures: of m c0^2
-static constexpr double HARDNESS_OF_SURFACE = 0.05;    // where there is no noise: of m c0^2
-static constexpr double CONTACT = 1.7;
-typedef WendlandC2 ContactKernel;
 
 /* ---------------------------------------------------------------------- */
 
@@ -326,15 +321,15 @@ bool BoundaryStage::has_energy() const
 
 double BoundaryStage::over(int i) const
 {
-  return std::max(sum[i].occupied - 0.5, 0.0);
+  return beyond_surface(sum[i].occupied);
 }
 
 double BoundaryStage::stiffness(int i) const
 {
   const Parameters &par = engine.parameters();
   if (par.thermal && !par.own_temperatures) return 2.0 * HARDNESS * force->boltz * par.temperature;
-  const double c0 = par.type[atom->type[i]].eos.c0;
-  return 2.0 * (par.thermal ? HARDNESS_OF_SOUND : HARDNESS_OF_SURFACE) * atom->rmass[i] * c0 * c0;
+  return stiffness_of_surface(par.thermal ? HARDNESS_OF_SOUND : HARDNESS_OF_SURFACE, atom->rmass[i],
+                              par.type[atom->type[i]].eos.c0);
 }
 
 int BoundaryStage::nforce() const
@@ -357,11 +352,8 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
   if (engine.parameters().thermal && !is_body(pair.wall))
     force.pressing = engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g *
         engine.pairs().slope[pair.entry];
-  const NearKernel &wall = contact[pair.wall];
-  const double s = over(pair.fluid), q = sqrt(inner_product(force.r, force.r)) * wall.scale;
-  if (s > 0.0 && q < 1.0)
-    force.repulsion =
-        stiffness(pair.fluid) * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
+  force.repulsion = repulsion_of(stiffness(pair.fluid), over(pair.fluid), contact[pair.wall],
+                                 sqrt(inner_product(force.r, force.r)));
   return force;
 }
 
@@ -593,7 +585,7 @@ void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &
     return 0;
   });
   for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & group_bits)) add(i, 0.5 * stiffness(i) * over(i) * over(i));
+    if (!(atom->mask[i] & group_bits)) add(i, energy_of_repulsion(stiffness(i), over(i)));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -675,8 +667,7 @@ void BoundaryStage::set_near()
     const double volume = atom->vfrac[i];
     near[i] = near_kernel(dim, par.support, par.weight_norm, volume);
     if (!has_energy()) return;
-    const double radius = std::min(par.support, CONTACT * pow(volume, 1.0 / dim));
-    contact[i] = {volume * ContactKernel::norm(dim) / pow(radius, dim), 1.0 / radius};
+    contact[i] = contact_kernel(dim, par.support, ContactKernel::norm(dim), volume);
   });
 }
 

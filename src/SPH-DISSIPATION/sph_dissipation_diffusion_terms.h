@@ -47,7 +47,7 @@ namespace SPHDissipation {
   struct alignas(64) SumBlock {
     double a[8] = {};
   };
-  inline int place_of_volume(int dim)
+  SPH_FUNCTION int place_of_volume(int dim)
   {
     return (dim == 3) ? 3 : 2;
   }
@@ -125,6 +125,17 @@ namespace SPHDissipation {
       g[2] = inverse * (xz * d[0] + yz * d[1] + zz * d[2]);
     }
     return smallest;
+  }
+
+  // Rates of the volume of a particle and, with the work, of its internal energy, from its row at the place of the volume,
+  // and its sums of the flow; factor = that of a_ij which the loops leave out
+
+  SPH_FUNCTION void volume_rates(const double *row, const double *flow, double factor, double &rate,
+                                 double &heat)
+  {
+    const double vol = row[0], p = row[1];
+    rate = vol * factor * flow[0];
+    heat = 0.5 * vol * factor * flow[1] - p * rate;
   }
 
 }    // namespace SPHDissipation

@@ -66,7 +66,7 @@ namespace SPHDissipation {
     double c_el, pb_el;    // sound speed and background pressure without heat
     double rho_min;        // density below which there is no pressure; -inf with tension
 
-    double impedance() const { return rho0 * c0; }    // acoustic
+    SPH_FUNCTION double impedance() const { return rho0 * c0; }    // acoustic
     void derive(Eos eos, double gruneisen_in, double reference_heat, bool tension = true);
   };
 

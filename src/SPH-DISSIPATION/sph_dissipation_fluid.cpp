@@ -529,7 +529,17 @@ void Fluid::sum_diffusion()
     age = (age + 1 < diffusion_interval()) ? age + 1 : 0;
   else if (!continued || changed)
     age = 0;
-  if (age == 0) diffusion->evaluate(not_fluid(), integrated);
+  if (age == 0) evaluate_diffusion();
+  add_diffusion_heat();
+}
+
+void Fluid::evaluate_diffusion()
+{
+  diffusion->evaluate(not_fluid(), integrated);
+}
+
+void Fluid::add_diffusion_heat()
+{
   diffusion->add_heat(not_fluid(), integrated);
 }
 
@@ -558,7 +568,12 @@ bool Fluid::diffusion_is_new() const
 double Fluid::energy(double *each_atom) const
 {
   const double energy = pressure->elastic_energy(each_atom, not_fluid());
-  return boundary->empty() ? energy : energy + boundary->energy(each_atom);
+  return boundary->empty() ? energy : energy + wall_energy(each_atom);
+}
+
+double Fluid::wall_energy(double *each_atom) const
+{
+  return boundary->energy(each_atom);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -215,8 +215,10 @@ namespace SPHDissipation {
     virtual void set_boundary();
     virtual void sum_gradient();    // of the concentration, for shifting
     virtual void sum_forces(PairTally *, const StepPlan &);
-    virtual void sum_flows();    // of conduction
-    void sum_diffusion();        // of volume
+    virtual void sum_flows();             // of conduction
+    virtual void evaluate_diffusion();    // of volume
+    virtual void add_diffusion_heat();
+    virtual double wall_energy(double *each_atom) const;    // as energy()
 
     virtual bool has_own_forces() const;    // on this processor
     void report();
@@ -246,6 +248,7 @@ namespace SPHDissipation {
     bigint sum_before_forces(StepPlan &, bool find_rates = true);
     void find_viscosities(bool find_rates);
     const double *bound() const;    // of the limit, nullptr without
+    void sum_diffusion();
     void find_viscous_velocity(StepPlan &);
     void find_temperature();
     double stability_length() const;

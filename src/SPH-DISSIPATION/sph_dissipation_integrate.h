@@ -16,7 +16,7 @@
 
 // Velocity Verlet of package SPH-DISSIPATION, for one particle.  No LAMMPS include.
 
-#include "sph_dissipation_function.h"
+#include "sph_dissipation_states.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -92,6 +92,35 @@ namespace SPHDissipation {
     {
       rate_before = 0.5 * dtv * (rate - rate_before);
       energy += rate_before;
+    }
+  };
+
+  // Diffusion of volume, at constant strains.  As internal energies, volumes get the old rate in a step, and at its end half
+  // of the change of this rate; but this half only when the next step begins, so that between steps densities are those of
+  // the forces.
+
+  struct VolumeStep {
+    double dt, interval;    // of the step; from one evaluation of the rates to the next one
+    bool is_new;            // the last forces have evaluated them
+
+    // arrays of owned particles, on host or device
+
+    double *rho = nullptr;
+    const double *rmass = nullptr, *rate = nullptr;
+    double *rate_before = nullptr;
+    int nstrains = 0;
+    double *strain[MOST_STATES] = {};    // densities at rest
+
+    SPH_FUNCTION void begin(int i) const
+    {
+      double change = dt * rate[i];
+      if (is_new) {
+        change += 0.5 * interval * (rate[i] - rate_before[i]);
+        rate_before[i] = rate[i];
+      }
+      const double factor = 1.0 - change * rho[i] / rmass[i];
+      rho[i] *= factor;
+      for (int k = 0; k < nstrains; k++) strain[k][i] *= factor;
     }
   };
 

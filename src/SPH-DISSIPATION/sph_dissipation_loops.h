@@ -578,7 +578,7 @@ namespace SPHDissipation {
       if constexpr (ALIKE)
         return slope;
       else
-        return 2.0 * slope / (own + gather(data.impedance, j));
+        return slope_by_impedance(slope, own, gather(data.impedance, j));
     }
 
     // the sums of pressure_gradient()
@@ -610,16 +610,13 @@ namespace SPHDissipation {
           for (int d = 0; d < DIM; d++) r[d] = own[d] - other[d];
           const Vec slope = diffusion_slope<ALIKE>(diffusion, impedance, j, load(slope_of + k));
           const Vec difference = own[At::P] - other[At::P];
-          int m = 0;
-          for (int d = 0; d < DIM; d++)
-            for (int e = d; e < DIM; e++) on_j[m++] = slope * r[d] * r[e];
-          for (int d = 0; d < DIM; d++) on_j[m++] = slope * difference * r[d];
-          for (m = 0; m < N; m++) {
+          gradient_terms<DIM>(slope, difference, r, on_j);
+          for (int m = 0; m < N; m++) {
             total[m] += other[At::VOL] * on_j[m];
             on_j[m] *= own[At::VOL];
           }
-          for (m = 0; m < FOURS; m += 4) add_4_columns<WIDTH>(sums + m, j, on_j + m);
-          for (m = FOURS; m < N; m++) add_column<WIDTH>(sums + m, j, on_j[m]);
+          for (int m = 0; m < FOURS; m += 4) add_4_columns<WIDTH>(sums + m, j, on_j + m);
+          for (int m = FOURS; m < N; m++) add_column<WIDTH>(sums + m, j, on_j[m]);
         }
         for (int k = 0; k < N; k++) sums[i * WIDTH + k] += sum(total[k]);
       }
@@ -639,7 +636,7 @@ namespace SPHDissipation {
         const int n = data.count[ii];
         const int *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
-        Vec total[2] = {all(0.0), all(0.0)}, on_j[2], other[8];
+        Vec total[2] = {all(0.0), all(0.0)}, on_j[2], other[8], r[DIM];
 
         for (int k = 0; k < n; k += LANES) {
           const int *const j = neighbor + k;
@@ -653,13 +650,10 @@ namespace SPHDissipation {
             prefetch(flow + 2 * j[l + AHEAD]);
           }
           const Vec slope = diffusion_slope<ALIKE>(diffusion, impedance, j, load(slope_of + k));
-          Vec by_i = own[At::P] - other[At::P],
-              by_j = by_i;    // difference without that of the gradient
-          for (int d = 0; d < DIM; d++) {
-            const Vec r = own[d] - other[d];
-            by_i -= own[At::G + d] * r;
-            by_j -= other[At::G + d] * r;
-          }
+          for (int d = 0; d < DIM; d++) r[d] = own[d] - other[d];
+          const Vec difference = own[At::P] - other[At::P];
+          const Vec by_i = without_gradient<DIM>(difference, own + At::G, r);
+          const Vec by_j = without_gradient<DIM>(difference, other + At::G, r);
           const Vec from_j = slope * other[At::VOL], chi = 0.5 * (by_i + by_j);
           const Vec from_i = own[At::VOL] * slope;
           total[0] += from_j * chi;

@@ -114,6 +114,30 @@ SPH_INLINE Real flow_of_pair(Real coefficient, Real vv, double value_i, Real val
   return 2.0 * coefficient * vv * (value_j - value_i);
 }
 
+// Diffusion of volume, see sph_dissipation_diffusion_terms.h: F over the mean of two impedances; what a pair adds, over V_j,
+// to the sums of pressure_gradient(), of the difference p_i - p_j; this difference without that of a gradient
+
+template <class Real> SPH_INLINE Real slope_by_impedance(Real slope, double z_i, Real z_j)
+{
+  return 2.0 * slope / (z_i + z_j);
+}
+
+template <int DIM, class Real>
+SPH_INLINE void gradient_terms(Real slope, Real difference, const Real *r, Real *term)
+{
+  int m = 0;
+  for (int d = 0; d < DIM; d++)
+    for (int e = d; e < DIM; e++) term[m++] = slope * r[d] * r[e];
+  for (int d = 0; d < DIM; d++) term[m++] = slope * difference * r[d];
+}
+
+template <int DIM, class Of, class Real>
+SPH_INLINE Real without_gradient(Real difference, const Of *gradient, const Real *r)
+{
+  for (int d = 0; d < DIM; d++) difference -= gradient[d] * r[d];
+  return difference;
+}
+
 #define CHANNEL_TERMS
 #include "sph_dissipation_channels.h"
 #undef CHANNEL_TERMS

@@ -17,6 +17,7 @@
 // Between the passes: what follows for one particle from its density; its states and its heat.  No LAMMPS
 // include.
 
+#include "sph_dissipation_diffusion_terms.h"
 #include "sph_dissipation_parameters.h"
 #include "sph_dissipation_rows.h"
 
@@ -324,6 +325,27 @@ namespace SPHDissipation {
       flow[k][i].vol = flows ? particle[i].vol : 0.0;
       flow[k][i].coefficient = flows ? types[type[i]].flow[k] : 0.0;
       flow[k][i].flux = 0.0;
+    }
+
+    // Whether an owned or ghost particle takes part in the diffusion of volume, and what its loops read of it; integrated =
+    // bits of the groups whose volumes change.  The pressure is that of the equation of state: strains stay as they are
+
+    SPH_FUNCTION bool diffuses(int i, int not_fluid, int integrated) const
+    {
+      return is_fluid(i, not_fluid) && (mask[i] & integrated);
+    }
+    SPH_FUNCTION void set_diffusion(int i, int not_fluid, int integrated, DiffusionRow &of,
+                                    double &impedance) const
+    {
+      double *const row = of.a;
+      const EosParams &eos = types[type[i]].eos;
+      const int vol = place_of_volume(par.dim);
+      for (int d = 0; d < par.dim; d++) row[d] = particle[i].x[d];
+      if (par.dim == 1) row[0] += particle[i].x[1];    // a line along x or y
+      const bool takes_part = diffuses(i, not_fluid, integrated);
+      row[vol] = takes_part ? particle[i].vol : 0.0;
+      row[vol + 1] = takes_part ? pressure(par.eos, eos, rho[i], esph[i] / rmass[i]) : 0.0;
+      impedance = eos.impedance();
     }
 
     // pressure without bulk term, of density and energy

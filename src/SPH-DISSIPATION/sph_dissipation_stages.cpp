@@ -309,9 +309,7 @@ double FlowStage::received(int groupbit) const
   });
 }
 
-/* ----------------------------------------------------------------------
-   The pressure is that of the equation of state: strains stay as they are
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void DiffusionStage::evaluate(int not_fluid, int integrated)
 {
@@ -340,10 +338,7 @@ void DiffusionStage::evaluate(int not_fluid, int integrated)
 
   const double factor = par.delta * par.support / (par.impedes_alike ? impedances[0] : 1.0);
   engine.for_each(atom->nlocal, [&](int i) {
-    const double *const row = rows[i].a;
-    const double rate = row[vol] * factor * flow_of[2 * i];
-    fields.vol_rate[i] = rate;
-    fields.vol_heat[i] = 0.5 * row[vol] * factor * flow_of[2 * i + 1] - row[p] * rate;
+    volume_rates(rows[i].a + vol, flow_of + 2 * i, factor, fields.vol_rate[i], fields.vol_heat[i]);
   });
 }
 
@@ -354,37 +349,22 @@ void DiffusionStage::add_heat(int not_fluid, int integrated) const
   const Fields &fields = *Fields::of(atom);
   double *const desph = atom->desph;
   engine.for_each(atom->nlocal, [&](int i) {
-    if (!takes_part(i, not_fluid, integrated)) fields.vol_rate[i] = fields.vol_heat[i] = 0.0;
+    if (!engine.rows().diffuses(i, not_fluid, integrated))
+      fields.vol_rate[i] = fields.vol_heat[i] = 0.0;
     desph[i] += fields.vol_heat[i];
   });
 }
 
 /* ---------------------------------------------------------------------- */
 
-bool DiffusionStage::takes_part(int i, int not_fluid, int integrated) const
-{
-  return engine.rows().is_fluid(i, not_fluid) && (atom->mask[i] & integrated);
-}
-
-/* ---------------------------------------------------------------------- */
-
 void DiffusionStage::set_rows(int not_fluid, int integrated)
 {
-  const Parameters &par = engine.parameters();
   const ParticleRows &of = engine.rows();
-  const int nall = atom->nlocal + atom->nghost, vol = place_of_volume(par.dim);
+  const int nall = atom->nlocal + atom->nghost;
   rows.resize(nall + BLOCK);
   impedances.resize(nall + BLOCK);
   engine.for_each(nall, [&](int i) {
-    double *const row = rows[i].a;
-    const EosParams &eos = par.type[atom->type[i]].eos;
-    const Particle &particle = engine.particle[i];
-    for (int d = 0; d < par.dim; d++) row[d] = particle.x[d];
-    if (par.dim == 1) row[0] += particle.x[1];    // a line along x or y
-    const bool fluid = takes_part(i, not_fluid, integrated);
-    row[vol] = fluid ? particle.vol : 0.0;
-    row[vol + 1] = fluid ? pressure(par.eos, eos, atom->rho[i], of.esph[i] / atom->rmass[i]) : 0.0;
-    impedances[i] = eos.impedance();
+    of.set_diffusion(i, not_fluid, integrated, rows[i], impedances[i]);
   });
   std::fill_n(rows.begin() + nall, BLOCK, DiffusionRow());
   std::fill_n(impedances.begin() + nall, BLOCK, 1.0);

@@ -195,7 +195,6 @@ namespace SPHDissipation {
     std::vector<double> impedances;
     std::vector<SumBlock> sums, flow;
 
-    bool takes_part(int i, int not_fluid, int integrated) const;
     void set_rows(int not_fluid, int integrated);
   };
 

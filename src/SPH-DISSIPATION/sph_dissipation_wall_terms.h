@@ -237,6 +237,48 @@ namespace SPHDissipation {
     return {vol * weight_norm * pow(support / radius, dim), 1.0 / radius};
   }
 
+  // Repulsion of the surfaces with thermal noise or free surfaces: a particle of the fluid has the energy k s^2/2, where s is
+  // the part beyond one half of a support of CONTACT spacings that boundary particles fill.  It is half full at the surface
+  // and at least 0.96 full inside of lattices.
+
+  constexpr double CONTACT = 1.7;
+  typedef WendlandC2 ContactKernel;
+  constexpr double HARDNESS_OF_SURFACE = 0.05;    // k/2 of free surfaces: of m c0^2
+
+  // norm = that of ContactKernel
+
+  SPH_FUNCTION NearKernel contact_kernel(int dim, double support, double norm, double vol)
+  {
+    const double wanted = CONTACT * pow(vol, 1.0 / dim);
+    const double radius = (support < wanted) ? support : wanted;
+    return {vol * norm / pow(radius, dim), 1.0 / radius};
+  }
+
+  SPH_FUNCTION double beyond_surface(double occupied)
+  {
+    return (occupied > 0.5) ? occupied - 0.5 : 0.0;
+  }
+
+  SPH_FUNCTION double stiffness_of_surface(double hardness, double mass, double c0)
+  {
+    return 2.0 * hardness * mass * c0 * c0;
+  }
+
+  SPH_FUNCTION double energy_of_repulsion(double stiffness, double s)
+  {
+    return 0.5 * stiffness * s * s;
+  }
+
+  // force on the particle of the fluid at this distance from a boundary particle, over this distance
+
+  SPH_FUNCTION double repulsion_of(double stiffness, double s, const NearKernel &wall,
+                                   double distance)
+  {
+    const double q = distance * wall.scale;
+    if (!(s > 0.0 && q < 1.0)) return 0.0;
+    return stiffness * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
+  }
+
   // distance of the particle f of the fluid from the surface, r = x_w - x_f
 
   SPH_FUNCTION double height_above(const Surface &s, const double *r)

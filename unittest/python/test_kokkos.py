@@ -548,12 +548,62 @@ def test_particle_in_a_wall(lammps, style, ranks):
 
 
 # ---------------------------------------------------------------------------------------------
+# free surfaces; test_continuity.py has the reference
+
+
+@pytest.mark.parametrize("ranks, newton, options, steps, bound", [
+    (1, "on", "", 20, 1e-12), (1, "on", "", 200, 1e-9), (2, "off", "delta 0", 200, 1e-9), (2, "on", "volume mass kernel cubic", 200, 1e-9),
+    (4, "on", "tension yes delta 0.5", 200, 1e-9)])
+def test_dam_break(lammps, style, ranks, newton, options, steps, bound):
+    """A column of fluid that falls between walls, which repel it: densities that were set, their diffusion, energy and stress of particles, which
+    change processors and places."""
+    particles = lattice(2, 20)
+    x, y = particles.x[:, :2].T
+    inside = (np.abs(x - 10) < 6.8) & (np.abs(y - 10) < 6.8)
+    particles.x[inside, :2] += np.random.default_rng(31).uniform(-0.1, 0.1, (inside.sum(), 2))
+    particles = particles.where(~inside | ((x < 10) & (y < 14)))
+    text = with_walls(style, particles, "cavity", fluids(style, 2, options=f"density continuity {options}"), steps, newton)
+    text = text.replace("fix FLOOR FLOOR sph/wall", "variable R atom 1.0+0.01*(14-y)\nset group REST sph/rho v_R\n"
+                        "fix G REST gravity 2.0 vector 0 -1 0\nfix B all balance 40 1.0 shift x 5 1.01\natom_modify sort 25 2.0\n"
+                        "compute P all pe/atom\ncompute S all stress/atom NULL virial\n"
+                        f"compute G all property/atom offset {'id' if options == 'delta 0' else 'surface'}\nfix FLOOR FLOOR sph/wall gravity 0 -2 0", 1)
+    own = ("c_G[1]", "c_G[2]", "d_rho_sum", "d_vol_rate", "d_vol_rate_before", "d_vol_heat", "d_vol_support", "c_P", "c_S[1]", "c_S[2]", "c_S[4]")
+    text = text.replace("c_F[*] ", f"c_F[*] {' '.join(own)} ")
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, ranks)
+    assert_same(style, cpu, kokkos, bound)
+    assert_same_totals(thermo, thermo_kokkos, bound)
+    for name in (*own, *(name for name in cpu.columns if name.startswith("f_"))):
+        assert np.abs(cpu[name] - kokkos[name]).max() <= bound * max(np.abs(cpu[name]).max(), 1e-3), name
+    assert (np.abs(cpu["d_vol_rate"]).max() > 0.0) == (options != "delta 0")
+    assert not any("on the host" in line for line in result.warnings), result.warnings
+
+
+def test_drops_of_two_fluids_in_3d(lammps, style):
+    """Without walls; two impedances; a strained process; some particles stay, and take no volume."""
+    particles = disordered(3, 8, seed=33, jitter=0.1, ntypes=2, speed=0.2, spread=0.0)
+    particles = particles.where(np.linalg.norm(particles.x - 0.5 * (particles.lo + particles.hi), axis=1) < 3.6)
+    relax.write(particles, lammps.path("room.txt"), relax.strained(np.full((len(particles), 1), 0.01)), style)
+    words = {"pair_coeff 1 1": " relax 8.0 0.05"}
+    model = "".join(line + words.get(line[:14], "") + "\n" for line in fluids(style, 3, 2, "density continuity tension yes volume mass").splitlines())
+    fixes = "group STAY id 1:9\ngroup MOVE subtract all STAY\n" + integrate(style, group="MOVE")
+    text = script(style, particles, model, 40, fixes=fixes).replace("data.txt", "room.txt").replace(f"atom_style {style}", f"atom_style {style} relax 1")
+    text = text.replace("c_F[*] ", "c_F[*] d_vol_rate d_vol_support d_rho_relaxed1 ")
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, 2)
+    assert_same(style, cpu, kokkos, 1e-11)
+    assert_same_totals(thermo, thermo_kokkos, 1e-11)
+    for name in ("d_vol_rate", "d_vol_support", "d_rho_relaxed1"):
+        assert relative(cpu[name] - kokkos[name], cpu[name]) < 1e-11, name
+    assert np.abs(kokkos["d_vol_rate"].sum()) < 1e-13 * np.abs(kokkos["d_vol_rate"]).max()
+    assert np.all(kokkos["d_vol_rate"][kokkos["id"] < 10] == 0.0)
+    assert not any("on the host" in line for line in result.warnings), result.warnings
+
+
+# ---------------------------------------------------------------------------------------------
 # what the CPU style does, on the host
 
 
 @pytest.mark.parametrize("reason, options, keywords, extra", [
     ("keyword temp", "temp 0.01 1234", "", ""),
-    ("density continuity", "density continuity tension yes", "", ""),
     ("viscous", "", "viscous implicit", ""),
     ("fix sph/wall", "", "", "suffix off\nfix WALL WALL sph/wall\n"),
 ])
@@ -602,30 +652,6 @@ def test_noise_at_walls(lammps, style, ranks, newton):
     (cpu, thermo, _), (kokkos, thermo_kokkos, _) = both(lammps, style, particles, text, ranks)
     assert_same(style, cpu, kokkos, 1e-9)
     assert_same_totals(thermo, thermo_kokkos, 1e-9)
-
-
-@pytest.mark.parametrize("ranks, newton, options", [(1, "on", ""), (2, "off", "delta 0"), (2, "on", "volume mass"),
-                                                    (4, "on", "tension yes delta 0.5")])
-def test_dam_break(lammps, style, ranks, newton, options):
-    """A column of fluid that falls between walls: densities that were set, their diffusion, particles that change processors and places."""
-    particles = lattice(2, 20)
-    x, y = particles.x[:, :2].T
-    inside = (np.abs(x - 10) < 6.8) & (np.abs(y - 10) < 6.8)
-    particles.x[inside, :2] += np.random.default_rng(31).uniform(-0.1, 0.1, (inside.sum(), 2))
-    particles = particles.where(~inside | ((x < 10) & (y < 14)))
-    text = with_walls(style, particles, "cavity", fluids(style, 2, options=f"density continuity {options}"), 200, newton)
-    text = text.replace("fix FLOOR FLOOR sph/wall", "variable R atom 1.0+0.01*(14-y)\nset group REST sph/rho v_R\n"
-                        "fix G REST gravity 2.0 vector 0 -1 0\nfix B all balance 40 1.0 shift x 5 1.01\natom_modify sort 25 2.0\n"
-                        f"compute G all property/atom offset {'id' if options == 'delta 0' else 'surface'}\nfix FLOOR FLOOR sph/wall gravity 0 -2 0", 1)
-    own = ("c_G[1]", "c_G[2]", "d_rho_sum", "d_vol_rate", "d_vol_rate_before", "d_vol_heat", "d_vol_support")
-    text = text.replace("c_F[*] ", f"c_F[*] {' '.join(own)} ")
-    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, ranks)
-    assert_same(style, cpu, kokkos, 1e-9)
-    assert_same_totals(thermo, thermo_kokkos, 1e-9)
-    for name in (*own, *(name for name in cpu.columns if name.startswith("f_"))):
-        assert np.abs(cpu[name] - kokkos[name]).max() <= 1e-9 * max(np.abs(cpu[name]).max(), 1e-3), name
-    assert (np.abs(cpu["d_vol_rate"]).max() > 0.0) == (options != "delta 0")
-    assert any("on the host" in line and "density continuity" in line for line in result.warnings) == DEVICE_LOOPS, result.warnings
 
 
 def test_noise_of_relaxing_processes_and_drag(lammps, style):
