@@ -226,13 +226,13 @@ namespace SPHDissipation {
     bool
     at_rest() const;    // strains are zero: in a minimization; in a rerun, which does not know them
     double **extrapolated_spin() const;    // nullptr without spins
+    int integrated;                        // bits of the groups of its integrators
 
    private:
     bool set_up;       // since pair_style and pair_coeff
     bool announced;    // the table of coefficients is up to date
     bool
         continued;    // the run continues the last one, with the velocities in the friction of its last step
-    int integrated;        // bits of the groups of its integrators
     bool touched;          // by a command, which may have given the same coefficients
     bool changed;          // other coefficients, or motions of walls, than those of the last forces
     double warned_step;    // the time step that the last warning was about
