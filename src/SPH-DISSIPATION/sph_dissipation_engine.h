@@ -205,8 +205,7 @@ namespace SPHDissipation {
 
   // of one step: what the loops add to forces besides what the parameters say
   struct StepPlan {
-    int not_fluid =
-        0;    // bits of the groups of particles of walls and open zones, which have no drag
+    int not_fluid = 0;    // bits of groups whose particles have no drag: walls and open zones
     StepNoise noise = {};
   };
 

@@ -229,10 +229,9 @@ namespace SPHDissipation {
     int integrated;                        // bits of the groups of its integrators
 
    private:
-    bool set_up;       // since pair_style and pair_coeff
-    bool announced;    // the table of coefficients is up to date
-    bool
-        continued;    // the run continues the last one, with the velocities in the friction of its last step
+    bool set_up;           // since pair_style and pair_coeff
+    bool announced;        // the table of coefficients is up to date
+    bool continued;        // the run continues the last one, with the velocities of its last step
     bool touched;          // by a command, which may have given the same coefficients
     bool changed;          // other coefficients, or motions of walls, than those of the last forces
     double warned_step;    // the time step that the last warning was about
