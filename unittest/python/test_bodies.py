@@ -8,6 +8,8 @@ import re
 import numpy as np
 import pytest
 
+from test_pages import ROOT, blocks
+
 FULL = "thermo_modify norm no format float %.17g\n"
 FLUID = [(1.005, 1.18), (.858, -.821), (-1.075, .969), (-.869, -1.036), (2.02, -.189), (-1.899, .015), (-.068, 2.115),
          (-.079, -2.019), (1.854, .961), (-2.119, -1.095), (1.1, -2.088), (-1.006, 2.192)]
@@ -327,3 +329,53 @@ def test_covariance_of_the_impulses(lammps):
     assert abs(np.mean(deviations[np.triu_indices(24)]**2) - 1) < 3 * np.sqrt(2 / 300) and np.abs(deviations).max() < 5.0
     lagged = scaled[1:].T @ scaled[:-1] / samples * np.sqrt(samples)
     assert np.abs(lagged).max() < 5.0 and abs(np.mean(lagged**2) - 1) < 3 * np.sqrt(2 / 576)
+
+
+# ---- contact --------------------------------------------------------------------------------------------------------
+
+
+def test_contact(lammps):
+    """The input of the page: a pair style between the centers of two bodies keeps them apart; without it they overlap."""
+    (text,) = (text for _, _, text, _ in blocks(ROOT / "doc" / "src" / "Howto_sph_bodies.rst") if "lj/cut" in text)
+    last = {}
+    for strength in (1.0, 1e-12):
+        result = lammps(text.replace("lj/cut 1.0 0.8 ", f"lj/cut {strength} 0.8 "))
+        assert not result.warnings
+        (table,) = result.thermo()
+        assert np.abs(table["v_p"]).max() < 1e-14
+        last[strength] = table["v_distance"][-2:]
+    assert np.all(last[1.0] > 0.86) and np.all(last[1.0] < 0.91) and np.all(last[1e-12] < 0.68)
+    text = text.replace("hybrid/overlay sph/bulk lj/cut 1.0", "sph/bulk").replace("1*2 1*2 sph/bulk", "* *").replace("type 3 mass 1.0e-8", "type 3 mass 0.01")
+    text = re.sub(r"create_atoms    3 .*\n|pair_coeff.*(none|lj/cut).*\n", "", text).replace("run             1000", "run             0")
+    assert any("bodies do not touch" in line for line in lammps(text).warnings)
+
+
+# ---- equipartition --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.long
+def test_equipartition(lammps):
+    """Translation and rotation of nine small bodies in a fluctuating fluid have the temperature of the noise, within 1 %.
+
+    Bodies of five particles, mass 5 and moment of inertia 4; a repulsion of their centers keeps them apart.  The total momentum is
+    zero: <V^2> = kT/M (1 - M/M_total).  A velocity is new after some 25 steps, so the standard error of the means is 0.3 and 0.5 %."""
+    kt, steps = 0.001, 520000
+    text = ("units lj\ndimension 2\natom_style sph/bulk\nfix mol all property/atom mol ghost yes\nlattice sq 1.0\n"
+            "region box block 0 15 0 15 -0.5 0.5\ncreate_box 3 box\ncreate_atoms 1 box\n")
+    for k in range(9):
+        at = f"{2 + 5 * (k % 3)} {2 + 5 * (k // 3)} 0"
+        text += f"region b{k} sphere {at} 1.1\nset region b{k} type 2\ncreate_atoms 3 single {at}\nset region b{k} mol {k + 1}\n"
+    text += ("set type 1*2 mass 1.0\nset type 3 mass 1e-6\ngroup fluid type 1\ngroup body type 2\ngroup rigid type 2 3\n"
+             f"neighbor 0.5 bin\npair_style hybrid/overlay sph/bulk temp {kt} 7 lj/cut 3.2\n"
+             "pair_coeff 1*2 1*2 sph/bulk 1.0 1.0 0.05 0.2 2.5\npair_coeff 1*2 3 none\n"
+             f"pair_coeff 3 3 lj/cut {kt} 2.8 $(2.8*2^(1/6))\n"
+             "fix 1 fluid sph/bulk\nfix 2 rigid rigid molecule\nfix 3 body sph/wall move rigid\ntimestep 0.2\n"
+             "compute B body chunk/atom molecule\ncompute V body vcm/chunk B\ncompute O body omega/chunk B\n"
+             "variable x vector c_V[1]^2\nvariable y vector c_V[2]^2\nvariable o vector c_O[3]^2\n"
+             f"variable V equal 5*(sum(v_x)+sum(v_y))/18/{kt}/(1-5/225)\nvariable O equal 4*sum(v_o)/9/{kt}\n"
+             f"fix A all ave/time 4 5000 20000 v_V v_O file means.txt\nthermo 20000\nrun {steps}\n")
+    lammps(text, timeout=3600)
+    means = np.loadtxt(lammps.path("means.txt"))[1:, 1:]
+    error = means.std(axis=0, ddof=1) / np.sqrt(len(means))
+    print(means.mean(axis=0), error)
+    assert np.abs(means.mean(axis=0) - 1).max() < 0.01 and error.max() < 0.006
