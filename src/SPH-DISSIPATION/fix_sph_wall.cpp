@@ -22,6 +22,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "group.h"
 #include "math_extra.h"
 #include "memory.h"
@@ -327,7 +328,7 @@ void FixSPHWall::setup_pre_exchange()
 void FixSPHWall::setup(int vflag)
 {
   if (!checked) check_thickness(find_fluid(force));
-  if (!checked && bodies && comm->me == 0 &&
+  if (!checked && bodies && comm->me == 0 && !utils::strmatch(force->pair_style, "^hybrid") &&
       (bodies->size() > 1 || modify->get_fix_by_style("^sph/wall").size() > 1))
     error->warning(FLERR,
                    "Fix {} {}: bodies do not touch each other or walls: only the fluid between "

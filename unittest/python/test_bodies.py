@@ -8,6 +8,8 @@ import re
 import numpy as np
 import pytest
 
+from test_pages import ROOT, blocks
+
 FULL = "thermo_modify norm no format float %.17g\n"
 FLUID = [(1.005, 1.18), (.858, -.821), (-1.075, .969), (-.869, -1.036), (2.02, -.189), (-1.899, .015), (-.068, 2.115),
          (-.079, -2.019), (1.854, .961), (-2.119, -1.095), (1.1, -2.088), (-1.006, 2.192)]
@@ -240,3 +242,140 @@ def test_density_ratios(lammps, mass):
     step = float(re.search(r"largest stable time step with viscous explicit (\S+),", log)[1])
     table = lammps(text.replace("timestep 0.001", f"timestep {0.98 * step}") + "thermo 50\nrun 1000\n").thermo()[-1]
     assert table["KinEng"].max() < 1.05 * table["KinEng"][0] and table["KinEng"][-1] < table["KinEng"][0]
+
+
+# ---- thermal noise --------------------------------------------------------------------------------------------------
+
+
+def dense_friction(x, body, mu, zeta, support):
+    """Matrix of the friction of fluid and body, of unknowns v of each fluid particle, V, Omega of the body, from the formulas of the
+    pages: forces are minus this matrix times the velocities.  Also the matrix of the map from the unknowns to the particles."""
+    x, body = np.array(x, dtype=float), np.array(body)
+    fluid = np.flatnonzero(~body)
+    center = x[body].mean(axis=0)
+    n = 2 * len(fluid) + 3
+    motion = np.zeros((len(x), 2, n))
+    motion[fluid, 0, 2 * np.arange(len(fluid))] = motion[fluid, 1, 2 * np.arange(len(fluid)) + 1] = 1.0
+    for w in np.flatnonzero(body):
+        motion[w, 0, n - 3] = motion[w, 1, n - 2] = 1.0
+        motion[w, :, n - 1] = cross_of(x[w] - center, 1.0)
+    r = x[:, None] - x
+    distance = np.hypot(*r.transpose(2, 0, 1))
+    q = np.minimum(distance / support, 1.0)
+    norm = 7.0 / (np.pi * support**2)
+    kernel = norm * (1 - q)**4 * (1 + 4 * q)
+    f = norm * 20.0 / support**2 * (1 - q)**3      # -W'/r
+    v = np.where(body, 1.0, 1.0 / kernel.sum(axis=1))
+    # surface of a body of five particles: normals of the outer ones point away from the inner one; half a spacing is the least distance
+    depth = np.where(np.hypot(*(x - center).T) > 0.5, .0557354536432820, .45)
+    normal = np.where(depth[:, None] < 0.1, x - center, 0.0)
+    beta = np.ones_like(distance)
+    for w in np.flatnonzero(body):
+        d = np.maximum(r[:, w] @ normal[w] - depth[w], 0.5)
+        beta[:, w] = beta[w] = (d + depth[w]) / d
+    gamma = np.zeros((n, n))
+    for i in fluid:
+        rate = np.zeros(n)
+        for j in range(len(x)):
+            if j == i or q[i, j] >= 1.0:
+                continue
+            slip = r[i, j] @ (motion[i] - motion[j])
+            rate += f[i, j] * slip
+            if body[j] or j > i:
+                gamma += 8 * mu * f[i, j] * v[i] * v[j] * beta[i, j] / distance[i, j]**2 * np.outer(slip, slip)
+        gamma += zeta * v[i]**3 * np.outer(rate, rate)
+    return gamma, motion
+
+
+def test_dense_friction(lammps):
+    """The forces are those of the dense matrix; it is symmetric, and rigid motions of all have no friction."""
+    x, body = FLUID + BODY, [False] * 12 + [True] * 5
+    gamma, _ = dense_friction(x, body, 0.7, 0.4, 2.5)
+    _, f = forces(lammps, small(lammps, "1.0 1e-9 0.7 1.8 2.5", "temp 1e-30 1") + "run 0\n")
+    want = -gamma @ np.concatenate([np.ravel(SPEED), VELOCITY, [OMEGA]])
+    np.testing.assert_allclose(f[:12, :2].ravel(), want[:24], rtol=0, atol=1e-11)
+    np.testing.assert_allclose(f[12:, :2].sum(axis=0), want[24:26], rtol=0, atol=1e-11)
+    rates = np.linalg.eigvalsh(gamma)
+    assert np.abs(rates[:3]).max() < 1e-13 and rates[3] == pytest.approx(.534561273038569, rel=1e-9)
+
+
+def test_covariance_of_the_impulses(lammps):
+    """The random impulses of fluid and body in a step dt have the covariance 2 kT Gamma dt, in all directions.
+
+    At rest, with a step so small that nothing moves; in the eigenvectors of Gamma each impulse has its own variance, and the eigenvalues
+    of the sampled covariance over it are within 1 +- 2 (24/samples)^(1/2), but for their fluctuations.  Their sum vanishes."""
+    samples, step, kt = 40000, 1e-12, 0.3
+    x, body = FLUID + BODY, [False] * 12 + [True] * 5
+    gamma, motion = dense_friction(x, body, 0.7, 0.4, 2.5)
+    text = small(lammps, "1.0 1e-9 0.7 1.8 2.5", f"temp {kt} 5")
+    text = text.replace("id x y z vx vy vz fx fy fz", "fx fy").replace("format float %.17g", "format float %.9g")
+    lammps(text + f"velocity all set 0.0 0.0 0.0\nthermo {samples}\ntimestep {step}\nrun {samples}\n")
+    lines = lammps.path("out.dump").read_text().split("\n")[:-1]
+    frames = np.array(lines).reshape(-1, 9 + len(x))[1:, 9:]
+    f = np.array(" ".join(frames.ravel()).split(), dtype=float).reshape(-1, len(x), 2)
+    impulses = step * np.einsum("tia,ian->tn", f, motion)
+    assert len(impulses) == samples
+    assert np.abs(f.sum(axis=1)).max() < 1e-7 * np.abs(f).max()
+    rates, modes = np.linalg.eigh(gamma)
+    scaled = impulses @ modes / np.sqrt(2 * kt * step * np.maximum(rates, rates[3]))
+    assert np.abs(scaled[:, :3]).max() < 1e-6
+    scaled = scaled[:, 3:]
+    covariance = scaled.T @ scaled / samples
+    spread = np.linalg.eigvalsh(covariance)
+    limit = 2 * np.sqrt(24 / samples)
+    deviations = (covariance - np.eye(24)) * np.sqrt(samples / (1 + np.eye(24)))
+    print(spread, np.sqrt(np.mean(deviations[np.triu_indices(24)]**2)), np.abs(deviations).max())
+    assert 1 - 1.3 * limit < spread[0] and spread[-1] < 1 + 1.3 * limit
+    assert abs(np.mean(deviations[np.triu_indices(24)]**2) - 1) < 3 * np.sqrt(2 / 300) and np.abs(deviations).max() < 5.0
+    lagged = scaled[1:].T @ scaled[:-1] / samples * np.sqrt(samples)
+    assert np.abs(lagged).max() < 5.0 and abs(np.mean(lagged**2) - 1) < 3 * np.sqrt(2 / 576)
+
+
+# ---- contact --------------------------------------------------------------------------------------------------------
+
+
+def test_contact(lammps):
+    """The input of the page: a pair style between the centers of two bodies keeps them apart; without it they overlap."""
+    (text,) = (text for _, _, text, _ in blocks(ROOT / "doc" / "src" / "Howto_sph_bodies.rst") if "lj/cut" in text)
+    last = {}
+    for strength in (1.0, 1e-12):
+        result = lammps(text.replace("lj/cut 1.0 0.8 ", f"lj/cut {strength} 0.8 "))
+        assert not result.warnings
+        (table,) = result.thermo()
+        assert np.abs(table["v_p"]).max() < 1e-14
+        last[strength] = table["v_distance"][-2:]
+    assert np.all(last[1.0] > 0.86) and np.all(last[1.0] < 0.91) and np.all(last[1e-12] < 0.68)
+    text = text.replace("hybrid/overlay sph/bulk lj/cut 1.0", "sph/bulk").replace("1*2 1*2 sph/bulk", "* *").replace("type 3 mass 1.0e-8", "type 3 mass 0.01")
+    text = re.sub(r"create_atoms    3 .*\n|pair_coeff.*(none|lj/cut).*\n", "", text).replace("run             1000", "run             0")
+    assert any("bodies do not touch" in line for line in lammps(text).warnings)
+
+
+# ---- equipartition --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.long
+def test_equipartition(lammps):
+    """Translation and rotation of nine small bodies in a fluctuating fluid have the temperature of the noise, within 1 %.
+
+    Bodies of five particles, mass 5 and moment of inertia 4; a repulsion of their centers keeps them apart.  The total momentum is
+    zero: <V^2> = kT/M (1 - M/M_total).  A velocity is new after some 25 steps, so the standard error of the means is 0.3 and 0.5 %."""
+    kt, steps = 0.001, 520000
+    text = ("units lj\ndimension 2\natom_style sph/bulk\nfix mol all property/atom mol ghost yes\nlattice sq 1.0\n"
+            "region box block 0 15 0 15 -0.5 0.5\ncreate_box 3 box\ncreate_atoms 1 box\n")
+    for k in range(9):
+        at = f"{2 + 5 * (k % 3)} {2 + 5 * (k // 3)} 0"
+        text += f"region b{k} sphere {at} 1.1\nset region b{k} type 2\ncreate_atoms 3 single {at}\nset region b{k} mol {k + 1}\n"
+    text += ("set type 1*2 mass 1.0\nset type 3 mass 1e-6\ngroup fluid type 1\ngroup body type 2\ngroup rigid type 2 3\n"
+             f"neighbor 0.5 bin\npair_style hybrid/overlay sph/bulk temp {kt} 7 lj/cut 3.2\n"
+             "pair_coeff 1*2 1*2 sph/bulk 1.0 1.0 0.05 0.2 2.5\npair_coeff 1*2 3 none\n"
+             f"pair_coeff 3 3 lj/cut {kt} 2.8 $(2.8*2^(1/6))\n"
+             "fix 1 fluid sph/bulk\nfix 2 rigid rigid molecule\nfix 3 body sph/wall move rigid\ntimestep 0.2\n"
+             "compute B body chunk/atom molecule\ncompute V body vcm/chunk B\ncompute O body omega/chunk B\n"
+             "variable x vector c_V[1]^2\nvariable y vector c_V[2]^2\nvariable o vector c_O[3]^2\n"
+             f"variable V equal 5*(sum(v_x)+sum(v_y))/18/{kt}/(1-5/225)\nvariable O equal 4*sum(v_o)/9/{kt}\n"
+             f"fix A all ave/time 4 5000 20000 v_V v_O file means.txt\nthermo 20000\nrun {steps}\n")
+    lammps(text, timeout=3600)
+    means = np.loadtxt(lammps.path("means.txt"))[1:, 1:]
+    error = means.std(axis=0, ddof=1) / np.sqrt(len(means))
+    print(means.mean(axis=0), error)
+    assert np.abs(means.mean(axis=0) - 1).max() < 0.01 and error.max() < 0.006

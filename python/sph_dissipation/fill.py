@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: GPL-2.0-only
+"""Particles in and around a closed surface of triangles, an STL file: bodies, and vessels with their walls.
+
+    python3 -m sph_dissipation.fill SHAPE.stl SPACING        (./sphd fill)
+
+The particles are those of a simple cubic lattice, as "lattice sc" of LAMMPS with "origin 0.5 0.5 0.5" has them.
+"""
+import argparse
+import math
+import re
+from pathlib import Path
+
+
+def read_stl(path):
+    """Triangles of a binary or text STL file: array [triangle, corner, coordinate].  ValueError if it is none."""
+    import numpy as np
+
+    data = Path(path).read_bytes()
+    count = int.from_bytes(data[80:84], "little")
+    if len(data) > 84 and len(data) == 84 + 50 * count:
+        facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+        triangles = np.frombuffer(data, facet, count, 84)["corners"].astype(float)
+    else:
+        words = re.findall(rb"^\s*vertex\s+(\S+)\s+(\S+)\s+(\S+)\s*$", data, re.MULTILINE)
+        if not data.lstrip().startswith(b"solid") or not words or len(words) % 3:
+            raise ValueError("is no STL file")
+        triangles = np.array(words).astype(float).reshape(-1, 3, 3)
+    if not np.isfinite(triangles).all():
+        raise ValueError("has coordinates that are no numbers")
+    return triangles
+
+
+def open_edges(triangles):
+    """Number of edges of triangles without an opposite edge of another triangle: 0 if the surface is closed."""
+    import numpy as np
+
+    corners, number = np.unique(triangles.astype(np.float32).reshape(-1, 3), axis=0, return_inverse=True)
+    number = number.reshape(-1, 3)
+    edges = np.concatenate([number[:, [k, (k + 1) % 3]] for k in range(3)])
+    edges = edges[edges[:, 0] != edges[:, 1]]
+    code, back = (edges[:, k].astype(np.int64) * len(corners) + edges[:, 1 - k] for k in (0, 1))
+    names, counts = np.unique(np.concatenate([code, back]), return_counts=True)
+    balance = np.bincount(np.searchsorted(names, code), minlength=len(names)) * 2 - counts
+    return int(np.maximum(balance, 0).sum())
+
+
+def volume(triangles):
+    """Of a closed surface, by the divergence theorem; negative if the triangles are clockwise as seen from outside."""
+    import numpy as np
+
+    return np.einsum("ij,ij->", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6
+
+
+def inside(triangles, axes):
+    """Which points of a lattice, the product of three sorted axes, a closed surface surrounds.
+
+    The winding number: the signed number of triangles above a point.  A triangle is above it if its projection along z surrounds
+    that of the point, counted by the edges that a ray along x crosses.  Triangles with a common edge calculate the same crossing:
+    no ray passes between them, nor meets both.
+    """
+    import numpy as np
+
+    x, y, z = axes
+    change = np.zeros((len(x), len(y), len(z) + 1), dtype=np.int32)    # of the winding number, below each height of a triangle
+    for triangle in triangles:
+        low, high = triangle.min(axis=0), triangle.max(axis=0)
+        rows = slice(*np.searchsorted(y, (low[1], high[1]), side="left"))
+        columns = slice(max(np.searchsorted(x, low[0]) - 1, 0), np.searchsorted(x, high[0], side="right") + 1)
+        if rows.start == rows.stop or not len(x[columns]):
+            continue
+        turns = np.zeros((len(x[columns]), rows.stop - rows.start), dtype=np.int32)
+        for k in range(3):
+            a, b = triangle[k], triangle[(k + 1) % 3]
+            up = 1 if a[1] < b[1] else -1
+            a, b = (a, b) if up == 1 else (b, a)
+            on = (a[1] <= y[rows]) & (y[rows] < b[1])
+            if on.any():
+                at = a[0] + (y[rows] - a[1]) * ((b[0] - a[0]) / (b[1] - a[1]))
+                turns += up * (on & (x[columns, None] < at))
+        i, j = np.nonzero(turns)
+        if not len(i):
+            continue
+        normal = np.cross(triangle[1] - triangle[0], triangle[2] - triangle[0])
+        height = np.full(len(i), triangle[:, 2].mean())
+        if normal[2]:
+            height = triangle[0, 2] - ((x[columns][i] - triangle[0, 0]) * normal[0] + (y[rows][j] - triangle[0, 1]) * normal[1]) / normal[2]
+        below = np.searchsorted(z, np.clip(height, low[2], high[2]), side="left")
+        np.add.at(change, (columns.start + i, rows.start + j, below), turns[i, j])
+    above = change[:, :, ::-1].cumsum(axis=2)[:, :, ::-1]
+    return above[:, :, 1:] != 0
+
+
+def near(triangles, axes, distance):
+    """Which points of a lattice have at most this distance from a surface."""
+    import numpy as np
+
+    found = np.zeros([len(axis) for axis in axes], dtype=bool)
+    for triangle in triangles:
+        parts = tuple(slice(*np.searchsorted(axis, (low - distance, high + distance))) for axis, low, high in
+                      zip(axes, triangle.min(axis=0), triangle.max(axis=0)))
+        points = np.stack(np.meshgrid(*(axis[part] for axis, part in zip(axes, parts)), indexing="ij"), axis=-1)
+        normal = np.cross(triangle[1] - triangle[0], triangle[2] - triangle[0])
+        area = np.linalg.norm(normal)
+        across = area > 0
+        square = np.full(points.shape[:-1], np.inf)
+        for k in range(3):
+            a, edge = triangle[k], triangle[(k + 1) % 3] - triangle[k]
+            r = points - a
+            along = np.clip(r @ edge / max(edge @ edge, 1e-300), 0.0, 1.0)
+            square = np.minimum(square, ((r - along[..., None] * edge)**2).sum(axis=-1))
+            across = across & (r @ np.cross(normal, edge) >= 0)
+        plane = ((points - triangle[0]) @ (normal / max(area, 1e-300)))**2
+        found[parts] |= np.where(across, plane, square) <= distance**2
+    return found
+
+
+def fill(triangles, spacing, thickness=0.0):
+    """Positions of the particles inside of a closed surface, and of those outside at most a thickness away from it."""
+    import numpy as np
+
+    margin = thickness + spacing
+    axes = [spacing * (np.arange(math.floor((low - margin) / spacing), math.ceil((high + margin) / spacing)) + 0.5)
+            for low, high in zip(triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1)))]
+    within = inside(triangles, axes)
+    outside = near(triangles, axes, thickness) & ~within if thickness > 0 else np.zeros_like(within)
+    return [np.column_stack([axis[index] for axis, index in zip(axes, np.nonzero(which))]) for which in (within, outside)]
+
+
+def write_data(path, groups, spacing, mass):
+    """Data file of LAMMPS for atom_style sph/bulk; groups: [(type, positions)]."""
+    import numpy as np
+
+    points = np.concatenate([x for _, x in groups])
+    types = np.concatenate([np.full(len(x), kind) for kind, x in groups])
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(f"particles at a spacing of {spacing:g}\n\n{len(points)} atoms\n{types.max()} atom types\n\n")
+        for axis, low, high in zip("xyz", points.min(axis=0) - spacing / 2, points.max(axis=0) + spacing / 2):
+            file.write(f"{low:.10g} {high:.10g} {axis}lo {axis}hi\n")
+        file.write("\nAtoms # sph/bulk\n\n")
+        for number, (kind, x) in enumerate(zip(types, points), 1):
+            file.write(f"{number} {kind} {mass:.10g} 0.0 {x[0]:.10g} {x[1]:.10g} {x[2]:.10g}\n")
+
+
+def positive(text):
+    value = float(text)
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError("must be > 0")
+    return value
+
+
+def kind(text):
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError("must be the number of a type, or 0 for no particles")
+    return value
+
+
+def arguments(argv=None):
+    parser = argparse.ArgumentParser(prog="./sphd fill", description="Fills a closed STL file with particles, and writes a data file of LAMMPS.")
+    parser.add_argument("shape", type=Path, metavar="SHAPE.stl")
+    parser.add_argument("spacing", type=positive, metavar="SPACING", help="of the particles")
+    parser.add_argument("--scale", type=positive, default=1.0, help="multiplies the coordinates of the file (default: 1)")
+    parser.add_argument("--move", type=float, nargs=3, default=(0.0, 0.0, 0.0), metavar=("X", "Y", "Z"), help="moves the shape then")
+    parser.add_argument("--inside", type=kind, default=1, metavar="TYPE", help="of the particles inside; 0: none (default: 1)")
+    parser.add_argument("--outside", type=kind, default=0, metavar="TYPE", help="of particles around the shape, the wall of a vessel")
+    parser.add_argument("--thickness", type=positive, metavar="D", help="of the particles around it; at least the support radius")
+    parser.add_argument("--density", type=positive, default=1.0, help="mass over volume (default: 1)")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="(default: SHAPE.data)")
+    args = parser.parse_args(argv)
+    if bool(args.outside) != (args.thickness is not None):
+        parser.error("--outside and --thickness belong together")
+    if not args.inside and not args.outside:
+        parser.error("no particles are wanted")
+    return args
+
+
+def main(argv=None):
+    import numpy as np
+
+    args = arguments(argv)
+    try:
+        triangles = read_stl(args.shape) * args.scale + np.array(args.move)
+        missing = open_edges(triangles)
+        if missing:
+            raise ValueError(f"is not closed: {missing} edges have no triangle on one side")
+    except (OSError, ValueError) as error:
+        raise SystemExit(f"fill: {args.shape} {error.strerror if isinstance(error, OSError) else error}") from None
+    size = abs(volume(triangles))
+    points = fill(triangles, args.spacing, args.thickness or 0.0)
+    if not len(points[0]):
+        raise SystemExit(f"fill: {args.shape} has no room for particles at a spacing of {args.spacing:g}")
+    groups = [(number, x) for number, x in zip((args.inside, args.outside), points) if number]
+    path = args.out or args.shape.with_suffix(".data").name
+    write_data(path, groups, args.spacing, args.density * args.spacing**3)
+    print(f"{len(triangles)} triangles around a volume of {size:.6g}, filled by {len(points[0]) * args.spacing**3 / size:.4f} of it")
+    for number, x in groups:
+        print(f"type {number}: {len(x)} particles")
+    print(f"wrote {path}")
+
+
+if __name__ == "__main__":
+    main()
