@@ -92,7 +92,8 @@ void FluidModel::derive(int dim, double support)
       const TypePair pair = pair_fluid(i, j);
       const int ij = i * (n + 1) + j, ji = j * (n + 1) + i;
       par->pair[ij] = par->pair[ji] = pair_coefficients(pair);
-      if (!par->pair_energy.empty()) par->pair_energy[ij] = par->pair_energy[ji] = pair_energy(pair);
+      if (!par->pair_energy.empty())
+        par->pair_energy[ij] = par->pair_energy[ji] = pair_energy(pair);
     }
     TypeCoeff &type = coeffs[i];
     const double intrinsic = intrinsic_kappa(i, i);
