@@ -22,6 +22,7 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_particle_terms.h"
+#include "sph_dissipation_kernel.h"
 #include "sph_dissipation_shift_terms.h"
 
 #include <algorithm>

@@ -30,6 +30,7 @@ namespace SPHDissipation {
   class Engine;
   class Exchange;
   class PairTally;
+  struct PairEnergyKernel;
   struct StepPlan;
 
   // A stage of the force computation: sums of its own over the pairs that pass 1 of the engine has
