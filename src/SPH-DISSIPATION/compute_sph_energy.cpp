@@ -28,7 +28,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-enum { KINETIC, INTERNAL, ROTATIONAL, STATES, NENERGY };    // states: a part of internal
+enum { KINETIC, INTERNAL, ROTATIONAL, STATES, PAIRS, NENERGY };    // states: a part of internal
 
 /* ---------------------------------------------------------------------- */
 
@@ -57,7 +57,7 @@ double ComputeSPHEnergy::compute_scalar()
 {
   compute_vector();
   invoked_scalar = update->ntimestep;
-  scalar = vector[KINETIC] + vector[INTERNAL] + vector[ROTATIONAL];
+  scalar = vector[KINETIC] + vector[INTERNAL] + vector[ROTATIONAL] + vector[PAIRS];
   return scalar;
 }
 
@@ -89,6 +89,16 @@ void ComputeSPHEnergy::compute_vector()
     }
     energy[ROTATIONAL] *= 0.5 * force->mvv2e;
   }
-  if (const Fluid *fluid = find_fluid(force)) energy[STATES] = fluid->state_energy(groupbit);
+  if (const Fluid *fluid = find_fluid(force)) {
+    energy[STATES] = fluid->state_energy(groupbit);
+    if (fluid->has_pair_energy()) {
+      if (!fluid->is_set_up() || !fluid->has_forces())
+        error->all(
+            FLERR,
+            "Compute {} needs the forces of the particles that are there now: use run 0 first",
+            style);
+      energy[PAIRS] = fluid->pair_energy(groupbit);
+    }
+  }
   MPI_Allreduce(energy, vector, NENERGY, MPI_DOUBLE, MPI_SUM, world);
 }

@@ -24,7 +24,7 @@ ComputeStyle(sph/energy,ComputeSPHEnergy);
 
 namespace LAMMPS_NS {
 
-// Kinetic, internal and rotational energy and their sum for a particle fluid.
+// Kinetic, internal and rotational energy, that of pairs, and their sum for a particle fluid.
 
 class ComputeSPHEnergy : public Compute {
  public:

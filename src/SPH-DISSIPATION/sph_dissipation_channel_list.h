@@ -24,4 +24,5 @@
 #include "sph_dissipation_channel_interdrag.h"
 #include "sph_dissipation_channel_heat.h"
 #include "sph_dissipation_channel_solute.h"
+#include "sph_dissipation_channel_tension.h"
 // clang-format on

@@ -120,8 +120,10 @@ template <class Function> void with_form(const Terms &terms, Function &&function
 #ifndef LMP_SPH_DISSIPATION_CHANNELS_H
 #define LMP_SPH_DISSIPATION_CHANNELS_H
 
+#include "sph_dissipation_kernel.h"
 #include "sph_dissipation_rheology.h"
 #include "sph_dissipation_settings.h"
+#include "sph_dissipation_steps.h"
 
 #include <algorithm>
 #include <array>
@@ -151,8 +153,8 @@ namespace SPHDissipation {
   // what the coefficients of a pair of types follow from
   struct PairFluid {
     Shear shear = Shear(0);
-    int dim = 0;                 // of the kernel
-    double mean_radius = 0.0;    // integral of r W
+    int dim = 0;                                // of the kernel
+    double support = 0.0, mean_radius = 0.0;    // integral of r W
     double viscosity[NVISCOSITY] = {};
     double zeta = 0.0;             // coefficient of the bulk term, mean of the types
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
@@ -192,6 +194,8 @@ namespace SPHDissipation {
     static constexpr bool OF_MOTION = true;
     // its coefficients of pairs may all be 0: then the loops do without its terms, and the table without its columns
     static constexpr bool OPTIONAL = false;
+    // it has an energy of pairs of unlike types, and waves: pair_energy(), wave_step()
+    static constexpr bool PAIR_ENERGY = false;
     // Words of pair_coeff: keywords of a type with NTYPE coefficients in all, those that other commands may vary, and
     // keywords of unlike types, each with one number that is 0 if it is not given and may be varied by the same name
     static constexpr int NTYPE = 0;
@@ -220,6 +224,10 @@ namespace SPHDissipation {
     {
       return 0.0;
     }
+
+    // a of the energy of a pair, a w_i w_j W(r) with the W of PairEnergyKernel; the largest stable time step
+    static double pair_energy(const PairFluid &, const OwnWords &) { return 0.0; }
+    static double wave_step(const OwnWords &, const PairInertia &) { return UNLIMITED_STEP; }
 
     // of single particles with these coefficients of their type: force, heat, and noise follow from it
     SPH_FUNCTION static Drag drag(const double *) { return {}; }
@@ -451,6 +459,16 @@ namespace SPHDissipation {
     });
     return coeff;
   }
+  // a of the energy of a pair, sum of the channels
+  inline double pair_energy(const TypePair &pair)
+  {
+    double sum = 0.0;
+    Channels::visit(pair.shear == Shear::MICROPOLAR, [&](auto channel) {
+      sum += channel.pair_energy(pair, pair.words<decltype(channel)>());
+    });
+    return sum;
+  }
+
   // prefactor of (u.e)^2 in the dissipation of a pair at distance r, in units of F V_i V_j
   SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
   {

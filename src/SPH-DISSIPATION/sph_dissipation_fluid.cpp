@@ -64,6 +64,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     forces(new ForceStage(lmp, *engine, *exchange)), state(new StateStage(lmp, *engine, *exchange)),
     flows(new FlowStage(lmp, *engine, *exchange)),
     diffusion(new DiffusionStage(lmp, *engine, *exchange)),
+    pair_energies(new PairEnergyStage(lmp, *engine, *exchange)),
     open(new OpenStage(lmp, *engine, *exchange)),
     boundary(new BoundaryStage(lmp, *engine, *exchange, style)),
     shift(new ShiftStage(lmp, *engine, *exchange)),
@@ -469,6 +470,7 @@ void Fluid::sum_forces(PairTally *tally, const StepPlan &plan)
 {
   forces->run(neighbors(), tally, plan, [&]() {
     boundary->add_friction(tally, plan.noise);
+    if (pair_energies->active()) pair_energies->run(neighbors(), tally);
   });
   if (!boundary->empty()) boundary->repel(tally);
 }
@@ -567,8 +569,21 @@ bool Fluid::diffusion_is_new() const
 
 double Fluid::energy(double *each_atom) const
 {
-  const double energy = pressure->elastic_energy(each_atom, not_fluid());
-  return boundary->empty() ? energy : energy + wall_energy(each_atom);
+  constexpr int ALL = 1;    // bit of the group
+  double energy = pressure->elastic_energy(each_atom, not_fluid());
+  if (!boundary->empty()) energy += wall_energy(each_atom);
+  if (pair_energies->active()) energy += pair_energies->energy(each_atom, ALL);
+  return energy;
+}
+
+bool Fluid::has_pair_energy() const
+{
+  return model->has_pair_energy();
+}
+
+double Fluid::pair_energy(int groupbit) const
+{
+  return pair_energies->energy(nullptr, groupbit);
 }
 
 double Fluid::wall_energy(double *each_atom) const

@@ -41,6 +41,7 @@ namespace SPHDissipation {
   class NeighborSearch;
   class NoiseStage;
   class OpenStage;
+  class PairEnergyStage;
   class PairTally;
   struct StepPlan;
   class PressureStage;
@@ -80,6 +81,7 @@ namespace SPHDissipation {
     const std::unique_ptr<StateStage> state;
     const std::unique_ptr<FlowStage> flows;
     const std::unique_ptr<DiffusionStage> diffusion;
+    const std::unique_ptr<PairEnergyStage> pair_energies;
 
    public:
     // stages that fixes call directly.  A boundary or an open zone is registered until its fix is
@@ -132,6 +134,12 @@ namespace SPHDissipation {
 
     enum Moment { LAST_FORCES, NOW };
     virtual double elastic_energy(Moment);
+
+    // energy of pairs of unlike types, of the last forces, on this processor, of the particles of a group, half of each
+    // pair; whether any two types have one
+
+    bool has_pair_energy() const;
+    double pair_energy(int groupbit) const;
 
     // energy that states hold on this processor, of particles of these groups
 

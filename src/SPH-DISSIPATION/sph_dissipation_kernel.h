@@ -133,6 +133,45 @@ namespace SPHDissipation {
            });
   }
 
+  // Kernel of the energy of pairs of unlike types, W = norm (1 - q^2)^2: its force is small at short distances, so that
+  // the energy of an interface hardly depends on how the particles next to it are arranged.
+  // Particles at a plane stand in rows, of distance d = V^(1/n), half of it from the plane.  The sum over the rows is less
+  // than the integral of z W_1(z), with W_1 the integral of W over a plane: by d^2 W_1(0)/12, the first term of Euler and
+  // Maclaurin, or by the part ROWS d^2/R^2 of it.
+
+  struct PairEnergyKernel {
+    double weight_norm, slope_norm, support_sq_inv, rows, root;
+
+    PairEnergyKernel(int n, double support) :
+        support_sq_inv(1.0 / (support * support)), root(1.0 / n)
+    {
+      constexpr double NORM[] = {0.0, 15.0 / 16.0, 3.0 / KERNEL_PI, 105.0 / (32.0 * KERNEL_PI)};
+      constexpr double ROWS[] = {0.0, 1.0 / 2.0, 7.0 / 12.0, 2.0 / 3.0};
+      weight_norm = NORM[n];
+      for (int d = 0; d < n; d++) weight_norm /= support;
+      slope_norm = 4.0 * weight_norm * support_sq_inv;
+      rows = ROWS[n] * support_sq_inv;
+    }
+    double weight(double rsq) const
+    {
+      const double rest = 1.0 - rsq * support_sq_inv;
+      return weight_norm * rest * rest;
+    }
+    double slope(double rsq) const { return slope_norm * (1.0 - rsq * support_sq_inv); }
+    // what rows of particles of these volumes lack, as a factor
+    double of_rows(double vol_i, double vol_j) const
+    {
+      return 1.0 + rows * std::pow(vol_i * vol_j, root);
+    }
+
+    // integral of |z| W, length
+    static double mean_distance(int n, double support)
+    {
+      constexpr double MEAN[] = {0.0, 5.0 / 16.0, 32.0 / (35.0 * KERNEL_PI), 35.0 / 128.0};
+      return MEAN[n] * support;
+    }
+  };
+
   // Sums of V W and of V F r^2/n over a cubic lattice of this spacing, V = spacing^n: the integrals of both are 1
 
   struct LatticeSums {

@@ -105,6 +105,7 @@ namespace SPHDissipation {
     double heat_capacity(int type) const;    // per mass
     bool has_temperatures() const;           // any type has a heat capacity
     bool has_rheology() const;               // mu of any type depends on the rate of shear
+    bool has_pair_energy() const;            // any two types
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 
     // a keyword of this type that needs one of these, see enum Requirement, or nullptr
@@ -154,6 +155,7 @@ namespace SPHDissipation {
     const TypeKeyword *keyword(const std::string &name) const;
     bool is_type_keyword(const std::string &name) const;
     bool varies_no_flow(const char *name) const;    // it is of a flow that no type has
+    bool is_of_pair_energy(const char *name) const;
     bool is_of_missing_group(int coefficient, int type) const;
     double &type_value(int, int);
     double pair_value(int, int, int);

@@ -80,6 +80,7 @@ void FluidModel::derive(int dim, double support)
   par->ntypes_1 = n + 1;
   par->type.assign(n + 1, TypeParameters());
   par->pair.assign((n + 1) * (n + 1), PairCoeff());
+  par->pair_energy.assign(has_pair_energy() ? (n + 1) * (n + 1) : 0, 0.0);
   for (int i = 1; i <= n; i++) {
     mix(i);
     par->type[i].keywords = TypeCoeffs(coeffs[i].keywords);
@@ -88,7 +89,11 @@ void FluidModel::derive(int dim, double support)
     par->type[i].heat_capacity = heat_capacity(i);
     for (int j = 1; j <= i; j++) {
       if (!coeffs[i].other && !coeffs[j].other) check_pair(i, j);
-      par->pair[i * (n + 1) + j] = par->pair[j * (n + 1) + i] = pair_coefficients(pair_fluid(i, j));
+      const TypePair pair = pair_fluid(i, j);
+      const int ij = i * (n + 1) + j, ji = j * (n + 1) + i;
+      par->pair[ij] = par->pair[ji] = pair_coefficients(pair);
+      if (!par->pair_energy.empty())
+        par->pair_energy[ij] = par->pair_energy[ji] = pair_energy(pair);
     }
     TypeCoeff &type = coeffs[i];
     const double intrinsic = intrinsic_kappa(i, i);
@@ -159,6 +164,7 @@ TypePair FluidModel::pair_fluid(int i, int j) const
   TypePair fluid;
   fluid.shear = choice.shear;
   fluid.dim = par->dim;
+  fluid.support = par->support;
   fluid.mean_radius = kernel_mean_radius(par->kernel, par->dim, par->support);
   fluid.zeta = 0.5 * (par->type[i].zeta + par->type[j].zeta);
   for (int k = 0; k < Flows::NUMBER; k++)
@@ -376,6 +382,32 @@ bool FluidModel::varies_no_flow(const char *name) const
   return found;
 }
 
+/* ----------------------------------------------------------------------
+   a word of the channels that have one, of any two types
+------------------------------------------------------------------------- */
+
+bool FluidModel::has_pair_energy() const
+{
+  bool found = false;
+  Channels::visit(spins, [&](auto channel) {
+    for (const char *name : channel.UNLIKE_KEYWORDS)
+      for (int i = 1; channel.PAIR_ENERGY && coeffs && i <= atom->ntypes; i++)
+        for (int j = 1; j < i; j++)
+          if (pair_given[variable_of_pairs(name)][i][j] != 0.0) found = true;
+  });
+  return found;
+}
+
+bool FluidModel::is_of_pair_energy(const char *name) const
+{
+  bool found = false;
+  Channels::visit(spins, [&](auto channel) {
+    for (const char *own : channel.UNLIKE_KEYWORDS)
+      if (channel.PAIR_ENERGY && strcmp(name, own) == 0) found = true;
+  });
+  return found;
+}
+
 /* ---------------------------------------------------------------------- */
 
 bool FluidModel::has_temperatures() const
@@ -417,8 +449,8 @@ void FluidModel::warn_of_ignored() const
 }
 
 /* ----------------------------------------------------------------------
-   what another command may vary.  It must have an effect.  Torques and flows must not begin
-   during a run, because the inertia of particles, their states, and the fixes have not been checked for them
+   what another command may vary.  It must have an effect.  Torques, flows, and energies of pairs must not begin
+   during a run, because the inertia of particles, their states, and the styles have not been checked for them
 ------------------------------------------------------------------------- */
 
 void *FluidModel::extract(const char *name, int &dim)
@@ -430,7 +462,7 @@ void *FluidModel::extract(const char *name, int &dim)
   if (choice.eos == Eos::IDEAL && strcmp(name, "c0") == 0) return nullptr;
   const int k = variable_of_pairs(name);
   if (k > MU && k < nviscosity() && !has_torques()) return nullptr;
-  if (varies_no_flow(name)) return nullptr;
+  if (varies_no_flow(name) || (is_of_pair_energy(name) && !has_pair_energy())) return nullptr;
   for (const auto &one : variables)
     if (one.name == name) return one.value;
   return nullptr;

@@ -43,6 +43,7 @@ namespace SPHDissipation {
   struct Parameters : Constants {
     std::vector<TypeParameters> type;    // by type, from 1
     std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
+    std::vector<double> pair_energy;     // the same, a of the energy of a pair; empty: none
 
     void set_uniform();          // uniform, inviscid, and optional, from pair
     void set_alike();            // what belongs to flows and sound, from type

@@ -16,10 +16,13 @@
 #include "atom.h"
 #include "force.h"
 #include "memory.h"
+#include "neigh_list.h"
+#include "neighbor.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_particle_terms.h"
+#include "sph_dissipation_kernel.h"
 #include "sph_dissipation_shift_terms.h"
 
 #include <algorithm>
@@ -310,6 +313,98 @@ double FlowStage::received(int groupbit) const
 }
 
 /* ---------------------------------------------------------------------- */
+
+bool PairEnergyStage::active() const
+{
+  return !engine.parameters().pair_energy.empty();
+}
+
+void PairEnergyStage::find_rows(NeighList *list)
+{
+  const Parameters &par = engine.parameters();
+  const int *const type = atom->type;
+  energies = par.pair_energy;
+  rows.clear();
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const double *const with = &energies[type[i] * par.ntypes_1];
+    const int *const jlist = list->firstneigh[i];
+    if (std::any_of(jlist, jlist + list->numneigh[i], [=](int j) {
+          return with[type[j & NEIGHMASK]] != 0.0;
+        }))
+      rows.push_back(ii);
+  }
+}
+
+template <class Function>
+void PairEnergyStage::visit(int row, const PairEnergyKernel &kernel, Function &&function) const
+{
+  const Parameters &par = engine.parameters();
+  const ParticleRows &particles = engine.rows();
+  const Particle *const particle = engine.particle;
+  const int *const type = atom->type;
+  engine.visit_pairs(row, [&](int i, int j, bigint) {
+    const double a = par.pair_energy[type[i] * par.ntypes_1 + type[j]];
+    if (a == 0.0) return;
+    double r[3], rsq = 0.0;
+    for (int d = 0; d < 3; d++) {
+      r[d] = particle[i].x[d] - particle[j].x[d];
+      rsq += r[d] * r[d];
+    }
+    const double w_i = particles.reference_volume(i), w_j = particles.reference_volume(j);
+    function(i, j, r, rsq, a * w_i * w_j * kernel.of_rows(w_i, w_j));
+  });
+}
+
+void PairEnergyStage::run(NeighList *list, PairTally *tally)
+{
+  const PairEnergyKernel kernel(engine.parameters().dim, engine.parameters().support);
+  if (neighbor->ago == 0 || energies != engine.parameters().pair_energy) find_rows(list);
+
+  auto add = [&](bigint from, bigint to, ForceSum *force) {
+    for (bigint m = from; m < to; m++)
+      visit(rows[m], kernel, [&](int i, int j, const double *r, double rsq, double energy) {
+        const double central = energy * kernel.slope(rsq);
+        double push[3];
+        for (int d = 0; d < 3; d++) {
+          push[d] = central * r[d];
+          force[i].f[d] += push[d];
+          force[j].f[d] -= push[d];
+        }
+        if (tally) tally->tally(i, j, push, r);
+      });
+  };
+
+  const bigint number = rows.size();
+  Threads &team = engine.team();
+  if (tally || team.size() == 1) return add(0, number, engine.force);
+  sums.run(team, engine.force, atom->nlocal + atom->nghost, [&](int k, ForceSum *sum) {
+    const int parts = team.size();
+    add(number * k / parts, number * (k + 1) / parts, sum);
+  });
+}
+
+double PairEnergyStage::energy(double *each_atom, int groupbit) const
+{
+  const PairEnergyKernel kernel(engine.parameters().dim, engine.parameters().support);
+  const int *const mask = atom->mask;
+  const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+  double total = 0.0;
+  for (int ii = 0; ii < engine.pairs().inum; ii++)
+    visit(ii, kernel, [&](int i, int j, const double *, double rsq, double energy) {
+      const double half = 0.5 * energy * kernel.weight(rsq);
+      for (const int one : {i, j}) {
+        if (one >= n || !(mask[one] & groupbit)) continue;
+        total += half;
+        if (each_atom) each_atom[one] += half;
+      }
+    });
+  return total;
+}
+
+/* ----------------------------------------------------------------------
+   The pressure is that of the equation of state: strains stay as they are
+------------------------------------------------------------------------- */
 
 void DiffusionStage::evaluate(int not_fluid, int integrated)
 {

@@ -30,6 +30,7 @@ namespace SPHDissipation {
   class Engine;
   class Exchange;
   class PairTally;
+  struct PairEnergyKernel;
   struct StepPlan;
 
   // A stage of the force computation: sums of its own over the pairs that pass 1 of the engine has
@@ -169,6 +170,31 @@ namespace SPHDissipation {
 
    private:
     int nheat() const;    // atoms that heat goes to
+  };
+
+  // Energy of pairs of unlike types, a w_i w_j W(r) with the reference volumes w = m/rho0, see
+  // BaseChannel::pair_energy() and PairEnergyKernel: their force, after pass 2
+
+  class PairEnergyStage : public Stage {
+   public:
+    using Stage::Stage;
+
+    bool active() const;
+    // add the forces to the sums of the engine, with a tally of each pair, or nullptr
+    void run(NeighList *, PairTally *);
+    // Energy of the particles of a group, half of each pair, on this processor, added to those of the particles (nullptr:
+    // to none); of the pairs that pass 1 has found
+    double energy(double *each_atom, int groupbit) const;
+
+   private:
+    std::vector<int> rows;           // of the neighbor list that have such pairs
+    std::vector<double> energies;    // a of the types when they were found
+    ThreadSums<ForceSum> sums;
+
+    void find_rows(NeighList *);
+    // function(i, j, r_ij, r^2, a w_i w_j, with the factor of rows) for the pairs in a row of the neighbor list
+    template <class Function>
+    void visit(int row, const PairEnergyKernel &, Function &&function) const;
   };
 
   // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h.  The rates of volumes and energies are kept

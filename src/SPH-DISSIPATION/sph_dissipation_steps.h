@@ -66,6 +66,15 @@ namespace SPHDissipation {
     return low;
   }
 
+  // Capillary waves, at a distance h: J. P. Morris, Int. J. Numer. Methods Fluids 33, 333 (2000)
+
+  inline double capillary_step(double rho, double hsq, double tension)
+  {
+    constexpr double TWO_PI = 6.28318530717958647692;
+    return (tension > 0.0) ? ACOUSTIC * sqrt(rho * hsq * sqrt(hsq) / (TWO_PI * tension))
+                           : UNLIMITED_STEP;
+  }
+
   // all limits together: the rates of the viscous terms add
 
   inline double combined_step(double acoustic, const std::vector<double> &viscous)

@@ -81,12 +81,12 @@ std::string CoeffTable::skin_text(double skin, double dt, double support, int di
 /* ---------------------------------------------------------------------- */
 
 void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &inertia,
-                         double acoustic_of_pair, double diffusion_rate)
+                         double waves, double diffusion_rate)
 {
   constexpr int NONE = -1;
   const bool spins = (pair.shear == Shear::MICROPOLAR);
   const PairCoeff coeff = pair_coefficients(pair);
-  Row row = {fmt::format("{}-{}", i, j), {}, {{"acoustic", NONE, acoustic_of_pair}}};
+  Row row = {fmt::format("{}-{}", i, j), {}, {{"acoustic", NONE, waves}}};
   std::vector<double> numbers, of_motion, of_heat, of_flows;
 
   for (int k = 0; k < number_of_viscosities(spins); k++) {
@@ -108,6 +108,11 @@ void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &
     if (!used && rows.empty()) left_out.insert(k);
     if (used) left_out.erase(k);
     if (channel.ELASTIC) return;
+    if (channel.PAIR_ENERGY) {
+      waves = std::min(waves, channel.wave_step(words, inertia));
+      row.steps.push_back({channel.NAME, k, channel.wave_step(words, inertia)});
+      return;
+    }
     numbers.push_back(SPHDissipation::viscous_step(channel.rate(pair, words, own, inertia)));
     bool stiff = true;
     if constexpr (std::is_base_of<BaseFlow, One>::value) stiff = One::STIFF;
@@ -118,9 +123,9 @@ void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &
     numbers.push_back(SPHDissipation::viscous_step(diffusion_rate));
     row.steps.push_back({"diffusion", NONE, numbers.back()});
   }
-  row.steps.push_back({"all", NONE, combined_step(acoustic_of_pair, numbers)});
+  row.steps.push_back({"all", NONE, combined_step(waves, numbers)});
   smallest = std::min(smallest, row.steps.back().value);
-  acoustic = std::min({acoustic, acoustic_of_pair, SPHDissipation::viscous_step(diffusion_rate),
+  acoustic = std::min({acoustic, waves, SPHDissipation::viscous_step(diffusion_rate),
                        combined_step(UNLIMITED_STEP, of_flows)});
   viscous = std::min(viscous, combined_step(UNLIMITED_STEP, of_motion));
   dissipative = std::min(dissipative, combined_step(UNLIMITED_STEP, numbers));

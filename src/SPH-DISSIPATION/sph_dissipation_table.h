@@ -44,7 +44,7 @@ namespace SPHDissipation {
     // with lines on the accuracy of these steps, and on what dt needs
     std::string text(double dt) const;
     double smallest_step() const { return smallest; }    // with all terms together, of all rows
-    // of sound, of the diffusion of volume, and of flows that are not stiff
+    // of sound and other waves, of the diffusion of volume, and of flows that are not stiff
     double acoustic_step() const { return acoustic; }
     double dissipative_step() const { return dissipative; }       // without sound
     double fastest_rate() const { return rate_of(viscous); }      // of the viscous terms

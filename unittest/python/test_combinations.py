@@ -146,6 +146,7 @@ FEATURES = {
                           fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3*c_state[1]*(c_state[2]-0.2)",
                                  "variable dragy atom -0.3*c_state[1]*(c_state[3]+0.1)", "compute drag fluid reduce sum v_dragx v_dragy"))),
     "interdrag": Feature(Lines(types=2, unlike=("interdrag 0.8",))),
+    "tension": Feature(Lines(types=2, unlike=("tension 0.8",))),
     "thinning": Feature(Lines(keywords=("power 0.6 0.05 1.5 yield 0.05 5",)),
                         refused={"open": "power", "noise": "drift", "warm": "drift", "limit": "limit", "interdrag": "rate of shear", "implicit": "implicit",
                                  "spin": "sph/bulk", "idle_spin": "sph/bulk"}),

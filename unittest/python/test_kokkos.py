@@ -778,3 +778,13 @@ def test_rate_of_shear_on_the_host(lammps):
     (expected, _, _), (found, _, result) = both(lammps, "sph/bulk", particles, script("sph/bulk", particles, model, 5))
     assert relative(found["f"] - expected["f"], expected["f"]) < 1e-12
     assert any("rate of shear" in warning for warning in result.warnings)
+
+
+@pytest.mark.skipif(not DEVICE_LOOPS, reason="on a host the same code runs")
+def test_tension_on_the_host(lammps):
+    """Of two fluids, with a warning."""
+    particles = disordered(2, 12, ntypes=2)
+    model = fluids("sph/bulk", 2, 2) + "pair_coeff 1 2 tension 0.7\n"
+    (expected, _, _), (found, _, result) = both(lammps, "sph/bulk", particles, script("sph/bulk", particles, model, 5))
+    assert relative(found["f"] - expected["f"], expected["f"]) < 1e-12
+    assert any("a tension between two types" in warning for warning in result.warnings)
