@@ -262,6 +262,16 @@ void BoundaryStage::extend()
 
 /* ---------------------------------------------------------------------- */
 
+void BoundaryStage::set_squares()
+{
+  engine.team().run([&](int k) {
+    for (const auto &pair : pairs.of_thread[k])
+      engine.set_square(pair.fluid, pair.wall, pair.entry);
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
 void BoundaryStage::extend_temperatures(bool increments)
 {
   if (!conducts()) return heat_sum.clear();

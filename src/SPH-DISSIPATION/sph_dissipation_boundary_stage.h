@@ -57,6 +57,9 @@ namespace SPHDissipation {
     // the same again in this step, for other velocities and pressures of the fluid
     void extend();
 
+    // after run(): of the pairs of fluid and walls, what rates of shear are made of
+    void set_squares();
+
     // the temperatures alone, or increments of them
     void extend_temperatures(bool increments);
 

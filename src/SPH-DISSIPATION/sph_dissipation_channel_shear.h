@@ -34,14 +34,17 @@ template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_
 
 // AlongR with the viscosities of the particles: their arithmetic mean within a fluid, for which there is a dissipation
 // function, and the harmonic one between two fluids; that of the fluid next to a boundary particle, which has none
+// ONE_FLUID: there is no pair of two
+template <bool ONE_FLUID>
 struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE> {
   static constexpr bool CENTRAL = true, BY_RATE = true;
   template <class Pair> static SPH_INLINE void add_central(Pair &pair)
   {
-    const auto a = pair.mu[0] + if_positive(-pair.mu[0], pair.mu[1] - pair.mu[0]);
-    const auto b = pair.mu[1] + if_positive(-pair.mu[1], pair.mu[0] - pair.mu[1]);
-    const auto mean =
-        pair.coeff[FIRST] * (0.5 * (a + b)) + pair.coeff[LAST] * mean_coefficient(a, b);
+    const auto more = pair.mu[1] - pair.mu[0];
+    const auto a = pair.mu[0] + if_positive(-pair.mu[0], more);
+    const auto b = pair.mu[1] - if_positive(-pair.mu[1], more);
+    auto mean = 0.5 * pair.coeff[FIRST] * (a + b);
+    if constexpr (!ONE_FLUID) mean += pair.coeff[LAST] * mean_coefficient(a, b);
     const auto drag = mean * pair.by_metric * pair.approach;
     pair.central -= drag;
     pair.heat[CHANNEL] += 0.5 * drag * pair.approach;

@@ -96,7 +96,8 @@ using FullSpinForm = Form<AlongR<false>, Slip, SpinDiffusion
 
 template <class Function> void with_form(const Terms &terms, Function &&function)
 {
-  if (terms.by_rate) return function(Form<ByRate>());
+  if (terms.by_rate)
+    return terms.one_fluid ? function(Form<ByRate<true>>()) : function(Form<ByRate<false>>());
   if (terms.optional && terms.shear == Shear::MICROPOLAR) return function(FullSpinForm());
   if (terms.optional) return function(FullForm());
   switch (terms.shear) {

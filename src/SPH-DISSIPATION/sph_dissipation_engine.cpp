@@ -37,7 +37,7 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
     state_pressure(nullptr), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), divergence(nullptr),
     spin(nullptr), loops(&loops_plain), par(&NO_PARAMETERS), fixed(&NO_PARAMETERS),
-    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), data(),
+    density_loop(nullptr), square_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), data(),
     atom_rows(new ParticleRows()), threads(&one_thread), weights(nullptr), nlocal_forces(-1),
     nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
@@ -91,9 +91,10 @@ void Engine::setup(const Parameters &parameters)
 {
   par = &parameters;
   fixed = &parameters;
-  density_loop = loops->density(par->kernel, par->volume);
+  density_loop = loops->density(par->kernel, par->volume, false);
+  square_loop = par->by_rate ? loops->density(par->kernel, par->volume, true) : density_loop;
   rate_loop = loops->rates(par->volume);
-  const Terms terms = (par->inviscid && !par->spins()) ? Terms{Shear::NONE, false, false}
+  const Terms terms = (par->inviscid && !par->spins()) ? Terms{Shear::NONE, false, false, false}
                                                        : par->terms();
   force_loop = loops->forces(terms, par->bulk, par->volume);
   side.set({par->spins(), loops->channels(terms)});
@@ -350,7 +351,9 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.particle = particle;
   data.spare = nall;
   data.density = density;
-  run_density(density_loop);
+  if (par->by_rate) square.resize(pair_max);
+  data.square = square.data();
+  run_density(finds_squares ? square_loop : density_loop);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -384,10 +387,27 @@ void Engine::run_density(Loop loop)
 
 void Engine::accumulate_shear_rates(std::vector<double> &rates)
 {
-  rates.assign(atom->nlocal + atom->nghost + BLOCK, 0.0);
-  scalar_sums.run(*threads, rates.data(), rates.size(), [&](int k, double *sum) {
-    loops->shear_rates(part(k), sum);
+  const int nrow = atom->nlocal + atom->nghost + BLOCK;
+  rates.assign(nrow, 0.0);
+  volume.resize(nrow);
+  for_each(nrow, [&](int i) {
+    volume[i] = particle[i].vol;
   });
+  scalar_sums.run(*threads, rates.data(), rates.size(), [&](int k, double *sum) {
+    loops->shear_rates(part(k), volume.data(), sum);
+  });
+}
+
+void Engine::set_square(int i, int j, bigint entry)
+{
+  const Particle &a = particle[i], &b = particle[j];
+  double approach = 0.0, rsq = 0.0;
+  for (int d = 0; d < 3; d++) {
+    const double r = a.x[d] - b.x[d];
+    rsq += r * r;
+    approach += r * (a.u[d] - b.u[d]);
+  }
+  if (rsq > 0.0) square[entry] = data.slope[entry] * approach * (approach / rsq);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -627,7 +647,7 @@ double Engine::memory_usage() const
   double sum = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) +
       (double) pair_max * (sizeof(int) + sizeof(double)) +
-      bytes(viscosity, energy, wall_energy, wall_energy_tags, types);
+      bytes(viscosity, square, volume, energy, wall_energy, wall_energy_tags, types);
   for (const auto &rows : flow) sum += bytes(rows);
   for (const auto &rates : flow_rate) sum += bytes(rates);
   for (const auto &numbers : random) sum += bytes(numbers);

@@ -89,7 +89,8 @@ namespace SPHDissipation {
     bigint *first;
     int *count;
     int *neighbor;
-    double *slope;    // F
+    double *slope;     // F
+    double *square;    // F (e.u)^2, if pass 1 is to find it
 
     const NoiseData *noise;    // of pass 2 with noise
     double *random;            // the same, for the numbers of the pairs of one particle
@@ -99,7 +100,7 @@ namespace SPHDissipation {
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
   typedef void (*FlowLoop)(const LoopData &, const FlowRow *, double *rate);
-  typedef void (*RateLoop)(const LoopData &, double *rate);
+  typedef void (*RateLoop)(const LoopData &, const double *vol, double *rate);
   typedef void (*DiffusionLoop)(const LoopData &, const DiffusionData &, double *sums);
   enum class DiffusionPart { SUMS, FLOW };    // for the gradient; with it
 
@@ -121,7 +122,7 @@ namespace SPHDissipation {
 
   struct LoopSet {
     const char *name;
-    Loop (*density)(Kernel, Volume);
+    Loop (*density)(Kernel, Volume, bool rates);    // with F (e.u)^2 of the pairs
     Loop (*rates)(Volume);
     RateLoop shear_rates;
     Loop (*forces)(const Terms &, Bulk, Volume);
@@ -235,6 +236,7 @@ namespace SPHDissipation {
     // where these are nullptr; density[] of owned atoms (with the particle itself) and the
     // contributions to ghost atoms
     void accumulate_density(NeighList *, double **vest, double **omegaest);
+    bool finds_squares = true;    // F (e.u)^2 of the pairs, for rates of shear
 
     // cdot of density[] alone, of the velocities that the caller has set in particle[] on owned and
     // ghost atoms, by the pairs of pass 1
@@ -258,8 +260,10 @@ namespace SPHDissipation {
     // friction of those pairs alone, with the noise of surfaces, or nullptr, by this thread; after pass 2
     void accumulate_friction(SurfacePairs &, const StepNoise *, int thread);
 
-    // sum_j V_j F (e.u)^2 of owned and ghost atoms, of the volumes and velocities in particle[]; room for the spare ones
+    // sum_j V_j F (e.u)^2 of owned and ghost atoms, of the volumes in particle[] and the squares of pass 1; room for the
+    // spare ones.  Set the square of a pair for other velocities in particle[]
     void accumulate_shear_rates(std::vector<double> &rates);
+    void set_square(int i, int j, bigint entry);
 
     // what owned and ghost atoms get per time by a flow, of flow[]; room for the spare ones
     void accumulate_flow(int place, std::vector<double> &rate);
@@ -345,11 +349,12 @@ namespace SPHDissipation {
     const LoopSet *loops;
     const Parameters *par;
     const Constants *fixed;
-    Loop density_loop, rate_loop, force_loop;
+    Loop density_loop, square_loop, rate_loop, force_loop;
     LoopData data;
     const std::unique_ptr<ParticleRows> atom_rows;
     Threads one_thread, *threads;
-    double *weights;           // reference volumes of atoms
+    double *weights;    // reference volumes of atoms
+    std::vector<double> square, volume;
     std::vector<int> types;    // of owned, ghost, and spare particles, if their coefficients differ
 
     // rows first_row[k] ... first_row[k+1] - 1 of the neighbor list are those of thread k, whose pairs

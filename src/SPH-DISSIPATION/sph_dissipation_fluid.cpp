@@ -319,6 +319,7 @@ bigint Fluid::compute(PairTally *tally)
 
 bigint Fluid::sum_before_forces(StepPlan &plan, bool find_rates)
 {
+  engine->finds_squares = find_rates;
   sum_density();
 
   // noise needs the bound of the limit for the volumes that act in its pairs, those of walls as well
@@ -352,6 +353,7 @@ void Fluid::find_viscosities(bool find_rates)
     particle[i].g = engine->zeta_term[i] = 0.0;
   });
   boundary->run(neighbors());
+  boundary->set_squares();
   viscosity->run(not_fluid());
   const bool moves = update->whichflag != 2;
   engine->for_each(nall, [&](int i) {

@@ -45,9 +45,9 @@ namespace SPHDissipation {
     }
 
     // pass 1: c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED
-    // leaves the pairs inside the support for pass 2
+    // leaves the pairs inside the support for pass 2; RATES: with F (e.u)^2, for the rates of shear
 
-    template <class K, bool WEIGHTED> void density_loop(LoopData &data)
+    template <class K, bool WEIGHTED, bool RATES> void density_loop(LoopData &data)
     {
       const Particle *const particle = data.particle;
       const Parameters &par = *data.par;
@@ -63,6 +63,7 @@ namespace SPHDissipation {
         const Particle pi = particle[i];
         int *const neighbor = data.neighbor + next;
         double *const slope = data.slope + next;
+        double *const square = RATES ? data.square + next : nullptr;
         int n = 0;
         Vec total[2] = {all(0.0), all(0.0)};
 
@@ -95,6 +96,7 @@ namespace SPHDissipation {
           add_2_columns<WIDTH<DensitySum>>(numbers(data.density), j, sums);
 
           pack(slope + n, f, inside);
+          if constexpr (RATES) pack(square + n, f * approach * (approach / (rsq + TINY)), inside);
           pack(neighbor + n, j, inside);
           n += count_bits(inside);
         }
@@ -104,6 +106,7 @@ namespace SPHDissipation {
         // fill up the last block with spare particles and F = 0
 
         store(slope + n, all(0.0));
+        if constexpr (RATES) store(square + n, all(0.0));
         for (int l = 0; l < LANES; l++) neighbor[n + l] = data.spare + l;
         data.count[ii] = n;
         data.first[ii] = next;
@@ -147,33 +150,21 @@ namespace SPHDissipation {
       }
     }
 
-    // sum_j V_j F (e.u)^2, of the volumes and velocities of the particles, by the pairs of pass 1
+    // sum_j V_j F (e.u)^2, by the pairs of pass 1
 
-    inline void shear_rate_loop(const LoopData &data, double *rate)
+    inline void shear_rate_loop(const LoopData &data, const double *vol, double *rate)
     {
-      const Particle *const particle = data.particle;
-
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
-        const Particle pi = particle[i];
         const int *const neighbor = data.neighbor + data.first[ii];
-        const double *const slope_of = data.slope + data.first[ii];
+        const double *const square_of = data.square + data.first[ii];
         Vec total = all(0.0);
 
         for (int k = 0; k < data.count[ii]; k += LANES) {
           const int *const j = neighbor + k;
-          Vec pj[8], r[3], u[3];
-          load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
-          load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
-          for (int l = 0; l < LANES; l++) prefetch(particle + j[l + AHEAD]);
-          for (int d = 0; d < 3; d++) {
-            r[d] = pi.x[d] - pj[d];
-            u[d] = pi.u[d] - pj[3 + d];
-          }
-          const Vec approach = dot(r, u);
-          const Vec square = approach * approach / (dot(r, r) + TINY) * load(slope_of + k);
-          total += pj[6] * square;
-          add_column<1>(rate, j, pi.vol * square);
+          const Vec square = load(square_of + k);
+          total += gather(vol, j) * square;
+          add_column<1>(rate, j, vol[i] * square);
         }
         rate[i] += sum(total);
       }
@@ -682,27 +673,33 @@ namespace SPHDissipation {
       return alike ? choose_diffusion<true>(part, dim) : choose_diffusion<false>(part, dim);
     }
 
-    template <bool WEIGHTED> Loop choose_kernel(Kernel kernel)
+    template <bool WEIGHTED, bool RATES> Loop choose_kernel(Kernel kernel)
     {
       switch (kernel) {
         case Kernel::WENDLAND_C4:
-          return density_loop<WendlandC4, WEIGHTED>;
+          return density_loop<WendlandC4, WEIGHTED, RATES>;
         case Kernel::WENDLAND_C6:
-          return density_loop<WendlandC6, WEIGHTED>;
+          return density_loop<WendlandC6, WEIGHTED, RATES>;
         case Kernel::CUBIC:
-          return density_loop<CubicSpline, WEIGHTED>;
+          return density_loop<CubicSpline, WEIGHTED, RATES>;
         case Kernel::QUINTIC:
-          return density_loop<QuinticSpline, WEIGHTED>;
+          return density_loop<QuinticSpline, WEIGHTED, RATES>;
         case Kernel::LUCY:
-          return density_loop<Lucy, WEIGHTED>;
+          return density_loop<Lucy, WEIGHTED, RATES>;
         default:
-          return density_loop<WendlandC2, WEIGHTED>;
+          return density_loop<WendlandC2, WEIGHTED, RATES>;
       }
     }
 
-    inline Loop choose_density_loop(Kernel kernel, Volume volume)
+    template <bool RATES> Loop choose_volume(Kernel kernel, Volume volume)
     {
-      return (volume == Volume::MASS) ? choose_kernel<true>(kernel) : choose_kernel<false>(kernel);
+      return (volume == Volume::MASS) ? choose_kernel<true, RATES>(kernel)
+                                      : choose_kernel<false, RATES>(kernel);
+    }
+
+    inline Loop choose_density_loop(Kernel kernel, Volume volume, bool rates)
+    {
+      return rates ? choose_volume<true>(kernel, volume) : choose_volume<false>(kernel, volume);
     }
 
     inline Loop choose_rate_loop(Volume volume)

@@ -131,7 +131,8 @@ namespace SPHDissipation {
   struct Terms {
     Shear shear;
     bool optional;
-    bool by_rate;    // mu depends on the rate of shear
+    bool by_rate;      // mu depends on the rate of shear
+    bool one_fluid;    // the same coefficients of all pairs; read with by_rate
   };
 
   // Columns of a row of sums over pairs: torque, if there are spins, then the heat of each of the channels with these bits
@@ -178,7 +179,7 @@ namespace SPHDissipation {
 
     bool spins() const { return shear == Shear::MICROPOLAR; }
     bool conducts() const { return flows >> HEAT_FLOW & 1; }
-    Terms terms() const { return {shear, optional, by_rate}; }
+    Terms terms() const { return {shear, optional, by_rate, uniform}; }
     void set_kernel(Kernel, int dim, double support);
   };
 

@@ -164,8 +164,9 @@ void ViscosityStage::run(int not_fluid)
     shear_rate[i] = rows.is_fluid(i, not_fluid)
         ? sqrt(std::max(shear_rate_squared(rows.par.dim, rates[i], density.cdot / density.c), 0.0))
         : 0.0;
+    rows.set_viscosity(i, shear_rate[i], not_fluid);
   });
-  keep(not_fluid);
+  exchange.forward({{engine.viscosity.data(), 1, 1}});
 }
 
 /* ---------------------------------------------------------------------- */
