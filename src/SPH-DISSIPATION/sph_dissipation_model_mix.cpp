@@ -246,7 +246,8 @@ void FluidModel::check_pair(int i, int j) const
   if (!violated) return;
   std::string values;
   for (int k = 0; k < (i == j ? nviscosity() : npair()); k++)
-    values += fmt::format(" {} = {}", variables[k].name, viscosity(k, i, j));
+    if (k < nviscosity() || viscosity(k, i, j) != 0.0)
+      values += fmt::format(" {} = {}", variables[k].name, viscosity(k, i, j));
   error->all(FLERR, Error::NOLASTLINE, "Pair_coeff {}, not{} of types {} {}", violated, values, j,
              i);
 }
