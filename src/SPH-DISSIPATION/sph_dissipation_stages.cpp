@@ -21,8 +21,8 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
-#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_kernel.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_shift_terms.h"
 
 #include <algorithm>

@@ -263,7 +263,7 @@ def test_table_and_time_step(lammps):
     ("pair_coeff * * 1.0 10.0 0.5 2.0 3.0 tension 0.1", "Pair_coeff keyword tension belongs to two unlike types"),
     ("pair_coeff 1 2 tension 0.1\nfix A all adapt 1 pair sph/bulk tension * * v_b", "tension of type 1 was changed, but it belongs to two unlike types"),
     ("pair_coeff 1 2 tension 0.1\nfix A all adapt 1 pair sph/bulk tension 1 2 v_minus", "Pair_coeff tension must be >= 0"),
-    ("pair_coeff 1 2 tension 0.1\ncompute E all sph/energy\nrun 0 post no\npair_coeff 1 2 tension 0.2\nprint $(c_E)", "run 0 first"),
+    ("pair_coeff 1 2 tension 0.1\ncompute E all sph/energy\nfix G all sph/bulk\nrun 0 post no\npair_coeff 1 2 tension 0.2\nprint $(c_E)", "run 0 first"),
 ])
 def test_bad_input(lammps, line, message):
     particles = disordered(2, 6, ntypes=2)
