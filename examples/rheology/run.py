@@ -96,7 +96,7 @@ def main():
     args = example.arguments()
     n = 20 if args.quick else ROWS
     fluids = [fluid for fluid in FLUIDS if not args.quick or fluid != "bingham"]
-    small = 2.5 if args.quick else 1.0
+    small = 3.0 if args.quick else 1.0
     names = {fluid: fluid.replace(" ", "_") for fluid in fluids}
     example.run({names[fluid]: {"n": n, "support": SUPPORT, "mu": mu, "law": law, "c0": c0, "end": end}
                  for fluid, (mu, law, _, c0, end) in reversed(FLUIDS.items()) if fluid in fluids})
