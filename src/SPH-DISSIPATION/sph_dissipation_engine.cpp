@@ -37,7 +37,7 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
     state_pressure(nullptr), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), divergence(nullptr),
     spin(nullptr), loops(&loops_plain), par(&NO_PARAMETERS), fixed(&NO_PARAMETERS),
-    density_loop(nullptr), square_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), data(),
+    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), data(),
     atom_rows(new ParticleRows()), threads(&one_thread), weights(nullptr), nlocal_forces(-1),
     nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
 {
@@ -91,8 +91,7 @@ void Engine::setup(const Parameters &parameters)
 {
   par = &parameters;
   fixed = &parameters;
-  density_loop = loops->density(par->kernel, par->volume, false);
-  square_loop = par->by_rate ? loops->density(par->kernel, par->volume, true) : density_loop;
+  density_loop = loops->density(par->kernel, par->volume, par->by_rate);
   rate_loop = loops->rates(par->volume);
   const Terms terms = (par->inviscid && !par->spins()) ? Terms{Shear::NONE, false, false, false}
                                                        : par->terms();
@@ -353,7 +352,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.density = density;
   if (par->by_rate) square.resize(pair_max);
   data.square = square.data();
-  run_density(finds_squares ? square_loop : density_loop);
+  run_density(density_loop);
 }
 
 /* ---------------------------------------------------------------------- */

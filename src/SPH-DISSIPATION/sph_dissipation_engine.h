@@ -90,7 +90,7 @@ namespace SPHDissipation {
     int *count;
     int *neighbor;
     double *slope;     // F
-    double *square;    // F (e.u)^2, if pass 1 is to find it
+    double *square;    // F (e.u)^2, if mu depends on the rate of shear
 
     const NoiseData *noise;    // of pass 2 with noise
     double *random;            // the same, for the numbers of the pairs of one particle
@@ -236,7 +236,6 @@ namespace SPHDissipation {
     // where these are nullptr; density[] of owned atoms (with the particle itself) and the
     // contributions to ghost atoms
     void accumulate_density(NeighList *, double **vest, double **omegaest);
-    bool finds_squares = true;    // F (e.u)^2 of the pairs, for rates of shear
 
     // cdot of density[] alone, of the velocities that the caller has set in particle[] on owned and
     // ghost atoms, by the pairs of pass 1
@@ -349,7 +348,7 @@ namespace SPHDissipation {
     const LoopSet *loops;
     const Parameters *par;
     const Constants *fixed;
-    Loop density_loop, square_loop, rate_loop, force_loop;
+    Loop density_loop, rate_loop, force_loop;
     LoopData data;
     const std::unique_ptr<ParticleRows> atom_rows;
     Threads one_thread, *threads;

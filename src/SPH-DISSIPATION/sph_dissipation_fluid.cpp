@@ -319,7 +319,6 @@ bigint Fluid::compute(PairTally *tally)
 
 bigint Fluid::sum_before_forces(StepPlan &plan, bool find_rates)
 {
-  engine->finds_squares = find_rates;
   sum_density();
 
   // noise needs the bound of the limit for the volumes that act in its pairs, those of walls as well

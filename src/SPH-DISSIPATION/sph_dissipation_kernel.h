@@ -140,10 +140,9 @@ namespace SPHDissipation {
   // Maclaurin, or by the part ROWS d^2/R^2 of it.
 
   struct PairEnergyKernel {
-    double weight_norm, slope_norm, support_sq_inv, rows, root;
+    double weight_norm, slope_norm, support_sq_inv, rows;
 
-    PairEnergyKernel(int n, double support) :
-        support_sq_inv(1.0 / (support * support)), root(1.0 / n)
+    PairEnergyKernel(int n, double support) : support_sq_inv(1.0 / (support * support))
     {
       constexpr double NORM[] = {0.0, 15.0 / 16.0, 3.0 / KERNEL_PI, 105.0 / (32.0 * KERNEL_PI)};
       constexpr double ROWS[] = {0.0, 1.0 / 2.0, 7.0 / 12.0, 2.0 / 3.0};
@@ -158,11 +157,8 @@ namespace SPHDissipation {
       return weight_norm * rest * rest;
     }
     double slope(double rsq) const { return slope_norm * (1.0 - rsq * support_sq_inv); }
-    // what rows of particles of these volumes lack, as a factor
-    double of_rows(double vol_i, double vol_j) const
-    {
-      return 1.0 + rows * std::pow(vol_i * vol_j, root);
-    }
+    // what rows of particles of these distances V^(1/n) lack, as a factor
+    double of_rows(double d_i, double d_j) const { return 1.0 + rows * d_i * d_j; }
 
     // integral of |z| W, length
     static double mean_distance(int n, double support)

@@ -353,7 +353,7 @@ void PairEnergyStage::visit(int row, const PairEnergyKernel &kernel, Function &&
       rsq += r[d] * r[d];
     }
     const double w_i = particles.reference_volume(i), w_j = particles.reference_volume(j);
-    function(i, j, r, rsq, a * w_i * w_j * kernel.of_rows(w_i, w_j));
+    function(i, j, r, rsq, a * w_i * w_j * kernel.of_rows(distance[i], distance[j]));
   });
 }
 
@@ -361,6 +361,12 @@ void PairEnergyStage::run(NeighList *list, PairTally *tally)
 {
   const PairEnergyKernel kernel(engine.parameters().dim, engine.parameters().support);
   if (neighbor->ago == 0 || energies != engine.parameters().pair_energy) find_rows(list);
+  const int dim = engine.parameters().dim;
+  distance.resize(atom->nlocal + atom->nghost);
+  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
+    const double volume = engine.rows().reference_volume(i);
+    distance[i] = (dim == 1) ? volume : (dim == 2) ? std::sqrt(volume) : std::cbrt(volume);
+  });
 
   auto add = [&](bigint from, bigint to, ForceSum *force) {
     for (bigint m = from; m < to; m++)

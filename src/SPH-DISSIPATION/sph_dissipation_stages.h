@@ -189,6 +189,8 @@ namespace SPHDissipation {
    private:
     std::vector<int> rows;           // of the neighbor list that have such pairs
     std::vector<double> energies;    // a of the types when they were found
+    std::vector<double>
+        distance;    // V^(1/n) of owned and ghost atoms, with V the reference volume
     ThreadSums<ForceSum> sums;
 
     void find_rows(NeighList *);
