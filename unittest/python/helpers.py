@@ -24,7 +24,7 @@ DEVICE_LOOPS = "kk/device" in SWITCHES or "g" in SWITCHES  # the pair loops of a
 
 # Containers run as root and have fewer cores than ranks; Open MPI has to be told that this is meant.
 # The other settings save time in hundreds of short runs: no wait for ranks that an error has ended, no search
-# for network cards.
+# for network cards and other devices.
 MPI_ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -36,6 +36,7 @@ MPI_ENVIRONMENT = {
     "OMPI_MCA_pml": "ob1",
     "OMPI_MCA_btl": "self,vader",
     "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+    "HWLOC_COMPONENTS": "-pci,-linuxio",
     "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
     "PRTE_MCA_hwloc_default_binding_policy": "none",
 }

@@ -252,8 +252,7 @@ def test_forces_twice_a_step(lammps, inlet, outlet, order, stage):
 # ---------------------------------------------------------------------------------------------
 # flow that reverses
 
-@pytest.mark.parametrize("ranks", [1, 4])
-@pytest.mark.parametrize("kind", ["sq", "hex"])
+@pytest.mark.parametrize("kind, ranks", [("sq", 1), ("hex", 1), ("hex", 2), pytest.param("hex", 4, marks=pytest.mark.long)])
 def test_flow_that_reverses_four_times(lammps, kind, ranks):
     """Two periods of a plug that goes to and fro by more than the zone is long."""
     channel = Channel(kind=kind)

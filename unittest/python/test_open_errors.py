@@ -10,7 +10,7 @@ U = 0.1
 INLET, OUTLET = f"velocity {U} 0 0", "density 1.0"
 
 
-def refused(lammps, message, inlet=INLET, outlet=OUTLET, ranks=(1, 4), run="run 100\n", channel=None, edit=None, **keywords):
+def refused(lammps, message, inlet=INLET, outlet=OUTLET, ranks=(1, 2), run="run 100\n", channel=None, edit=None, **keywords):
     channel = channel or Channel()
     text = channel.text(lammps, inlet, outlet, velocity=lambda place: place * 0 + [U, 0, 0], **keywords) + run
     for number in ranks:

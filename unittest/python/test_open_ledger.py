@@ -96,8 +96,7 @@ def test_ledger_of_other_conditions(lammps, condition):
     assert_balance(lammps.results[-1].thermo()[0], PLANE)
 
 
-@pytest.mark.parametrize("style", ["sph/bulk", "sph/micropolar"])
-@pytest.mark.parametrize("ranks", [1, 4])
+@pytest.mark.parametrize("style, ranks", [("sph/bulk", 1), ("sph/micropolar", 2), pytest.param("sph/bulk", 4, marks=pytest.mark.long)])
 def test_ledger_with_walls_and_body_force(lammps, style, ranks):
     """fix sph/wall and fix addforce have accounts of their own for the rest: by the trapezoidal rule, exactly.  The walls are
     beyond the reach of the zones, whose particles press on walls, too."""
