@@ -314,8 +314,9 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow)
       const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-      const double heat = surface_heat(flux, f.vol, r, engine.pairs().slope[pair.entry],
-                                       surface.surface[pair.wall]);
+      const double heat =
+          surface_heat(flux, f.vol, r, engine.slope(pair.fluid, pair.wall, pair.entry),
+                       surface.surface[pair.wall]);
       sum[pair.fluid] += heat;
       sum[pair.wall] -= heat;
     }
@@ -361,7 +362,7 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
   }
   if (engine.parameters().thermal && !is_body(pair.wall))
     force.pressing = engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g *
-        engine.pairs().slope[pair.entry];
+        engine.slope(pair.fluid, pair.wall, pair.entry);
   force.repulsion = repulsion_of(stiffness(pair.fluid), over(pair.fluid), contact[pair.wall],
                                  sqrt(inner_product(force.r, force.r)));
   return force;
@@ -386,7 +387,8 @@ void BoundaryStage::run_friction(FrictionPart part, const StepNoise *noise, bool
       const double factor = (part == FrictionPart::BODY) ? 1.0
           : (part == FrictionPart::ADDED)                ? surface_factor(s, r) - 1.0
                                                          : surface_factor(s, r);
-      SurfacePair one = {pair.fluid, pair.wall, factor * engine.pairs().slope[pair.entry], {}, {}};
+      SurfacePair one = {
+          pair.fluid, pair.wall, factor * engine.slope(pair.fluid, pair.wall, pair.entry), {}, {}};
       for (int d = 0; d < 3; d++) {
         one.u[d] = f.u[d] - w.u[d] + turn[d];
         if (engine.has_spin())

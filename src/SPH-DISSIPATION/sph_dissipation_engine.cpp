@@ -37,9 +37,9 @@ Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
     state_pressure(nullptr), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), divergence(nullptr),
     spin(nullptr), loops(&loops_plain), par(&NO_PARAMETERS), fixed(&NO_PARAMETERS),
-    density_loop(nullptr), rate_loop(nullptr), force_loop(nullptr), data(),
-    atom_rows(new ParticleRows()), threads(&one_thread), weights(nullptr), nlocal_forces(-1),
-    nghost_forces(-1), nmax(0), nmax_weights(0), imax(0), pair_max(0)
+    rate_loop(nullptr), force_loop(nullptr), data(), atom_rows(new ParticleRows()),
+    threads(&one_thread), weights(nullptr), slopes(nullptr), nlocal_forces(-1), nghost_forces(-1),
+    nmax(0), nmax_weights(0), imax(0), pair_max(0), slope_max(0)
 {
   choose_loops("auto");
 }
@@ -59,7 +59,7 @@ Engine::~Engine()
   memory->sfree(data.first);
   memory->sfree(data.count);
   memory->sfree(data.neighbor);
-  memory->sfree(data.slope);
+  memory->sfree(slopes);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -91,7 +91,6 @@ void Engine::setup(const Parameters &parameters)
 {
   par = &parameters;
   fixed = &parameters;
-  density_loop = loops->density(par->kernel, par->volume, par->by_rate);
   rate_loop = loops->rates(par->volume);
   const Terms terms = (par->inviscid && !par->spins()) ? Terms{Shear::NONE, false, false, false}
                                                        : par->terms();
@@ -131,7 +130,7 @@ void Engine::grow_atoms()
    pass 2 looks at ahead of the last one.
 ------------------------------------------------------------------------- */
 
-void Engine::grow_pairs(NeighList *list)
+void Engine::grow_pairs(NeighList *list, Leave leave)
 {
   constexpr int PARTS = 256;    // of the rows of a thread: it gets whole ones
   if (list->inum > imax) {
@@ -167,12 +166,17 @@ void Engine::grow_pairs(NeighList *list)
   }
 
   npair += nthread * 3 * BLOCK;
-  if (npair <= pair_max) return;
-  pair_max = npair + npair / 16;
-  memory->sfree(data.neighbor);
-  memory->sfree(data.slope);
-  data.neighbor = (int *) memory->smalloc(pair_max * sizeof(int), "sph:neighbor");
-  data.slope = (double *) memory->smalloc(pair_max * sizeof(double), "sph:slope");
+  if (npair > pair_max) {
+    pair_max = npair + npair / 16;
+    memory->sfree(data.neighbor);
+    data.neighbor = (int *) memory->smalloc(pair_max * sizeof(int), "sph:neighbor");
+  }
+  if (leave != Leave::NEIGHBOR && slope_max < pair_max) {
+    slope_max = pair_max;
+    memory->sfree(slopes);
+    slopes = (double *) memory->smalloc(slope_max * sizeof(double), "sph:slope");
+  }
+  data.slope = (leave == Leave::NEIGHBOR) ? nullptr : slopes;
 }
 
 /* ----------------------------------------------------------------------
@@ -291,11 +295,15 @@ void Engine::set_weights()
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_density(NeighList *list, double **vest, double **omegaest)
+void Engine::accumulate_density(NeighList *list, double **vest, double **omegaest, bool slopes_read)
 {
+  const Leave leave = par->by_rate             ? Leave::SQUARE
+      : slopes_read || !loops->computes_slopes ? Leave::SLOPE
+                                               : Leave::NEIGHBOR;
   grow_atoms();
-  grow_pairs(list);
+  grow_pairs(list, leave);
 
+  constexpr double FAR = 1.0e15;    // where spare particles are, outside of any support
   static constexpr double REST[3] = {0.0, 0.0, 0.0};
   double **x = atom->x;
   const int nlocal = atom->nlocal;
@@ -319,6 +327,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
 
   for (int i = nall; i < nall + BLOCK; i++) {
     particle[i] = Particle();
+    particle[i].x[0] = FAR * par->support;
     density[i] = DensitySum();
     zeta_term[i] = 0.0;
     if (has_spin()) spin[i] = Spin();
@@ -352,7 +361,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.density = density;
   if (par->by_rate) square.resize(pair_max);
   data.square = square.data();
-  run_density(density_loop);
+  run_density(loops->density(par->kernel, par->volume, leave));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -364,6 +373,18 @@ void Engine::accumulate_rates()
     density[i].cdot = 0.0;
   });
   run_density(rate_loop);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double Engine::slope_of(int i, int j) const
+{
+  double rsq = 0.0;
+  for (int d = 0; d < 3; d++) {
+    const double r = particle[i].x[d] - particle[j].x[d];
+    rsq += r * r;
+  }
+  return kernel_slope(par->kernel, par->dim, sqrt(rsq), par->support);
 }
 
 /* ----------------------------------------------------------------------
@@ -406,7 +427,7 @@ void Engine::set_square(int i, int j, bigint entry)
     rsq += r * r;
     approach += r * (a.u[d] - b.u[d]);
   }
-  if (rsq > 0.0) square[entry] = data.slope[entry] * approach * (approach / rsq);
+  if (rsq > 0.0) square[entry] = slope(i, j, entry) * approach * (approach / rsq);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -644,8 +665,8 @@ double Engine::memory_usage() const
   double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double);
   if (has_spin()) per_atom += sizeof(Spin);
   double sum = nmax * per_atom + (double) nmax_weights * sizeof(double) +
-      (double) imax * (sizeof(bigint) + sizeof(int)) +
-      (double) pair_max * (sizeof(int) + sizeof(double)) +
+      (double) imax * (sizeof(bigint) + sizeof(int)) + (double) pair_max * sizeof(int) +
+      (double) slope_max * sizeof(double) +
       bytes(viscosity, square, volume, energy, wall_energy, wall_energy_tags, types);
   for (const auto &rows : flow) sum += bytes(rows);
   for (const auto &rates : flow_rate) sum += bytes(rates);

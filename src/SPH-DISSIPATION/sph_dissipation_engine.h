@@ -89,13 +89,16 @@ namespace SPHDissipation {
     bigint *first;
     int *count;
     int *neighbor;
-    double *slope;     // F
+    double *slope;     // F, or nullptr: pass 2 computes it again
     double *square;    // F (e.u)^2, if mu depends on the rate of shear
 
     const NoiseData *noise;    // of pass 2 with noise
     double *random;            // the same, for the numbers of the pairs of one particle
     PairTally *tally;          // nullptr if nobody asks
   };
+
+  // what pass 1 leaves of each pair inside the support: its neighbor; F as well; and F (e.u)^2, for the rates of shear
+  enum class Leave { NEIGHBOR, SLOPE, SQUARE };
 
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
@@ -122,7 +125,8 @@ namespace SPHDissipation {
 
   struct LoopSet {
     const char *name;
-    Loop (*density)(Kernel, Volume, bool rates);    // with F (e.u)^2 of the pairs
+    bool computes_slopes;    // pass 2 computes F faster than it reads it
+    Loop (*density)(Kernel, Volume, Leave);
     Loop (*rates)(Volume);
     RateLoop shear_rates;
     Loop (*forces)(const Terms &, Bulk, Volume);
@@ -234,8 +238,8 @@ namespace SPHDissipation {
 
     // pass 1: particle[] from atom->x and vest, spin[] from omegaest (micropolar), which are zero
     // where these are nullptr; density[] of owned atoms (with the particle itself) and the
-    // contributions to ghost atoms
-    void accumulate_density(NeighList *, double **vest, double **omegaest);
+    // contributions to ghost atoms; slopes_read: by other loops than that of the forces, or by stages
+    void accumulate_density(NeighList *, double **vest, double **omegaest, bool slopes_read);
 
     // cdot of density[] alone, of the velocities that the caller has set in particle[] on owned and
     // ghost atoms, by the pairs of pass 1
@@ -282,8 +286,12 @@ namespace SPHDissipation {
     bool has_forces() const;    // force[] is of the owned and ghost atoms that are there now
 
     // the pairs inside the support that pass 1 has found, for the sums of other stages: function(i, j, entry) for each of
-    // them, or for those in the row ii of the neighbor list; entry: of slope in pairs()
+    // them, or for those in the row ii of the neighbor list
     const LoopData &pairs() const { return data; }
+    double slope(int i, int j, bigint entry) const    // F
+    {
+      return data.slope ? data.slope[entry] : slope_of(i, j);
+    }
     template <class Function> void visit_pairs(Function &&function) const
     {
       for (int ii = 0; ii < data.inum; ii++) visit_pairs(ii, function);
@@ -348,7 +356,7 @@ namespace SPHDissipation {
     const LoopSet *loops;
     const Parameters *par;
     const Constants *fixed;
-    Loop density_loop, rate_loop, force_loop;
+    Loop rate_loop, force_loop;
     LoopData data;
     const std::unique_ptr<ParticleRows> atom_rows;
     Threads one_thread, *threads;
@@ -368,14 +376,17 @@ namespace SPHDissipation {
     ThreadSums<double> side_sums;
     ThreadSums<double> scalar_sums;    // of all else that is one number
 
+    double *slopes;    // F of pairs, if pass 1 leaves them
+
     int nlocal_forces, nghost_forces;    // # of atoms that force[] is of
     int nmax, nmax_weights, imax;
-    bigint pair_max;
+    bigint pair_max, slope_max;
 
+    double slope_of(int i, int j) const;
     void grow_atoms();
     void set_rows();
     void set_weights();
-    void grow_pairs(NeighList *);
+    void grow_pairs(NeighList *, Leave);
     LoopData part(int thread) const;
     LoopData part(PairSubset &) const;
     double *room_for_numbers(int thread, const LoopData &);

@@ -45,29 +45,9 @@ namespace SPHDissipation {
     return (n == 1) ? 2.0 : (n == 2) ? 2.0 * KERNEL_PI : 4.0 * KERNEL_PI;
   }
 
-#include "sph_dissipation_kernel_shapes.h"
-
   enum class Kernel { WENDLAND_C2, WENDLAND_C4, WENDLAND_C6, CUBIC, QUINTIC, LUCY };
 
-  // call function(KernelClass()) for the kernel chosen at run time
-
-  template <class Function> auto with_kernel(Kernel kernel, Function &&function)
-  {
-    switch (kernel) {
-      case Kernel::WENDLAND_C4:
-        return function(WendlandC4());
-      case Kernel::WENDLAND_C6:
-        return function(WendlandC6());
-      case Kernel::CUBIC:
-        return function(CubicSpline());
-      case Kernel::QUINTIC:
-        return function(QuinticSpline());
-      case Kernel::LUCY:
-        return function(Lucy());
-      default:
-        return function(WendlandC2());
-    }
-  }
+#include "sph_dissipation_kernel_shapes.h"
 
   inline const char *kernel_name(Kernel kernel)
   {

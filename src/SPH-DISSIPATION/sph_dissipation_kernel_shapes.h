@@ -139,3 +139,23 @@ struct QuinticSpline {
     return (s < 1.0) ? inner : outer;
   }
 };
+
+// call function(KernelClass()) for the kernel chosen at run time
+
+template <class Function> SPH_INLINE auto with_kernel(Kernel kernel, Function &&function)
+{
+  switch (kernel) {
+    case Kernel::WENDLAND_C4:
+      return function(WendlandC4());
+    case Kernel::WENDLAND_C6:
+      return function(WendlandC6());
+    case Kernel::CUBIC:
+      return function(CubicSpline());
+    case Kernel::QUINTIC:
+      return function(QuinticSpline());
+    case Kernel::LUCY:
+      return function(Lucy());
+    default:
+      return function(WendlandC2());
+  }
+}

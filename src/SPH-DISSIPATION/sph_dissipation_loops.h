@@ -45,15 +45,16 @@ namespace SPHDissipation {
     }
 
     // pass 1: c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED
-    // leaves the pairs inside the support for pass 2; RATES: with F (e.u)^2, for the rates of shear
+    // W and F are zero at the support, and so where particles are farther apart, as spare ones are
 
-    template <class K, bool WEIGHTED, bool RATES> void density_loop(LoopData &data)
+    template <class K, bool WEIGHTED, Leave LEAVE> void density_loop(LoopData &data)
     {
       const Particle *const particle = data.particle;
       const Parameters &par = *data.par;
       const double weight_norm = par.weight_norm, slope_norm = par.slope_norm;
-      const Vec support_sq = all(par.support * par.support);
+      const Vec support_sq = all(par.support * par.support), one = all(1.0);
       const double support_inv = 1.0 / par.support;
+      constexpr bool SLOPES = LEAVE != Leave::NEIGHBOR, SQUARES = LEAVE == Leave::SQUARE;
       bigint next = data.begin;
 
       for (int ii = 0; ii < data.inum; ii++) {
@@ -62,8 +63,8 @@ namespace SPHDissipation {
         const int jnum = data.numneigh[i];
         const Particle pi = particle[i];
         int *const neighbor = data.neighbor + next;
-        double *const slope = data.slope + next;
-        double *const square = RATES ? data.square + next : nullptr;
+        double *const slope = SLOPES ? data.slope + next : nullptr;
+        double *const square = SQUARES ? data.square + next : nullptr;
         int n = 0;
         Vec total[2] = {all(0.0), all(0.0)};
 
@@ -75,16 +76,15 @@ namespace SPHDissipation {
           load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
           load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
           const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
-          const Vec ux = pi.u[0] - pj[3], uy = pi.u[1] - pj[4], uz = pi.u[2] - pj[5];
+          const Vec ux = pj[3] - pi.u[0], uy = pj[4] - pi.u[1], uz = pj[5] - pi.u[2];
           const Vec rsq = dx * dx + dy * dy + dz * dz;
           const Vec approach = dx * ux + dy * uy + dz * uz;
-          int inside = bits_below(rsq, support_sq);
-          if (jnum - jj < LANES) inside &= (1 << (jnum - jj)) - 1;
+          const int inside = bits_below(rsq, support_sq);
+          if (LANES == 1 && !inside) continue;
 
-          const Vec q = square_root(rsq) * support_inv;
+          const Vec q = smaller(square_root(rsq) * support_inv, one);
           const Vec f = slope_norm * K::slope(q);
-          Vec sums[2] = {if_bits(inside, weight_norm * K::shape(q)),
-                         if_bits(inside, -f * approach)};
+          Vec sums[2] = {weight_norm * K::shape(q), f * approach};
           if constexpr (WEIGHTED) {
             const Vec weight = gather(data.weight, j);
             for (int c = 0; c < 2; c++) {
@@ -95,8 +95,8 @@ namespace SPHDissipation {
             for (int c = 0; c < 2; c++) total[c] += sums[c];
           add_2_columns<WIDTH<DensitySum>>(numbers(data.density), j, sums);
 
-          pack(slope + n, f, inside);
-          if constexpr (RATES) pack(square + n, f * approach * (approach / (rsq + TINY)), inside);
+          if constexpr (SLOPES) pack(slope + n, f, inside);
+          if constexpr (SQUARES) pack(square + n, f * approach * (approach / (rsq + TINY)), inside);
           pack(neighbor + n, j, inside);
           n += count_bits(inside);
         }
@@ -105,8 +105,8 @@ namespace SPHDissipation {
 
         // fill up the last block with spare particles and F = 0
 
-        store(slope + n, all(0.0));
-        if constexpr (RATES) store(square + n, all(0.0));
+        if constexpr (SLOPES) store(slope + n, all(0.0));
+        if constexpr (SQUARES) store(square + n, all(0.0));
         for (int l = 0; l < LANES; l++) neighbor[n + l] = data.spare + l;
         data.count[ii] = n;
         data.first[ii] = next;
@@ -234,11 +234,36 @@ namespace SPHDissipation {
 
 #include "sph_dissipation_noise_loops.h"
 
-    // positions and velocities of a block of pairs; volume and g of the neighbors
+    // F of pairs as pass 1 computes it: with wide vectors faster than by way of the memory
 
-    template <class Form>
-    SPH_INLINE void load_pair(PairState &pair, const Particle &pi, const Particle *particle,
-                              const int *j, Vec slope, Vec &vol, Vec &g)
+    constexpr bool COMPUTES_SLOPES = LANES == 8;
+
+    struct PairSlope {
+      const Kernel kernel;
+      const double support_inv, norm;
+
+      explicit PairSlope(const Constants &par) :
+          kernel(par.kernel), support_inv(1.0 / par.support), norm(par.slope_norm)
+      {
+      }
+      SPH_INLINE Vec operator()(Vec rsq) const
+      {
+        const Vec q = smaller(square_root(rsq) * support_inv, all(1.0));
+        return norm * LOOPS::with_kernel(kernel, At{q});
+      }
+
+     private:
+      struct At {
+        const Vec q;
+        template <class K> SPH_INLINE Vec operator()(K) const { return K::slope(q); }
+      };
+    };
+
+    // positions and velocities of a block of pairs; volume and g of the neighbors; slope_of(r^2) is F
+
+    template <class Form, class Slope>
+    SPH_INLINE Vec load_pair(PairState &pair, const Particle &pi, const Particle *particle,
+                             const int *j, Slope &&slope_of, Vec &vol, Vec &g)
     {
       Vec pj[8];
       load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
@@ -249,7 +274,8 @@ namespace SPHDissipation {
       }
       vol = pj[6];
       g = pj[7];
-      pair.vv = volumes_slope(dot(pair.r, pair.r), pi.vol, vol, slope);
+      const Vec rsq = dot(pair.r, pair.r), slope = slope_of(rsq);
+      pair.vv = volumes_slope(rsq, pi.vol, vol, slope);
       pair.approach = dot(pair.r, pair.u);
       const Vec nothing = all(-0.0);    // to which compilers add without an instruction
       pair.heat[0] = Form::heats(0) ? nothing : all(0.0);
@@ -257,6 +283,7 @@ namespace SPHDissipation {
         if (Form::heats(c)) pair.heat[c] = nothing;
       if constexpr (Form::SPINS)
         for (int d = 0; d < 3; d++) pair.t[d] = pair.spin[d] = nothing;
+      return slope;
     }
 
     // torque, and heat of all channels but the first: to the neighbors and to the totals of the particle, in the columns
@@ -320,6 +347,8 @@ namespace SPHDissipation {
       const double *const weight = (data.par->volume == Volume::MASS) ? data.weight : nullptr;
       const CoeffTable<PairCoeff> table(data.par->pair.data(), data);
       Coeffs<PairCoeff, Form> coeffs(table);
+      const bool again = !data.slope;    // pass 1 has left no F
+      const PairSlope slope_again(*data.par);
       const typename Noise::Table noise_table(data);
       Noise noise(data, noise_table);
 
@@ -332,7 +361,7 @@ namespace SPHDissipation {
         const double mu_i = Form::BY_RATE ? data.viscosity[i] : 0.0;
         const int n = data.count[ii];
         const int *const neighbor = data.neighbor + data.first[ii];
-        const double *const slope_of = data.slope + data.first[ii];
+        const double *const slope_of = again ? nullptr : data.slope + data.first[ii];
         Vec total_f[4] = {all(0.0), all(0.0), all(0.0), all(0.0)};
         Vec total_flux = all(0.0);
         SideSums<Form> side;
@@ -341,9 +370,14 @@ namespace SPHDissipation {
           const int *const j = neighbor + k;
           PairState pair;
           pair.coeff = coeffs.a;
-          const Vec slope = load(slope_of + k);
           Vec vol, g;
-          load_pair<Form>(pair, pi, particle, j, slope, vol, g);
+          const Vec slope = load_pair<Form>(
+              pair, pi, particle, j,
+              [&](Vec rsq) {
+                return (COMPUTES_SLOPES && !Noise::ON && again) ? slope_again(rsq)
+                                                                : load(slope_of + k);
+              },
+              vol, g);
           fetch_ahead<Form>(data, j);
           const Vec rsq = dot(pair.r, pair.r);
 
@@ -365,7 +399,7 @@ namespace SPHDissipation {
             inverse = 1.0 / (rsq + TINY);
             pair.by_metric = pair.vv * inverse;
           } else if constexpr (Form::CENTRAL || Noise::ON)
-            pair.by_metric = pair.vv / (metric + TINY);
+            pair.by_metric = pair.vv * (1.0 / (metric + TINY));    // F comes late
           if constexpr (Noise::ON) {
             noise.draw(j, pair.r[0], pair.r[1], pair.r[2], slope, pair.vv, metric, pair.by_metric,
                        inverse);
@@ -474,9 +508,13 @@ namespace SPHDissipation {
           const int *const j = neighbor + k;
           PairState pair;
           pair.coeff = coeffs.a;
-          const Vec slope = load(slope_of + k);
           Vec vol, g, a_j[4], other[4];
-          load_pair<Form>(pair, pi, particle, j, slope, vol, g);
+          const Vec slope = load_pair<Form>(
+              pair, pi, particle, j,
+              [&](Vec) {
+                return load(slope_of + k);
+              },
+              vol, g);
           load_4_columns<WIDTH<Acceleration>>(numbers(noise.acceleration), j, a_j);
           load_4_columns<WIDTH<NoiseRow>>(numbers(noise.row), j, other);
           for (int l = 0; l < LANES; l++) {
@@ -673,33 +711,20 @@ namespace SPHDissipation {
       return alike ? choose_diffusion<true>(part, dim) : choose_diffusion<false>(part, dim);
     }
 
-    template <bool WEIGHTED, bool RATES> Loop choose_kernel(Kernel kernel)
+    template <bool WEIGHTED> Loop choose_density(Kernel kernel, Leave leave)
     {
-      switch (kernel) {
-        case Kernel::WENDLAND_C4:
-          return density_loop<WendlandC4, WEIGHTED, RATES>;
-        case Kernel::WENDLAND_C6:
-          return density_loop<WendlandC6, WEIGHTED, RATES>;
-        case Kernel::CUBIC:
-          return density_loop<CubicSpline, WEIGHTED, RATES>;
-        case Kernel::QUINTIC:
-          return density_loop<QuinticSpline, WEIGHTED, RATES>;
-        case Kernel::LUCY:
-          return density_loop<Lucy, WEIGHTED, RATES>;
-        default:
-          return density_loop<WendlandC2, WEIGHTED, RATES>;
-      }
+      return LOOPS::with_kernel(kernel, [=](auto k) -> Loop {
+        using K = decltype(k);
+        return (leave == Leave::NEIGHBOR) ? density_loop<K, WEIGHTED, Leave::NEIGHBOR>
+            : (leave == Leave::SLOPE)     ? density_loop<K, WEIGHTED, Leave::SLOPE>
+                                          : density_loop<K, WEIGHTED, Leave::SQUARE>;
+      });
     }
 
-    template <bool RATES> Loop choose_volume(Kernel kernel, Volume volume)
+    inline Loop choose_density_loop(Kernel kernel, Volume volume, Leave leave)
     {
-      return (volume == Volume::MASS) ? choose_kernel<true, RATES>(kernel)
-                                      : choose_kernel<false, RATES>(kernel);
-    }
-
-    inline Loop choose_density_loop(Kernel kernel, Volume volume, bool rates)
-    {
-      return rates ? choose_volume<true>(kernel, volume) : choose_volume<false>(kernel, volume);
+      return (volume == Volume::MASS) ? choose_density<true>(kernel, leave)
+                                      : choose_density<false>(kernel, leave);
     }
 
     inline Loop choose_rate_loop(Volume volume)
@@ -795,6 +820,7 @@ namespace SPHDissipation {
   }    // namespace LOOPS
 
   const LoopSet LOOPS_SET = {LOOPS_NAME,
+                             LOOPS::COMPUTES_SLOPES,
                              LOOPS::choose_density_loop,
                              LOOPS::choose_rate_loop,
                              LOOPS::shear_rate_loop,

@@ -198,7 +198,6 @@ void OpenStage::find_rows(NeighList *list)
 
 OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
 {
-  const LoopData &all = engine.pairs();
   const double zone = static_cast<double>(k + 1);
   const Particle *const particle = engine.particle;
   const bool by_volume = (engine.constants().bulk == Bulk::VOLUME);
@@ -215,16 +214,17 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
     engine.visit_pairs(ii, [&](int i, int j, bigint entry) {
       if (!(zone_of[i] == zone && zone_of[j] == 0.0) && !(zone_of[j] == zone && zone_of[i] == 0.0))
         return;
-      pairs.add(j, all.slope[entry]);
+      const double slope = engine.slope(i, j, entry);
+      pairs.add(j, slope);
       const int fluid = (zone_of[i] == 0.0) ? i : j, other = (zone_of[i] == 0.0) ? j : i;
       if (fluid >= mine) return;
       const Particle &f = particle[fluid], &z = particle[other];
       double flux = 0.0;
-      for (int d = 0; d < 3; d++) flux += all.slope[entry] * (f.x[d] - z.x[d]) * (f.u[d] - z.u[d]);
+      for (int d = 0; d < 3; d++) flux += slope * (f.x[d] - z.x[d]) * (f.u[d] - z.u[d]);
       total.power -= engine.weight(fluid) * engine.weight(other) * f.g * flux;
       if (by_volume) total.power -= engine.zeta_term[fluid] * f.vol * z.vol * flux;
     });
-    pairs.end_row(all.spare);
+    pairs.end_row(engine.pairs().spare);
   }
 
   const std::size_t nrow = (std::size_t) atom->nlocal + atom->nghost + BLOCK;

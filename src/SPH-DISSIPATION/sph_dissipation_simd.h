@@ -19,13 +19,12 @@
 //   all(a)              a in every lane
 //   if_positive(a, b)   b where a > 0, else 0
 //   smaller(a, b), larger(a, b)
-//   bits_below(a, b)    one bit per lane, set where a < b; for if_bits() and pack()
-//   if_bits(bits, a)    a where the bit is set, else 0
+//   bits_below(a, b)    one bit per lane, set where a < b; for pack()
 //   count_bits(bits)    how many are set
 //   pack(to, a, bits)   write the lanes whose bits are set one after another; what follows them in
 //                       the next LANES entries is undefined
 //   copy_neighbors()    copy n indices, without the bits that LAMMPS puts into them, and fill up the
-//                       last block by fill, fill + 1, ...
+//                       last block by numbers of fill, fill + 1, ...
 //   gather(from, i)     from[i[0]] to from[i[LANES-1]]
 //   indices_of(from, i) the whole numbers from[i[0]] to from[i[LANES-1]], for pick()
 //   pick(from, indices) numbers of from, at the indices modulo LANES
@@ -126,10 +125,6 @@ namespace SPHDissipation {
     SPH_INLINE int bits_below(Vec a, Vec bound)
     {
       return _mm512_cmp_pd_mask(a, bound, _CMP_LT_OQ);
-    }
-    SPH_INLINE Vec if_bits(int bits, Vec value)
-    {
-      return _mm512_maskz_mov_pd(static_cast<__mmask8>(bits), value);
     }
     SPH_INLINE void pack(double *to, Vec a, int bits)
     {
@@ -321,13 +316,6 @@ namespace SPHDissipation {
       return _mm256_movemask_pd(_mm256_cmp_pd(a, bound, _CMP_LT_OQ));
     }
 
-    SPH_INLINE Vec if_bits(int bits, Vec value)
-    {
-      const __m256i lane_bit = _mm256_setr_epi64x(1, 2, 4, 8);
-      const __m256i lanes = _mm256_and_si256(_mm256_set1_epi64x(bits), lane_bit);
-      return _mm256_and_pd(_mm256_castsi256_pd(_mm256_cmpeq_epi64(lanes, lane_bit)), value);
-    }
-
     // PACK[bits]: the lanes whose bits are set first, each lane as a pair of 32-bit halves
 
     alignas(32) constexpr int PACK[16][8] = {
@@ -344,13 +332,42 @@ namespace SPHDissipation {
       const __m256 packed = _mm256_permutevar8x32_ps(_mm256_castpd_ps(a), order);
       _mm256_storeu_pd(to, _mm256_castps_pd(packed));
     }
+    // PACK_BYTES[bits]: the 32-bit lanes whose bits are set first, byte by byte
+
+    struct PackBytes {
+      alignas(16) unsigned char order[16][16];
+      constexpr PackBytes() : order()
+      {
+        for (int bits = 0; bits < 16; bits++)
+          for (int lane = 0, n = 0; lane < 4; lane++) {
+            if (!((bits >> lane) & 1)) continue;
+            for (int byte = 0; byte < 4; byte++)
+              order[bits][4 * n + byte] = static_cast<unsigned char>(4 * lane + byte);
+            n++;
+          }
+      }
+    };
+    constexpr PackBytes PACK_BYTES;
+
     SPH_INLINE void pack(int *to, const int *from, int bits)
     {
-      int n = 0;
-      for (int l = 0; l < LANES; l++) {
-        to[n] = from[l];
-        n += (bits >> l) & 1;
+      const __m128i order =
+          _mm_load_si128(reinterpret_cast<const __m128i *>(PACK_BYTES.order[bits]));
+      const __m128i a = _mm_loadu_si128(reinterpret_cast<const __m128i *>(from));
+      _mm_storeu_si128(reinterpret_cast<__m128i *>(to), _mm_shuffle_epi8(a, order));
+    }
+    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int fill)
+    {
+      const __m128i lanes = _mm_setr_epi32(0, 1, 2, 3), bits = _mm_set1_epi32(NEIGHMASK);
+      int k = 0;
+      for (; k + LANES <= n; k += LANES) {
+        const __m128i j = _mm_loadu_si128(reinterpret_cast<const __m128i *>(from + k));
+        _mm_storeu_si128(reinterpret_cast<__m128i *>(to + k), _mm_and_si128(j, bits));
       }
+      const __m128i there = _mm_cmpgt_epi32(_mm_set1_epi32(n - k), lanes);
+      const __m128i j = _mm_and_si128(_mm_maskload_epi32(from + k, there), bits);
+      const __m128i fills = _mm_add_epi32(_mm_set1_epi32(fill), lanes);
+      _mm_storeu_si128(reinterpret_cast<__m128i *>(to + k), _mm_blendv_epi8(fills, j, there));
     }
     SPH_INLINE double sum(Vec a)
     {
@@ -385,34 +402,10 @@ namespace SPHDissipation {
                             _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from + k)));
     }
 
-    // PACK_BYTES[bits]: the 32-bit lanes whose bits are set first, byte by byte; of half a vector
-
-    struct PackBytes {
-      alignas(16) unsigned char order[16][16];
-      constexpr PackBytes() : order()
-      {
-        for (int bits = 0; bits < 16; bits++)
-          for (int lane = 0, n = 0; lane < 4; lane++) {
-            if (!((bits >> lane) & 1)) continue;
-            for (int byte = 0; byte < 4; byte++)
-              order[bits][4 * n + byte] = static_cast<unsigned char>(4 * lane + byte);
-            n++;
-          }
-      }
-    };
-    constexpr PackBytes PACK_BYTES;
-
-    SPH_INLINE void pack_half(int *to, const int *from, int bits)
-    {
-      const __m128i order =
-          _mm_load_si128(reinterpret_cast<const __m128i *>(PACK_BYTES.order[bits]));
-      const __m128i a = _mm_loadu_si128(reinterpret_cast<const __m128i *>(from));
-      _mm_storeu_si128(reinterpret_cast<__m128i *>(to), _mm_shuffle_epi8(a, order));
-    }
     SPH_INLINE void pack_indices(int *to, const int *from, int bits)
     {
-      pack_half(to, from, bits & 15);
-      pack_half(to + __builtin_popcount(bits & 15), from + 4, bits >> 4);
+      pack(to, from, bits & 15);
+      pack(to + __builtin_popcount(bits & 15), from + 4, bits >> 4);
     }
 
     SPH_INLINE void transpose(Vec &a, Vec &b, Vec &c, Vec &d)
@@ -511,10 +504,6 @@ namespace SPHDissipation {
     {
       return (a < bound) ? 1 : 0;
     }
-    SPH_INLINE Vec if_bits(int bits, Vec value)
-    {
-      return bits ? value : 0.0;
-    }
     SPH_INLINE void pack(double *to, Vec a, int)
     {
       *to = a;
@@ -522,6 +511,10 @@ namespace SPHDissipation {
     SPH_INLINE void pack(int *to, const int *from, int)
     {
       *to = *from;
+    }
+    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int)
+    {
+      for (int k = 0; k < n; k++) to[k] = from[k] & NEIGHMASK;
     }
     SPH_INLINE int count_bits(int bits)
     {
@@ -576,16 +569,6 @@ namespace SPHDissipation {
     template <int N> SPH_INLINE void add_2_columns(double *row, const int *i, const Vec *column)
     {
       for (int c = 0; c < 2; c++) at<N>(row, *i)[c] += column[c];
-    }
-
-#endif
-
-#if !defined(LOOPS_AVX512)
-
-    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int fill)
-    {
-      for (int k = 0; k < n; k++) to[k] = from[k] & NEIGHMASK;
-      for (int l = 0; l < LANES; l++) to[n + l] = fill + l;
     }
 
 #endif

@@ -34,17 +34,19 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-void DensityStage::run(NeighList *list, double **vest, double **omegaest, int not_fluid)
+void DensityStage::run(NeighList *list, double **vest, double **omegaest, int not_fluid,
+                       bool slopes_read)
 {
-  sum(list, vest, omegaest, not_fluid);
+  sum(list, vest, omegaest, not_fluid, slopes_read);
   send(false, 0, 0, 0);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void DensityStage::sum(NeighList *list, double **vest, double **omegaest, int not_fluid)
+void DensityStage::sum(NeighList *list, double **vest, double **omegaest, int not_fluid,
+                       bool slopes_read)
 {
-  engine.accumulate_density(list, vest, omegaest);
+  engine.accumulate_density(list, vest, omegaest, slopes_read);
   exchange.reverse({field(engine.density, &engine.density->c, 2)});
   if (!engine.parameters().continuity) return;
   const ParticleRows &rows = engine.rows();
@@ -56,13 +58,13 @@ void DensityStage::sum(NeighList *list, double **vest, double **omegaest, int no
 /* ---------------------------------------------------------------------- */
 
 void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool at_rest,
-                       double missing, int not_fluid)
+                       double missing, int not_fluid, bool slopes_read)
 {
   const bool states = engine.parameters().states;
   const bool completes = engine.parameters().own_temperatures;
   const int flows = engine.parameters().loops_of_flows;
-  if (!states && !flows && !completes) return run(list, vest, omegaest, not_fluid);
-  sum(list, vest, omegaest, not_fluid);
+  if (!states && !flows && !completes) return run(list, vest, omegaest, not_fluid, slopes_read);
+  sum(list, vest, omegaest, not_fluid, slopes_read);
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal, [&](int i) {
     rows.set_density(i);
@@ -121,7 +123,6 @@ void LimitStage::run()
   const int nall = atom->nlocal + atom->nghost;
   std::fill_n(bound, nall, 0.0);
 
-  const LoopData &pairs = engine.pairs();
   const Particle *const particle = engine.particle;
   const int *const type = atom->type;
   const Parameters &par = engine.parameters();
@@ -134,7 +135,7 @@ void LimitStage::run()
     }
     const double weight =
         central_weight(par.shear, par.pair[type[i] * par.ntypes_1 + type[j]], sqrt(rsq));
-    const PairBound pair = bound_of_pair(weight, pairs.slope[entry], rsq, particle[i].vol,
+    const PairBound pair = bound_of_pair(weight, engine.slope(i, j, entry), rsq, particle[i].vol,
                                          engine.weight(i), particle[j].vol, engine.weight(j));
     sum[i] += pair.i;
     sum[j] += pair.j;
@@ -523,8 +524,9 @@ void ShiftStage::run()
         rsq += r[d] * r[d];
       }
       const double shape = k.shape(sqrt(rsq) / engine.parameters().support);
-      const double push_i = concentration_push(b.vol, pairs.slope[entry], shape, contact[i]);
-      const double push_j = concentration_push(a.vol, pairs.slope[entry], shape, contact[j]);
+      const double slope = engine.slope(i, j, entry);
+      const double push_i = concentration_push(b.vol, slope, shape, contact[i]);
+      const double push_j = concentration_push(a.vol, slope, shape, contact[j]);
       for (int d = 0; d < 3; d++) {
         sum[3 * i + d] += push_i * r[d];
         sum[3 * j + d] -= push_j * r[d];
@@ -548,6 +550,18 @@ double ShiftStage::memory_usage() const
 int ForceStage::nforce() const
 {
   return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+}
+
+/* ----------------------------------------------------------------------
+   of the particle itself (density); summed by pairs, also on ghost atoms (volume)
+------------------------------------------------------------------------- */
+
+inline double ForceStage::bulk_heat(int i) const
+{
+  if (engine.parameters().bulk != Bulk::VOLUME && i >= atom->nlocal) return 0.0;
+  return SPHDissipation::bulk_heat(engine.parameters().bulk, engine.zeta_term[i],
+                                   engine.particle[i].vol, engine.weight(i), engine.density[i].cdot,
+                                   engine.divergence[i]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -594,18 +608,6 @@ void ForceStage::collect()
     exchange.reverse({f, engine.torques()});
   else
     exchange.reverse({f});
-}
-
-/* ----------------------------------------------------------------------
-   of the particle itself (density); summed by pairs, also on ghost atoms (volume)
-------------------------------------------------------------------------- */
-
-double ForceStage::bulk_heat(int i) const
-{
-  if (engine.parameters().bulk != Bulk::VOLUME && i >= atom->nlocal) return 0.0;
-  return SPHDissipation::bulk_heat(engine.parameters().bulk, engine.zeta_term[i],
-                                   engine.particle[i].vol, engine.weight(i), engine.density[i].cdot,
-                                   engine.divergence[i]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -62,7 +62,7 @@ namespace SPHDissipation {
     // extrapolated velocity and spin, each nullptr where it is zero.  not_fluid = bits of the groups of particles of
     // walls and open zones
 
-    void run(NeighList *, double **vest, double **omegaest, int not_fluid);
+    void run(NeighList *, double **vest, double **omegaest, int not_fluid, bool slopes_read = true);
 
     // for forces, with the pressure of states: at_rest, strains are zero; with the values of the
     // flows; and, where particles have the noise of their temperatures, with the internal energies at the end
@@ -70,10 +70,10 @@ namespace SPHDissipation {
     // walls and open zones
 
     void run(NeighList *, double **vest, double **omegaest, bool at_rest, double missing,
-             int not_fluid);
+             int not_fluid, bool slopes_read);
 
    private:
-    void sum(NeighList *, double **vest, double **omegaest, int not_fluid);
+    void sum(NeighList *, double **vest, double **omegaest, int not_fluid, bool slopes_read);
     void send(bool with_states, int flows, int not_fluid, int first);
   };
 

@@ -62,13 +62,13 @@ void FluidState::find_full_support()
   constexpr double SURFACE = 1.2;
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
-  const LoopData &pairs = engine.pairs();
   const Particle *const particle = engine.particle;
 
   std::vector<double> lopsided(3 * (std::size_t) nall, 0.0), surface(nall, 0.0), near(nall, 0.0);
   engine.visit_pairs([&](int i, int j, bigint entry) {
+    const double slope = engine.slope(i, j, entry);
     for (int d = 0; d < 3; d++) {
-      const double pull = pairs.slope[entry] * (particle[i].x[d] - particle[j].x[d]);
+      const double pull = slope * (particle[i].x[d] - particle[j].x[d]);
       lopsided[3 * i + d] += engine.weight(j) * pull;
       lopsided[3 * j + d] -= engine.weight(i) * pull;
     }
@@ -252,7 +252,6 @@ double FluidState::longest_wave() const
 void LatticeStrain::run(const std::vector<double> &weight)
 {
   constexpr double DQ = 1.0e-4;    // for F' by differences
-  const LoopData &pairs = engine.pairs();
   const Particle *const particle = engine.particle;
   const int *const type = atom->type;
   const int n = atom->ntypes + 1;
@@ -262,6 +261,7 @@ void LatticeStrain::run(const std::vector<double> &weight)
   with_kernel(engine.constants().kernel, [&](auto k) {
     engine.visit_pairs([&](int i, int j, bigint entry) {
       if (weight[i] + weight[j] == 0.0) return;
+      const double slope = engine.slope(i, j, entry);
       double r[3], v[3], turn[3];
       for (int d = 0; d < 3; d++) {
         r[d] = particle[i].x[d] - particle[j].x[d];
@@ -269,8 +269,8 @@ void LatticeStrain::run(const std::vector<double> &weight)
       }
       MathExtra::cross3(r, v, turn);
       for (int d = 0; d < 3; d++) {
-        curl[3 * i + d] += engine.weight(j) * pairs.slope[entry] * turn[d];
-        curl[3 * j + d] += engine.weight(i) * pairs.slope[entry] * turn[d];
+        curl[3 * i + d] += engine.weight(j) * slope * turn[d];
+        curl[3 * j + d] += engine.weight(i) * slope * turn[d];
       }
       const double product[6] = {r[0] * r[0], r[1] * r[1], r[2] * r[2],
                                  r[1] * r[2], r[0] * r[2], r[0] * r[1]};
@@ -284,7 +284,7 @@ void LatticeStrain::run(const std::vector<double> &weight)
         const double each = weight[one] * engine.weight(i + j - one) / engine.density[one].c;
         Sum &sum = my_sums[type[one]];
         for (int a = 0; a < 6; a++) {
-          sum.second[a] -= each * pairs.slope[entry] * product[a];
+          sum.second[a] -= each * slope * product[a];
           for (int b = 0; b < 6; b++)
             sum.fourth[a][b] -= each * derivative * product[a] * product[b];
         }

@@ -152,7 +152,7 @@ void SurfaceStage::find_sides(const BoundaryPairs &pairs)
              for (const auto &pair : pairs.of_thread[k]) {
                const double *const f = engine.particle[pair.fluid].x;
                const double *const w = engine.particle[pair.wall].x;
-               const double slope = engine.pairs().slope[pair.entry];
+               const double slope = engine.slope(pair.fluid, pair.wall, pair.entry);
                for (int d = 0; d < 3; d++) sum[pair.wall].normal[d] += slope * (f[d] - w[d]);
              }
            });
