@@ -297,9 +297,8 @@ void Engine::set_weights()
 
 void Engine::accumulate_density(NeighList *list, double **vest, double **omegaest, bool slopes_read)
 {
-  const Leave leave = par->by_rate             ? Leave::SQUARE
-      : slopes_read || !loops->computes_slopes ? Leave::SLOPE
-                                               : Leave::NEIGHBOR;
+  const bool again = loops->computes_slopes && !slopes_read && !par->spins();
+  const Leave leave = par->by_rate ? Leave::SQUARE : again ? Leave::NEIGHBOR : Leave::SLOPE;
   grow_atoms();
   grow_pairs(list, leave);
 

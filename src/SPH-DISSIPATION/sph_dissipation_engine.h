@@ -125,7 +125,7 @@ namespace SPHDissipation {
 
   struct LoopSet {
     const char *name;
-    bool computes_slopes;    // pass 2 computes F faster than it reads it
+    bool computes_slopes;    // pass 2 can compute F again, without spins
     Loop (*density)(Kernel, Volume, Leave);
     Loop (*rates)(Volume);
     RateLoop shear_rates;

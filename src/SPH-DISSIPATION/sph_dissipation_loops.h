@@ -44,6 +44,10 @@ namespace SPHDissipation {
       return reinterpret_cast<double *>(row);
     }
 
+    // Pass 2 computes F of pairs without spins again: with wide vectors this is faster than by way of the memory
+
+    constexpr bool COMPUTES_SLOPES = LANES == 8;
+
     // pass 1: c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED
     // W and F are zero at the support, and so where particles are farther apart, as spare ones are
 
@@ -234,9 +238,7 @@ namespace SPHDissipation {
 
 #include "sph_dissipation_noise_loops.h"
 
-    // F of pairs as pass 1 computes it: with wide vectors faster than by way of the memory
-
-    constexpr bool COMPUTES_SLOPES = LANES == 8;
+    // F of pairs as pass 1 computes it
 
     struct PairSlope {
       const Kernel kernel;
@@ -347,6 +349,7 @@ namespace SPHDissipation {
       const double *const weight = (data.par->volume == Volume::MASS) ? data.weight : nullptr;
       const CoeffTable<PairCoeff> table(data.par->pair.data(), data);
       Coeffs<PairCoeff, Form> coeffs(table);
+      constexpr bool AGAIN = COMPUTES_SLOPES && !Form::SPINS && !Noise::ON;
       const bool again = !data.slope;    // pass 1 has left no F
       const PairSlope slope_again(*data.par);
       const typename Noise::Table noise_table(data);
@@ -374,8 +377,7 @@ namespace SPHDissipation {
           const Vec slope = load_pair<Form>(
               pair, pi, particle, j,
               [&](Vec rsq) {
-                return (COMPUTES_SLOPES && !Noise::ON && again) ? slope_again(rsq)
-                                                                : load(slope_of + k);
+                return (AGAIN && again) ? slope_again(rsq) : load(slope_of + k);
               },
               vol, g);
           fetch_ahead<Form>(data, j);
@@ -399,7 +401,8 @@ namespace SPHDissipation {
             inverse = 1.0 / (rsq + TINY);
             pair.by_metric = pair.vv * inverse;
           } else if constexpr (Form::CENTRAL || Noise::ON)
-            pair.by_metric = pair.vv * (1.0 / (metric + TINY));    // F comes late
+            pair.by_metric =
+                pair.vv * (1.0 / (metric + TINY));    // the division does not wait for F
           if constexpr (Noise::ON) {
             noise.draw(j, pair.r[0], pair.r[1], pair.r[2], slope, pair.vv, metric, pair.by_metric,
                        inverse);
@@ -715,9 +718,10 @@ namespace SPHDissipation {
     {
       return LOOPS::with_kernel(kernel, [=](auto k) -> Loop {
         using K = decltype(k);
-        return (leave == Leave::NEIGHBOR) ? density_loop<K, WEIGHTED, Leave::NEIGHBOR>
-            : (leave == Leave::SLOPE)     ? density_loop<K, WEIGHTED, Leave::SLOPE>
-                                          : density_loop<K, WEIGHTED, Leave::SQUARE>;
+        if constexpr (COMPUTES_SLOPES)
+          if (leave == Leave::NEIGHBOR) return density_loop<K, WEIGHTED, Leave::NEIGHBOR>;
+        return (leave == Leave::SQUARE) ? density_loop<K, WEIGHTED, Leave::SQUARE>
+                                        : density_loop<K, WEIGHTED, Leave::SLOPE>;
       });
     }
 
