@@ -24,14 +24,18 @@
 #endif
 
 // Functions that the pair loops call for every pair are SPH_INLINE: the loops are long, and one
-// file has many of them, so that compilers would stop inlining.
+// file has many of them, so that compilers would stop inlining.  Those that no GPU runs are SPH_HOST_INLINE.
+
+#ifdef __GNUC__
+#define SPH_HOST_INLINE inline __attribute__((always_inline))
+#else
+#define SPH_HOST_INLINE inline
+#endif
 
 #ifdef KOKKOS_FORCEINLINE_FUNCTION
 #define SPH_INLINE KOKKOS_FORCEINLINE_FUNCTION
-#elif defined(__GNUC__)
-#define SPH_INLINE inline __attribute__((always_inline))
 #else
-#define SPH_INLINE inline
+#define SPH_INLINE SPH_HOST_INLINE
 #endif
 
 #endif

@@ -140,9 +140,9 @@ struct QuinticSpline {
   }
 };
 
-// call function(KernelClass()) for the kernel chosen at run time
+// call function(KernelClass()) for the kernel chosen at run time, on the host
 
-template <class Function> SPH_INLINE auto with_kernel(Kernel kernel, Function &&function)
+template <class Function> SPH_HOST_INLINE auto with_kernel(Kernel kernel, Function &&function)
 {
   switch (kernel) {
     case Kernel::WENDLAND_C4:
