@@ -247,6 +247,62 @@ def test_density_ratios(lammps, mass):
 # ---- thermal noise --------------------------------------------------------------------------------------------------
 
 
+RATIOS = {3: 0.1, 4: 0.9}     # density over that of water, by the type of the box
+
+
+def floating(extra="", lift=0):
+    """Two boxes, 8 spacings wide and 6 high, float in one tank at their drafts of Archimedes, or one is so many spacings above."""
+    text = ("units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nfix mol all property/atom mol\n"
+            "lattice sq 100 origin 0.5 0.5 0.0\nregion domain block 0.0 3.2 -0.4 2.0 -0.5 0.5 units box\ncreate_box 4 domain\n"
+            "region pool block INF INF 0.0 1.0 INF INF units box\nregion floor block INF INF INF 0.0 INF INF units box\n"
+            "create_atoms 1 region pool\ncreate_atoms 2 region floor\nset group all mass 0.01\n")
+    for kind, ratio in RATIOS.items():
+        left, bottom = 0.4 + 1.6 * (kind - 3), 1.0 - round(6 * ratio) / 10 + (lift / 10 if kind == 3 else 0.0)
+        text += (f"region cut{kind} block {left} {left + 0.8} {bottom} INF INF INF units box\ndelete_atoms region cut{kind} compress no\n"
+                 f"region box{kind} block {left} {left + 0.8} {bottom} {bottom + 0.6} INF INF units box\n"
+                 f"create_atoms {kind} region box{kind}\nset type {kind} mol {kind}\n")
+    text += ("set group all mass 0.01\n" + "".join(f"set type {kind} mass {0.01 * ratio}\n" for kind, ratio in RATIOS.items())
+             + "group water type 1\ngroup floor type 2\ngroup boxes type 3 4\n")
+    return text + after_start(extra, "variable rho atom 1.0+(1.0-y)/400.0\nset group water sph/rho v_rho\n")
+
+
+def after_start(extra, start=""):
+    """From the pair style on, the part of the input that a restart repeats."""
+    return ("neighbor 0.03 bin\npair_style sph/bulk density continuity\npair_coeff * * 1.0 20.0 0.001 0.3 0.4\n"
+            + "".join(f"pair_coeff {kind} {kind} {ratio} 20.0 0.001 0.3 0.4\n" for kind, ratio in RATIOS.items()) + start
+            + "fix g all gravity 1.0 vector 0 -1 0\nfix w floor sph/wall slip free gravity 0 -1 0\nfix 1 water sph/bulk\n"
+            "fix 2 boxes rigid molecule\nfix 3 boxes sph/wall move rigid gravity 0 -1 0\ntimestep 0.002\n"
+            "compute C boxes chunk/atom type\ncompute X boxes com/chunk C\n" + FULL + extra)
+
+
+OUT = "dump D all custom {} {}.dump id xu yu zu vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\n"
+
+
+def test_boxes_float_where_archimedes_says(lammps):
+    """A light and a heavy one in one tank, within a fifth of a spacing."""
+    text = floating("thermo_style custom step time c_X[3][2] c_X[4][2]\nthermo 25\n" + FULL)
+    (table,) = lammps(text + "run 2000\n").thermo()
+    for kind, ratio in RATIOS.items():
+        height = table[f"c_X[{kind}][2]"] - (1.3 - 0.6 * ratio)
+        print(kind, height.mean(), np.ptp(height))
+        assert abs(height.mean()) < 0.02 and np.ptp(height) < 0.1
+
+
+def test_floating_boxes_on_ranks_and_after_a_restart(lammps):
+    """Continued, and from a restart file on one and two ranks, while the light box meets the water: the same motion."""
+    text = floating(lift=1)
+    lammps(text + OUT.format(300, "single") + "run 300\n")
+    lammps(text + OUT.format(300, "twice") + "run 200\nwrite_restart box.restart\nrun 100\n")
+    for ranks in (1, 2):
+        lammps("read_restart box.restart\nfix mol all property/atom mol\n" + after_start(OUT.format(300, f"read{ranks}") + "run 100\n"), ranks=ranks)
+    want = lammps.frames("single.dump")[-1]
+    for name in ("twice", "read1", "read2"):
+        frame = lammps.frames(f"{name}.dump")[-1]
+        for what in ("x", "v"):
+            print(name, what, np.abs(frame[what] - want[what]).max())
+            assert np.abs(frame[what] - want[what]).max() < 1e-10, (name, what)
+
+
 def dense_friction(x, body, mu, zeta, support):
     """Matrix of the friction of fluid and body, of unknowns v of each fluid particle, V, Omega of the body, from the formulas of the
     pages: forces are minus this matrix times the velocities.  Also the matrix of the map from the unknowns to the particles."""
