@@ -288,3 +288,12 @@ INTEGRATE = "fix FLUID all sph/bulk\ntimestep 0.005\n"
 def relative(difference, scale):
     """Largest absolute entry of `difference` over that of `scale`."""
     return np.abs(difference).max() / np.abs(scale).max()
+
+
+def momentum_errors(first, last):
+    """Changes of momentum and of angular momentum between two frames, each over the sum of the absolute values of the first."""
+    def each(frame):
+        p = frame["mass"][:, None] * frame["v"]
+        return p, np.cross(frame["x"], p)
+
+    return [np.abs((after - before).sum(axis=0)).max() / np.abs(before).sum() for before, after in zip(each(first), each(last), strict=True)]
