@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-only
 """Builds LAMMPS's own manual with the package in it, and tells what Sphinx says about the package.
 
-    lammps_manual.py LAMMPS FOLDER [--part]
+    lammps_manual.py LAMMPS FOLDER [--part] [--upto N]
 
 LAMMPS is an unmodified tree of 4 Jul 2026, which is only read; FOLDER is emptied first, the manual is in FOLDER/html. With --part
 only the pages that tools/upstream.py adds or changes, and the lists that lead to them, are built: seconds in the place of minutes.
@@ -86,7 +86,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("lammps", type=Path)
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--part", action="store_true", help="only the pages that the patch adds or changes")
+    parser.add_argument("--part", action="store_true", help="only the pages that the patches add or changes")
+    parser.add_argument("--upto", metavar="N", help="the first N patches only")
     parser.add_argument("--jobs", default="1", metavar="N", help="processes (%(default)s)")
     args = parser.parse_args()
     lammps, folder = args.lammps.resolve(), args.folder.resolve()
@@ -95,8 +96,8 @@ def main():
         sys.exit(77)
     shutil.rmtree(folder, ignore_errors=True)
     changed, doc = folder / "changed", folder / "tree" / "doc"
-    subprocess.run([sys.executable, str(ROOT / "tools" / "upstream.py"), str(lammps), str(folder / "sph-dissipation.patch"),
-                    "--tree", str(changed)], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([sys.executable, str(ROOT / "tools" / "upstream.py"), str(lammps), str(folder / "patches"),
+                    "--tree", str(changed), *(["--upto", args.upto] if args.upto else [])], check=True, stdout=subprocess.DEVNULL)
     shutil.copytree(lammps / "doc", doc)
     for name in ("src", "python", "fortran", "examples"):
         (doc.parent / name).symlink_to(lammps / name)
@@ -123,7 +124,7 @@ def main():
             found.append(f"{source}.rst:{line} {message}")
     for line in found:
         print(f"FOUND: {line}")
-    print(f"{len(pages)} pages of the patch in {folder / 'html' / FIRST}.html; all that Sphinx says: {log}")
+    print(f"{len(pages)} pages of the patches in {folder / 'html' / FIRST}.html; all that Sphinx says: {log}")
     sys.exit(1 if found else 0)
 
 

@@ -27,11 +27,30 @@
 #include "modify.h"
 #include "pair.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_fields_kokkos.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_masks_kokkos.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+template <class View, class Pointer>
+void AtomVecSPHBulkKokkos::add_field(uint64_t mask, View &view, Pointer &pointer)
+{
+  typedef SPHDissipation::FieldOfKokkos<View, Pointer> Field;
+  fields.push_back(std::make_unique<Field>(mask, false, view, pointer));
+}
+
+template <class View, class Pointer>
+void AtomVecSPHBulkKokkos::add_own_field(uint64_t mask, View &view, Pointer &pointer,
+                                         const std::vector<Occasion> &occasions)
+{
+  typedef SPHDissipation::FieldOfKokkos<View, Pointer> Field;
+  fields.push_back(std::make_unique<Field>(mask, true, view, pointer));
+  for (const auto &occasion : occasions) sent[occasion].push_back(fields.back().get());
+}
 
 /* ---------------------------------------------------------------------- */
 

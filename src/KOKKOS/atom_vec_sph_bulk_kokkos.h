@@ -25,12 +25,17 @@ AtomStyle(sph/micropolar/kk/host,AtomVecSPHMicropolarKokkos);
 #ifndef LMP_ATOM_VEC_SPH_BULK_KOKKOS_H
 #define LMP_ATOM_VEC_SPH_BULK_KOKKOS_H
 
+#include "atom_vec_kokkos.h"
 #include "atom_vec_sph_bulk.h"
-#include "sph_dissipation_fields_kokkos.h"
 
 #include <memory>
 
 namespace LAMMPS_NS {
+namespace SPHDissipation {
+  struct ColumnsKokkos;
+  class FieldKokkos;
+  struct RowsKokkos;
+}    // namespace SPHDissipation
 
 // The fields that class AtomKokkos has no views for are views of this class.  They travel with the
 // particles by the functions that LAMMPS has for "bonus" data, and have bits of their own in the masks
@@ -114,24 +119,6 @@ class AtomVecSPHMicropolarKokkos : public AtomVecSPHBulkKokkos {
  public:
   AtomVecSPHMicropolarKokkos(class LAMMPS *lmp) : AtomVec(lmp), AtomVecSPHBulkKokkos(lmp, true) {}
 };
-
-/* ---------------------------------------------------------------------- */
-
-template <class View, class Pointer>
-void AtomVecSPHBulkKokkos::add_field(uint64_t mask, View &view, Pointer &pointer)
-{
-  typedef SPHDissipation::FieldOfKokkos<View, Pointer> Field;
-  fields.push_back(std::make_unique<Field>(mask, false, view, pointer));
-}
-
-template <class View, class Pointer>
-void AtomVecSPHBulkKokkos::add_own_field(uint64_t mask, View &view, Pointer &pointer,
-                                         const std::vector<Occasion> &occasions)
-{
-  typedef SPHDissipation::FieldOfKokkos<View, Pointer> Field;
-  fields.push_back(std::make_unique<Field>(mask, true, view, pointer));
-  for (const auto &occasion : occasions) sent[occasion].push_back(fields.back().get());
-}
 
 }    // namespace LAMMPS_NS
 

@@ -48,14 +48,6 @@ def findings(command, folder, tree):
     return {line for line in lines if not SUMMARY.match(line)}
 
 
-def check_patch(lammps, patch):
-    """The patch is for the unmodified tree."""
-    done = subprocess.run(["git", "apply", "--check", "--whitespace=nowarn", str(patch)], cwd=lammps,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          env={**os.environ, "GIT_CEILING_DIRECTORIES": str(lammps.parent)})
-    yield from (("git apply", line) for line in done.stdout.splitlines())
-
-
 def check_files(lammps, tree):
     for name in FILE_CHECKS:
         command = [sys.executable, str(lammps / "tools" / "coding_standard" / f"{name}.py"), "."]
@@ -92,6 +84,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("lammps", type=Path)
     parser.add_argument("folder", type=Path, help="for the trees; emptied first")
+    parser.add_argument("--upto", default="5", metavar="N", help="only the first N patches")
     args = parser.parse_args()
     lammps, folder = args.lammps.resolve(), args.folder.resolve()
     if not all((lammps / name).exists() for name in ("tools/coding_standard", "doc/utils/check-styles.py", "doc/Makefile")):
@@ -102,14 +95,13 @@ def main():
         sys.exit(77)
     shutil.rmtree(folder, ignore_errors=True)
     changed, plain, package = folder / "changed", folder / "plain", folder / "package"
-    patch = folder / "sph-dissipation.patch"
-    subprocess.run([sys.executable, str(ROOT / "tools" / "upstream.py"), str(lammps), str(patch), "--tree", str(changed),
-                    "--version", "4Jul2026"], check=True)
+    subprocess.run([sys.executable, str(ROOT / "tools" / "upstream.py"), str(lammps), str(folder / "patches"), "--tree", str(changed),
+                    "--upto", args.upto, "--version", "4Jul2026"], check=True)
     for tree in (plain, package):
         link_tree(lammps, tree)
     add_files(changed, package)
 
-    found = sorted([*check_patch(lammps, patch), *check_files(lammps, changed), *check_manual(plain, package),
+    found = sorted([*check_files(lammps, changed), *check_manual(plain, package),
                     *check_spelling(package, folder / "spelling")])
     for name, line in found:
         print(f"FOUND ({name}): {line}")

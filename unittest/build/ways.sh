@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # ways.sh WAY LAMMPS TREE: builds LAMMPS with the package by one of the ways that README.md describes, in the folder
-# TREE, and runs the smoke input. WAY is hook, make or plugin, or upstream: the patch that makes the package a part of
-# LAMMPS, without the hook; LAMMPS is a version to obtain, 26 or 25, or the folder of a source tree. WAY mismatch compiles
-# a plugin for another version than that of the LAMMPS which WAY plugin left in TREE; WAY testers runs LAMMPS's own testers
-# of styles on the package's reference data in what WAY upstream left there.
+# TREE, and runs the smoke input. WAY is hook, make or plugin, or upstream: the patches that make the package a part of
+# LAMMPS, without the hook, one after the other: each is compiled, and runs LAMMPS's own testers of styles on the package's reference
+# data; LAMMPS is a version to obtain, 26 or 25, or the folder of a source tree. WAY mismatch compiles
+# a plugin for another version than that of the LAMMPS which WAY plugin left in TREE.
 # Environment: ROOT (the package's repository), PYTHON, REFERENCE (result of the smoke input to compare with), LAUNCHER
-# (ccache, or empty), SPHD_JOBS, SPHD_CACHE, GOOGLETEST (folder of its sources, for testers).
+# (ccache, or empty), SPHD_JOBS, SPHD_CACHE, GOOGLETEST (folder of its sources, or empty: no testers).
 set -euo pipefail
 export CCACHE_DIR=$SPHD_CACHE/ccache
 
@@ -96,38 +96,52 @@ case $way in
     ;;
 
   upstream)
-    rm -rf patched changed
-    "$PYTHON" "$ROOT/tools/upstream.py" "$lammps" sph-dissipation.patch --tree changed
+    rm -rf patched patches build
+    "$PYTHON" "$ROOT/tools/upstream.py" "$lammps" patches
     mkdir patched
     ln -s "$lammps"/* patched
     for folder in src cmake unittest; do
       rm "patched/$folder"
       cp -r "$lammps/$folder" patched
     done
-    cp -r changed/src changed/cmake changed/unittest patched
     lammps=$tree/patched
-    lammps_by_cmake build -D PKG_SPH-DISSIPATION=on
-    smoke build/lmp smoke
+    options=(-D PKG_MISC=on)
+    testers=()
+    if [[ -n $GOOGLETEST ]]; then
+      # LAMMPS compiles a GoogleTest of its own: here that of the distribution
+      tar -czf googletest.tar.gz -C "$GOOGLETEST/.." "$(basename "$GOOGLETEST")"
+      options+=(-D ENABLE_TESTING=on -D GTEST_URL="file://$tree/googletest.tar.gz"
+        -D GTEST_SHA256="$(sha256sum <googletest.tar.gz | cut -d ' ' -f 1)")
+      testers=(test_pair_style test_fix_timestep)
+    fi
+    for patch in patches/*.patch; do
+      GIT_CEILING_DIRECTORIES=$tree git -C patched apply --include="src/*" --include="cmake/*" --include="unittest/*" "../$patch"
+      configure_lammps build "${options[@]}"
+      ninja -C build -j "$jobs" lmp ${testers[@]+"${testers[@]}"} >>build.log 2>&1 || { tail -n 30 build.log; exit 1; }
+      echo "$patch compiles"
+      if [[ $patch == patches/0001-* ]]; then
+        build/lmp -in "$here/in.dump" -log none >dump.out 2>&1 || { tail -n 5 dump.out; exit 1; }
+        # the lines of each snapshot of the dump are in the order of their first column
+        awk '/^ITEM/ { last = 0; atoms = /ATOMS/; next } atoms { if ($1 <= last) exit 1; last = $1; n++ } END { if (!n) exit 1 }' dump.txt ||
+          { echo "a sorted dump is not in order"; exit 1; }
+        options+=(-D PKG_SPH-DISSIPATION=on)
+        continue
+      fi
+      smoke build/lmp smoke
+      files=$(cd patched/unittest/force-styles/tests && printf '%s\n' *sph_*.yaml | grep -c -E '^(atomic-pair|fix-timestep)-sph_(bulk|micropolar|torque|wall)')
+      if [[ -n $GOOGLETEST ]]; then
+        ctest --test-dir build/unittest/force-styles -R '^(AtomicPairStyle|FixTimestep):sph_(bulk|micropolar|torque|wall)' --verbose \
+          --no-tests=error >testers.log || { tail -n 60 testers.log; exit 1; }
+        # a tester whose style is missing passes, and skips all
+        ! grep "SKIPPED .*[.]plain" testers.log || { echo "skipped in the testers of LAMMPS"; exit 1; }
+        count=$(grep -c "^ *[0-9]*/[0-9]* Test .* Passed " testers.log)
+        [[ $count -eq $files ]] || { echo "LAMMPS's testers ran $count of $files files"; exit 1; }
+        echo "$patch: $count files of reference data in LAMMPS's testers"
+      fi
+    done
+    [[ $files -eq $(cd "$ROOT/unittest/force-styles/tests" && printf '%s\n' *.yaml | wc -l) ]] || { echo "only $files files of reference data"; exit 1; }
     expect_error "$no_spectrum" build/lmp -in spectrum.in -var result none
     build/lmp -h | grep SPH-DISSIPATION >/dev/null || { echo "lmp -h does not name the package"; exit 1; }
-    ;;
-
-  testers)
-    lammps=$tree/patched
-    # LAMMPS compiles a GoogleTest of its own: here that of the distribution
-    tar -czf googletest.tar.gz -C "$GOOGLETEST/.." "$(basename "$GOOGLETEST")"
-    configure_lammps build -D PKG_SPH-DISSIPATION=on -D ENABLE_TESTING=on -D GTEST_URL="file://$tree/googletest.tar.gz" \
-      -D GTEST_SHA256="$(sha256sum <googletest.tar.gz | cut -d ' ' -f 1)"
-    ninja -C build -j "$jobs" test_pair_style test_fix_timestep >>build.log 2>&1 || { tail -n 30 build.log; exit 1; }
-    regex='^(AtomicPairStyle|FixTimestep):sph_(bulk|micropolar|torque|wall)'
-    ctest --test-dir build/unittest/force-styles -R "$regex" --verbose --no-tests=error >testers.log ||
-      { tail -n 60 testers.log; exit 1; }
-    # a tester whose style is missing passes, and skips all
-    ! grep "SKIPPED .*[.]plain" testers.log || { echo "skipped in the testers of LAMMPS"; exit 1; }
-    count=$(grep -c "^ *[0-9]*/[0-9]* Test .* Passed " testers.log)
-    files=$(cd "$ROOT/unittest/force-styles/tests" && printf '%s\n' *.yaml | wc -l)
-    [[ $count -eq $files ]] || { echo "LAMMPS's testers ran $count of $files files"; exit 1; }
-    echo "$count files of reference data in LAMMPS's testers"
     ;;
 
   make)
