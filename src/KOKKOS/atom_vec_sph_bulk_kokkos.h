@@ -16,9 +16,6 @@
 AtomStyle(sph/bulk/kk,AtomVecSPHBulkKokkos);
 AtomStyle(sph/bulk/kk/device,AtomVecSPHBulkKokkos);
 AtomStyle(sph/bulk/kk/host,AtomVecSPHBulkKokkos);
-AtomStyle(sph/micropolar/kk,AtomVecSPHMicropolarKokkos);
-AtomStyle(sph/micropolar/kk/device,AtomVecSPHMicropolarKokkos);
-AtomStyle(sph/micropolar/kk/host,AtomVecSPHMicropolarKokkos);
 // clang-format on
 #else
 
@@ -111,13 +108,6 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
 
   template <class Function> void with_fields(uint64_t, Function &&);
   void clear_heating();
-};
-
-// The same with spins.
-
-class AtomVecSPHMicropolarKokkos : public AtomVecSPHBulkKokkos {
- public:
-  AtomVecSPHMicropolarKokkos(class LAMMPS *lmp) : AtomVec(lmp), AtomVecSPHBulkKokkos(lmp, true) {}
 };
 
 }    // namespace LAMMPS_NS

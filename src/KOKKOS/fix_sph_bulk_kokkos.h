@@ -16,9 +16,6 @@
 FixStyle(sph/bulk/kk,FixSPHBulkKokkos<LMPDeviceType>);
 FixStyle(sph/bulk/kk/device,FixSPHBulkKokkos<LMPDeviceType>);
 FixStyle(sph/bulk/kk/host,FixSPHBulkKokkos<LMPHostType>);
-FixStyle(sph/micropolar/kk,FixSPHBulkKokkos<LMPDeviceType>);
-FixStyle(sph/micropolar/kk/device,FixSPHBulkKokkos<LMPDeviceType>);
-FixStyle(sph/micropolar/kk/host,FixSPHBulkKokkos<LMPHostType>);
 // clang-format on
 #else
 

@@ -23,6 +23,7 @@
 #include "memory_kokkos.h"
 #include "neighbor.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_columns_kokkos.h"
 #include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_wall_motion.h"
 

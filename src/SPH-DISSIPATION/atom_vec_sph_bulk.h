@@ -14,7 +14,6 @@
 #ifdef ATOM_CLASS
 // clang-format off
 AtomStyle(sph/bulk,AtomVecSPHBulk);
-AtomStyle(sph/micropolar,AtomVecSPHMicropolar);
 // clang-format on
 #else
 
@@ -84,13 +83,6 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
 
   double *rmass, *rho, *drho, *vfrac, *esph, *desph;
   double **vest;
-};
-
-// The same with spins.
-
-class AtomVecSPHMicropolar : public AtomVecSPHBulk {
- public:
-  AtomVecSPHMicropolar(class LAMMPS *lmp) : AtomVec(lmp), AtomVecSPHBulk(lmp, true) {}
 };
 
 }    // namespace LAMMPS_NS

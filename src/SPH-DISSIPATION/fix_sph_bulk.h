@@ -14,7 +14,6 @@
 #ifdef FIX_CLASS
 // clang-format off
 FixStyle(sph/bulk,FixSPHBulk);
-FixStyle(sph/micropolar,FixSPHBulk);
 // clang-format on
 #else
 

@@ -1,4 +1,4 @@
-"""The package in a LAMMPS tree, as tools/upstream.py puts it there, before the checks that LAMMPS makes of itself: `make
+"""The package in a LAMMPS tree, as the patches of tools/upstream.py put it there, before the checks that LAMMPS makes of itself: `make
 check` and the spelling of the manual. The tree is one of links; what the checks find without the package does not count.
 
 Exit status: 0 if nothing is found, 1 if something is, 77 if this LAMMPS comes without its checks.
@@ -12,6 +12,10 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from upstream import LAST      # noqa: E402
+
 FOLDERS = ("src", "doc", "cmake", "examples/PACKAGES", "potentials", "unittest/force-styles/tests")
 FILE_CHECKS = ("whitespace", "permissions", "homepage", "errordocs", "fmtlib", "versiontags")
 MANUAL_CHECKS = {
@@ -84,7 +88,6 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("lammps", type=Path)
     parser.add_argument("folder", type=Path, help="for the trees; emptied first")
-    parser.add_argument("--upto", default="5", metavar="N", help="only the first N patches")
     args = parser.parse_args()
     lammps, folder = args.lammps.resolve(), args.folder.resolve()
     if not all((lammps / name).exists() for name in ("tools/coding_standard", "doc/utils/check-styles.py", "doc/Makefile")):
@@ -94,15 +97,17 @@ def main():
         print("the patch is for LAMMPS 4 Jul 2026")
         sys.exit(77)
     shutil.rmtree(folder, ignore_errors=True)
-    changed, plain, package = folder / "changed", folder / "plain", folder / "package"
-    subprocess.run([sys.executable, str(ROOT / "tools" / "upstream.py"), str(lammps), str(folder / "patches"), "--tree", str(changed),
-                    "--upto", args.upto, "--version", "4Jul2026"], check=True)
-    for tree in (plain, package):
-        link_tree(lammps, tree)
-    add_files(changed, package)
-
-    found = sorted([*check_files(lammps, changed), *check_manual(plain, package),
-                    *check_spelling(package, folder / "spelling")])
+    plain, found = folder / "plain", []
+    link_tree(lammps, plain)
+    for patches in range(1, LAST + 1):    # each patch leaves a manual without faults
+        changed, package = folder / f"changed{patches}", folder / f"package{patches}"
+        subprocess.run([sys.executable, str(ROOT / "tools" / "upstream.py"), str(lammps), str(folder / "patches"), "--tree", str(changed),
+                        "--upto", str(patches), "--version", "4Jul2026"], check=True, stdout=subprocess.DEVNULL)
+        link_tree(lammps, package)
+        add_files(changed, package)
+        found += [(f"{name} with {patches} patches", line) for name, line in check_manual(plain, package)]
+    found += [*check_files(lammps, changed), *check_spelling(package, folder / "spelling")]
+    found.sort()
     for name, line in found:
         print(f"FOUND ({name}): {line}")
     if found:

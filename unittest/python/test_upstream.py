@@ -162,14 +162,9 @@ def license_and_author(tree):
             yield f"{path}: no name and address of the author"
 
 
-TWO_STYLES = ("sph/micropolar",)    # of the class of sph/bulk: one number in the constructor
-
-
 def names_of_styles(tree):
     """compute some/name stands in compute_some_name.h, class ComputeSomeName, guard LMP_COMPUTE_SOME_NAME_H"""
     for path, kind, style in styles(tree):
-        if kind in ("fix", "atom") and style.removesuffix("/kk") in TWO_STYLES:
-            style = style.replace("micropolar", "bulk")
         stem = f"{'atom_vec' if kind == 'atom' else kind}_{style.removesuffix('/kk').replace('/', '_')}{'_kokkos' if style.endswith('/kk') else ''}"
         if Path(path).stem != stem:
             yield f"{path}: {kind} {style} belongs into {stem}.h"
