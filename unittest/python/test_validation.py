@@ -66,6 +66,7 @@ WHERE = {
     "Overdamped sound": (None, ("results.txt", rf"^1000 +rkl2 +\S+ +\S+ +\S+ +{N}")),
     "Oscillating drop": (None, ("oscillating_drop.csv", rf"^kappa_50,50,1,{N}")),
     "Gas at rest": (None, ("results.txt", r"^gamma 1\.6667, kappa/mu 1, diffusivity 0\.45:(?:.*\n){5}.*Brillouin lines.*\): " + N)),
+    "Disc in a fluctuating fluid": (None, ("results.txt", rf"^ *10 .* {N}  \S+$")),
     "Gas below a piston": (("results.txt", rf"^monatomic gas, piston of mass 4, height of the piston: .* exact {N};"),
                            ("results.txt", rf"^monatomic gas, piston of mass 4, height of the piston: {N} ")),
 }
