@@ -18,12 +18,12 @@ from run_lammps import Example, csv_rows, pyplot, save, thermo      # noqa: E402
 T, MU, DT, EVERY, PARTICLES = 0.001, 0.07, 0.05, 20, 100     # those of in.colloid
 KAPPA = {"zero": 0.0, "ten": 0.7}               # bulk viscosity: 0 and 10 mu
 SEEDS, STEPS, STARTS = (1, 2), 600000, 12       # runs with noise of each fluid, steps, and configurations of each in which the disc is pulled
-QUICK = (1,), 10000, 2
+QUICK = (1,), 30000, 2
 PULL, PULLED = 0.001, 2000                      # force, and steps
 SETTLE = 200                                    # outputs before the means
 LAGS = 30, 80                                   # outputs, of the slopes; the momentum spreads in 36
 PIECES = 10                                     # of each run, for the standard errors
-WIDTH = 3                                       # standard errors, of the bars
+WIDTH = 3                                       # standard errors, of the bars; 5 in a small version, which must not fail by chance
 
 
 def mean(values):
@@ -97,6 +97,7 @@ def main():
             values = KAPPA[name] / MU, *fluid.translation, *fluid.rotation, *fluid.diffusion, *fluid.mobility, fluid.ratio, fluid.error
             writerow([f"{value:.5g}" for value in values])
             print("{:8.0f}  {:8.4f}  {:.4f}  {:12.4f}  {:.4f}  {:.4f}  {:.4f}  {:8.4f}  {:.4f}  {:13.3f}  {:.3f}".format(*values))
+    width = 5 if args.quick else WIDTH
     one, other = fluids.values()
     change = other.diffusion[0] / one.diffusion[0]
     error = change * np.hypot(one.diffusion[1] / one.diffusion[0], other.diffusion[1] / other.diffusion[0])
@@ -104,10 +105,10 @@ def main():
     for name, fluid in fluids.items():
         what = f"kappa/mu = {KAPPA[name] / MU:.0f}"
         for kind, (value, error_of) in (("translation", fluid.translation), ("rotation", fluid.rotation)):
-            example.merit(f"{what}: temperature of the {kind}", value, 1 - WIDTH * error_of, 1 + WIDTH * error_of)
-        bar = max(0.05, WIDTH * fluid.error)
+            example.merit(f"{what}: temperature of the {kind}", value, 1 - width * error_of, 1 + width * error_of)
+        bar = max(0.05, width * fluid.error)
         example.merit(f"{what}: D over kT times the mobility", fluid.ratio, 1 - bar, 1 + bar)
-    bar = max(0.05, WIDTH * error)
+    bar = max(0.05, width * error)
     example.merit("D of both bulk viscosities, one over the other", change, 1 - bar, 1 + bar)
     picture = example.out / "colloid.png"
     plot(picture, fluids)
