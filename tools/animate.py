@@ -43,6 +43,8 @@ FLOWS = {
                    ("fluid", "$(ceil(v_end*v_unit/50))"), lambda p: p["vy"], (-0.25, 0.25), "RdBu_r", ((0, 12), (0, 8)), 40),
     "cylinder": ([("velocity across the stream, Re = 100", {"Re": 100, "n": 10, "width": 8, "up": 4, "down": 10, "support": 3, "kick": 0.5, "end": 48, "mean": 6})],
                  "in.cylinder", "run ${window}", ("fluid", "$(floor(v_window/24))"), lambda p: p["vy"], (-0.6, 0.6), "RdBu_r", ((-4, 10), (-4, 4)), 8),
+    "floating": ([("a box of 0.6 of the density of water falls", {"lift": 0.48, "end": 6})], "in.floating", "run $(round(v_end/v_every)*v_steps)",
+                 ("all", "$(2*v_steps)"), lambda p: p["type"], (1, 3), ("#56B4E9", "#E69F00"), ((0, 4), (0, 1.8)), 12),
     "cavity": ([("speed, Re = 400", {"N": 40, "Re": 400, "end": 8, "mean": 8})], "in.cavity", "run ${window}", ("fluid", "$(floor(v_window/40))"),
                lambda p: np.hypot(p["vx"], p["vy"]), (0, 0.8), "viridis", ((0, 1), (0, 1)), 30),
 }
