@@ -294,7 +294,8 @@ def test_energy_of_the_particles_there(lammps, options, keywords, fixes, count, 
 def test_rerun(lammps):
     """Energy and force of snapshots, without viscosity, whose force needs velocities at their times."""
     particles = disordered(2, 16, ntypes=3, jitter=0.1)
-    text = start(particles, lammps, "pair_style sph/bulk\n" + coefficients(2, 0.0, 0.0, ntypes=3)) + "compute E all sph/energy\nthermo_style custom step c_E[5]\n" + FULL
+    text = start(particles, lammps, "pair_style sph/bulk\n" + coefficients(2, 0.0, 0.0, ntypes=3))
+    text += "compute E all sph/energy\nthermo_style custom step c_E[5]\n" + FULL
     snapshots = "dump S all custom 5 s.dump id type mass x y z vx vy vz\ndump_modify S sort id format float %.17g\nthermo 5\n"
     lammps(text + snapshots + dump("run.dump", 5) + "run 20\n")
     lammps(text + "thermo 1\n" + dump("again.dump", 5) + "rerun s.dump dump x y vx vy\n")
@@ -302,6 +303,25 @@ def test_rerun(lammps):
         assert relative(again["f"] - first["f"], first["f"]) < 1e-11
     first, again = (result.thermo()[-1]["c_E[5]"] for result in lammps.results)
     assert np.ptp(first) > 0 and again == pytest.approx(first, rel=1e-12)
+
+
+# ---- a drop ------------------------------------------------------------------------------------------------------
+
+
+def test_laplace_pressure(lammps):
+    """Of a drop of radius 9 spacings that is cut out of a lattice."""
+    support, sigma, box, c0 = 4.0, 2.0, 26, 20.0
+    particles = lattice(2, box)
+    x = particles.x - box / 2
+    particles.type = np.where(np.hypot(x[:, 0], x[:, 1]) < 9.0, 2, 1)
+    model = f"pair_style sph/bulk\npair_coeff * * 1.0 {c0} 2.0 20.0 {support} pb 60.0\npair_coeff 1 2 tension {sigma}\n"
+    lammps(start(particles, lammps, model, timestep=0.01) + dump("f.dump", 800) + "run 800\n")
+    frame = lammps.frame("f.dump")
+    inside, r = frame["type"] == 2, np.hypot(*(frame["x"] - box / 2)[:, :2].T)
+    radius = np.sqrt(frame["vol"][inside].sum() / np.pi)
+    deep, far = (c0**2 * frame["rho"][part].mean() for part in (r < radius - support, r > radius + support))
+    print((deep - far) * radius / sigma)
+    assert deep - far == pytest.approx(sigma / radius, rel=0.05)
 
 
 # ---- bad input ---------------------------------------------------------------------------------------------------
