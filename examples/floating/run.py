@@ -20,7 +20,7 @@ from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 LENGTH, WIDTH, HEIGHT = 4.0, 0.8, 0.4           # period of the tank, box
 RATIO, LIFT = 0.6, 0.08                         # density of the box over that of water; above its place at rest, of the runs that heave
 EVERY = 0.05                                    # time between outputs
-JOBS = {"heave": {"n": 25, "end": 12.0}, "drop": {"n": 25, "lift": 0.48, "frames": 0.1, "end": 8.0},
+JOBS = {"fine": {"n": 50, "end": 4.0}, "heave": {"n": 25, "end": 12.0}, "drop": {"n": 25, "lift": 0.48, "frames": 0.1, "end": 8.0},
         "light": {"n": 25, "ratio": 0.2, "lift": 0.0, "end": 10.0}, "heavy": {"n": 25, "ratio": 0.9, "lift": 0.0, "end": 10.0}}
 QUICK = {"heave": {"n": 25, "end": 3.0}, "heavy": {"n": 25, "ratio": 0.9, "lift": 0.0, "end": 0.5}}
 FREQUENCY, MISFIT, PLACE = 0.02, 0.15, 0.1      # bars: of the heave; of the height at rest, in spacings
