@@ -131,6 +131,30 @@ def test_a_style_comes_with_what_belongs_to_it(series, tree):
     assert of_patch(patches[0]) == {"src/dump.cpp", "src/neighbor.cpp"}
 
 
+def symbols(file):
+    """(defined, needed) of an object file"""
+    lines = subprocess.run(["nm", "-C", str(file)], stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
+    found = [line[17:].partition(" ") for line in lines]
+    return {name for kind, _, name in found if kind in "TDBR"}, {name for kind, _, name in found if kind == "U"}
+
+
+def test_each_patch_links(series):
+    """What the sources of the first patches need is not in those of a later one: in the objects of the build that is tested."""
+    objects = {file.name: file for file in Path(LMP).resolve().parent.rglob("*sph_*.cpp.o") if "SPH-DISSIPATION" in str(file)}
+    if not objects or not shutil.which("nm"):
+        pytest.skip("no objects of the package beside the executable, or no nm")
+    # of each patch; a build folder may still have objects of files that are gone
+    came = [{Path(path).name for path in of_patch(patch) if path.startswith("src/SPH-DISSIPATION/") and path.endswith(".cpp")} for patch in series[0]]
+    table = {f"{name}.o": symbols(objects[f"{name}.o"]) for name in set().union(*came)}
+    everywhere = set().union(*(defined for defined, _ in table.values()))
+    there = set()
+    for new in came:
+        there |= {f"{name}.o" for name in new}
+        defined = set().union(*(table[name][0] for name in there))
+        missing = set().union(*(table[name][1] for name in there)) & everywhere - defined
+        assert not missing
+
+
 # -- the rules ---------------------------------------------------------------------------------------------------
 
 
