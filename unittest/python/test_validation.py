@@ -66,7 +66,7 @@ WHERE = {
     "Overdamped sound": (None, ("results.txt", rf"^1000 +rkl2 +\S+ +\S+ +\S+ +{N}")),
     "Oscillating drop": (None, ("oscillating_drop.csv", rf"^kappa_50,50,1,{N}")),
     "Drop in another fluid, Laplace": (None, ("results.txt", rf"^r1 +\S+ +\S+ +{N}")),
-    "Drop in another fluid, frequency": (None, ("results.txt", rf"^fine +\S+ +{N}")),
+    "Drop in another fluid, frequency": (None, ("results.txt", rf"^mean +\S+ +{N}")),
     "Drop on a wall": (("results.txt", r"^ +(120) +"), ("results.txt", rf"^ +120 +{N}")),
     "Gas at rest": (None, ("results.txt", r"^gamma 1\.6667, kappa/mu 1, diffusivity 0\.45:(?:.*\n){5}.*Brillouin lines.*\): " + N)),
     "Disc in a fluctuating fluid": (None, ("results.txt", rf"^ *10 .* {N}  \S+$")),
