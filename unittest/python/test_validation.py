@@ -51,6 +51,7 @@ WHERE = {
     "Toluene, the same": (None, ("results.txt", rf"^toluene: damping/Stokes.*: {N},")),
     "Nitrogen that conducts heat": (None, ("results_kirchhoff.txt", rf"^N2 +bcc +all +\S+ +\S+ +\S+ +{N}")),
     "Acoustic streaming": (("streaming.csv", rf"^hex,160,(10),"), ("streaming.csv", rf"^hex,160,10,{N}")),
+    "Mean force of sound": (("radiation_force.csv", rf"^0\.6,8,0\.25,[^,]*,{N}"), ("radiation_force.csv", rf"^0\.6,8,0\.25,{N}")),
     "Shock of Mach number 2, thickness": (None, ("results.txt", rf"^0\.016 +bulk term, sdirk2 +\d+ +{N}")),
     "Shock of Mach number 2 with conduction": (None, ("results_becker.txt", rf"^2\.0 +4/3 mu, no kappa +\d+ +{N}")),
     "Onset of convection": (("run.py", rf"^CRITICAL = {N}"), ("results.txt", rf"^critical Rayleigh number {N}$")),
