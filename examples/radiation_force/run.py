@@ -19,7 +19,7 @@ sys.path.insert(0, str(HERE.parent))
 from run_lammps import Example, csv_rows, pyplot, save      # noqa: E402
 
 # thickness of the boundary layer, particles in a radius, wavenumber, the unit of length being the radius
-CASES = [(0.6, 8, 0.25), (0.6, 6, 0.15), (0.6, 6, 0.25), (0.3, 6, 0.25), (0.6, 4, 0.25)]
+CASES = [(0.6, 8, 0.25), (0.6, 6, 0.15), (1.0, 6, 0.25), (0.6, 6, 0.25), (0.3, 6, 0.25), (0.6, 4, 0.25)]
 QUICK_CASES = [(0.6, 4, 0.25)]
 WIDTH, BULK, PERIODS = 10, 2, 9     # as in the input
 FIRST = 3                           # periods before the means
@@ -123,6 +123,8 @@ def plot(path, runs):
     some = [run for run in runs if run.delta == 0.6 and run.k == 0.25]
     errors.plot([1 / run.n for run in some], [100 * run.error for run in some], "o-", color="C0", mfc="none", lw=0.8, label="mean force")
     errors.plot([1 / run.n for run in some], [100 * run.first_order for run in some], "x-", color="C1", lw=0.8, label="force of first order")
+    some = [run for run in runs if run.k == 0.25]
+    forces.plot([run.delta for run in some], [run.theory for run in some], "_", color="k", ms=9, label="theory, waves that are there")
     forces.set(xlabel="boundary layer over radius, $\\delta/a$", ylabel="mean force over $\\pi a^2 k E \\sin 2kx$", xlim=(0, 1.2), ylim=(2, 6))
     forces.legend(loc="upper left")
     errors.set(xlabel="particle spacing over radius", ylabel="deviation from theory [%], $\\delta/a$ = 0.6", xlim=(0, 0.27), ylim=(-20, 5))
