@@ -24,7 +24,7 @@ DEVICE_LOOPS = "kk/device" in SWITCHES or "g" in SWITCHES  # the pair loops of a
 
 # Containers run as root and have fewer cores than ranks; Open MPI has to be told that this is meant.
 # The other settings save time in hundreds of short runs: no wait for ranks that an error has ended, no search
-# for network cards and other devices.
+# for network cards, displays, and other devices.
 MPI_ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -37,6 +37,7 @@ MPI_ENVIRONMENT = {
     "OMPI_MCA_btl": "self,vader",
     "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
     "HWLOC_COMPONENTS": "-pci,-linuxio",
+    "HWLOC_PLUGINS_PATH": "none",
     "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
     "PRTE_MCA_hwloc_default_binding_policy": "none",
 }
@@ -109,6 +110,8 @@ class Lammps:
             pytest.skip("no MPI")
         if ranks > 1:
             command = [MPIEXEC, "-n", str(ranks), *command]
+            # concurrent starts of Open MPI 4 fail where they make one session folder at the same time
+            environment["OMPI_MCA_orte_tmpdir_base"] = str(self.folder)
         else:
             environment.update(SINGLE_RANK)
         process = subprocess.Popen(command, cwd=self.folder, env=environment,
