@@ -29,10 +29,11 @@ TIMES = 1.0, 2.0, 3.0, 5.0, 6.0, 7.0    # of the pictures
 class Run:
     def __init__(self, out, name, n, c0=20.0, eos="linear", **_):
         self.n, self.rc = n, 4.0 / n
+        rows = sum(LOW < (k + 0.5) / n < HIGH for k in range(n))    # of the wall in the stretch
         step, self.front, push = np.loadtxt(out / f"{name}.probe.txt").T
         self.frames = list(frames(out / f"{name}.particles.txt").values())
         self.t = 0.02 * np.arange(len(self.frames))
-        self.front, self.force = self.front[:len(self.t)], push[:len(self.t)] / (HIGH - LOW)
+        self.front, self.force = self.front[:len(self.t)], push[:len(self.t)] * n / rows
         gamma = 7.0 if eos == "tait" else 1.0
         self.p_of = lambda rho: np.maximum(c0**2 / gamma * (rho**gamma - 1), 0.0)
         self.p = np.array([self.kernel_mean(one) for one in self.frames])

@@ -37,7 +37,7 @@ MPI_ENVIRONMENT = {
     "OMPI_MCA_btl": "self,vader",
     "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
     "HWLOC_COMPONENTS": "-pci,-linuxio",
-    "HWLOC_PLUGINS_PATH": "none",
+    "HWLOC_PLUGINS_PATH": "none",  # those for PCI and displays
     "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
     "PRTE_MCA_hwloc_default_binding_policy": "none",
 }
