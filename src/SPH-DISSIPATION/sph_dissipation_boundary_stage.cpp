@@ -83,6 +83,7 @@ void BoundaryStage::find_bits()
     if (one->has_frozen_pressure()) frozen_bits |= one->boundary_bit();
   }
   if (boundaries.empty()) engine.forget_wall_energy();
+  if (group_bits == symmetric_bits) engine.excess.clear();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -135,6 +136,7 @@ void BoundaryStage::run(NeighList *list)
 {
   begin(list);
   extend();
+  set_excess();
   extend_temperatures(false);
 }
 
@@ -258,6 +260,24 @@ void BoundaryStage::extend()
     exchange.forward({state, zeta_term, field(engine.spin, engine.spin->w, 3)});
   else
     exchange.forward({state, zeta_term});
+}
+
+/* ----------------------------------------------------------------------
+   of those whose heat add_friction() does not give to the fluid; a minimization has no velocities
+------------------------------------------------------------------------- */
+
+void BoundaryStage::set_excess()
+{
+  if (engine.excess.empty() || update->whichflag == 2) return;
+  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
+    if (!(atom->mask[i] & group_bits & ~symmetric_bits)) return;
+    Excess &one = engine.excess[i];
+    one.is_boundary = 1.0;
+    for (int d = 0; d < 3; d++) {
+      one.u[d] = engine.particle[i].u[d] - atom->vest[i][d];
+      if (engine.has_spin()) one.w[d] = engine.spin[i].w[d] - surface.surface[i].omega[d];
+    }
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -635,6 +655,13 @@ void BoundaryStage::find_rows(NeighList *list)
       count[k].push_back(n);
     }
   });
+
+  engine.excess.clear();
+  if (group_bits != symmetric_bits) {
+    engine.excess.resize(atom->nlocal + atom->nghost + BLOCK);
+    for (const auto &part : found)
+      for (const int ii : part) engine.excess[list->ilist[ii]].crosses = 1.0;
+  }
 
   pairs.rows.assign(parts, {});
   pairs.touched.resize(parts);

@@ -196,6 +196,7 @@ namespace SPHDissipation {
     void set_near();
     void find_rows(NeighList *);
     void find_pairs();
+    void set_excess();
     void accumulate();
     void accumulate_heat();
     void check() const;

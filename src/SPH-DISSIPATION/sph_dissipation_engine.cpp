@@ -533,6 +533,7 @@ void Engine::run_forces(NeighList *list, const StepPlan &plan, bool linear)
   data.zeta_term = zeta_term;
   data.viscosity = viscosity.data();
   data.spin = spin;
+  data.excess = (linear || excess.empty()) ? nullptr : excess.data();
   data.random = nullptr;
   data.noise = noise.pairs.data;
   force_sums.begin(*threads);
@@ -666,7 +667,7 @@ double Engine::memory_usage() const
   double sum = nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) + (double) pair_max * sizeof(int) +
       (double) slope_max * sizeof(double) +
-      bytes(viscosity, square, volume, energy, wall_energy, wall_energy_tags, types);
+      bytes(viscosity, excess, square, volume, energy, wall_energy, wall_energy_tags, types);
   for (const auto &rows : flow) sum += bytes(rows);
   for (const auto &rates : flow_rate) sum += bytes(rates);
   for (const auto &numbers : random) sum += bytes(numbers);

@@ -74,6 +74,7 @@ namespace SPHDissipation {
     const int *type;             // read if the coefficients differ between types
     const double *zeta_term;     // zeta cdot/c of each particle (bulk volume)
     const double *viscosity;     // mu of each particle, if it depends on the rate of shear
+    const Excess *excess;        // owned and ghost; nullptr: of no particle
     const double *weight;        // w, owned and ghost; nullptr if all are 1 and no loop reads it
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
     DensitySum *density;         // owned and ghost, accumulated by pass 1
@@ -346,6 +347,7 @@ namespace SPHDissipation {
         energy;    // the same, internal energy, if particles have the noise of their temperatures
     void set_wall_energy(const double *);    // what walls hold of it, of owned atoms
     void forget_wall_energy();
+    std::vector<Excess> excess;    // the same; empty: of no particle
     double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     Spin *spin;            // micropolar only
 

@@ -114,6 +114,7 @@ void Engine::accumulate_friction(SurfacePairs &some, const StepNoise *of_step, i
   part.spare = static_cast<int>(spare);
   part.particle = some.particle.data();
   part.spin = some.spin.data();
+  part.excess = nullptr;
   part.type = some.type.data();
   part.weight = some.weight.data();
   part.force = some.force.data();

@@ -288,6 +288,26 @@ namespace SPHDissipation {
       return slope;
     }
 
+    // all heat of pairs with a boundary to the fluid
+
+    template <class Form>
+    SPH_INLINE void give_boundary_heat(PairState &pair, const Excess *excess, int i, const int *j)
+    {
+      constexpr int N = WIDTH<Excess>;
+      const Excess &own = excess[i];
+      Vec other[N];
+      load_4_columns<N>(numbers(excess), j, other);
+      PairState more = pair;
+      for (int d = 0; d < 3; d++) more.u[d] = own.u[d] - other[d];
+      more.approach = dot(pair.r, more.u);
+      if constexpr (Form::SPINS) {
+        load_4_columns<N>(numbers(excess) + 4, j, other + 4);
+        slip_velocity(own.w, other + 4, pair.r, more.u);
+        for (int d = 0; d < 3; d++) more.s[d] = own.w[d] - other[4 + d];
+      }
+      add_boundary_heat<Form>(pair, more, own.is_boundary + other[3]);
+    }
+
     // torque, and heat of all channels but the first: to the neighbors and to the totals of the particle, in the columns
     // of ChannelSums
 
@@ -350,6 +370,7 @@ namespace SPHDissipation {
       const CoeffTable<PairCoeff> table(data.par->pair.data(), data);
       Coeffs<PairCoeff, Form> coeffs(table);
       constexpr bool AGAIN = COMPUTES_SLOPES && !Form::SPINS && !Noise::ON;
+      constexpr bool CONTINUED = (Form::CENTRAL || Form::VECTOR) && !Noise::ON;
       const bool again = !data.slope;    // pass 1 has left no F
       const PairSlope slope_again(*data.par);
       const typename Noise::Table noise_table(data);
@@ -363,6 +384,7 @@ namespace SPHDissipation {
         const double zeta_term_i = VOLUME ? data.zeta_term[i] : 0.0;
         const double mu_i = Form::BY_RATE ? data.viscosity[i] : 0.0;
         const int n = data.count[ii];
+        const bool crosses = CONTINUED && data.excess && data.excess[i].crosses != 0.0;
         const int *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = again ? nullptr : data.slope + data.first[ii];
         Vec total_f[4] = {all(0.0), all(0.0), all(0.0), all(0.0)};
@@ -441,6 +463,8 @@ namespace SPHDissipation {
             if constexpr (Noise::ON) noise.add_torque(pair.t, pair.spin);
             if constexpr (Noise::ENERGY) given = noise.given_by_torque(pair.t, pair.spin);
           }
+          if constexpr (CONTINUED)
+            if (crosses) give_boundary_heat<Form>(pair, data.excess, i, j);
           if constexpr (side.N > 0) side.add(data.side, j, pair);
           Vec heat = pair.heat[0];
           for (int d = 0; d < 3; d++) total_f[d] += pair.f[d];

@@ -53,6 +53,15 @@ namespace SPHDissipation {
     double unused;    // rows are read by fours
   };
 
+  // What velocity and spin of a boundary particle in the pair forces exceed its own by; of other particles zero
+
+  struct alignas(16) Excess {
+    double u[3];
+    double is_boundary;    // 1
+    double w[3];
+    double crosses;    // 1 if its row of the neighbor list has pairs of the fluid with a boundary
+  };
+
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS
 

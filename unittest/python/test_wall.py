@@ -231,6 +231,39 @@ def test_forces(lammps, dim, style, name, options):
     assert_global(table, owner, {**want, "x": particles.x}, WALLS[dim][name], style)
 
 
+FRICTION = [(dim, BULK, name, options) for dim in (2, 3)
+            for name, options in (("moving", {}), ("turning", dict(shear="mg/fr")), ("free", dict(shear="morris")), ("turning", dict(shear="espanol")))]
+FRICTION += [(dim, MICRO, name, {}) for dim in (2, 3) for name in ("spin rate", "free", "turning")]
+
+
+@pytest.mark.parametrize("dim, style, name, options", FRICTION)
+def test_heat_of_friction_is_the_work(lammps, dim, style, name, options):
+    """Its forces and torques do work on the fluid, and on walls with their own velocity and angular velocity: what is lost is heat of the fluid."""
+    particles, owner = SETS[dim]
+    model = model_of(dim, style, bulk="none", **options)
+    spinning = dict(mu_r=0.0, gamma1=0.0, gamma2=0.0) if style == MICRO else {}
+    without = replace(model, fluids=[replace(fluid, mu=0.0, **spinning) for fluid in model.fluids])
+    omega = spins(particles) if style == MICRO else None
+    save(lammps, particles, model, omega)
+    for one, file in ((without, "pressure.dump"), (model, "all.dump")):
+        (table,) = lammps(start(one, owner, WALLS[dim][name]) + "compute Q all sph/dissipation\n"
+                          + dump(file, owner, style=style).replace("c_V[*]", "c_V[*] c_Q", 1)
+                          + "thermo_style custom step c_Q c_Q[*]\n" + FULL + "run 0\n").thermo()
+    frame, at_rest = lammps.frame("all.dump"), lammps.frame("pressure.dump")
+    work = ((frame["f"] - at_rest["f"]) * frame["v"]).sum(axis=1)
+    if style == MICRO:
+        rate = omega_of(frame)
+        for k, wall in enumerate(WALLS[dim][name]):
+            rate[owner == k] = wall_now(**wall).omega
+        work += ((torque_of(frame) - torque_of(at_rest)) * rate).sum(axis=1)
+    heat = frame.columns["c_Q"]
+    print("heat", table["c_Q"][0], "work", work.sum(), "on walls", work[owner >= 0].sum())
+    assert table["c_Q"][0] == pytest.approx(-work.sum(), rel=1e-12)
+    assert sum(table[key][0] for key in table if key.startswith("c_Q[")) == pytest.approx(table["c_Q"][0], rel=1e-12)
+    assert heat.sum() == pytest.approx(table["c_Q"][0], rel=1e-12)
+    assert (heat[owner >= 0] == 0.0).all()
+
+
 def test_exclusions_come_back_with_every_run(lammps):
     """neigh_modify exclude none after the fix: no force between wall particles in the per-atom array."""
     model, omega, want = expected(2, BULK, "turning", {})
