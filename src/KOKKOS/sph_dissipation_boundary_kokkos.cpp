@@ -14,6 +14,7 @@
 #include "sph_dissipation_boundary_kokkos.h"
 
 #include "atom_kokkos.h"
+#include "atom_vec_sph_bulk_kokkos.h"
 #include "neighbor.h"
 #include "pair.h"
 #include "sph_dissipation_boundary_stage.h"
@@ -88,6 +89,9 @@ void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<Device
   boundary.sum = decltype(boundary.sum)(Kokkos::NoInit("sph:boundary_sum"), boundary.nowned);
   boundary.near = decltype(boundary.near)(Kokkos::NoInit("sph:boundary_near"), boundary.nall);
 
+  boundary.excess = {};
+  boundary.excess = decltype(boundary.excess)("sph:boundary_excess", nall);
+
   const bool repels = fluid.par.continuity;
   const double contact_norm = ContactKernel::norm(fluid.par.dim);
   boundary.contact = {};
@@ -132,6 +136,7 @@ void BoundaryStageKokkos<DeviceType>::find_rows(const LoopDataKokkos<DeviceType>
     rows = decltype(rows)(Kokkos::NoInit("sph:boundary_rows"), atom->nmax);
   }
   auto found = rows;
+  auto excess = boundary.excess;
   Kokkos::parallel_scan(
       "sph:boundary_rows", Range(0, inum),
       KOKKOS_LAMBDA(int ii, int &k, bool last) {
@@ -140,7 +145,10 @@ void BoundaryStageKokkos<DeviceType>::find_rows(const LoopDataKokkos<DeviceType>
         const int jnum = numneigh(i);
         for (int jj = 0; jj < jnum; jj++)
           if (number(neighbors(i, jj) & NEIGHMASK) >= 0) {
-            if (last) found(k) = i;
+            if (last) {
+              found(k) = i;
+              excess(i).crosses = 1.0;
+            }
             k++;
             return;
           }
@@ -187,6 +195,32 @@ void BoundaryStageKokkos<DeviceType>::find_surface(const LoopDataKokkos<DeviceTy
       Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), boundary.particles);
   for (int k = 0; k < boundary.nall; k++) h_surface(k) = surface[h_particles(k)];
   Kokkos::deep_copy(boundary.surface, h_surface);
+}
+
+/* ----------------------------------------------------------------------
+   as BoundaryStage::set_excess(): on the device, no boundary has symmetric friction
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+void BoundaryStageKokkos<DeviceType>::set_excess(LoopDataKokkos<DeviceType> &data)
+{
+  data.excess = boundary.excess.data();
+  if (update->whichflag == 2) return;
+  auto vest = AtomVecSPHBulkKokkos::of(atom).k_vest.template view<DeviceType>();
+  auto particles = boundary.particles;
+  auto surface = boundary.surface;
+  auto excess = boundary.excess;
+  const LoopDataKokkos<DeviceType> loop = data;
+  Kokkos::parallel_for(
+      "sph:boundary_excess", Range(0, boundary.nall), KOKKOS_LAMBDA(int k) {
+        const int i = particles(k);
+        Excess &one = excess(i);
+        one.is_boundary = one.crosses = 1.0;
+        for (int d = 0; d < 3; d++) {
+          one.u[d] = loop.particle[i].u[d] - vest(i, d);
+          if (loop.spin) one.w[d] = loop.spin[i].w[d] - surface(k).omega[d];
+        }
+      });
 }
 
 /* ----------------------------------------------------------------------
@@ -351,6 +385,7 @@ template <class DeviceType> double BoundaryStageKokkos<DeviceType>::memory_usage
   return (double) (boundary.number.extent(0) + rows.extent(0)) * sizeof(int) +
       (double) boundary.nall * (sizeof(int) + sizeof(Surface) + sizeof(NearKernel)) +
       (double) boundary.nowned * sizeof(BoundarySum) +
+      (double) boundary.excess.extent(0) * sizeof(Excess) +
       (double) boundary.contact.extent(0) * sizeof(NearKernel) +
       (double) boundary.occupied.extent(0) * sizeof(double) +
       (double) boundary.heat_sum.extent(0) * sizeof(BoundaryHeatSum);

@@ -41,6 +41,7 @@ namespace SPHDissipation {
     Kokkos::View<BoundarySum *, DeviceType> sum;             // of owned ones
     Kokkos::View<BoundaryHeatSum *, DeviceType> heat_sum;    // the same; empty if nothing conducts
     Kokkos::View<NearKernel *, DeviceType> near;
+    Kokkos::View<Excess *, DeviceType> excess;    // of each owned and ghost particle
 
     // with density continuity: for BoundarySum::occupied; that sum, of each owned and ghost particle
 
@@ -139,6 +140,9 @@ namespace SPHDissipation {
     // after the pressures, before pass 2: sets the values of owned boundary particles for it, which
     // the pair style sends to ghosts
     void run(LoopDataKokkos<DeviceType> &, int inum);
+
+    // after run(), when ghosts have the values of their owners: what pass 2 needs for the heat
+    void set_excess(LoopDataKokkos<DeviceType> &);
 
     // after the conduction: heat of surfaces, as BoundaryStage::add_surface_heat(); flow is set of boundary particles,
     // the heat per time that they get, and heating of LAMMPS of the fluid

@@ -425,6 +425,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
   data->numneigh = k_list->d_numneigh;
   data->neighbors = k_list->d_neighbors;
   data->nlocal = atom->nlocal;
+  data->excess = nullptr;    // until set_boundary()
   set_states();
   data->rmass = atomKK->k_rmass.template view<DeviceType>().data();
   data->esph = avec.k_esph.template view<DeviceType>().data();
@@ -621,6 +622,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
   send_to_ghosts(Part<Particle>{particle, 3, 5},    // u, vol and g
                  Part<double>{zeta_term, 0, 1}, spins_of, heat,
                  Part<double>{boundary_device->occupied(), 0, 1});
+  boundary_device->set_excess(*data);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -48,6 +48,7 @@ namespace SPHDissipation {
     typename AT::t_neighbors_2d neighbors;
 
     Spin *spin;                                           // micropolar, else nullptr
+    const Excess *excess;                                 // nullptr without boundaries
     Kokkos::View<double *, DeviceType> heat[NCHANNEL];    // of owned particles
     const PairCoeff *coeff;    // coeff[type[i] * par.ntypes_1 + type[j * typed]]
     int typed;                 // 0: the coefficients of all pairs are the same
@@ -122,6 +123,7 @@ namespace SPHDissipation {
       const PairCoeff *const coeff_i = &data.coeff[data.type[i] * data.par.ntypes_1];
       double total_f[3] = {0.0, 0.0, 0.0}, total_t[3] = {0.0, 0.0, 0.0}, divergence = 0.0;
       double heat[NCHANNEL] = {};
+      const bool crosses = data.excess && data.excess[i].crosses != 0.0;
 
       const int jnum = data.numneigh(i);
       for (int jj = 0; jj < jnum; jj++) {
@@ -155,6 +157,8 @@ namespace SPHDissipation {
           for (int d = 0; d < 3; d++) pair.s[d] = spin_i.w[d] - spin_j.w[d];
         }
         Form::add_vector(pair);
+        if (crosses && data.excess[i].is_boundary != data.excess[j].is_boundary)
+          give_boundary_heat(pair, data.excess[i], data.excess[j]);
         if constexpr (Form::SPINS)
           for (int d = 0; d < 3; d++) total_t[d] += pair.t[d] - pair.spin[d];
         for (int d = 0; d < 3; d++) total_f[d] += pair.f[d];
@@ -181,6 +185,21 @@ namespace SPHDissipation {
         data.heat[c](i) = heat[c];
         data.desph[i] += heat[c];
       }
+    }
+
+    // all heat of a pair with a boundary to the fluid
+
+    KOKKOS_INLINE_FUNCTION void give_boundary_heat(PairState &pair, const Excess &own,
+                                                   const Excess &other) const
+    {
+      PairState more = pair;
+      for (int d = 0; d < 3; d++) more.u[d] = own.u[d] - other.u[d];
+      more.approach = dot(pair.r, more.u);
+      if constexpr (Form::SPINS) {
+        slip_velocity(own.w, other.w, pair.r, more.u);
+        for (int d = 0; d < 3; d++) more.s[d] = own.w[d] - other.w[d];
+      }
+      add_boundary_heat<Form>(pair, more, 1.0);
     }
   };
 
