@@ -1,14 +1,21 @@
 """Run LAMMPS on an input text, read what it leaves behind, and make particle sets.
 
 The executables come from the environment: SPHD_LMP (the LAMMPS executable) and SPHD_MPIEXEC
-(the MPI launcher, none: tests on several ranks are skipped); ctest sets both.
+(the MPI launcher, none: tests on several ranks are skipped); ctest sets both. With SPHD_WORKERS=none each run is a process of its own (see Worker).
 """
 
+import atexit
+import json
 import os
 import re
+import select
 import shutil
 import signal
+import socket
 import subprocess
+import sys
+import tempfile
+import time
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,6 +26,7 @@ from sph_dissipation import each_frame, thermo
 LMP = os.environ.get("SPHD_LMP") or shutil.which("lmp") or "lmp"
 MPIEXEC = os.environ.get("SPHD_MPIEXEC") or shutil.which("mpiexec") or "mpiexec"
 SWITCHES = os.environ.get("SPHD_SWITCHES", "").split()  # of an accelerator package
+LIBRARY = os.path.join(os.path.dirname(os.path.realpath(LMP)), "liblammps.so")
 KOKKOS = any(word in ("kk", "kk/device") for word in SWITCHES)
 DEVICE_LOOPS = "kk/device" in SWITCHES or "g" in SWITCHES  # the pair loops of a GPU, wherever
 
@@ -80,6 +88,75 @@ class Result:
         return thermo(self.log)
 
 
+class Worker:
+    """LAMMPS's library in a process per rank, see worker.py: an input takes 0.02 s, a start of the executable 0.1 s, of mpiexec 0.5 s."""
+
+    started = {}  # by the number of ranks
+
+    @classmethod
+    def on(cls, ranks):
+        """None: each run is a process of its own."""
+        if SWITCHES or "ASAN_OPTIONS" in os.environ or os.environ.get("SPHD_WORKERS") == "none" or not os.path.exists(LIBRARY):
+            return None
+        if ranks not in cls.started or not cls.started[ranks].connections:
+            cls.started[ranks] = cls(ranks)
+        return cls.started[ranks] if cls.started[ranks].connections else None
+
+    def __init__(self, ranks):
+        self.folder = tempfile.mkdtemp(prefix="sphd-")
+        atexit.register(self.close)
+        environment = {**os.environ, **MPI_ENVIRONMENT, "OMPI_MCA_orte_tmpdir_base": self.folder}
+        address = os.path.join(self.folder, "socket")
+        command = [sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "worker.py"), LIBRARY, address]
+        if ranks > 1:
+            command = [MPIEXEC, "-n", str(ranks), *command]
+        else:
+            environment.update(SINGLE_RANK)
+        self.connections = []
+        with socket.socket(socket.AF_UNIX) as listener:
+            listener.bind(address)
+            listener.listen(ranks)
+            listener.settimeout(0.1)
+            self.process = subprocess.Popen(command, cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
+                                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+            while len(self.connections) < ranks:
+                try:
+                    self.connections.append(listener.accept()[0])
+                except TimeoutError:
+                    if self.process.poll() is not None:
+                        self.close()
+                        return
+
+    def run(self, folder, number, child, timeout):
+        """The exit status; None if there is none in time."""
+        variables = {name: value for name, value in os.environ.items() if name.startswith("LAMMPS_")}
+        for connection in self.connections:
+            connection.sendall((json.dumps([str(folder), number, child, variables]) + "\n").encode())
+        waiting, status, end = set(self.connections), 0, time.monotonic() + timeout
+        while waiting and status == 0:
+            ready, _, _ = select.select(list(waiting), [], [], max(end - time.monotonic(), 0.0))
+            if not ready:
+                status = None
+            for connection in ready:
+                status = status or int(connection.recv(100) or 1)    # nothing: the process has died
+                waiting.remove(connection)
+        if status is None or status and not child:
+            self.close()
+        return status
+
+    def close(self):
+        for connection in self.connections:
+            connection.close()
+        self.connections = []
+        try:
+            self.process.wait(2)
+        except subprocess.TimeoutExpired:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.wait()
+        shutil.rmtree(self.folder, ignore_errors=True)
+        atexit.unregister(self.close)
+
+
 class Lammps:
     """Runs LAMMPS inside one folder; files of earlier runs stay, so that a run may continue another."""
 
@@ -91,7 +168,7 @@ class Lammps:
         return self.folder / name
 
     def __call__(self, text, ranks=1, timeout=120, check=True, switches=SWITCHES):
-        result = self.run(text, ranks, timeout, switches)
+        result = (None if switches else self.run_in_worker(text, ranks, timeout, check)) or self.run(text, ranks, timeout, switches)
         if result.code and "with PID 0 on" in result.output and "\nTotal wall time" in result.log:
             # LAMMPS has ended well; under load, mpiexec of Open MPI 4 may miss the end of a rank, for which it has no number yet
             result = self.run(text, ranks, timeout, switches)
@@ -99,6 +176,20 @@ class Lammps:
         if check:
             assert result.code == 0, f"LAMMPS failed with status {result.code}:\n{result.output[-3000:]}"
         return result
+
+    def run_in_worker(self, text, ranks, timeout, check):
+        """None: the run needs a process of its own, as one on several ranks that may end by an error."""
+        worker = None if ranks > 1 and (MPIEXEC == "none" or not check) else Worker.on(ranks)
+        if not worker:
+            return None
+        number = len(self.results)
+        text_file, out, log = (self.path(f"{name}.{number}") for name in ("in", "out", "log"))
+        text_file.write_text(text)
+        code = worker.run(self.folder, number, not check, timeout)
+        output = out.read_text(errors="replace")
+        if code is None:
+            raise AssertionError(f"LAMMPS hangs (no end after {timeout} s):\n{output[-3000:]}")
+        return Result(code, output, log.read_text(errors="replace") if log.exists() else "")
 
     def run(self, text, ranks, timeout, switches):
         name = f"in.{len(self.results)}"

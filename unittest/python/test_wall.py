@@ -1023,7 +1023,7 @@ def inputs_of_the_manual():
 
 
 def test_there_are_inputs_in_the_manual():
-    assert len(inputs_of_the_manual()) == 4
+    assert len(inputs_of_the_manual()) == 5
 
 
 @pytest.mark.parametrize("title", inputs_of_the_manual())
