@@ -127,22 +127,22 @@ class Worker:
                         self.close()
                         return
 
-    def run(self, folder, number, child, timeout):
+    def run(self, folder, number, timeout):
         """The exit status; None if there is none in time."""
         variables = {name: value for name, value in os.environ.items() if name.startswith("LAMMPS_")}
         for connection in self.connections:
-            connection.sendall((json.dumps([str(folder), number, child, variables]) + "\n").encode())
+            connection.sendall((json.dumps([str(folder), number, variables]) + "\n").encode())
         waiting, status, end = set(self.connections), 0, time.monotonic() + timeout
-        while waiting and status == 0:
+        while waiting and status in (0, 1):
             ready, _, _ = select.select(list(waiting), [], [], max(end - time.monotonic(), 0.0))
             if not ready:
                 status = None
             for connection in ready:
-                status = status or int(connection.recv(100) or 1)    # nothing: the process has died
+                status = max(status, int(connection.recv(100) or 2))    # nothing: the process has died
                 waiting.remove(connection)
-        if status is None or status and not child:
+        if status not in (0, 1):
             self.close()
-        return status
+        return status and 1
 
     def close(self):
         for connection in self.connections:
@@ -168,7 +168,7 @@ class Lammps:
         return self.folder / name
 
     def __call__(self, text, ranks=1, timeout=120, check=True, switches=SWITCHES):
-        result = (None if switches else self.run_in_worker(text, ranks, timeout, check)) or self.run(text, ranks, timeout, switches)
+        result = (None if switches else self.run_in_worker(text, ranks, timeout)) or self.run(text, ranks, timeout, switches)
         if result.code and "with PID 0 on" in result.output and "\nTotal wall time" in result.log:
             # LAMMPS has ended well; under load, mpiexec of Open MPI 4 may miss the end of a rank, for which it has no number yet
             result = self.run(text, ranks, timeout, switches)
@@ -177,15 +177,15 @@ class Lammps:
             assert result.code == 0, f"LAMMPS failed with status {result.code}:\n{result.output[-3000:]}"
         return result
 
-    def run_in_worker(self, text, ranks, timeout, check):
-        """None: the run needs a process of its own, as one on several ranks that may end by an error."""
-        worker = None if ranks > 1 and (MPIEXEC == "none" or not check) else Worker.on(ranks)
+    def run_in_worker(self, text, ranks, timeout):
+        """None: there is no worker."""
+        worker = None if ranks > 1 and MPIEXEC == "none" else Worker.on(ranks)
         if not worker:
             return None
         number = len(self.results)
         text_file, out, log = (self.path(f"{name}.{number}") for name in ("in", "out", "log"))
         text_file.write_text(text)
-        code = worker.run(self.folder, number, not check, timeout)
+        code = worker.run(self.folder, number, timeout)
         output = out.read_text(errors="replace")
         if code is None:
             raise AssertionError(f"LAMMPS hangs (no end after {timeout} s):\n{output[-3000:]}")

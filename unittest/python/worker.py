@@ -3,9 +3,9 @@ short run. helpers.py starts it, alone or once per rank.
 
     worker.py LIBRARY SOCKET
 
-A line of JSON comes for each input: its folder, the number that its files have, whether it gets a child process of its own, and the
-environment variables of LAMMPS.
-The answer is the exit status. Without a child process, the first error ends the worker.
+A line of JSON comes for each input: its folder, the number that its files have, and the environment variables of LAMMPS.
+The answer is 0 after a run without an error, 1 after an error that all ranks have reported (the worker goes on, with LAMMPS left as it is),
+2 after one of a single rank, which ends the worker.
 """
 
 import ctypes
@@ -19,7 +19,7 @@ def load(path):
     library = ctypes.CDLL(path, ctypes.RTLD_GLOBAL)
     library.lammps_open_no_mpi.restype = ctypes.c_void_p
     library.lammps_file.argtypes = [ctypes.c_void_p, ctypes.c_char_p]
-    library.lammps_has_error.argtypes = [ctypes.c_void_p]
+    library.lammps_get_last_error_message.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int]
     library.lammps_close.argtypes = [ctypes.c_void_p]
     library.lammps_mpi_init()
     return library
@@ -35,22 +35,11 @@ def run(library, folder, number):
     words = [word.encode() for word in ("lmp", "-log", f"log.{number}", "-nocite")]
     handle = library.lammps_open_no_mpi(len(words), (ctypes.c_char_p * len(words))(*words), None)
     library.lammps_file(handle, f"in.{number}".encode())
-    status = int(library.lammps_has_error(handle) != 0)
+    status = library.lammps_get_last_error_message(handle, ctypes.create_string_buffer(1), 1)
     if not status:
         library.lammps_close(handle)
     ctypes.CDLL(None).fflush(None)
     return status
-
-
-def run_in_child(library, folder, number):
-    child = os.fork()
-    if not child:
-        status = 1
-        try:
-            status = run(library, folder, number)
-        finally:
-            os._exit(status)
-    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
 def main(path, address):
@@ -58,13 +47,13 @@ def main(path, address):
     with socket.socket(socket.AF_UNIX) as connection:
         connection.connect(address)
         for line in connection.makefile():
-            folder, number, child, variables = json.loads(line)
+            folder, number, variables = json.loads(line)
             for name in [name for name in os.environ if name.startswith("LAMMPS_")]:
                 del os.environ[name]
             os.environ.update(variables)
-            status = (run_in_child if child else run)(library, folder, number)
+            status = run(library, folder, number)
             connection.sendall(f"{status}\n".encode())
-            if status and not child:
+            if status == 2:
                 os._exit(1)
     library.lammps_mpi_finalize()
 
