@@ -98,7 +98,8 @@ class Worker:
         """None: each run is a process of its own."""
         if SWITCHES or "ASAN_OPTIONS" in os.environ or os.environ.get("SPHD_WORKERS") == "none" or not os.path.exists(LIBRARY):
             return None
-        if ranks not in cls.started or not cls.started[ranks].connections:
+        worker = cls.started.get(ranks)
+        if not (worker and worker.connections and worker.process.poll() is None):
             cls.started[ranks] = cls(ranks)
         return cls.started[ranks] if cls.started[ranks].connections else None
 
