@@ -17,9 +17,9 @@ PANELS = 2, 3, 5, 10    # of the pictures, one in 0.2 s
 
 def plot(path, pictures):
     plt = pyplot()
-    figure, panels = plt.subplots(2, 2, figsize=(9.6, 4.8))
+    figure, panels = plt.subplots(2, 2, figsize=(9.6, 4.0))
     for axes, k in zip(panels.ravel(), PANELS):
-        axes.imshow(plt.imread(pictures[min(k, len(pictures) - 1)]))
+        axes.imshow(plt.imread(pictures[min(k, len(pictures) - 1)])[100:])
         axes.set_title(f"t = {0.2 * k:g} s", loc="left")
         axes.axis("off")
     save(figure, path)
