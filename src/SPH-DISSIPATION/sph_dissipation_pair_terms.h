@@ -100,6 +100,16 @@ template <class Of, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTe
   template <class Pair> static SPH_INLINE void add_vector(Pair &) {}
 };
 
+// the heat of the channels alone
+
+template <class Form> SPH_INLINE void find_heat(PairState &pair)
+{
+  for (int c = 0; c < NCHANNEL; c++)
+    if (Form::heats(c)) pair.heat[c] = Vec();
+  Form::add_central(pair);
+  Form::add_vector(pair);
+}
+
 // Of the heat of a pair of the fluid and a boundary, the fluid gets all.  It is the work of the friction against the boundary's own
 // velocity and spin, which those in the pair exceed.  With the half q, a quadratic form, of the pair and of the excess alone it is
 // q(u) + q(u - excess) - q(excess).  After add_vector(); of other pairs, where is_boundary is 0, no heat changes.
@@ -114,12 +124,8 @@ SPH_INLINE void add_boundary_heat(PairState &pair, PairState &excess, Vec is_bou
     if constexpr (Form::SPINS) own.s[d] = pair.s[d] - excess.s[d];
   }
   own.approach = pair.approach - excess.approach;
-  for (PairState *const one : {&own, &excess}) {
-    for (int c = 0; c < NCHANNEL; c++)
-      if (Form::heats(c)) one->heat[c] = Vec();
-    Form::add_central(*one);
-    Form::add_vector(*one);
-  }
+  find_heat<Form>(own);
+  find_heat<Form>(excess);
   for (int c = 0; c < NCHANNEL; c++)
     if (Form::heats(c)) pair.heat[c] += is_boundary * (own.heat[c] - excess.heat[c]);
 }
