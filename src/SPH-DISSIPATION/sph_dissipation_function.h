@@ -28,8 +28,10 @@
 
 #ifdef __GNUC__
 #define SPH_HOST_INLINE inline __attribute__((always_inline))
+#define SPH_NOINLINE __attribute__((noinline))
 #else
 #define SPH_HOST_INLINE inline
+#define SPH_NOINLINE
 #endif
 
 #ifdef KOKKOS_FORCEINLINE_FUNCTION

@@ -288,10 +288,11 @@ namespace SPHDissipation {
       return slope;
     }
 
-    // all heat of pairs with a boundary to the fluid
+    // all heat of pairs with a boundary to the fluid; a function of its own, with a copy of the pair, or the loops would keep the
+    // pairs of all rows in memory
 
     template <class Form>
-    SPH_INLINE void give_boundary_heat(PairState &pair, const Excess *excess, int i, const int *j)
+    SPH_NOINLINE void give_boundary_heat(PairState &pair, const Excess *excess, int i, const int *j)
     {
       constexpr int N = WIDTH<Excess>;
       const Excess &own = excess[i];
@@ -464,7 +465,12 @@ namespace SPHDissipation {
             if constexpr (Noise::ENERGY) given = noise.given_by_torque(pair.t, pair.spin);
           }
           if constexpr (CONTINUED)
-            if (crosses) give_boundary_heat<Form>(pair, data.excess, i, j);
+            if (crosses) {
+              PairState copy = pair;
+              give_boundary_heat<Form>(copy, data.excess, i, j);
+              for (int c = 0; c < NCHANNEL; c++)
+                if (Form::heats(c)) pair.heat[c] = copy.heat[c];
+            }
           if constexpr (side.N > 0) side.add(data.side, j, pair);
           Vec heat = pair.heat[0];
           for (int d = 0; d < 3; d++) total_f[d] += pair.f[d];
