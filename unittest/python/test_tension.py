@@ -134,7 +134,7 @@ def test_energy_of_a_plane(lammps, dim, spacings, volume):
     particles.type = np.where(particles.x[:, 0] < particles.hi[0] / 2, 1, 2)
     particles.mass = rho[particles.type - 1] * spacing**dim
     particles.write(lammps.path("box.data"))
-    text = header(dim) + "read_data box.data\n" + f"pair_style sph/bulk dim {dim} volume {volume}\n"
+    text = header(dim) + f"read_data box.data\nneighbor {0.3 * spacing} bin\npair_style sph/bulk dim {dim} volume {volume}\n"
     for k in range(2):
         text += f"pair_coeff {k + 1} {k + 1} {rho[k]} 1.0 0.1 intrinsic {spacings * spacing}\n"
     text += f"pair_coeff 1 2 tension {sigma}\nfix FLUID all sph/bulk\ncompute E all sph/energy\nthermo_style custom step c_E[5]\n" + FULL + "run 0\n"
