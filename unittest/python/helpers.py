@@ -129,21 +129,23 @@ class Worker:
                         return
 
     def run(self, folder, number, timeout):
-        """The exit status; None if there is none in time."""
+        """0; 1 after an error; -1 if a process has died; None if there is no end in time."""
         variables = {name: value for name, value in os.environ.items() if name.startswith("LAMMPS_")}
         for connection in self.connections:
             connection.sendall((json.dumps([str(folder), number, variables]) + "\n").encode())
-        waiting, status, end = set(self.connections), 0, time.monotonic() + timeout
-        while waiting and status in (0, 1):
+        waiting, answers, end = set(self.connections), {0}, time.monotonic() + timeout
+        while waiting and answers <= {0, 1}:
             ready, _, _ = select.select(list(waiting), [], [], max(end - time.monotonic(), 0.0))
             if not ready:
-                status = None
+                answers.add(None)
             for connection in ready:
-                status = max(status, int(connection.recv(100) or 2))    # nothing: the process has died
+                answers.add(int(connection.recv(100) or -1))    # nothing: the process has died
                 waiting.remove(connection)
-        if status not in (0, 1):
+        if not answers <= {0, 1}:
             self.close()
-        return status and 1
+        if None in answers:
+            return None
+        return -1 if -1 in answers and 2 not in answers else int(answers != {0})
 
     def close(self):
         for connection in self.connections:

@@ -320,6 +320,16 @@ def test_computes_at_the_same_step_see_what_has_changed(lammps):
     assert shear_after == pytest.approx(2.0 * shear, rel=1e-5) and after != before and energy != energy_after
 
 
+@UNSANITIZED
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_a_process_that_dies_is_no_error_of_an_input(lammps, ranks):
+    """And the next input runs."""
+    good = "region box block 0 1 0 1 0 1\ncreate_box 1 box\n"
+    assert lammps(good + "crazy\n", ranks=ranks, check=False).code == 1
+    assert lammps(good + "shell 'kill -SEGV $PPID'\nrun 0\n", ranks=ranks, check=False).code not in (0, 1)
+    lammps(good, ranks=ranks)
+
+
 # ---------------------------------------------------------------------------------------------
 # the library: several instances in one process, and its view of the particles
 
