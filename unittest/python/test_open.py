@@ -50,22 +50,29 @@ def test_uniform_stream(lammps, name, outlet):
     assert max(errors) < 1e-10
 
 
-@pytest.mark.parametrize("name", CHANNELS)
-def test_stream_does_not_depend_on_the_number_of_ranks(lammps, name):
+def some(names, ranks, newton, short):
+    """The other channels are long."""
+    return [pytest.param(name, ranks, newton, marks=[] if name in short else pytest.mark.long) for name in names]
+
+
+@pytest.mark.parametrize("name, ranks, newton", [
+    *some(CHANNELS, 2, "off", ("square", "rows across", "down", "oblique, hexagonal", "3d")),
+    *some(CHANNELS, 4, "on", ("hexagonal", "oblique")), *some(CHANNELS, 4, "off", ("3d",))])
+def test_stream_does_not_depend_on_the_number_of_ranks(lammps, name, ranks, newton):
     """Tags and positions of each particle, also of the many that came in the run; newton on and off."""
     channel = Channel(**CHANNELS[name])
-    steps = int(1.5 * channel.length / U / 0.25)
+    steps = 480  # twelve spacings: more than the zone is long
     frames = []
-    for ranks, newton in ((1, "on"), (2, "off"), (4, "on"), (4, "off")):
+    for number, law in ((1, "on"), (ranks, newton)):
         lammps(channel.text(lammps, f"velocity {channel.vector(U)}", "density 1.0", velocity=stream, timestep=0.25,
-                            newton=newton) + dump("out.dump", steps) + f"run {steps}\n", ranks=ranks)
+                            newton=law) + dump("out.dump", steps) + f"run {steps}\n", ranks=number)
         frames.append(lammps.frame("out.dump"))
-    assert frames[0]["id"].max() > 1.2 * len(frames[0]["id"])
-    for frame in frames[1:]:
-        assert (frame["id"] == frames[0]["id"]).all()
-        difference = np.abs(np.stack([frame["x"] - frames[0]["x"], frame["v"] - frames[0]["v"]])).max()
-        print(f"{difference:.2e}")
-        assert difference < 1e-11
+    one, other = frames
+    assert one["id"].max() > 1.2 * len(one["id"])
+    assert (other["id"] == one["id"]).all()
+    difference = np.abs(np.stack([other["x"] - one["x"], other["v"] - one["v"]])).max()
+    print(f"{difference:.2e}")
+    assert difference < 1e-11
 
 
 def wavy(channel, size=0.02):
@@ -190,16 +197,22 @@ def test_run_commands_without_setup(lammps, runs):
     assert np.abs(one["x"] - two["x"]).max() < 1e-12
 
 
+def paused(lammps, pause):
+    channel = Channel(kind="hex", length=20)
+    lammps(unsteady(lammps, channel) + "run 60\n" + pause + dump("out.dump", 20) + LEDGER + "run 100\n", ranks=2)
+    return lammps.frame("out.dump"), lammps.results[-1].thermo()[-1]
+
+
+@pytest.fixture(scope="module")
+def without_pause(shared_lammps):
+    return paused(shared_lammps, "")
+
+
 @pytest.mark.parametrize("pause", ["run 0\nrun 0\n", "reset_timestep 0\n", "timestep 0.3\n", "write_restart x.restart\n",
                                    "write_data x.data\n", "balance 1.0 shift x 5 1.1\n"])
-def test_pause(lammps, pause):
+def test_pause(lammps, without_pause, pause):
     """Nothing of these is an event for the zones: what they remember, in particular, is not of this clock."""
-    channel = Channel(kind="hex", length=20)
-    frames = []
-    for commands in ("", pause):
-        lammps(unsteady(lammps, channel) + "run 60\n" + commands + dump("out.dump", 20) + LEDGER + "run 100\n", ranks=2)
-        frames.append((lammps.frame("out.dump"), lammps.results[-1].thermo()[-1]))
-    (one, table), (two, other) = frames
+    (one, table), (two, other) = without_pause, paused(lammps, pause)
     assert (one["id"] == two["id"]).all()
     assert np.abs(one["x"] - two["x"]).max() < 1e-12
     for key in table:

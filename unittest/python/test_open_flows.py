@@ -46,7 +46,7 @@ def pipe(shared_lammps):
     return result
 
 
-@pytest.mark.parametrize("sigma, aspect", [(0, 0.5), (1, 0.7), (10, 1.0)])
+@pytest.mark.parametrize("sigma, aspect", [(0, 0.5), (1, 0.7), pytest.param(10, 1.0, marks=pytest.mark.long)])
 def test_the_flow_through_a_pipe_decays_as_it_should(pipe, sigma, aspect):
     """Velocity at the centre and kinetic energy, down to the half of it; mass in the pipe; nothing lost."""
     found = pipe(f"sigma{sigma}", sigma=sigma, aspect=aspect)
@@ -60,7 +60,7 @@ def test_the_flow_through_a_pipe_decays_as_it_should(pipe, sigma, aspect):
     assert across < 0.02
 
 
-@pytest.mark.parametrize("variable, value", [("fy", 0), ("fluid", 10)])
+@pytest.mark.parametrize("variable, value", [("fy", 0), pytest.param("fluid", 10, marks=pytest.mark.long)])
 def test_it_does_not_with_another_force_or_bulk_viscosity(pipe, variable, value):
     center, kinetic, _, lost = pipe(variable, **{variable: value}).errors()
     print(f"{variable} {value}: centre {center:.4f}, kinetic energy {kinetic:.4f}")

@@ -56,14 +56,17 @@ def keywords(style, **more):
 PLANE = ("n", "m", "px", "py", "lz")
 
 
-@pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off"), (4, "on")])
-@pytest.mark.parametrize("style, options", [("sph/bulk", "bulk density"), ("sph/bulk", "bulk volume"), ("sph/bulk", "volume mass bulk volume"),
-                                            ("sph/bulk", "volume mass eos tait"), ("sph/bulk", "shear morris"),
-                                            ("sph/micropolar", ""), ("sph/micropolar", "bulk volume volume mass")])
+SETTINGS = [("sph/bulk", "bulk density"), ("sph/bulk", "bulk volume"), ("sph/bulk", "volume mass bulk volume"), ("sph/bulk", "volume mass eos tait"),
+            ("sph/micropolar", ""), ("sph/micropolar", "bulk volume volume mass"), ("sph/bulk", "shear morris")]
+SHORT = {2: SETTINGS[1:6:2], 4: SETTINGS[0:6:2]}  # each setting on one number of ranks besides 1
+
+
+@pytest.mark.parametrize("style, options, ranks, newton", [
+    *[(*setting, 1, "on") for setting in SETTINGS],
+    *[pytest.param(*setting, ranks, newton, marks=[] if setting in SHORT[ranks] else pytest.mark.long)
+      for ranks, newton in ((2, "off"), (4, "on")) for setting in SETTINGS[:-1]]])
 def test_ledger(lammps, style, options, ranks, newton):
     """Number, mass, momentum, angular momentum about the origin, in a jet without walls; spin of what enters."""
-    if "morris" in options and ranks > 1:
-        pytest.skip("ranks are covered by the other settings")
     channel = Channel(box="free", zone=9.0)
     names = PLANE if "morris" not in options else PLANE[:-1]
     spin = "spin 0 0 0.3" if style != "sph/bulk" else ""

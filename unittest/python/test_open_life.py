@@ -33,7 +33,7 @@ def test_zones_beside_walls(lammps):
     assert np.abs(count - count[0]).max() <= channel.width
 
 
-@pytest.mark.parametrize("ranks", [1, 4])
+@pytest.mark.parametrize("ranks", [1, 2])
 def test_spin_is_carried_in(lammps, ranks):
     """Without friction between spin and flow, each particle keeps what it brought; it has a moment of inertia."""
     channel = Channel()

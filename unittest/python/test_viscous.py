@@ -364,8 +364,9 @@ def test_walls(lammps, wall, options):
 
 
 
-@pytest.mark.parametrize("name", SCHEMES)
-@pytest.mark.parametrize("style, options", [("sph/bulk", "bulk density"), ("sph/micropolar", "volume mass")])
+@pytest.mark.parametrize("name, style, options", [
+    pytest.param(name, style, options, marks=[] if number % 2 == kind else pytest.mark.long)
+    for number, name in enumerate(SCHEMES) for kind, (style, options) in enumerate([("sph/bulk", "bulk density"), ("sph/micropolar", "volume mass")])])
 def test_open_ends(lammps, name, style, options):
     """The account of mass and momentum in a jet of a fluid with a hundred times its viscosities."""
     channel = ends.Channel(box="free", zone=9.0)
