@@ -189,10 +189,10 @@ class Lammps:
         text_file, out, log = (self.path(f"{name}.{number}") for name in ("in", "out", "log"))
         text_file.write_text(text)
         code = worker.run(self.folder, number, timeout)
-        output = out.read_text(errors="replace")
+        output, messages = (file.read_text(errors="replace") if file.exists() else "" for file in (out, log))
         if code is None:
             raise AssertionError(f"LAMMPS hangs (no end after {timeout} s):\n{output[-3000:]}")
-        return Result(code, output, log.read_text(errors="replace") if log.exists() else "")
+        return Result(code, output, messages)
 
     def run(self, text, ranks, timeout, switches):
         name = f"in.{len(self.results)}"

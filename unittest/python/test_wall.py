@@ -234,10 +234,11 @@ def test_forces(lammps, dim, style, name, options):
 FRICTION = [(dim, BULK, name, options) for dim in (2, 3)
             for name, options in (("moving", {}), ("turning", dict(shear="mg/fr")), ("free", dict(shear="morris")), ("turning", dict(shear="espanol")))]
 FRICTION += [(dim, MICRO, name, {}) for dim in (2, 3) for name in ("spin rate", "free", "turning")]
+BEFORE = ["run 3\nrun 3 pre no\n", "minimize 0 0 3 10\nrun 2\nrun 2 pre no\n", "run 2\nunfix W0\nrun 1\n" + wall_fix(0, **WALLS[2]["moving"][0])]
 
 
-@pytest.mark.parametrize("dim, style, name, options", FRICTION)
-def test_heat_of_friction_is_the_work(lammps, dim, style, name, options):
+@pytest.mark.parametrize("dim, style, name, options, before", [(*case, "") for case in FRICTION] + [(2, BULK, "moving", {}, text) for text in BEFORE])
+def test_heat_of_friction_is_the_work(lammps, dim, style, name, options, before):
     """Its forces and torques do work on the fluid, and on walls with their own velocity and angular velocity: what is lost is heat of the fluid."""
     particles, owner = SETS[dim]
     model = model_of(dim, style, bulk="none", **options)
@@ -245,17 +246,17 @@ def test_heat_of_friction_is_the_work(lammps, dim, style, name, options):
     without = replace(model, fluids=[replace(fluid, mu=0.0, **spinning) for fluid in model.fluids])
     omega = spins(particles) if style == MICRO else None
     save(lammps, particles, model, omega)
-    for one, file in ((without, "pressure.dump"), (model, "all.dump")):
-        (table,) = lammps(start(one, owner, WALLS[dim][name]) + "compute Q all sph/dissipation\n"
-                          + dump(file, owner, style=style).replace("c_V[*]", "c_V[*] c_Q", 1)
-                          + "thermo_style custom step c_Q c_Q[*]\n" + FULL + "run 0\n").thermo()
-    frame, at_rest = lammps.frame("all.dump"), lammps.frame("pressure.dump")
-    work = ((frame["f"] - at_rest["f"]) * frame["v"]).sum(axis=1)
+    text = start(model, owner, WALLS[dim][name]) + before + "compute Q all sph/dissipation\nthermo_style custom step c_Q c_Q[*]\n" + FULL
+    for commands, file in (("", "all.dump"), (pair_commands(without), "pressure.dump")):
+        text += commands + dump(file, owner, style=style).replace("c_V[*]", "c_V[*] c_Q", 1) + "run 0\n" + undump()
+    table = lammps(text).thermo()[-2]
+    frame, pressure = lammps.frame("all.dump"), lammps.frame("pressure.dump")
+    work = ((frame["f"] - pressure["f"]) * vest_of(frame)).sum(axis=1)
     if style == MICRO:
         rate = omega_of(frame)
         for k, wall in enumerate(WALLS[dim][name]):
             rate[owner == k] = wall_now(**wall).omega
-        work += ((torque_of(frame) - torque_of(at_rest)) * rate).sum(axis=1)
+        work += ((torque_of(frame) - torque_of(pressure)) * rate).sum(axis=1)
     heat = frame.columns["c_Q"]
     print("heat", table["c_Q"][0], "work", work.sum(), "on walls", work[owner >= 0].sum())
     assert table["c_Q"][0] == pytest.approx(-work.sum(), rel=1e-12)
