@@ -81,6 +81,11 @@ function(sph_dissipation_add_kokkos_sources)
   file(GLOB sources CONFIGURE_DEPENDS "${SPH_DISSIPATION_KOKKOS_DIR}/[^.]*.cpp")
   target_sources(lammps PRIVATE ${sources})
   target_include_directories(lammps PRIVATE "${SPH_DISSIPATION_KOKKOS_DIR}")
+  # nvcc only warns of a loop on the device that calls a function of the host alone, and the loop computes nonsense
+  if(Kokkos_ENABLE_CUDA AND CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper$")
+    set_property(SOURCE ${sources} TARGET_DIRECTORY lammps APPEND PROPERTY COMPILE_OPTIONS
+      -Werror=cross-execution-space-call -Xcudafe --diag_error=20013)
+  endif()
 endfunction()
 
 # LAMMPS lists only packages of its own as installed ("lmp -h", lammps_config_has_package()).

@@ -48,7 +48,7 @@ template <class... Term> struct Form {
   static constexpr bool BY_RATE = (Term::BY_RATE || ...);
 
   // has heat of this channel; the last one of terms with spins
-  static constexpr bool heats(int channel) { return ((channel == Term::CHANNEL) || ...); }
+  static SPH_INLINE constexpr bool heats(int channel) { return ((channel == Term::CHANNEL) || ...); }
   static constexpr int channels()
   {
     int bits = 0;
@@ -246,7 +246,8 @@ namespace SPHDissipation {
   // BaseChannel; its terms, in the other part of its header, derive from PairTerm.
   template <class Base, class... One> struct ChannelList {
     // sum of these numbers of the channels before one of them
-    template <class Channel> static constexpr int sum_before(const int (&number)[sizeof...(One)])
+    template <class Channel>
+    SPH_FUNCTION static constexpr int sum_before(const int (&number)[sizeof...(One)])
     {
       int sum = 0, k = 0;
       bool found = false;
@@ -256,7 +257,7 @@ namespace SPHDissipation {
 
     // those that turn motion into heat: how many there are, and the place of a channel among them
     static constexpr int NUMBER = ((One::OF_MOTION ? 1 : 0) + ...);
-    template <class Channel> static constexpr int place()
+    template <class Channel> SPH_FUNCTION static constexpr int place()
     {
       return sum_before<Channel>({One::OF_MOTION...});
     }
@@ -264,11 +265,11 @@ namespace SPHDissipation {
     // the first one of a channel
     static constexpr int NPAIR = (One::NPAIR + ...), NTYPE = (One::NTYPE + ...);
     static constexpr int NUNLIKE = (static_cast<int>(One::UNLIKE_KEYWORDS.size()) + ...);
-    template <class Channel> static constexpr int first()
+    template <class Channel> SPH_FUNCTION static constexpr int first()
     {
       return sum_before<Channel>({One::NPAIR...});
     }
-    template <class Channel> static constexpr int first_of_type()
+    template <class Channel> SPH_FUNCTION static constexpr int first_of_type()
     {
       return sum_before<Channel>({One::NTYPE...});
     }

@@ -39,7 +39,7 @@ namespace SPHDissipation {
   constexpr int HEAT_FLOW = 0;
 
   // k_ij of two types with these coefficients
-  inline double mean_coefficient(double a, double b)
+  SPH_FUNCTION double mean_coefficient(double a, double b)
   {
     return (a > 0.0 && b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
   }

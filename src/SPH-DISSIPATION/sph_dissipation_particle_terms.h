@@ -112,7 +112,7 @@ namespace SPHDissipation {
       });
       return sum;
     }
-    void add_heat(int i, double *heat) const
+    SPH_FUNCTION void add_heat(int i, double *heat) const
     {
       States::each(*this, i, [&](auto channel, const auto &site) {
         typedef States::Owner<decltype(channel)> Owner;

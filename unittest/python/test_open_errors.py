@@ -229,7 +229,7 @@ def test_zone_beyond_the_box(lammps):
 
 
 def test_inflow_faster_than_the_zone_is_long(lammps):
-    refused(lammps, "the zone of length 8 ran empty; build them more often or make the zone longer", ranks=(1, 4),
+    refused(lammps, "the zone of length 8 ran empty; build them more often or make the zone longer", ranks=(2,),
             edit=lambda text: text.replace("neighbor 0.53 bin", "neighbor 0.53 bin\nneigh_modify every 1000 delay 0 check no"),
             run="run 3000\n", before="thermo_modify lost ignore\n")
 
@@ -255,7 +255,7 @@ def test_supersonic_outflow(lammps):
     for outlet, number in (("density 1.0", 1), ("density 1.0 condition characteristic", 1), ("density 1.0 condition fixed", 1),
                            ("condition fixed", 0)):
         channel = Channel()
-        for ranks in (1, 4):
+        for ranks in (1, 4) if "characteristic" in outlet else (1,):
             result = lammps(channel.text(lammps, "velocity 1.5 0 0 density 1.0 condition fixed", outlet, timestep=0.05,
                                          velocity=lambda place: place * 0 + [1.5, 0, 0]) + "run 40\nrun 40\n", ranks=ranks)
             assert len(re.findall("WARNING.*leave faster than sound", result.log)) == number

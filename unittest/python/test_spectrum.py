@@ -372,7 +372,7 @@ def test_group(lammps):
 
 @pytest.mark.parametrize("dim, keywords, per_point", [(3, "deconvolve yes", 264), (3, "", 256), (3, "order 0", 184),
                                                       (2, "deconvolve yes", 232)])
-@pytest.mark.parametrize("ranks", [1, 2, 4])
+@pytest.mark.parametrize("ranks", [1, 4])
 def test_memory(lammps, dim, keywords, per_point, ranks):
     """Bytes per point of the grid on the processor that owns it, as the page counts them; next to none before the first use."""
     disordered(dim, {3: 12, 2: 30}[dim]).write(lammps.path("box.data"))
@@ -394,12 +394,12 @@ def test_memory(lammps, dim, keywords, per_point, ranks):
 
 
 def test_time(lammps):
-    """A spectrum takes less time than ten steps without vector loops, which it does not have either: processor time, the smallest of three runs."""
+    """A spectrum takes less time than ten steps without vector loops, which it does not have either: processor time, the smallest of two runs."""
     disordered(3, 24).write(lammps.path("box.data"))
     text = (header(3) + "read_data box.data\n" + fluid(3, "simd none", support=4.0) + INTEGRATE + "run 10\n"
             "compute S all sph/spectrum 24 24 24 deconvolve yes\nfix S all ave/time 1 1 1 c_S[1]\nrun 10\n")
     steps, both = [], []
-    for _ in range(3):
+    for _ in range(2):
         log = lammps(text).log
         loops = re.findall(r"Loop time of (\S+)", log)
         use = re.findall(r"(\S+)% CPU use", log)
