@@ -87,7 +87,7 @@ build() {
   cmake --build "$tree" --target lmp -j "${SPHD_JOBS:-$(nproc)}"
 }
 
-switches() { if [[ $backend == cuda ]]; then echo "-k on g 1 -sf kk"; else echo "-k on -sf kk/device"; fi; }
+switches() { if [[ $backend == cuda ]]; then echo "-k on g 1 -sf kk -pk kokkos neigh half newton on"; else echo "-k on -sf kk/device"; fi; }
 
 # the /kk styles against the CPU styles, on one rank
 tests() {

@@ -278,7 +278,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*vflag*/)
 {
-  constexpr bool ON_HOST = std::is_same_v<typename DeviceType::memory_space, Kokkos::HostSpace>;
+  constexpr bool ON_HOST = std::is_same_v<DeviceType, LMPHostType>;
   const bool has_torque = atom->torque_flag;
   atomKK->sync(execution_space,
                X_MASK | F_MASK | IMAGE_MASK | MASK_MASK | (has_torque ? TORQUE_MASK : EMPTY_MASK));

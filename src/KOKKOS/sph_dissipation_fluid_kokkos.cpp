@@ -515,7 +515,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
   if (!on_device) return Fluid::sum_density();
   if (!copied) copy_coeffs();
   grow();
-  atomKK->sync(pair->execution_space, read_mask());
+  // what it modifies, too: LAMMPS communicates on the host if MPI does not know the GPU
+  atomKK->sync(pair->execution_space, read_mask() | modified_mask());
   set_particles();
   with_kernel(model->choice.kernel, [&](auto kernel) {
     typedef decltype(kernel) K;

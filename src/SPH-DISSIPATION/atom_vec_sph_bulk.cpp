@@ -189,14 +189,14 @@ void AtomVecSPHBulk::check_data_line(int ilocal) const
   constexpr std::size_t INTEGER = 12;
 
   std::size_t length = 0;
-  for (int slot : slots) length += fmt::formatted_size(" {:.16}", state[slot][ilocal]);
+  for (int slot : slots) length += fmt::format(" {:.16}", state[slot][ilocal]).size();
   if (length < OTHERS) return;
 
   imageint *const image = &atom->image[ilocal];
-  length =
-      fmt::formatted_size("{} {} {} {} {}", atom->tag ? atom->tag[ilocal] : 0, atom->type[ilocal],
-                          (*image & IMGMASK) - IMGMAX, (*image >> IMGBITS & IMGMASK) - IMGMAX,
-                          (*image >> IMG2BITS) - IMGMAX);
+  length = fmt::format("{} {} {} {} {}", atom->tag ? atom->tag[ilocal] : 0, atom->type[ilocal],
+                       (*image & IMGMASK) - IMGMAX, (*image >> IMGBITS & IMGMASK) - IMGMAX,
+                       (*image >> IMG2BITS) - IMGMAX)
+               .size();
   for (const auto &name : atom->avec->fields_data_atom) {
     if (name == "id" || name == "type") continue;
     const auto field =
@@ -207,10 +207,10 @@ void AtomVecSPHBulk::check_data_line(int ilocal) const
     if (field->datatype != Atom::DOUBLE)
       length += INTEGER * std::max(field->cols, 1);
     else if (field->cols == 0)
-      length += fmt::formatted_size(" {:.16}", (*(double **) field->address)[ilocal]);
+      length += fmt::format(" {:.16}", (*(double **) field->address)[ilocal]).size();
     else
       for (int d = 0; d < field->cols; d++)
-        length += fmt::formatted_size(" {}", (*(double ***) field->address)[ilocal][d]);
+        length += fmt::format(" {}", (*(double ***) field->address)[ilocal][d]).size();
   }
   if (length > MOST_OF_DATA_LINE)
     error->one(FLERR,

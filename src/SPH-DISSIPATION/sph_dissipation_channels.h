@@ -48,7 +48,10 @@ template <class... Term> struct Form {
   static constexpr bool BY_RATE = (Term::BY_RATE || ...);
 
   // has heat of this channel; the last one of terms with spins
-  static SPH_INLINE constexpr bool heats(int channel) { return ((channel == Term::CHANNEL) || ...); }
+  static SPH_INLINE constexpr bool heats(int channel)
+  {
+    return ((channel == Term::CHANNEL) || ...);
+  }
   static constexpr int channels()
   {
     int bits = 0;
