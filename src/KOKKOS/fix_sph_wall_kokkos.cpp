@@ -269,6 +269,11 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
         k++;
       },
       nparticles);
+  if constexpr (ON_HOST) return;
+  packed = {};
+  packed = decltype(packed)(Kokkos::NoInit("sph/wall:packed"), nparticles);
+  values = decltype(values)(Kokkos::NoInit("sph/wall:values"), nparticles);
+  numbers = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles);
 }
 
 /* ----------------------------------------------------------------------
@@ -278,7 +283,6 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*vflag*/)
 {
-  constexpr bool ON_HOST = std::is_same_v<DeviceType, LMPHostType>;
   const bool has_torque = atom->torque_flag;
   atomKK->sync(execution_space,
                X_MASK | F_MASK | IMAGE_MASK | MASK_MASK | (has_torque ? TORQUE_MASK : EMPTY_MASK));
@@ -319,14 +323,12 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*
   book_heat();
   if constexpr (ON_HOST) return k_array.template modify<DeviceType>();
 
-  Kokkos::View<double *[NVALUES], Kokkos::LayoutRight, DeviceType> packed(
-      Kokkos::NoInit("sph/wall:packed"), nparticles);
+  auto on_device = packed;
   Kokkos::parallel_for(
       "sph:wall_pack", Kokkos::RangePolicy<DeviceType>(0, nparticles), KOKKOS_LAMBDA(int k) {
-        for (int c = 0; c < NVALUES; c++) packed(k, c) = array(list(k), c);
+        for (int c = 0; c < NVALUES; c++) on_device(k, c) = array(list(k), c);
       });
-  const auto values = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), packed);
-  const auto numbers = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles);
+  Kokkos::deep_copy(values, packed);
   for (int k = 0; k < nparticles; k++) std::copy_n(&values(k, 0), NVALUES, array_atom[numbers(k)]);
 }
 
@@ -462,7 +464,9 @@ void FixSPHWallKokkos<DeviceType>::unpack_exchange_kokkos(DAT::tdual_double_2d_l
 
 template <class DeviceType> double FixSPHWallKokkos<DeviceType>::memory_usage()
 {
-  return FixSPHWall::memory_usage() + (double) particles.extent(0) * sizeof(int) +
+  return FixSPHWall::memory_usage() +
+      (double) (particles.extent(0) + numbers.extent(0)) * sizeof(int) +
+      (double) (packed.size() + values.size()) * sizeof(double) +
       (double) heat_values.extent(0) * sizeof(double);
 }
 

@@ -69,6 +69,11 @@ class FixSPHWallKokkos :
   Kokkos::DualView<double *[6], Kokkos::LayoutRight, LMPDeviceType> k_array;    // array_atom
   Kokkos::View<int *, DeviceType> particles;    // owned ones of the wall, of the neighbor list
   int nparticles;
+  // on a GPU: what the host gets of them in each step
+  static constexpr bool ON_HOST = std::is_same_v<DeviceType, LMPHostType>;
+  Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> packed;
+  Kokkos::View<double *[6], Kokkos::LayoutRight, Kokkos::HostSpace> values;
+  Kokkos::View<int *, Kokkos::HostSpace> numbers;
   Kokkos::View<double *, DeviceType>
       heat_values;    // by owned particle, if that is how they are given
 
