@@ -81,7 +81,7 @@ class Result:
 
     @property
     def warnings(self):
-        """but LAMMPS's of an MPI that does not know the GPU"""
+        """Lines of the log, without those of LAMMPS about GPU-aware MPI."""
         return [line for line in re.findall(r"^WARNING.*$", self.log, re.MULTILINE) if "GPU-aware MPI" not in line]
 
     def thermo(self):
