@@ -4,6 +4,9 @@ Values of forces are those of an independent program with dense matrices.
 """
 
 import re
+import subprocess
+import sys
+import textwrap
 
 import numpy as np
 import pytest
@@ -407,6 +410,25 @@ def test_contact(lammps):
 
 
 # ---- equipartition --------------------------------------------------------------------------------------------------
+
+
+# diffusion over kT of the input of the page Howto_sph_bodies: mean and standard deviation of a run, of seeds 4711 and 1 to 19
+
+DIFFUSION, SCATTER = 0.508, 0.041
+
+
+def test_diffusion_of_the_colloid_of_the_page(lammps):
+    """The input and the Python of the page print the diffusion of the disc, within three standard deviations."""
+    page = ROOT / "doc" / "src" / "Howto_sph_bodies.rst"
+    (text,) = (text for _, _, text, _ in blocks(page) if text.startswith("# A colloid"))
+    (script,) = re.findall(r"code-block:: python\n\n((?: {3}.*\n|\n)+)", page.read_text())
+    lammps(text, timeout=300)
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], cwd=lammps.path("."), stdout=subprocess.PIPE, text=True, check=True)
+    assert float(done.stdout) == pytest.approx(DIFFUSION, abs=3 * SCATTER)
+    time, spread = np.loadtxt(lammps.path("msd.txt")).T
+    _, *place = np.loadtxt(lammps.path("path.txt")).T
+    assert time[[0, -1]] == pytest.approx((2.0, 80.0))
+    assert spread[-1] == pytest.approx(sum(np.mean((x[40:] - x[:-40])**2) for x in place))
 
 
 @pytest.mark.long

@@ -158,22 +158,62 @@ def recipe(title):
     return re.sub("^   ", "", block, flags=re.MULTILINE)
 
 
-def test_probes_of_a_tank_at_rest(lammps):
-    """Pressure in both ways, level, and force on a wall are those of hydrostatics; the tank stays at rest."""
-    text = recipe("A dam break")    # with a tap that is no whole number of spacings long
-    for old, new in (("n equal 15", "n equal 20"), ("5.366", "1.0"), ("0.0 2.0 0.0 1.0", "0.0 1.0 0.0 1.0"), ("0.117", "0.23"), ("0.267", "0.77"),
-                     ("x-1.0)<", "x-0.5)<"), ("abs(x-1.0)/", "abs(x-0.5)/"), ("c_thrust\n", "c_thrust ke\n"), ("run             2000", "run 3000")):
+def dam_of_page(*changes, **top):
+    """The input of the page with other values of the variables at its top, and other changes."""
+    text = recipe("A dam break")
+    for name, value in top.items():
+        text, count = re.subn(rf"^(variable +{name} index) \S+", rf"\1 {value}", text, flags=re.MULTILINE)
+        assert count == 1, name
+    for old, new in changes:
         assert old in text, old
         text = text.replace(old, new)
-    result = lammps(text)
+    return text
+
+
+SI = {"H": 0.2, "g": 9.81, "rho0": 1000.0}
+SI_UNITS = {"length": 0.2, "time": (0.2 / 9.81)**0.5, "pressure": 1000.0 * 9.81 * 0.2}
+
+
+@pytest.mark.parametrize("top, length, pressure", [({"width": 1.0, "tank": 1.0, "end": 3.375}, 1.0, 1.0),
+                                                   ({**SI, "width": 0.2, "tank": 0.2, "end": 3.375 * SI_UNITS["time"]}, 0.2, SI_UNITS["pressure"])])
+def test_probes_of_a_tank_at_rest(lammps, top, length, pressure):
+    """Pressure in both ways, level, and force on a wall are those of hydrostatics; the tank stays at rest. Only the top changes."""
+    changes = ("0.117", "0.23"), ("0.267", "0.77"), ("c_thrust\n", "c_thrust ke\n")    # a tap that is no whole number of spacings long
+    result = lammps(dam_of_page(*changes, n=20, **top))
     assert not result.warnings, result.warnings
     probes = {name: column[-10:].mean() for name, column in result.thermo()[-1].items()}
-    assert probes["v_tap"] == pytest.approx(0.5, abs=0.01)
-    assert probes["v_mean"] == pytest.approx(0.5, abs=0.01)
-    assert probes["c_level"] == pytest.approx(1.0, abs=0.01)
-    assert probes["v_front"] == pytest.approx(1.0, abs=0.01)
-    assert probes["c_thrust"] == pytest.approx(0.5, abs=0.01)
-    assert np.sqrt(2 * probes["KinEng"]) < 5e-3      # what is left of the start
+    assert probes["v_tap"] / pressure == pytest.approx(0.5, abs=0.01)
+    assert probes["v_mean"] / pressure == pytest.approx(0.5, abs=0.01)
+    assert probes["c_level"] / length == pytest.approx(1.0, abs=0.01)
+    assert probes["v_front"] / length == pytest.approx(1.0, abs=0.01)
+    assert probes["c_thrust"] / pressure / length == pytest.approx(0.5, abs=0.01)
+    assert np.sqrt(2 * probes["KinEng"] / pressure) / length < 5e-3      # what is left of the start
+
+
+def test_dam_break_of_the_page_in_si_units(lammps):
+    """The flow of the page with other numbers at the top is the same one, in other units."""
+    plain = lammps(dam_of_page(("thermo          100", "thermo 25"), end=0.45)).thermo()[-1]
+    scale, time, pressure = SI_UNITS["length"], SI_UNITS["time"], SI_UNITS["pressure"]
+    top = {**SI, "width": 2 * scale, "tank": 5.366 * scale, "mu": 1e-6 * pressure * time, "end": 0.45 * time}
+    result = lammps(dam_of_page(("thermo          100", "thermo 25"), **top))
+    assert not result.warnings, result.warnings
+    (table,) = result.thermo()
+    for name, unit in (("Time", time), ("v_front", scale), ("c_level", scale)):
+        np.testing.assert_allclose(table[name] / unit, plain[name], rtol=1e-6, err_msg=name)
+
+
+def test_narrow_column_of_the_page(lammps):
+    """The command line of the page: the spray reaches the lid and does not leave the tank."""
+    words = re.search(r"``((?:-var \w+ \S+ ?)+)``", PAGE)[1].split()
+    top = dict(zip(words[1::3], words[2::3]))
+    assert {"H", "width", "tank", "g", "rho0", "mu", "end"} <= set(top)
+    changes = ("compute         front", "compute high water reduce max y\ncompute         front"), ("c_thrust\n", "c_thrust c_high atoms\n")
+    result = lammps(dam_of_page(*changes, **{**top, "end": 1.0}))
+    assert not result.warnings, result.warnings
+    (table,) = result.thermo()
+    assert table["v_front"].max() == pytest.approx(float(top["tank"]), abs=0.02)
+    print(table["c_high"].max())
+    assert table["Atoms"][-1] == table["Atoms"][0] and table["c_high"].max() < 1.0
 
 
 def test_frequency_of_sloshing(lammps):
