@@ -1041,3 +1041,14 @@ def test_inputs_of_the_manual(lammps, title):
     of_walls = [name for name in table if name.startswith(("f_", "v_"))]
     assert len(of_walls) >= 2
     assert all(np.isfinite(table[name]).all() and np.abs(table[name][-1]) > 0.0 for name in of_walls)
+
+
+def test_profile_of_the_heated_channel(lammps):
+    """The file of the page has all rows of the fluid and none of the walls, and the exact profiles within 0.5 %."""
+    lammps(inputs_of_the_manual()["A heated channel: a body force drives the fluid between a hot and a cold wall, and friction heats it"])
+    rows = np.array([line.split() for line in open(lammps.path("profile.txt")) if line.startswith("  ")][-20:], dtype=float)
+    _, y, count, velocity, temperature = rows.T
+    np.testing.assert_allclose(y, (np.arange(20) + 0.5) / 20)
+    assert (count == 20).all()
+    np.testing.assert_allclose(velocity, 0.4 * y * (1 - y) / 0.2, rtol=0, atol=0.0025)
+    np.testing.assert_allclose(temperature, 2 - y + 0.16 / 0.12 * (1 / 16 - (y - 0.5)**4), rtol=0, atol=0.005)
