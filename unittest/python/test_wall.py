@@ -1044,7 +1044,7 @@ def test_inputs_of_the_manual(lammps, title):
 
 
 def test_profile_of_the_heated_channel(lammps):
-    """The file of the page has all rows of the fluid and none of the walls, and the exact profiles within 0.5 %."""
+    """The file of the page has all rows of the fluid and none of the walls, and the exact profiles within 0.5 % of their largest values."""
     lammps(inputs_of_the_manual()["A heated channel: a body force drives the fluid between a hot and a cold wall, and friction heats it"])
     rows = np.array([line.split() for line in open(lammps.path("profile.txt")) if line.startswith("  ")][-20:], dtype=float)
     _, y, count, velocity, temperature = rows.T
