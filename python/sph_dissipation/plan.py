@@ -396,8 +396,9 @@ class Column(Plan):
         self.height = 5 * args.column if self.falls else 1.5 * args.column
         self.lattice = f"{'sq' if self.dim == 2 else 'sc'} {1 / self.dx**self.dim if self.units == 'lj' else self.dx:.8g}"
         self.depth = 1 if self.dim == 2 else max(2 * self.layers, args.particles // 2)    # of a periodic slab
-        rows = round(self.height / self.dx) + self.layers
-        self.number = self.depth * (self.width * args.particles + 2 * self.layers * rows + self.tank * self.layers)
+        ends = 2 if self.falls else 1    # floor and lid
+        rows = round(self.height / self.dx) + ends * self.layers
+        self.number = self.depth * (self.width * args.particles + 2 * self.layers * rows + ends * self.tank * self.layers)
 
     def set_time_step(self):
         super().set_time_step()
@@ -428,6 +429,7 @@ class Column(Plan):
         z = "-0.5 0.5" if self.dim == 2 else f"0 {self.depth * dx:.8g}"
         origin = "0.5 0.5 0.0" if self.dim == 2 else "0.5 0.5 0.5"
         length, width, g = self.tank * dx, self.width * dx, self.gravity
+        top, lid = (self.height + wall, f"{self.height:.8g}") if self.falls else (self.height, "INF")    # of the domain; of the tank
         area = "" if self.dim == 2 else f"/{self.depth * dx:.8g}"
         return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
 units           {self.units}
@@ -436,10 +438,10 @@ boundary        f f p
 atom_style      sph/bulk
 
 lattice         {self.lattice} origin {origin}
-region          domain block {-wall:.8g} {length + wall:.8g} {-wall:.8g} {self.height:.8g} {z} units box
+region          domain block {-wall:.8g} {length + wall:.8g} {-wall:.8g} {top:.8g} {z} units box
 create_box      2 domain
 region          column block 0 {width:.8g} 0 {args.column:.8g} INF INF units box
-region          tank block 0 {length:.8g} 0 INF INF INF units box side out
+region          tank block 0 {length:.8g} 0 {lid} INF INF units box side out
 create_atoms    1 region column
 create_atoms    2 region tank
 group           water type 1
@@ -561,7 +563,9 @@ def arguments(argv):
         if args.c == "real":
             parser.error("--c real is not for --column, whose liquid is nearly incompressible")
         if args.tank and args.tank < (args.width or 2 * args.column):
-            parser.error("--tank is shorter than the column is wide")
+            parser.error(f"--tank is shorter than the column is wide{'' if args.width else ', 2 times --column without --width'}")
+        if args.tank and not args.width and args.tank < 2.01 * args.column:
+            parser.error("--tank is as long as the column is wide, 2 times --column: give --width, the same for water at rest")
     elif args.width or args.tank or args.gravity:
         parser.error("--width, --tank, and --gravity are for --column")
     elif bool(args.wavelength) + bool(args.frequency) + (args.length is not None) != 1 or args.length and not args.velocity:

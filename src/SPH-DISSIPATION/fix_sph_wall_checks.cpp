@@ -19,6 +19,7 @@
 #include "fix_sph_bulk.h"
 #include "force.h"
 #include "group.h"
+#include "math_const.h"
 #include "math_extra.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -37,6 +38,7 @@
 #include <vector>
 
 using namespace LAMMPS_NS;
+using namespace MathConst;
 using namespace SPHDissipation;
 
 // Checks of a wall of particles, called by all ranks, and the pairs that it has in the neighbor lists.
@@ -260,11 +262,13 @@ std::set<int> FixSPHWall::interacting_types(const Fluid *fluid) const
    Warn if the wall does not fill the support of the fluid at its surface, with ghost atoms.  The first layer has fluid at
    the distance of the particle spacing; below it, the wall must go as deep as the support radius minus
    one spacing.  The neighbor lists have no pairs of wall particles, hence the cells.
-   Warn if the masses do not fit the distances, for the spacing is that of the masses.
+   Warn if masses of particles with a full support are not rho0 times their volume, that is the integral of a kernel
+   (1 - r^2/R^2)^2 over its sum.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::check_thickness(const Fluid *fluid) const
 {
+  constexpr double FULL = 0.03, MASS_ERROR = 0.2;
   double **x = atom->x;
   const int nall = atom->nlocal + atom->nghost;
   const double support = fluid->support_radius();
@@ -282,24 +286,31 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
     });
   };
 
+  const double ball[] = {2.0, MY_PI, 4.0 / 3.0 * MY_PI};               // of radius 1, 1d to 3d
+  const double mean_weight[] = {8.0 / 15.0, 1.0 / 3.0, 8.0 / 35.0};    // in it
+  const double integral = ball[dim - 1] * mean_weight[dim - 1] * pow(support, dim);
   double worst[2] = {0.0, 0.0}, worst_all[2];    // spacing - depth, spacing over depth of bad ones
-  double sum[2] = {0.0, 0.0},
-         sum_all[2];    // numbers of particles, distances of the nearest ones over spacings
+  double sum[2] = {0.0, 0.0}, sum_all[2];        // of particles with a full support: masses, rho0 V
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double rho0 = fluid->model->coeffs[atom->type[i]].eos.rho0;
     const double spacing = pow(atom->rmass[i] / rho0, 1.0 / dim);
 
-    double nearest = support, normal[3] = {0.0, 0.0, 0.0}, closest = support;
+    double nearest = support, normal[3] = {0.0, 0.0, 0.0};
+    double weights = 1.0, moment[3] = {0.0, 0.0, 0.0};
     for_neighbors(i, [&](int j, const double *r, double distance) {
-      closest = std::min(closest, distance);
+      const double near = 1.0 - distance * distance / (support * support);
+      weights += near * near;
+      for (int d = 0; d < 3; d++) moment[d] += near * near * r[d];
       if (fluid->is_boundary(j)) return;
       nearest = std::min(nearest, distance);
       const double weight = (support - distance) * (support - distance) / distance;
       for (int d = 0; d < 3; d++) normal[d] += weight * r[d];
     });
-    sum[0] += 1.0;
-    sum[1] += closest / spacing;
+    if (MathExtra::len3(moment) < FULL * weights * support) {
+      sum[0] += atom->rmass[i];
+      sum[1] += rho0 * integral / weights;
+    }
     if (nearest > 1.25 * spacing || !(MathExtra::len3(normal) > 0.0)) continue;
     MathExtra::norm3(normal);
 
@@ -320,13 +331,12 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
                    "needs {:g} layers of particles",
                    id, style, support, worst_all[0], worst_all[1]);
 
-  // on lattices the nearest particle is 1 to 1.12 spacings away
-
   MPI_Allreduce(sum, sum_all, 2, MPI_DOUBLE, MPI_SUM, world);
-  const double ratio = sum_all[1] / sum_all[0];
-  if ((ratio < 0.6 || ratio > 1.6) && comm->me == 0)
-    error->warning(FLERR,
-                   "The masses of the wall of fix {} {} are those of particles {:.2g} times as "
-                   "far apart as they are: a mass should be rho0 of its type times the volume",
-                   id, style, 1.0 / ratio);
+  const double ratio = sum_all[1] > 0.0 ? sum_all[0] / sum_all[1] : 1.0;
+  if (fabs(ratio - 1.0) > MASS_ERROR && comm->me == 0)
+    error->warning(
+        FLERR,
+        "The masses of the wall of fix {} {} are {:.2g} times rho0 of its type times the "
+        "volume of a particle",
+        id, style, ratio);
 }

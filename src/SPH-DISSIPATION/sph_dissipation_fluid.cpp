@@ -51,6 +51,10 @@ using namespace SPHDissipation;
 
 static constexpr double ACCURATE_NOISE = 0.1;
 
+// of a thermal velocity over the speed of sound: above, densities of single particles vary by a half and more
+
+static constexpr double FAST_NOISE = 0.5;
+
 /* ---------------------------------------------------------------------- */
 
 Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
@@ -822,6 +826,22 @@ void Fluid::announce_noise(double rate)
         "velocities between steps, and with them the structure of the fluid, are hotter "
         "than the temperature of the noise",
         style, rate * update->dt, ACCURATE_NOISE);
+  if (model->choice.own_temperatures || model->choice.eos == Eos::IDEAL) return;
+
+  double fastest = 0.0, fastest_all;    // sqrt(kT/m)/c0
+  for (int i = 0; i < atom->nlocal; i++) {
+    const TypeCoeff &coeff = model->coeffs[atom->type[i]];
+    if (!coeff.other && !is_boundary(i))
+      fastest = std::max(
+          fastest, sqrt(force->boltz * model->choice.temperature / atom->rmass[i]) / coeff.eos.c0);
+  }
+  MPI_Allreduce(&fastest, &fastest_all, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (fastest_all > FAST_NOISE && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style {}: the thermal velocity sqrt(kT/m) of the lightest particles is {:.2g} c0, "
+                   "above {:g}: the noise compresses the fluid; use a lower temperature, a larger "
+                   "c0, or heavier particles",
+                   style, fastest_all, FAST_NOISE);
 }
 
 /* ----------------------------------------------------------------------

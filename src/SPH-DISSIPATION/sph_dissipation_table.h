@@ -51,7 +51,8 @@ namespace SPHDissipation {
     double fastest_heat_rate() const { return rate_of(heat); }    // of conduction
 
     // A line with the fastest skin of the neighbor list at these speeds; empty if it saves less
-    // than a tenth of the time per step of the present skin
+    // than a tenth of the time per step of the present skin. At rest, of how much longer the list is
+    // than without a skin that exceeds the support radius
     std::string skin_text(double skin, double dt, double support, int dim) const;
 
    private:

@@ -339,6 +339,14 @@ def test_rate_times_time_step_is_printed_and_warned_of(lammps):
     assert len([line for line in result.warnings if "hotter" in line]) == 1
 
 
+@pytest.mark.parametrize("temperature, speed", [(24.0, None), (100.0, "1")])
+def test_thermal_velocity_near_that_of_sound(lammps, temperature, speed):
+    """The particles have the mass 1, the fluid the speed of sound 10."""
+    make_box(lammps)
+    warned = [re.search(r"the thermal velocity .* is (\S+) c0", line) for line in lammps(deck(options=f"temp {temperature} 1") + "run 0\n").warnings]
+    assert [found[1] for found in warned if found] == ([speed] if speed else [])
+
+
 def test_temp_without_viscosity_is_warned_of(lammps):
     make_box(lammps)
     for viscosities, temperature, count in (("0.0 0.0", 1.0, 1), ("0.0 0.5", 1.0, 0), ("0.5 2.0", 1.0, 0), ("0.0 0.0", 0.0, 0)):

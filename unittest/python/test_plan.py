@@ -85,6 +85,12 @@ def test_column(lammps, case):
         assert result.thermo()[0]["v_push"].mean() == pytest.approx(push, rel=0.02)
 
 
+def test_narrow_column_in_a_short_tank(lammps):
+    """Its spray rises above five times its height: nothing is lost."""
+    plan = planner.Column(planner.arguments("--fluid water --column 0.2 --width 0.1 --tank 0.4 --particles 20".split()))
+    assert lammps(plan.input() + "run 0\n").thermo()[0]["Step"][-1] == plan.steps
+
+
 def test_command(tmp_path):
     """What the command prints is a LAMMPS input; it has measured how long a run takes."""
     done = printed(CASES[0], "--lmp", LMP)
@@ -208,7 +214,7 @@ def test_proposal():
     ("--fluid water --length 1", "give --length and --velocity, or"), ("--fluid water --length 1 --wavelength 1", "give --length and --velocity, or"),
     ("--fluid water --frequency 1 --wavelength 1", "or --frequency"), ("--fluid He --wavelength 1 --relax", "--relax is for a gas"),
     ("--rho 1 --mu 1 --wavelength 1", "needs its speed"), ("--rho 1 --mu 1 --column 1 --length 1", "--length is not for --column"),
-    ("--rho 1 --mu 1 --column 1 --tank 1", "shorter than the column"), ("--rho 1 --mu 1 --length 1 --velocity 1 --tank 3", "are for --column"),
+    ("--rho 1 --mu 1 --column 1 --tank 1", "shorter than the column is wide, 2 times"), ("--rho 1 --mu 1 --column 1 --tank 2", "give --width"), ("--rho 1 --mu 1 --length 1 --velocity 1 --tank 3", "are for --column"),
     ("--rho 1 --mu 1 --column 1 --shear morris", "torque at a free surface"), ("--rho 1 --mu 1 --column 1 --temperature 1", "--temperature is not"), ("--fluid air/101 --wavelength 1", "no fluid air/101"),
     ("--fluid air/50/0 --wavelength 1", "no fluid air/50/0"), ("--fluid air/50/20 --frequency 1e3", "no fluid air/50/20: ISO 9613-1 holds from 253 to 323 K"),
     ("--fluid air/50/1e308 --frequency 1e3", "253 to 323 K"), ("--fluid air/50/293/1e308 --wavelength 1", "up to 200e3 Pa"),

@@ -262,3 +262,11 @@ def test_no_recommended_skin(lammps, case):
     """At rest, with thermal motion, and for lists that are built without looking at the particles."""
     lattice(2, 12).write(lammps.path("data.txt"))
     assert best_skin(lammps(stream(0.05, **case)).log) is None
+
+
+@pytest.mark.parametrize("skin, times", [(3.0, None), (4.5, "6.2")])
+def test_skin_at_rest(lammps, skin, times):
+    """A skin that exceeds the support radius is too long for any speed."""
+    lattice(2, 12).write(lammps.path("data.txt"))
+    found = re.search(r"with a skin of (\S+), which is 1.5 support radii, the neighbor list is (\S+) times as long", lammps(stream(skin, speed=0.0)).log)
+    assert (found and found.groups()) == (times and ("4.5", times))
