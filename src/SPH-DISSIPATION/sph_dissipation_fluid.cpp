@@ -837,11 +837,12 @@ void Fluid::announce_noise(double rate)
   }
   MPI_Allreduce(&fastest, &fastest_all, 1, MPI_DOUBLE, MPI_MAX, world);
   if (fastest_all > FAST_NOISE && comm->me == 0)
-    error->warning(FLERR,
-                   "Pair style {}: the thermal velocity sqrt(kT/m) of the lightest particles is {:.2g} c0, "
-                   "above {:g}: the noise compresses the fluid; use a lower temperature, a larger "
-                   "c0, or heavier particles",
-                   style, fastest_all, FAST_NOISE);
+    error->warning(
+        FLERR,
+        "Pair style {}: the thermal velocity sqrt(kT/m) of the lightest particles is {:.2g} c0, "
+        "above {:g}: the noise compresses the fluid; use a lower temperature, a larger "
+        "c0, or heavier particles",
+        style, fastest_all, FAST_NOISE);
 }
 
 /* ----------------------------------------------------------------------
