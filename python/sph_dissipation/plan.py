@@ -162,7 +162,8 @@ class Plan:
             try:
                 self.real = fluids.find(args.fluid)
             except KeyError as known:
-                raise SystemExit(f"plan: no fluid {args.fluid} in gases.sph and fluids.sph, which have: {known.args[0]}") from None
+                raise SystemExit(f"plan: no fluid {args.fluid} in gases.sph and fluids.sph, which have: {known.args[0]}; for another one give "
+                                 "--rho, --mu, --kappa, and --units si") from None
             except ValueError as error:
                 raise SystemExit(f"plan: no fluid {args.fluid}: {error}") from None
             self.c_fluid = self.real.c
@@ -391,6 +392,8 @@ class Column(Plan):
 
     def set_particles(self):
         args = self.args
+        self.layer = math.sqrt(self.mu / self.rho * math.sqrt(args.column / self.gravity))    # of friction with the walls
+        self.slip = "free" if self.layer < self.dx else "no"
         self.rc = args.support * self.dx
         self.layers = math.ceil(args.support)
         self.height = 5 * args.column if self.falls else 1.5 * args.column
@@ -415,6 +418,7 @@ class Column(Plan):
     def flow_notes(self):
         fall = "falls" if self.falls else "rests"
         return [f"column              {self.width * self.dx:.4g} wide, {self.args.column:.4g} high, {fall} in a tank {self.tank * self.dx:.4g} long",
+                f"walls               slip {self.slip}: friction reaches {self.layer:.2g} in (H/g)^(1/2), {self.layer / self.dx:.2g} spacings",
                 f"speed of sound      {self.c0:.4g}, ten times the largest velocity; kappa damps its sound and does not slow the flow",
                 f"time                {self.args.time:.4g}; unit (H/g)^(1/2) = {math.sqrt(self.args.column / self.gravity):.4g}"]
 
@@ -454,7 +458,7 @@ pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {self.kappa:.6g} 
 variable        start atom {self.rho:.8g}*(1.0+{g:.8g}*({args.column:.8g}-y)/{self.c0:.8g}^2)    # hydrostatic
 set             group water sph/rho v_start
 fix             g water gravity {g:.8g} vector 0 -1 0
-fix             w walls sph/wall slip free gravity 0 {-g:.8g} 0
+fix             w walls sph/wall slip {self.slip} gravity 0 {-g:.8g} 0
 fix             1 water sph/bulk{f' {self.viscous}' if self.viscous else ''}
 
 timestep        {self.dt:.3g}

@@ -59,7 +59,8 @@ def test_plan(lammps, case):
 
 COLUMNS = ["--rho 1 --mu 1e-6 --column 1 --particles 10", "--fluid water --column 0.6 --tank 3.22 --particles 12 --kernel wendland/c4",
            "--rho 2 --mu 0.01 --kappa 0.3 --column 3 --width 2 --tank 2 --gravity 5 --particles 15 --shear mg/fr",
-           "--rho 1000 --mu 1 --units si --column 0.1 --width 0.1 --dim 3 --particles 8"]
+           "--rho 1000 --mu 1 --units si --column 0.1 --width 0.1 --dim 3 --particles 8",
+           "--rho 1260 --mu 1.4 --units si --column 0.15 --width 0.3 --tank 0.8 --particles 20"]    # glycerol, which sticks to the walls
 
 
 @pytest.mark.parametrize("case", COLUMNS)
@@ -76,6 +77,7 @@ def test_column(lammps, case):
     assert {name: limits[name] for name in ("shear", "bulk", "diffusion")} == pytest.approx(
         {name: plan.limits[name] for name in ("shear", "bulk", "diffusion")}, rel=1e-3)
     assert plan.dt < plan.largest < limits["all"]
+    assert re.search(r"sph/wall slip (\w+)", text)[1] == ("no" if "1260" in case else "free")
     right, left, low = (float(word) for word in re.search(r"^largest (.*)", result.output, re.MULTILINE)[1].split())
     assert min(left, low, plan.tank * plan.dx - right) > -0.15 * plan.dx
     first, last = (result.thermo()[0]["v_front"][k] for k in (0, -1))
