@@ -417,6 +417,7 @@ def test_contact(lammps):
 DIFFUSION, SCATTER = 0.508, 0.041
 
 
+@pytest.mark.long
 def test_diffusion_of_the_colloid_of_the_page(lammps):
     """The input and the Python of the page print the diffusion of the disc, within three standard deviations."""
     page = ROOT / "doc" / "src" / "Howto_sph_bodies.rst"

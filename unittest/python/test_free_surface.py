@@ -202,6 +202,7 @@ def test_dam_break_of_the_page_in_si_units(lammps):
         np.testing.assert_allclose(table[name] / unit, plain[name], rtol=1e-6, err_msg=name)
 
 
+@pytest.mark.long
 def test_narrow_column_of_the_page(lammps):
     """The command line of the page: the spray reaches the lid and does not leave the tank."""
     words = re.search(r"``((?:-var \w+ \S+ ?)+)``", PAGE)[1].split()

@@ -96,7 +96,7 @@ NOTEBOOKS = {
     "colloid": (("places = 200000, (6, 10, 14, 18)", "places = 40000, (18,)"), 1, r"(?P<name>[IM] \S+/kT) (?P<found>[\d.]+),(?=.* theory (?P<theory>1)$)", 0.05, 0.6)}
 
 
-@pytest.mark.parametrize("name", NOTEBOOKS)
+@pytest.mark.parametrize("name", ["sound", "dam_break", *(pytest.param(name, marks=pytest.mark.long) for name in ("streaming", "colloid"))])
 def test_notebook(name, capsys, monkeypatch):
     """Its cells run in their order, here with fewer particles or steps; what is stored is what they leave, and it is no larger than 300 kB."""
     words, figures, results, kept, short = NOTEBOOKS[name]
