@@ -566,10 +566,10 @@ def arguments(argv):
             parser.error(f"--shear {args.shear} is not for --column: it exerts a torque at a free surface")
         if args.c == "real":
             parser.error("--c real is not for --column, whose liquid is nearly incompressible")
-        if args.tank and args.tank < (args.width or 2 * args.column):
-            parser.error(f"--tank is shorter than the column is wide{'' if args.width else ', 2 times --column without --width'}")
-        if args.tank and not args.width and args.tank < 2.01 * args.column:
-            parser.error("--tank is as long as the column is wide, 2 times --column: give --width, the same for water at rest")
+        if args.tank and args.width and args.tank < args.width:
+            parser.error("--tank is shorter than the column is wide")
+        if args.tank and not args.width and args.tank < 2.01 * args.column:    # would be filled
+            parser.error("--tank is not longer than the column is wide, 2 times --column: give --width, for water at rest that of --tank")
     elif args.width or args.tank or args.gravity:
         parser.error("--width, --tank, and --gravity are for --column")
     elif bool(args.wavelength) + bool(args.frequency) + (args.length is not None) != 1 or args.length and not args.velocity:

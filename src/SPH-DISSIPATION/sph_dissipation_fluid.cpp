@@ -51,7 +51,7 @@ using namespace SPHDissipation;
 
 static constexpr double ACCURATE_NOISE = 0.1;
 
-// of a thermal velocity over the speed of sound: above, densities of single particles vary by a half and more
+// of sqrt(kT/m)/c0, which is the relative standard deviation of the density in the volume of a particle
 
 static constexpr double FAST_NOISE = 0.5;
 
