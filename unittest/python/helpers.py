@@ -293,15 +293,15 @@ class Particles:
     def write(self, path, ntypes=None, style="sph/bulk"):
         ntypes = ntypes or int(self.type.max())
         lines = ["LAMMPS data file of a test", "", f"{len(self)} atoms", f"{ntypes} atom types", ""]
-        lines += [f"{lo!r} {hi!r} {axis}lo {axis}hi"
+        lines += [f"{lo} {hi} {axis}lo {axis}hi"
                   for axis, lo, hi in zip("xyz", self.lo.tolist(), self.hi.tolist())]
         if self.tilt is not None:
             lines.append(" ".join(repr(float(t)) for t in self.tilt) + " xy xz yz")
         lines += ["", f"Atoms # {style}", ""]
         for i, (x, m, e, t) in enumerate(zip(self.x.tolist(), self.mass.tolist(), self.esph.tolist(), self.type), 1):
             place = " ".join(map(repr, x))
-            lines.append(f"{i} {t} {m!r} {e!r} {place}" if style == "sph/bulk"
-                         else f"{i} {t} {place} {m!r} {e!r} {self.charge[i - 1]!r}")
+            lines.append(f"{i} {t} {m} {e} {place}" if style == "sph/bulk"
+                         else f"{i} {t} {place} {m} {e} {self.charge[i - 1]}")
         lines += ["", "Velocities", ""]
         lines += [f"{i} " + " ".join(map(repr, v)) for i, v in enumerate(self.v.tolist(), 1)]
         path.write_text("\n".join(lines) + "\n")

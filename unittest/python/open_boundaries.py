@@ -123,7 +123,7 @@ def write(particles, path, style, spin):
     head, atoms, velocities = re.split(r"Atoms.*\n\n|\nVelocities\n\n", path.read_text())
     lines = [line.split() for line in atoms.splitlines() if line]
     path.write_text(head + f"Atoms # {style}\n\n" + "".join(" ".join(w[:3] + ["0.0"] + w[3:]) + "\n" for w in lines)
-                    + "\nVelocities\n\n" + "".join(f"{line} 0.0 0.0 {spin!r}\n" for line in velocities.splitlines()))
+                    + "\nVelocities\n\n" + "".join(f"{line} 0.0 0.0 {spin}\n" for line in velocities.splitlines()))
 
 
 def dump(name, every, fields=""):

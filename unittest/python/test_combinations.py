@@ -236,12 +236,12 @@ def particles(lines):
                                                                     ([0.5, 0.0, -0.5, 0.2], u), ([0.0, 0.4, 0.0, -0.4], v)))
     spinning = lines.style != "sph/bulk"
     own = " ".join(("1.0", *("0.16",) * spinning, str(lines.energy), *lines.state))
-    spin = [f" 0 0 {w!r}" if spinning else "" for w in np.sin(1.7 * ids)]
+    spin = [f" 0 0 {w}" if spinning else "" for w in np.sin(1.7 * ids)]
     xlo, xhi = (-10.0, 26.0) if "zones" in has else (0.0, 16.0)
     ylo, yhi = (-4.0, 14.0) if "walls" in has else (0.0, 10.0)
     text = (f"\n\n{len(x)} atoms\n{types.max()} atom types\n\n{xlo} {xhi} xlo xhi\n{ylo} {yhi} ylo yhi\n-0.5 0.5 zlo zhi\n\n"
-            f"Atoms # {lines.style}\n\n" + "".join(f"{i} {t} {own} {a!r} {b!r} 0.0\n" for i, t, a, b in zip(ids, types, x.tolist(), y.tolist()))
-            + "\nVelocities\n\n" + "".join(f"{i} {a!r} {b!r} 0.0{w}\n" for i, a, b, w in zip(ids, u.tolist(), v.tolist(), spin)))
+            f"Atoms # {lines.style}\n\n" + "".join(f"{i} {t} {own} {a} {b} 0.0\n" for i, t, a, b in zip(ids, types, x.tolist(), y.tolist()))
+            + "\nVelocities\n\n" + "".join(f"{i} {a} {b} 0.0{w}\n" for i, a, b, w in zip(ids, u.tolist(), v.tolist(), spin)))
     return text, groups
 
 

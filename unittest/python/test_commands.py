@@ -108,7 +108,7 @@ def test_create_atoms(lammps, particles):
     model = fluid(2, "eos ideal")
     reference = evaluate(lammps, particles, "reference", model=model)
     text = header(2) + "region B block 0 12 0 12 -0.5 0.5\ncreate_box 1 B\n"
-    text += "".join(f"create_atoms 1 single {x!r} {y!r} 0.0\n" for x, y in
+    text += "".join(f"create_atoms 1 single {x} {y} 0.0\n" for x, y in
                     (particles.x[:, :2] % 12.0).tolist())
     lammps(text + "set group all mass 1.25 sph/e 6.0\n" + model + INTEGRATE + dump("created.dump") + "run 0\n")
     assert_same(lammps.frame("created.dump"), reference, keys=("f", "numden"))
@@ -172,7 +172,7 @@ def test_hybrid_overlay_adds_forces(lammps, particles, other, ranks):
     name = style.split()[0]
     both = (f"pair_style hybrid/overlay sph/bulk dim 2 eos ideal {style}\n"
             + TYPES.replace("1 1 1.0", "1 1 sph/bulk 1.0").replace("2 2 1.1", "2 2 sph/bulk 1.1")
-            + f"pair_coeff 1 2 sph/bulk mu {2 * 0.5 * 0.2 / 0.7!r}\n"
+            + f"pair_coeff 1 2 sph/bulk mu {2 * 0.5 * 0.2 / 0.7}\n"
             + f"pair_coeff * * {name} {coeff[4:]}\n")
     total = evaluate(lammps, particles, "both", model=both, ranks=ranks)["f"]
     assert relative(total - ours - theirs, ours) < SAME

@@ -334,7 +334,7 @@ def vortices(lammps, step, steps, kappa=0.4, cells=12, speed=0.05, mu=0.1, optio
     particles.v[:, 1] = -speed * np.cos(k * x) * np.sin(k * y)
     particles.write(lammps.path("box.data"))
     result = lammps(header(2) + "read_data box.data\n" + fluid(2, options, mu=mu, kappa=kappa)
-                    + f"fix FLUID all sph/bulk\ntimestep {step!r}\ncompute E all sph/energy\n"
+                    + f"fix FLUID all sph/bulk\ntimestep {step}\ncompute E all sph/energy\n"
                     "compute Q all sph/dissipation\n"
                     f"thermo {max(steps // 100, 1)}\nthermo_style custom step time pe c_E c_E[1] c_E[2] c_Q\n"
                     + FULL_PRECISION + f"run {steps}\n", timeout=300)

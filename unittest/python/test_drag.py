@@ -22,7 +22,7 @@ MOMENTUM = "variable px equal mass(all)*vcm(all,x)\nvariable py equal mass(all)*
 def start(particles, lammps, model, integrator="", timestep=0.005, newton="on"):
     particles.write(lammps.path("box.data"))
     return (header(particles.dim, newton) + "read_data box.data\n" + model
-            + f"fix FLUID all sph/bulk {integrator}\ntimestep {timestep!r}\n")
+            + f"fix FLUID all sph/bulk {integrator}\ntimestep {timestep}\n")
 
 
 # ---- force and heat ----------------------------------------------------------------------------------------------

@@ -356,7 +356,7 @@ def test_default_average_of_a_hot_liquid(lammps):
     for c0, zero, pb in ((1.0, T0, PB), (np.sqrt(cc), 0.15, PB + GAMMA * CV * (0.15 - T0))):
         channel = Channel(length=16, width=7)
         lammps(channel.text(lammps, f"velocity {U} 0 0 temperature 0.15", f"pressure {pressure('linear', 0.15)}", velocity=agitated, timestep=0.2,
-                            coeff=f"1.0 {c0!r} 0.05 0.1 {{R}} pb {pb} cv {CV} gruneisen {GAMMA} {zero}", integrate="density rho0 temperature 0.15")
+                            coeff=f"1.0 {c0} 0.05 0.1 {{R}} pb {pb} cv {CV} gruneisen {GAMMA} {zero}", integrate="density rho0 temperature 0.15")
                + TEMPERATURE + dump("out.dump", 200, "c_T") + "run 200\n", ranks=2)
         frames.append(lammps.frame("out.dump"))
     for key in ("x", "v", "c_T"):

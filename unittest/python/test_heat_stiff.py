@@ -33,7 +33,7 @@ def wave(lammps, keywords, timestep, end, N=48, R=4.0, cv=2.0, k=1.0):
     heat.line(N).write(lammps.path("box.data"))
     lammps(header(1) + f"read_data box.data\npair_style sph/bulk dim 1 shear none\npair_coeff * * 1.0 1.0 0.0 0.0 {R / N} cv {cv} conductivity {k}\n"
            f"variable T atom 1.0+0.1*cos(2*PI*x)\nfix FLUID all sph/bulk temperature v_T {keywords}\nfix HOLD all setforce 0 0 0\n"
-           f"timestep {timestep!r}\n" + TEMPERATURE + dump("T.dump", round(end / timestep), "c_T") + f"run {round(end / timestep)}\n")
+           f"timestep {timestep}\n" + TEMPERATURE + dump("T.dump", round(end / timestep), "c_T") + f"run {round(end / timestep)}\n")
     first, last = lammps.frames("T.dump")
     shape = np.cos(2 * np.pi * first["x"][:, 0])
     start, left = (2 / N * (frame["c_T"] * shape).sum() for frame in (first, last))
@@ -118,7 +118,7 @@ def moving(lammps, eos, keywords, timestep, run, ranks=1, newton="on", conductiv
     fluids = [dict(one, kappa_r=0.0, k=conductivity * one["k"]) for one in heat.FLUIDS]
     lammps(header(2, newton) + "read_data box.data\n" + heat.model(eos, fluids, 2) + "variable T atom 3.5+sin(2*PI*x/12)\n" + TEMPERATURE
            + f"fix FLUID all sph/bulk density rho0 temperature v_T {keywords}\ncompute E all sph/energy\nthermo_style custom step c_E\n"
-           f"thermo 1\n{FULL}timestep {timestep!r}\n" + extra + run + dump("out.dump", extra="c_T") + "run 0\n", ranks=ranks)
+           f"thermo 1\n{FULL}timestep {timestep}\n" + extra + run + dump("out.dump", extra="c_T") + "run 0\n", ranks=ranks)
     return lammps.frame("out.dump")
 
 

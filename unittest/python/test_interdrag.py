@@ -27,7 +27,7 @@ def coefficients(dim, mu=0.5, kappa=2.0, ntypes=2, c0=10.0, b=B, rho0=lambda k: 
 def start(particles, lammps, model, integrator="", timestep=0.005, newton="on", boundary="p p p"):
     particles.write(lammps.path("box.data"))
     return (header(particles.dim, newton, boundary) + "read_data box.data\n" + model
-            + f"fix FLUID all sph/bulk {integrator}\ntimestep {timestep!r}\n")
+            + f"fix FLUID all sph/bulk {integrator}\ntimestep {timestep}\n")
 
 
 # ---- the reference -----------------------------------------------------------------------------------------------

@@ -24,7 +24,7 @@ def ours_and_theirs(lammps, dim, ours, theirs, ranks=1, newton="on", particles=N
     ours = lammps.frame("ours.dump")
 
     text = lammps.path("box.data").read_text()
-    atoms = [f"{i:.0f} 1 {rho!r} {esph!r} 1.0 " + " ".join(map(repr, x))
+    atoms = [f"{i:.0f} 1 {rho} {esph} 1.0 " + " ".join(map(repr, x))
              for i, rho, esph, x in zip(ours["id"], ours["rho"].tolist(), ours["esph"].tolist(), particles.x.tolist())]
     head, tail = text.split("Atoms # sph/bulk")[0], text[text.index("Velocities"):]
     lammps.path("sph.data").write_text(head + "Atoms # sph\n\n" + "\n".join(atoms) + "\n\n" + tail)

@@ -28,7 +28,7 @@ def write(particles, path, omega=None, inertia=0.2, style=STYLE):
     omega = spins(particles) if omega is None else omega
     inertia = np.broadcast_to(inertia, len(particles))
     lines = ["LAMMPS data file of a test", "", f"{len(particles)} atoms", f"{int(particles.type.max())} atom types", ""]
-    lines += [f"{lo!r} {hi!r} {axis}lo {axis}hi"
+    lines += [f"{lo} {hi} {axis}lo {axis}hi"
               for axis, lo, hi in zip("xyz", particles.lo.tolist(), particles.hi.tolist())]
     if particles.tilt is not None:
         lines.append(" ".join(repr(float(t)) for t in particles.tilt) + " xy xz yz")
@@ -274,7 +274,7 @@ def test_energy_balance_is_of_second_order(lammps, dim):
     errors = []
     for steps in (50, 100, 200):
         (table,) = lammps(header(dim, style=STYLE) + "read_data box.data\n" + two_fluids(dim) + integrate()
-                          + f"timestep {0.1 / steps!r}\ncompute E all sph/energy\n"
+                          + f"timestep {0.1 / steps}\ncompute E all sph/energy\n"
                           "thermo_style custom step c_E c_E[1] c_E[2] c_E[3]\n" + FULL + f"thermo {steps}\nrun {steps}\n"
                           ).thermo()
         total = table["c_E"]

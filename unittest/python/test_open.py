@@ -111,7 +111,7 @@ def test_rows_of_given_area(lammps):
     mass = lattice_mass(lammps)
     text = channel.text(lammps, f"velocity {channel.vector(U)} density 1.0 area 1.0", "density 1.0", velocity=stream,
                         timestep=0.25, integrate="")
-    lammps(text.replace("fix in", f"set group all mass {mass!r}\nfix in").replace("area 1.0", f"area {mass!r}")
+    lammps(text.replace("fix in", f"set group all mass {mass}\nfix in").replace("area 1.0", f"area {mass}")
            + dump("out.dump", steps) + f"run {steps}\n")
     last = lammps.frame("out.dump")
     assert np.abs(last["v"] - U * channel.along).max() < 1e-10 * U

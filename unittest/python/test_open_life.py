@@ -168,7 +168,7 @@ def test_region_that_just_fits(lammps):
     """It ends with the zone, with its first and last row, and with what is measured."""
     channel = Channel(kind="hex", length=20)
     numbers = []
-    for region, words in (("", ""), (f"region tube block -8 2.4 {0.5 * channel.pitch[1]!r} {channel.place[:, 1].max()!r} INF INF\n", "region tube")):
+    for region, words in (("", ""), (f"region tube block -8 2.4 {0.5 * channel.pitch[1]} {channel.place[:, 1].max()} INF INF\n", "region tube")):
         lammps(channel.text(lammps, f"velocity {channel.vector(U)} {words}", "density 1.0", velocity=stream, after_read=region, timestep=0.25)
                + "thermo_style custom step f_in[28] f_in[1]\nrun 60\nrun 60\n", ranks=2)
         numbers.append([table[name][-1] for table in lammps.results[-1].thermo() for name in ("f_in[28]", "f_in[1]")])

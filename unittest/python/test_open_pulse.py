@@ -81,7 +81,7 @@ def relaxing_wave(lammps, pb, omega_tau, outlet="velocity 0.0 0.0 0.0 pressure {
     dt = 2 * np.pi / omega / per_period
     text = channel.text(lammps, f"velocity v_u 0.0 0.0 pressure {pb}", outlet.format(pb=pb), timestep=dt, options="shear none bulk none",
                         coeff=f"1.0 1.0 0.0 0.0 {{R}} pb {pb} relax {g * tau} {tau}",
-                        before=f"variable u equal {amplitude}*sin({omega!r}*step*{dt!r})*(1-exp(-step*{dt!r}*{omega!r}))\n")
+                        before=f"variable u equal {amplitude}*sin({omega}*step*{dt})*(1-exp(-step*{dt}*{omega}))\n")
     text = text.replace("atom_style sph/bulk", "atom_style sph/bulk relax 1")
     strained.write(channel.particles(), lammps.path("box.data"), [-1.0])
     lammps(text + f"run {per_period * (periods - 1)}\n" + dump("out.dump", per_period // 40, "") + f"run {per_period}\n")

@@ -551,7 +551,7 @@ def test_default_wait_is_that_of_the_speed_of_sound(lammps):
         text = fluid_box(lammps, particles, False)
         support = re.search(r"pair_coeff (.*)", text)[1].split()[6]
         text = re.sub(r"pair_style.*", f"pair_style sph/bulk eos {eos} volume mass", text)
-        text = re.sub(r"pair_coeff.*", f"pair_coeff * * 1.0 {c0!r} 0.0 0.0 {support} cv 2.0", text)
+        text = re.sub(r"pair_coeff.*", f"pair_coeff * * 1.0 {c0} 0.0 0.0 {support} cv 2.0", text)
         text = text.replace("all sph/bulk", "all sph/bulk temperature 1.0").replace("timestep 0.002", f"timestep {0.1 * float(support) / np.sqrt(1.4 * 0.4 * 2.0) * 1.0001}")
         atoms = lammps(text + "fix R all sph/refine 1 volume 0.05 split 1.6 fraction 1.0\nthermo 1\nthermo_style custom step atoms\nrun 12\n").thermo()[0]["Atoms"]
         seen.append((np.flatnonzero(np.diff(atoms)) + 1).tolist())

@@ -111,7 +111,7 @@ def start(lammps, particles, model, strain=0.0, count=1, timestep=0.005, integra
     strain = np.broadcast_to(np.asarray(strain, dtype=float), (len(particles), count))
     write(particles, lammps.path("box.data"), strained(strain))
     return (room(particles.dim, count, **keywords) + "read_data box.data\n" + extra + model
-            + f"fix FLUID all sph/bulk {integrator}\ntimestep {timestep!r}\n")
+            + f"fix FLUID all sph/bulk {integrator}\ntimestep {timestep}\n")
 
 
 def relaxed_of(frame, count=1):
@@ -184,10 +184,10 @@ class Wave:
         particles.x[:, 0] = self.sites[:, 0] + state[0] * np.sin(phase)
         particles.v[:, 0] = state[1] * np.sin(phase)
         strain = [np.cos(phase) * (-self.q * state[0] - value) for value in state[3:]]
-        words = "relax " + " ".join(f"{g * tau!r} {tau!r}" for g, tau in processes) if processes else ""
+        words = "relax " + " ".join(f"{g * tau} {tau}" for g, tau in processes) if processes else ""
         model = fluid(self.dim, "shear none", mu=0.0, kappa=kappa, c0=1.0, support=self.support, keywords=f"pb {self.pb} {words}")
         text = start(self.lammps, particles, model, np.transpose(strain) if strain else 0.0, max(len(processes), 1), timestep, integrator)
-        text += (f"variable k equal {self.k!r}\nvariable u atom vx*sin(v_k*x)\ncompute P all property/atom rho d_rho_relaxed1\n"
+        text += (f"variable k equal {self.k}\nvariable u atom vx*sin(v_k*x)\ncompute P all property/atom rho d_rho_relaxed1\n"
                  f"variable s atom {'ln(c_P[1]/c_P[2])*cos(v_k*x)' if processes else '0.0'}\ncompute A all reduce ave v_u v_s\n"
                  f"thermo_style custom step time c_A[*]\nthermo {every}\n" + FULL)
         tables = self.lammps(text + (commands or f"run {steps}\n"), ranks=ranks).thermo()
@@ -349,7 +349,7 @@ def largest_step(hs, c0, processes, speed):
 def test_stable_at_the_acoustic_step(lammps, dim, tau, steps):
     """kappa/(rho c0 dx) = 2e4: at the acoustic step that the log has, kinetic energy stays below the first one."""
     particles = disordered(dim, {1: 64, 2: 10}[dim], jitter=0.0, speed=0.02, spread=0.0)
-    model = fluid(dim, "shear none", mu=0.0, kappa=0.0, c0=1.0, keywords=f"relax 2e4 {tau!r}")
+    model = fluid(dim, "shear none", mu=0.0, kappa=0.0, c0=1.0, keywords=f"relax 2e4 {tau}")
     timestep = 0.999 * acoustic(lammps(start(lammps, particles, model, timestep=1e-6) + "run 0\n").log)
     expected = largest_step(np.sqrt(3.5 / {1: 15.0, 2: 14.0}[dim]) * SUPPORT[dim], 1.0, [(2e4, tau)], 0.0)
     print(f"time step {timestep}, {expected} without the speed of the particles, dt/tau {timestep / tau:.3g}")
@@ -370,7 +370,7 @@ def test_acoustic_step_of_a_gas_does_not_depend_on_c0(lammps, tau):
     T, kr, steps = 2.0, 0.7, []
     particles = disordered(2, 10, jitter=0.0, speed=0.02, spread=0.0)
     for c0 in (0.01, 1.2, 1000.0):
-        model = fluid(2, "eos ideal shear none", mu=0.0, kappa=0.0, c0=c0, keywords=f"gamma 1.4 cv 2.5 relax {kr} {tau!r}")
+        model = fluid(2, "eos ideal shear none", mu=0.0, kappa=0.0, c0=c0, keywords=f"gamma 1.4 cv 2.5 relax {kr} {tau}")
         steps.append(acoustic(lammps(start(lammps, particles, model, timestep=1e-6, integrator=f"temperature {T}") + "run 0\n").log))
     expected = largest_step(np.sqrt(3.5 / 14.0) * SUPPORT[2], np.sqrt(1.4 * 0.4 * 2.5 * T), [(kr, tau)], 0.0)
     print(steps, expected)
@@ -498,8 +498,8 @@ def test_sudden_compression_at_rest(lammps, a):
     particles = lattice(2, 8)
     steps = int(np.ceil(20.0 / a))
     every = max(steps // 20, 1)
-    text = start(lammps, particles, fluid(2, keywords=f"relax {g * tau!r} {tau!r}"), timestep=timestep)
-    text += ("run 0 post no\n" + f"set group all d_rho_relaxed1 {-np.exp(-eps)!r}\n" + ENERGIES
+    text = start(lammps, particles, fluid(2, keywords=f"relax {g * tau} {tau}"), timestep=timestep)
+    text += ("run 0 post no\n" + f"set group all d_rho_relaxed1 {-np.exp(-eps)}\n" + ENERGIES
              + "thermo_style custom step c_E c_E[2] c_E[4] c_Q[6]\nthermo 1\n" + FULL + dump("out.dump", every, columns()) + f"run {steps}\n")
     table = lammps(text).thermo()[-1]
     mass, n = particles.mass.sum(), np.arange(steps + 1)

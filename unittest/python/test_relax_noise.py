@@ -12,7 +12,7 @@ PROCESSES = [(8.0, 0.1), (3.0, 0.004)]
 
 
 def noisy(lammps, particles, temperature=HEAT_BATH, options="", timestep=0.002, extra="", processes=PROCESSES, mu=0.5, kappa=2.0, strain=0.0, **keywords):
-    words = "relax " + " ".join(f"{kr!r} {tau!r}" for kr, tau in processes)
+    words = "relax " + " ".join(f"{kr} {tau}" for kr, tau in processes)
     model = fluid(particles.dim, f"temp {temperature} 4711 {options}", mu=mu, kappa=kappa, keywords="pb 5 " + words)
     return start(lammps, particles, model, strain, len(processes), timestep, extra=extra, **keywords)
 
@@ -149,7 +149,7 @@ def test_equilibrium_of_sound(lammps, a, g, steps):
     particles.mass[:] = mass
     particles.v[:, 0] = random.normal(0.0, np.sqrt(kT / mass), cells)
     particles.v[:, 0] -= particles.v[:, 0].mean()
-    model = fluid(1, f"shear none temp {kT} 31", mu=0.0, kappa=0.0, c0=1.0, support=R, keywords=f"pb 1 relax {g * tau!r} {tau!r}")
+    model = fluid(1, f"shear none temp {kT} 31", mu=0.0, kappa=0.0, c0=1.0, support=R, keywords=f"pb 1 relax {g * tau} {tau}")
     text = start(lammps, particles, model, timestep=timestep)
     lammps(text + "run 500\ncompute P all property/atom rho vol\n"
            f"dump D all custom {every} out.dump id xu vx c_P[1] d_rho_relaxed1\n"

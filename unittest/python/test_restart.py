@@ -114,7 +114,7 @@ def test_unlike_viscosity_is_the_harmonic_mean(lammps):
     """The default for an unlike pair equals setting 2 mu1 mu2 / (mu1 + mu2), whatever the order of the lines."""
     disordered(2, 12, ntypes=2).write(lammps.path("box.data"))
     like = ["pair_coeff 1 1 1.0 10.0 0.5 2.0 3.0\n", "pair_coeff 2 2 1.1 12.0 0.2 2.0 3.0\n"]
-    mean = f"mu {2 * 0.5 * 0.2 / 0.7!r}\n"
+    mean = f"mu {2 * 0.5 * 0.2 / 0.7}\n"
     texts = {"default": [*like], "last": [*like, "pair_coeff 1 2 " + mean], "first": ["pair_coeff 1 2 " + mean, *like],
              "swapped": [*like, "pair_coeff 2 1 " + mean], "other": [*like, "pair_coeff 1 2 mu 0.4\n"]}
     text = header(2) + "read_data box.data\n" + INTEGRATE

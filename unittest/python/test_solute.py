@@ -21,7 +21,7 @@ TOTAL = "compute S all property/atom d_solute\ncompute Q all reduce sum c_S\nthe
 
 
 def coefficients(dim, diffusivity=D, ntypes=4, options="", mu=0.5):
-    words = {k: f" solute {value!r}" for k, value in diffusivity.items()}
+    words = {k: f" solute {value}" for k, value in diffusivity.items()}
     return f"pair_style sph/bulk dim {dim} {options}\n" + "".join(
         f"pair_coeff {k} {k} {RHO0[k]} 10.0 {mu} 2.0 {SUPPORT[dim]}{words.get(k, '')}\n" for k in range(1, ntypes + 1))
 

@@ -23,13 +23,13 @@ ROWS = {1: 1 / 2, 2: 7 / 12, 3: 2 / 3}
 
 def coefficients(dim, mu=0.5, kappa=2.0, ntypes=2, c0=10.0, sigma=SIGMA, rho=RHO):
     text = "".join(f"pair_coeff {k} {k} {rho[k - 1]} {c0} {mu} {kappa} {SUPPORT[dim]}\n" for k in range(1, ntypes + 1))
-    return text + "".join(f"pair_coeff {i} {j} tension {value!r}\n" for (i, j), value in sigma.items() if j <= ntypes)
+    return text + "".join(f"pair_coeff {i} {j} tension {value}\n" for (i, j), value in sigma.items() if j <= ntypes)
 
 
 def start(particles, lammps, model, integrator="", timestep=0.005, newton="on", boundary="p p p"):
     particles.write(lammps.path("box.data"))
     return (header(particles.dim, newton, boundary) + "read_data box.data\n" + model
-            + f"fix FLUID all sph/bulk {integrator}\ntimestep {timestep!r}\n")
+            + f"fix FLUID all sph/bulk {integrator}\ntimestep {timestep}\n")
 
 
 # ---- the reference -----------------------------------------------------------------------------------------------

@@ -93,7 +93,7 @@ def run(lammps, text, part=PART, steps=STEPS):
                 + tail.replace("c_K\n", "c_K c_S2[*]\n"))
     first = lammps(text + tail + "timestep 1e-9\nrun 0\n")
     table = steps_of(first.log)
-    result = lammps(text + tail + f"timestep {part * table['all']!r}\nthermo {steps // 10}\nrun {steps}\n", check=part < 1.0)
+    result = lammps(text + tail + f"timestep {part * table['all']}\nthermo {steps // 10}\nrun {steps}\n", check=part < 1.0)
     if result.code:
         return table, [np.inf], [np.inf]
     if part < 1.0:

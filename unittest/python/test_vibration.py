@@ -174,8 +174,8 @@ def test_same_sound_as_a_relaxing_strain(lammps):
     k2 = (2 * np.pi) ** 2
     continuum = sound(np.roots([1, 1 / tau, (gamma0 + g) * k2, gamma0 * k2 / tau]))
     assert abs(exact - continuum) < 0.01 * abs(continuum)
-    model = (f"pair_style sph/bulk dim 1 eos ideal shear none\npair_coeff * * 1.0 1.0 0.0 0.0 {5 / 64} gamma {gamma0!r} cv {total} "
-             f"relax {kappa!r} {tau!r}\n")
+    model = (f"pair_style sph/bulk dim 1 eos ideal shear none\npair_coeff * * 1.0 1.0 0.0 0.0 {5 / 64} gamma {gamma0} cv {total} "
+             f"relax {kappa} {tau}\n")
     signal, interval = standing_wave(lammps, 64, 5.0, 0.0, 0.001, 40, 2400, style=model)
     strain = sound(exponents(interval, signal, 3))
     assert abs(strain - exact) < 1e-3 * abs(exact) and strain.real == pytest.approx(exact.real, rel=0.01)
@@ -276,7 +276,7 @@ def test_wave_without_a_shock(lammps, spacing, bound):
     # the ends go on with their velocity, as pistons
     lammps(room(1, boundary="f p p") + "read_data box.data\n" + gas(1, tau_v, options="shear none", rc=6 * spacing)
            + f"region IN block {8 * spacing} {length - 8 * spacing} INF INF INF INF\ngroup fluid region IN\ngroup ends subtract all fluid\n"
-           f"fix FLUID fluid sph/bulk\nfix ENDS ends nve/noforce\ntimestep {travel / wave.u0 / steps!r}\n" + BOTH
+           f"fix FLUID fluid sph/bulk\nfix ENDS ends nve/noforce\ntimestep {travel / wave.u0 / steps}\n" + BOTH
            + dump("wave.dump", steps, COLUMNS) + f"run {steps}\n")
     frame = lammps.frame("wave.dump")
     order = np.argsort(frame["x"][:, 0])

@@ -39,7 +39,7 @@ def pulse(lammps, keywords, timestep, kappa, end=96 * SOUND_STEP):
     particles.write(lammps.path("box.data"))
     steps = round(end / timestep)
     lammps(header(1) + "read_data box.data\n" + fluid(1, kappa=kappa) + integrate(f"density rho0 {keywords}")
-           + f"timestep {timestep!r}\n" + dump("out.dump", steps) + f"run {steps}\n")
+           + f"timestep {timestep}\n" + dump("out.dump", steps) + f"run {steps}\n")
     return lammps.frame("out.dump")["v"][:, 0]
 
 
@@ -118,7 +118,7 @@ def driven(lammps, keywords, timestep, end, particles, fluid, after, style="sph/
         particles.write(lammps.path("box.data"))
     spin = "omegax omegay omegaz" if style == MICRO else ""
     lammps(header(2, style=style, boundary=boundary) + "read_data box.data\n" + before + fluid + integrate(keywords, style, group)
-           + after + f"timestep {timestep!r}\n" + run(round(end / timestep)) + dump("out.dump", extra=spin) + "run 0\n")
+           + after + f"timestep {timestep}\n" + run(round(end / timestep)) + dump("out.dump", extra=spin) + "run 0\n")
     frame = lammps.frame("out.dump")
     return np.column_stack([frame["v"][:, :2], *([frame["omegaz"]] if spin else [])])
 
