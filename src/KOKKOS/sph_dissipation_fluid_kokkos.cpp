@@ -340,7 +340,7 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
   else if (neighbor->ago == 0)
     atomKK->sync(Host,
                  RMASS_MASK | TAG_MASK | TYPE_MASK |
-                     (model->choice.continuity ? V_MASK | MASK_MASK : EMPTY_MASK));
+                     (checks_speed() ? V_MASK | MASK_MASK : EMPTY_MASK));
   const bigint nbeyond = Fluid::compute(tally);
   atomKK->modified(pair->execution_space, modified_mask());
 

@@ -142,7 +142,8 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     dt_of_states(0.0), extrapolation(1.0), balanced(false), viscous(new ViscousSettings),
     temperature(nullptr), temperature_done(false), last(), inertia_flag(0), factor(0.0),
     offset(0.0), inertia_done(false), density_done(0), density_flag(0), set_up(false),
-    energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0)
+    energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0),
+    rigid_alone(0)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   read_keywords(narg, arg);
@@ -342,12 +343,18 @@ void FixSPHBulk::init_viscous()
                "Pair style {} with temp energy needs fix {} viscous explicit: its friction depends "
                "on the temperatures",
                style, style);
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (const char *keyword = fluid->model->keyword_that_needs(VISCOUS_EXPLICIT, i))
+      if (fluid->has_type(i))
+        error->all(FLERR,
+                   "Fix {} viscous rkl2 or implicit cannot be used with {} of pair_coeff, which "
+                   "type {} has: its friction depends on the temperatures; use viscous explicit",
+                   style, keyword, i);
   if (fluid->model->has_rheology() && settings.mode == Viscous::IMPLICIT)
-    error->all(
-        FLERR,
-        "Fix {} viscous implicit cannot be used with a viscosity that depends on the rate of "
-        "shear; use viscous rkl2",
-        style);
+    error->all(FLERR,
+               "Fix {} viscous implicit cannot be used with a viscosity that is not constant; use "
+               "viscous rkl2",
+               style);
   fluid->viscous->configure(settings, integrated_groups, fluid_style);
   fluid->temperature->configure(settings, integrated_groups, fluid_style);
 }
@@ -416,25 +423,40 @@ void FixSPHBulk::setup(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   particles may be fixed on purpose, but not be forgotten; walls are no fluid
+   particles may be fixed on purpose, but not be forgotten, and LAMMPS's rigid bodies alone are bodies of fluid; walls are
+   no fluid
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::warn_not_integrated()
 {
-  int integrated = 0;
-  for (const auto &ifix : modify->get_fix_list())
+  int integrated = 0, rigid = 0;
+  for (const auto &ifix : modify->get_fix_list()) {
     if (ifix->time_integrate) integrated |= ifix->groupbit;
-
-  const bigint all = count_particles(lmp, [&](int i) {
-    return !(atom->mask[i] & integrated) && fluid->has_type(atom->type[i]) &&
-        !fluid->is_boundary(i);
-  });
-  if (all && all != not_integrated && comm->me == 0)
+    if (ifix->rigid_flag) rigid |= ifix->groupbit;
+  }
+  const auto is_new = [&](bigint &before, const auto &is_one) {
+    const bigint all = count_particles(lmp, [&](int i) {
+      return is_one(atom->mask[i]) && fluid->has_type(atom->type[i]) && !fluid->is_boundary(i);
+    });
+    const bool is = (all && all != before);
+    before = all;
+    return is && comm->me == 0;
+  };
+  if (is_new(not_integrated, [=](int mask) {
+        return !(mask & integrated);
+      }))
     error->warning(FLERR,
                    "{} particles of the fluid are in the group of no fix that integrates them: "
                    "they stay where they are; fix sph/wall makes walls of such particles",
-                   all);
-  not_integrated = all;
+                   not_integrated);
+  if (is_new(rigid_alone, [=](int mask) {
+        return mask & rigid;
+      }))
+    error->warning(FLERR,
+                   "{} particles of the fluid belong to rigid bodies, which are made of fluid: it "
+                   "slips along them, and they feel its forces half a step late; use fix sph/wall "
+                   "move rigid where it can be",
+                   rigid_alone);
 }
 
 /* ----------------------------------------------------------------------

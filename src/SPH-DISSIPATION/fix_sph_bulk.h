@@ -148,7 +148,7 @@ class FixSPHBulk : public Fix {
   bool energy_extrapolated;    // for the first forces of a run
   bigint setup_step;           // of the last setup
   bool last_instance;          // acts when all are set up
-  bigint not_integrated;       // # of fluid particles that the last warning was about
+  bigint not_integrated, rigid_alone;    // # of fluid particles that the last warnings were about
 };
 
 }    // namespace LAMMPS_NS

@@ -81,7 +81,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
   for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
     if (key.is("velocity", 3)) motion->set_velocity(key.words());
     if (key.is("rotate", 7)) motion->set_rotation(key.words());
-    for (const char *one : {"velocity", "rotate", "slip", "spin", "heat"})
+    for (const char *one : {"velocity", "rotate", "slip", "spin"})
       if (key.name() == one && others.empty()) others = one;
     if (key.is("move")) {
       const bool rigid = (strcmp(key.word(), "rigid") == 0);

@@ -148,7 +148,7 @@ void FixSPHWall::check_bodies(const Fluid *fluid) const
   refuse(fluid->model->constants().thermal_pressure,
          "eos ideal or gruneisen: the pressure of a body does not follow the heat of the fluid");
   refuse(fluid->model->constants().optional, "vortex viscosity or interdrag of the fluid");
-  refuse(fluid->model->has_rheology(), "viscosities that depend on the rate of shear");
+  refuse(fluid->model->has_rheology(), "viscosities that are not constant");
   refuse(!modify->get_fix_by_style("^sph/open").empty(), "fix sph/open");
   refuse(!modify->get_fix_by_style("^sph/torque").empty(), "fix sph/torque");
   for (const auto &ifix : modify->get_fix_list()) {

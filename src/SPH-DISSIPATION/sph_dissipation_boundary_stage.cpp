@@ -816,10 +816,12 @@ void BoundaryStage::check() const
 void BoundaryStage::stop_for(int i) const
 {
   const double *const x = atom->x[i];
-  error->one(FLERR,
-             "Particle {} of the fluid of pair style {} is inside a wall in step {}, at {:g} {:g} "
-             "{:g} with the speed {:g}",
-             atom->tag[i], style, update->ntimestep, x[0], x[1], x[2], MathExtra::len3(atom->v[i]));
+  error->one(
+      FLERR,
+      "Particle {} of the fluid of pair style {} is inside a wall in step {}, at {:g} {:g} "
+      "{:g} with the speed {:g}: use a speed of sound of 10 times the largest speed, a smaller "
+      "time step, or a gentler start",
+      atom->tag[i], style, update->ntimestep, x[0], x[1], x[2], MathExtra::len3(atom->v[i]));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -152,11 +152,13 @@ namespace SPHDissipation {
     static constexpr const char *NAME = "shear";
     enum { ALONG_R, ALONG_U, ALIKE, UNLIKE, NPAIR };    // the last two: per mu
     static constexpr int NTYPE = Rheology::NUMBER;
-    static constexpr std::array<TypeKeyword, 5> TYPE_KEYWORDS = {{{"power", 3, 0, RHEOLOGY},
-                                                                  {"carreau", 4, 0, RHEOLOGY},
-                                                                  {"cross", 3, 0, RHEOLOGY},
-                                                                  {"yield", 2, 0, RHEOLOGY},
-                                                                  {"smagorinsky", 2, 0, RHEOLOGY}}};
+    static constexpr std::array<TypeKeyword, 6> TYPE_KEYWORDS = {
+        {{"power", 3, 0, RHEOLOGY},
+         {"carreau", 4, 0, RHEOLOGY},
+         {"cross", 3, 0, RHEOLOGY},
+         {"yield", 2, 0, RHEOLOGY},
+         {"smagorinsky", 2, 0, RHEOLOGY},
+         {"arrhenius", 3, 0, HEAT_CAPACITY | RHEOLOGY | VISCOUS_EXPLICIT}}};
     static constexpr std::array<TypeVariable, 2> TYPE_VARIABLES = {
         {{"power_n", Rheology::POWER_N}, {"yield_stress", Rheology::YIELD_STRESS}}};
 

@@ -162,7 +162,7 @@ namespace SPHDissipation {
     double viscosity[NVISCOSITY] = {};
     double zeta = 0.0;             // coefficient of the bulk term, mean of the types
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
-    // if viscosities of any type depend on the rate of shear: the largest mu, the largest amount of zeta, and whether both
+    // if viscosities of any type are not constant: the largest mu, the largest amount of zeta, and whether both
     // types are one fluid
     bool by_rate = false, alike = false;
     double largest_mu = 0.0, largest_zeta = 0.0;

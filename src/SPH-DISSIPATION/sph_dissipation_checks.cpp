@@ -515,15 +515,17 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
   for (int i = 0; i < atom->nlocal; i++) {
     const TypeCoeff &type = model.coeffs[atom->type[i]];
     if (type.other || (atom->mask[i] & boundary_bits)) continue;
-    if (type.eos.gruneisen == 0.0 && !model.conducts(atom->type[i])) continue;
+    if (type.eos.gruneisen == 0.0 && !model.conducts(atom->type[i]) &&
+        !model.keyword_that_needs(VISCOUS_EXPLICIT, atom->type[i]))
+      continue;
     number[0]++;
     if (atom->esph[i] == 0.0 || !(heat(i) > 0.0)) number[1]++;
   }
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
   if (all[1] && !gas && lmp->comm->me == 0)
     lmp->error->warning(FLERR,
-                        "Pair style {}: {} of {} particles that conduct heat, or whose heat has a "
-                        "pressure, have none; use keyword temperature of fix {}",
+                        "Pair style {}: {} of {} particles that conduct heat, or whose pressure or "
+                        "viscosity depends on it, have none; use keyword temperature of fix {}",
                         style, all[1], all[0], style);
   if (all[1] && gas && lmp->comm->me == 0)
     lmp->error->warning(

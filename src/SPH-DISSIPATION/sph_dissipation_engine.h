@@ -73,7 +73,7 @@ namespace SPHDissipation {
     const Spin *spin;            // owned and ghost (micropolar)
     const int *type;             // read if the coefficients differ between types
     const double *zeta_term;     // zeta cdot/c of each particle (bulk volume)
-    const double *viscosity;     // mu of each particle, if it depends on the rate of shear
+    const double *viscosity;     // mu of each particle, if it is not constant
     const Excess *excess;        // owned and ghost; nullptr: of no particle
     const double *weight;        // w, owned and ghost; nullptr if all are 1 and no loop reads it
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
@@ -91,7 +91,7 @@ namespace SPHDissipation {
     int *count;
     int *neighbor;
     double *slope;     // F, or nullptr: pass 2 computes it again
-    double *square;    // F (e.u)^2, if mu depends on the rate of shear
+    double *square;    // F (e.u)^2, if mu is not constant
 
     const NoiseData *noise;    // of pass 2 with noise
     double *random;            // the same, for the numbers of the pairs of one particle
@@ -342,7 +342,7 @@ namespace SPHDissipation {
     std::vector<std::vector<FlowRow>> flow;    // the same, of the flows of any type
     std::vector<FlowRow> &heat() { return flow[HEAT_FLOW]; }
     std::vector<std::vector<double>> flow_rate;    // what each flow has given in the last forces
-    std::vector<double> viscosity;    // the same, mu, if any depends on the rate of shear
+    std::vector<double> viscosity;                 // the same, mu, if any is not constant
     std::vector<double>
         energy;    // the same, internal energy, if particles have the noise of their temperatures
     void set_wall_energy(const double *);    // what walls hold of it, of owned atoms

@@ -235,6 +235,7 @@ namespace SPHDissipation {
     at_rest() const;    // strains are zero: in a minimization; in a rerun, which does not know them
     double **extrapolated_spin() const;    // nullptr without spins
     int integrated;                        // bits of the groups of its integrators
+    bool checks_speed() const;             // that of the particles, at the next neighbor list
 
    private:
     bool set_up;           // since pair_style and pair_coeff

@@ -768,7 +768,7 @@ namespace SPHDissipation {
 
 #include "sph_dissipation_neighbor_loops.h"
 
-    // The loops of the bulk form volume, of the full forms, of viscosities that depend on the rate of shear, and of the noise have
+    // The loops of the bulk form volume, of the full forms, of viscosities that are not constant, and of the noise have
     // weights, which are 1 with volume number
 
     template <class F>

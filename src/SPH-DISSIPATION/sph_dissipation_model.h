@@ -104,7 +104,7 @@ namespace SPHDissipation {
     bool has_torques() const;                // any of the viscosities of spins
     double heat_capacity(int type) const;    // per mass
     bool has_temperatures() const;           // any type has a heat capacity
-    bool has_rheology() const;               // mu of any type depends on the rate of shear
+    bool has_rheology() const;               // mu of any type is not constant
     bool has_pair_energy() const;            // any two types
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 

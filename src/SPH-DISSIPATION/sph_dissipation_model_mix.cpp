@@ -118,10 +118,9 @@ void FluidModel::derive(int dim, double support)
   par->set_uniform();
   for (const PairCoeff &one : par->pair)
     if (par->by_rate && optional_channel(one))
-      error->all(
-          FLERR, Error::NOLASTLINE,
-          "Pair style {}: viscosities that depend on the rate of shear cannot be used with {}",
-          style, optional_channel(one));
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair style {}: viscosities that are not constant cannot be used with {}", style,
+                 optional_channel(one));
   for (const PairCoeff &one : par->pair)
     if (choice.shear == Shear::MG_FR && optional_channel(one))
       error->all(FLERR, Error::NOLASTLINE, "Pair style {} shear mg/fr cannot be used with {}",
@@ -308,7 +307,7 @@ void FluidModel::check_keywords(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   what a viscosity that depends on the rate of shear does not have
+   what a viscosity that is not constant does not have
 ------------------------------------------------------------------------- */
 
 void FluidModel::check_rheology(int i) const
@@ -317,8 +316,8 @@ void FluidModel::check_rheology(int i) const
     for (int k = 1; k <= atom->ntypes; k++)
       if (const char *keyword = coeffs[k].other ? nullptr : keyword_that_needs(RHEOLOGY, k))
         error->all(FLERR, Error::NOLASTLINE,
-                   "Pair_coeff {} of type {}, a viscosity that depends on the rate of shear, {}",
-                   keyword, k, what);
+                   "Pair_coeff {} of type {}, a viscosity that is not constant, {}", keyword, k,
+                   what);
   };
   if (choice.shear != Shear::MG || choice.bulk != Bulk::DENSITY)
     refuse(fmt::format("requires pair style sph/bulk with shear mg and bulk density, not {} with "
@@ -328,7 +327,7 @@ void FluidModel::check_rheology(int i) const
   if (choice.limit != Limit::NO) refuse("cannot be used with limit of pair_style");
   if (choice.thermal)
     refuse("cannot be used with temp of pair_style: no noise without drift is in balance with a "
-           "friction that depends on velocities");
+           "friction that is not constant");
   for (int j = 1; j <= atom->ntypes; j++)
     if (j != i && !coeffs[j].other && !is_mixed(i, j))
       refuse(fmt::format("cannot be used with a mu of the unlike types {} {}: it is the harmonic "

@@ -75,7 +75,7 @@ struct PairState {
   Vec approach;     // r.u
   Vec vv;           // F V_i V_j
   Vec by_metric;    // F V_i V_j / metric
-  Vec mu[2];    // of i and j, if it depends on the rate of shear; negative of a boundary particle
+  Vec mu[2];        // of i and j, if it is not constant; negative of a boundary particle
 
   Vec central;           // force on i along r, times 1/r
   Vec f[3];              // force on i

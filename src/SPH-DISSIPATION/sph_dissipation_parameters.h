@@ -28,7 +28,7 @@ namespace SPHDissipation {
   struct TypeParameters {
     EosParams eos;
     double zeta = 0.0;    // coefficient of the bulk term
-    // if mu depends on the rate of shear, and zeta on mu: zeta = zeta_at_0 + zeta_by_mu mu
+    // if mu is not constant, and zeta on mu: zeta = zeta_at_0 + zeta_by_mu mu
     double mu = 0.0, zeta_at_0 = 0.0, zeta_by_mu = 0.0;
     double heat_capacity = 0.0;         // per mass
     double flow[Flows::NUMBER] = {};    // coefficients

@@ -179,7 +179,7 @@ namespace SPHDissipation {
     double *state_pressure;          // read if there are states
     FlowRow *flow[Flows::NUMBER];    // of the flows of any type
     double *rho_sum = nullptr;       // see Fields; with density continuity
-    double *viscosity = nullptr;     // mu, if that of any type depends on the rate of shear
+    double *viscosity = nullptr;     // mu, if that of any type is not constant
 
     // w of the form volume mass
 
@@ -271,7 +271,8 @@ namespace SPHDissipation {
     {
       const TypeParameters &own = types[type[i]];
       viscosity[i] = is_fluid(i, not_fluid)
-          ? Rheology::viscosity(own.keywords.rheology(), own.mu, rho[i], rate)
+          ? Rheology::viscosity(own.keywords.rheology(), own.mu, rho[i], rate,
+                                states.temperature(i))
           : -1.0;
     }
 

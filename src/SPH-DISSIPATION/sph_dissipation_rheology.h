@@ -14,7 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_RHEOLOGY_H
 #define LMP_SPH_DISSIPATION_RHEOLOGY_H
 
-// Shear viscosities that depend on the rate of shear gamma = sqrt(2 E:E), E = deviator of the rate of strain.
+// Shear viscosities that are not constant: of the rate of shear gamma = sqrt(2 E:E), E = deviator of the rate of strain,
+// and of the temperature T.
 // Three laws begin with the mu of pair_coeff, of which a fluid has one at most:
 //   power:    mu gamma^(n-1), between two bounds
 //   carreau:  mu_inf + (mu - mu_inf) [1 + (lambda gamma)^a]^((n-1)/a)
@@ -24,7 +25,10 @@
 // Two terms are added to these, or to a constant mu:
 //   yield:        tau_y [1 - exp(-m gamma)]/gamma                 T. C. Papanastasiou, J. Rheol. 31, 385 (1987)
 //   smagorinsky:  rho l^2 gamma up to a bound                     J. Smagorinsky, Mon. Weather Rev. 91, 99 (1963)
-// Bingham's fluid is yield, the one of Herschel and Bulkley is yield with power.  No LAMMPS include.
+// Bingham's fluid is yield, the one of Herschel and Bulkley is yield with power.  The sum has a factor:
+//   arrhenius:    exp[E (1/T - 1/T0)] up to a bound; E = energy of activation over the gas constant
+//                 S. Arrhenius, Z. Phys. Chem. 4, 226 (1889)
+// No LAMMPS include.
 
 #include "sph_dissipation_function.h"
 
@@ -51,13 +55,16 @@ namespace SPHDissipation {
       YIELD_M,
       SMAGORINSKY_LENGTH,
       SMAGORINSKY_MOST,
+      ARRHENIUS_E,
+      ARRHENIUS_T0,
+      ARRHENIUS_MOST,
       NUMBER
     };
 
     static bool any(const double *a)
     {
       return a[POWER_N] != 0.0 || a[CARREAU_LAMBDA] != 0.0 || a[CROSS_LAMBDA] != 0.0 ||
-          a[YIELD_STRESS] != 0.0 || a[SMAGORINSKY_LENGTH] != 0.0;
+          a[YIELD_STRESS] != 0.0 || a[SMAGORINSKY_LENGTH] != 0.0 || a[ARRHENIUS_E] != 0.0;
     }
 
     SPH_FUNCTION static double between(double least, double value, double most)
@@ -65,8 +72,17 @@ namespace SPHDissipation {
       return (value < least) ? least : (value > most) ? most : value;
     }
 
-    // at this rate and mass density
-    SPH_FUNCTION static double viscosity(const double *a, double mu, double rho, double rate)
+    // factor of a temperature; the bound where there is none
+    SPH_FUNCTION static double thermal_factor(const double *a, double T)
+    {
+      if (!(T > 0.0)) return a[ARRHENIUS_MOST];
+      const double factor = exp(a[ARRHENIUS_E] * (1.0 / T - 1.0 / a[ARRHENIUS_T0]));
+      return (factor < a[ARRHENIUS_MOST]) ? factor : a[ARRHENIUS_MOST];
+    }
+
+    // at this rate, mass density, and temperature
+    SPH_FUNCTION static double viscosity(const double *a, double mu, double rho, double rate,
+                                         double T)
     {
       double sum = mu;
       if (a[POWER_N] != 0.0) {
@@ -88,6 +104,7 @@ namespace SPHDissipation {
       if (a[SMAGORINSKY_LENGTH] != 0.0)
         sum += between(0.0, rho * a[SMAGORINSKY_LENGTH] * a[SMAGORINSKY_LENGTH] * rate,
                        a[SMAGORINSKY_MOST]);
+      if (a[ARRHENIUS_E] != 0.0) sum *= thermal_factor(a, T);
       return sum;
     }
 
@@ -108,6 +125,10 @@ namespace SPHDissipation {
       }
       if (a[YIELD_STRESS] != 0.0) of.most += a[YIELD_STRESS] * a[YIELD_M];
       if (a[SMAGORINSKY_LENGTH] != 0.0) of.most += a[SMAGORINSKY_MOST];
+      if (a[ARRHENIUS_E] != 0.0) {
+        of.least *= exp(-a[ARRHENIUS_E] / a[ARRHENIUS_T0]);    // of a hot fluid
+        of.most *= a[ARRHENIUS_MOST];
+      }
       return of;
     }
 
@@ -116,7 +137,7 @@ namespace SPHDissipation {
     {
       for (int k = 0; k < NUMBER; k++)
         if (!(a[k] >= 0.0 && std::isfinite(a[k])))
-          return "power, carreau, cross, yield, and smagorinsky must have numbers >= 0";
+          return "power, carreau, cross, yield, smagorinsky, and arrhenius must have numbers >= 0";
       if ((a[POWER_N] != 0.0) + (a[CARREAU_LAMBDA] != 0.0) + (a[CROSS_LAMBDA] != 0.0) > 1)
         return "power, carreau, and cross must not be given together";
       const auto some = [a](int from, int to) {
@@ -137,6 +158,9 @@ namespace SPHDissipation {
       if (some(SMAGORINSKY_LENGTH, SMAGORINSKY_MOST) &&
           !(a[SMAGORINSKY_LENGTH] > 0.0 && a[SMAGORINSKY_MOST] > 0.0))
         return "smagorinsky must have length > 0 and mu_max > 0";
+      if (some(ARRHENIUS_E, ARRHENIUS_MOST) &&
+          !(a[ARRHENIUS_E] > 0.0 && a[ARRHENIUS_T0] > 0.0 && a[ARRHENIUS_MOST] >= 1.0))
+        return "arrhenius must have E > 0, T0 > 0, and factor_max >= 1";
       return nullptr;
     }
   };

@@ -101,7 +101,8 @@ namespace SPHDissipation {
     NOT_EOS_IDEAL = 8,
     NO_OPEN_ENDS = 16,
     TENSION = 32,
-    RHEOLOGY = 64    // mu that may depend on the rate of shear, see FluidModel::check_rheology()
+    RHEOLOGY = 64,    // mu that may not be constant, see FluidModel::check_rheology()
+    VISCOUS_EXPLICIT = 128
   };
 
   // A keyword of pair_coeff and its numbers, coefficients of a type, one after another: once, or in groups of which there
@@ -131,7 +132,7 @@ namespace SPHDissipation {
   struct Terms {
     Shear shear;
     bool optional;
-    bool by_rate;      // mu depends on the rate of shear
+    bool by_rate;      // mu is not constant
     bool one_fluid;    // the same coefficients of all pairs; read with by_rate
   };
 
@@ -166,7 +167,7 @@ namespace SPHDissipation {
     bool uniform = true;              // the coefficients of type 1 hold for all pairs
     bool inviscid = true;             // they are zero
     bool optional = false;            // pairs have optional terms
-    bool by_rate = false;             // mu of any type depends on the rate of shear
+    bool by_rate = false;             // mu of any type is not constant
     bool drag = false;                // of single particles, of any type
     bool thermal_pressure = false;    // of any type: it depends on the internal energy
     int flows = 0;                    // bits of the flows of any type

@@ -321,69 +321,69 @@ bool PairEnergyStage::active() const
   return !engine.parameters().pair_energy.empty();
 }
 
-void PairEnergyStage::find_rows(NeighList *list)
+void PairEnergyStage::find_pairs(NeighList *list, const PairEnergyKernel &kernel)
 {
   const Parameters &par = engine.parameters();
+  const ParticleRows &particles = engine.rows();
   const int *const type = atom->type;
+  const auto distance = [&](double volume) {
+    return (par.dim == 1) ? volume : (par.dim == 2) ? std::sqrt(volume) : std::cbrt(volume);
+  };
   energies = par.pair_energy;
-  rows.clear();
+  pairs.clear();
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
     const double *const with = &energies[type[i] * par.ntypes_1];
-    const int *const jlist = list->firstneigh[i];
-    if (std::any_of(jlist, jlist + list->numneigh[i], [=](int j) {
-          return with[type[j & NEIGHMASK]] != 0.0;
-        }))
-      rows.push_back(ii);
+    const double w_i = particles.reference_volume(i);
+    for (int jj = 0; jj < list->numneigh[i]; jj++) {
+      const int j = list->firstneigh[i][jj] & NEIGHMASK;
+      if (with[type[j]] == 0.0) continue;
+      const double w_j = particles.reference_volume(j);
+      pairs.push_back(
+          {i, j, with[type[j]] * w_i * w_j * kernel.of_rows(distance(w_i), distance(w_j))});
+    }
   }
 }
 
 template <class Function>
-void PairEnergyStage::visit(int row, const PairEnergyKernel &kernel, Function &&function) const
+void PairEnergyStage::visit(std::size_t from, std::size_t to, Function &&function) const
 {
-  const Parameters &par = engine.parameters();
-  const ParticleRows &particles = engine.rows();
   const Particle *const particle = engine.particle;
-  const int *const type = atom->type;
-  engine.visit_pairs(row, [&](int i, int j, bigint) {
-    const double a = par.pair_energy[type[i] * par.ntypes_1 + type[j]];
-    if (a == 0.0) return;
+  const double support_sq = engine.parameters().support * engine.parameters().support;
+  for (std::size_t m = from; m < to; m++) {
+    const UnlikePair &pair = pairs[m];
     double r[3], rsq = 0.0;
     for (int d = 0; d < 3; d++) {
-      r[d] = particle[i].x[d] - particle[j].x[d];
+      r[d] = particle[pair.i].x[d] - particle[pair.j].x[d];
       rsq += r[d] * r[d];
     }
-    const double w_i = particles.reference_volume(i), w_j = particles.reference_volume(j);
-    function(i, j, r, rsq, a * w_i * w_j * kernel.of_rows(distance[i], distance[j]));
-  });
+    if (rsq < support_sq) function(pair, r, rsq);
+  }
 }
 
 void PairEnergyStage::run(NeighList *list, PairTally *tally)
 {
+  if (!active()) {    // the pairs do not follow the neighbor lists
+    pairs.clear();
+    return energies.clear();
+  }
   const PairEnergyKernel kernel(engine.parameters().dim, engine.parameters().support);
-  if (neighbor->ago == 0 || energies != engine.parameters().pair_energy) find_rows(list);
-  const int dim = engine.parameters().dim;
-  distance.resize(atom->nlocal + atom->nghost);
-  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
-    const double volume = engine.rows().reference_volume(i);
-    distance[i] = (dim == 1) ? volume : (dim == 2) ? std::sqrt(volume) : std::cbrt(volume);
-  });
+  if (neighbor->ago == 0 || energies != engine.parameters().pair_energy) find_pairs(list, kernel);
 
-  auto add = [&](bigint from, bigint to, ForceSum *force) {
-    for (bigint m = from; m < to; m++)
-      visit(rows[m], kernel, [&](int i, int j, const double *r, double rsq, double energy) {
-        const double central = energy * kernel.slope(rsq);
-        double push[3];
-        for (int d = 0; d < 3; d++) {
-          push[d] = central * r[d];
-          force[i].f[d] += push[d];
-          force[j].f[d] -= push[d];
-        }
-        if (tally) tally->tally(i, j, push, r);
-      });
+  auto add = [&](std::size_t from, std::size_t to, ForceSum *force) {
+    visit(from, to, [&](const UnlikePair &pair, const double *r, double rsq) {
+      const double central = pair.energy * kernel.slope(rsq);
+      double push[3];
+      for (int d = 0; d < 3; d++) {
+        push[d] = central * r[d];
+        force[pair.i].f[d] += push[d];
+        force[pair.j].f[d] -= push[d];
+      }
+      if (tally) tally->tally(pair.i, pair.j, push, r);
+    });
   };
 
-  const bigint number = rows.size();
+  const std::size_t number = pairs.size();
   Threads &team = engine.team();
   if (tally || team.size() == 1) return add(0, number, engine.force);
   sums.run(team, engine.force, atom->nlocal + atom->nghost, [&](int k, ForceSum *sum) {
@@ -398,16 +398,20 @@ double PairEnergyStage::energy(double *each_atom, int groupbit) const
   const int *const mask = atom->mask;
   const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
   double total = 0.0;
-  for (int ii = 0; ii < engine.pairs().inum; ii++)
-    visit(ii, kernel, [&](int i, int j, const double *, double rsq, double energy) {
-      const double half = 0.5 * energy * kernel.weight(rsq);
-      for (const int one : {i, j}) {
-        if (one >= n || !(mask[one] & groupbit)) continue;
-        total += half;
-        if (each_atom) each_atom[one] += half;
-      }
-    });
+  visit(0, pairs.size(), [&](const UnlikePair &pair, const double *, double rsq) {
+    const double half = 0.5 * pair.energy * kernel.weight(rsq);
+    for (const int one : {pair.i, pair.j}) {
+      if (one >= n || !(mask[one] & groupbit)) continue;
+      total += half;
+      if (each_atom) each_atom[one] += half;
+    }
+  });
   return total;
+}
+
+double PairEnergyStage::memory_usage() const
+{
+  return bytes(pairs) + sums.memory_usage();
 }
 
 /* ----------------------------------------------------------------------

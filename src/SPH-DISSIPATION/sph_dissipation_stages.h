@@ -97,7 +97,7 @@ namespace SPHDissipation {
     ThreadSums<double> sums;
   };
 
-  // Viscosities that depend on the rate of shear, see sph_dissipation_rheology.h; with the volumes of particles set
+  // Viscosities that are not constant, see sph_dissipation_rheology.h; with the volumes of particles set
 
   class ViscosityStage : public Stage {
    public:
@@ -183,20 +183,24 @@ namespace SPHDissipation {
     // add the forces to the sums of the engine, with a tally of each pair, or nullptr
     void run(NeighList *, PairTally *);
     // Energy of the particles of a group, half of each pair, on this processor, added to those of the particles (nullptr:
-    // to none); of the pairs that pass 1 has found
+    // to none); of the pairs of the last run()
     double energy(double *each_atom, int groupbit) const;
 
+    double memory_usage() const override;
+
    private:
-    std::vector<int> rows;           // of the neighbor list that have such pairs
-    std::vector<double> energies;    // a of the types when they were found
-    std::vector<double>
-        distance;    // V^(1/n) of owned and ghost atoms, with V the reference volume
+    struct UnlikePair {
+      int i, j;
+      double energy;    // a w_i w_j, with the factor of rows
+    };
+    std::vector<UnlikePair> pairs;    // of the neighbor list
+    std::vector<double> energies;     // a of the types when they were found
     ThreadSums<ForceSum> sums;
 
-    void find_rows(NeighList *);
-    // function(i, j, r_ij, r^2, a w_i w_j, with the factor of rows) for the pairs in a row of the neighbor list
+    void find_pairs(NeighList *, const PairEnergyKernel &);
+    // function(pair, r_ij, r^2) for those within the support radius
     template <class Function>
-    void visit(int row, const PairEnergyKernel &, Function &&function) const;
+    void visit(std::size_t from, std::size_t to, Function &&function) const;
   };
 
   // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h.  The rates of volumes and energies are kept

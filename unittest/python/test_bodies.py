@@ -167,15 +167,17 @@ def test_ranks_and_periodic_borders(lammps):
             assert np.abs(frame[name] - reference[name]).max() < 1e-11, (ranks, newton, name)
 
 
-@pytest.mark.parametrize("options", ["", "temp 0.02 7"])
-def test_restart(lammps, options):
+@pytest.mark.parametrize("options, heat", [("", ""), ("temp 0.02 7", ""), ("", "heat temp v_heated")])
+def test_restart(lammps, options, heat):
     """A continued run, and one from a restart file, go on as a single run."""
-    dump = "dump D all custom 40 {}.dump id xu yu zu vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\n"
+    dump = "compute H all property/atom esph\ndump D all custom 40 {}.dump id xu yu zu vx vy vz fx fy fz c_H\ndump_modify D sort id format float %.17g\n"
     text = periodic(options=options)
+    if heat:
+        text = HEATED + text.replace(" 2.6\n", " 2.6 cv 2.0 conductivity 0.5\n").replace("move rigid\n", f"move rigid {heat}\n")
     lammps(text + dump.format("single") + "run 80\n")
     lammps(text + dump.format("twice") + "run 40\nwrite_restart box.restart\nrun 40\n")
     after = text[text.index("neighbor 0.5 bin"):]
-    lammps("fix mol all property/atom mol\n".join(("atom_style sph/bulk\n", "read_restart box.restart\n")).replace(
+    lammps((HEATED if heat else "") + "fix mol all property/atom mol\n".join(("atom_style sph/bulk\n", "read_restart box.restart\n")).replace(
         "atom_style sph/bulk\nfix mol all property/atom mol\n", "") + "fix mol all property/atom mol\n"
         + after[:after.index("pair_style")] + after[after.index("fix 1 fluid"):] + dump.format("read") + "run 40\n")
     want = lammps.frames("single.dump")[-1]
@@ -183,6 +185,8 @@ def test_restart(lammps, options):
         frame = lammps.frames(f"{name}.dump")[-1]
         for what in ("x", "v", "f"):
             assert np.abs(frame[what] - want[what]).max() < 1e-10, (name, what)
+        # at the start of a run, a variable has the heat of this step, later that of the one before
+        assert np.abs(frame["c_H"] - want["c_H"]).max() < (1e-4 if heat else 1e-10) * max(1.0, np.abs(want["c_H"]).max()), name
 
 
 def test_a_body_behaves_as_a_wall_if_it_is_heavy(lammps):
@@ -196,10 +200,58 @@ def test_a_body_behaves_as_a_wall_if_it_is_heavy(lammps):
     assert np.abs(fluid["body"] - fluid["wall"]).max() < 1e-12
 
 
+# ---- heat -----------------------------------------------------------------------------------------------------------
+
+
+def conducting(heat, **keywords):
+    """The drop of a fluid at the temperature 1, with a body that gives heat."""
+    text = drop(**keywords).replace(" 2.6\n", " 2.6 cv 2.0 conductivity 0.5\n").replace("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk temperature 1.0")
+    return text.replace("move rigid\n", f"move rigid {heat}\n").replace(" ke pe c_E\n", " c_E f_3[7] f_3[8]\n")
+
+
+@pytest.mark.parametrize("heat", ["heat temp 1.5", "heat flux 0.3", ""])
+def test_heat_of_a_body_is_that_of_a_wall(lammps, heat):
+    """At rest, where friction has none; without the keyword no heat passes.  The volumes of body particles are not those of a wall."""
+    rates = []
+    for moves in ("rigid", "no"):
+        text = conducting(heat or "heat flux 0", boundary="p p p").replace("timestep", "velocity all set 0 0 0\ntimestep")
+        if not heat:
+            text = text.replace("heat flux 0", "").replace(" f_3[7] f_3[8]", "")
+        if moves == "no":
+            text = text.replace("fix 2 body rigid single\n", "").replace("move rigid", "move no")
+        lammps(text + "compute H all property/atom desph\ndump D fluid custom 1 out.dump id c_H\ndump_modify D sort id format float %.17g\nrun 0\n")
+        rates.append(lammps.frame("out.dump")["c_H"])
+        if heat:
+            assert lammps.results[-1].thermo()[-1]["f_3[7]"][0] == pytest.approx(rates[-1].sum(), rel=1e-12)
+    assert np.abs(rates[0] - rates[1]).max() < (0.05 * rates[1].max() if "temp" in heat else 1e-13)
+    assert (rates[0].sum() > 1.0) if heat else np.abs(rates[0]).max() < 1e-13
+
+
+HEATED = "variable heated equal 2.0-f_3[8]/30.0\n"
+
+
+@pytest.mark.parametrize("options", ["", "density continuity"])
+def test_bodies_of_one_temperature(lammps, options):
+    """Of the page: energy is what it is without heat, and the body gets the temperature of the fluid."""
+    energy = []
+    for heat in ("", "heat temp v_heated"):
+        text = (HEATED if heat else "") + conducting(heat, options=options, boundary="p p p", jitter=0.05).replace(" f_3[7]", " v_heated f_3[7]")
+        if not heat:
+            text = text.replace(" v_heated f_3[7] f_3[8]", "")
+        table = lammps(text + "thermo 5\nrun 100\n", ranks=2).thermo()[-1]
+        energy.append(table["c_E"])
+    assert np.abs(energy[1] - energy[0]).max() < 1e-11 * energy[0][0]
+    assert table["f_3[8]"][-1] > 9.0 and table["v_heated"][-1] == pytest.approx(2.0 - table["f_3[8]"][-1] / 30.0, rel=1e-3)
+    table = lammps(text.replace("conductivity 0.5", "conductivity 2.0") + "compute M fluid property/atom tsph\ncompute T fluid reduce ave c_M\n"
+                   "thermo_style custom step v_heated c_T\nvelocity all set 0 0 0\nthermo 1000\nrun 10000\n").thermo()[-1]
+    print(table["v_heated"], table["c_T"])
+    assert table["v_heated"][-1] == pytest.approx(table["c_T"][-1], rel=0.005)
+
+
 @pytest.mark.parametrize("change, words", [
     (("move rigid", "move rigid velocity 1 0 0"), "move rigid cannot be used with velocity"),
     (("move rigid", "move rigid slip free"), "move rigid cannot be used with slip"),
-    (("move rigid", "move rigid heat temp 1.0"), "move rigid cannot be used with heat"),
+    (("move rigid", "move rigid heat temp 1.0"), "the fluid at the wall conducts no heat"),
     (("move rigid", "gravity 0 1 0 move rigid"), "cannot be used with gravity"),
     (("move rigid", "move rigid body molecule"), "requires molecule IDs"),
     (("move rigid", "move yes body single"), "body requires move rigid"),
@@ -219,6 +271,13 @@ def test_errors(lammps, change, words):
     assert change[0] in text
     result = lammps(text.replace(*change), check=False)
     assert result.code and words in result.error
+
+
+def test_bodies_that_are_fluid(lammps):
+    """LAMMPS's fix alone makes no body."""
+    text = small(lammps, "1.0 5.0 0.7 1.8 2.5") + "run 0\n"
+    for lines, warned in ((text, 0), (text.replace("fix 3 body sph/wall move rigid\n", "").replace("f_3[1] f_3[2] f_3[6]", "ke"), 1)):
+        assert sum("5 particles of the fluid belong to rigid bodies" in line for line in lammps(lines).warnings) == warned
 
 
 def test_buoyancy(lammps):

@@ -112,7 +112,7 @@ FEATURES = {
     "walls": Feature(walls("v_U"), walls("0.3")),
     "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused={
         "rkl2": "viscous", "implicit": "viscous", "open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
-        "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "rate of shear", "rerun": "rerun"}),
+        "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "not constant", "rerun": "rerun"}),
     "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), not_plain_with=("gas", "heat"), refused={"noise": "temp", "rerun": "rerun"}),
     "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom {TARGET}", "fix R fluid sph/refine 5 volume v_t")),
                      Lines(pair=("volume mass",), fixes=(f"variable t atom sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
@@ -148,7 +148,7 @@ FEATURES = {
     "interdrag": Feature(Lines(types=2, unlike=("interdrag 0.8",))),
     "tension": Feature(Lines(types=2, unlike=("tension 0.8",))),
     "thinning": Feature(Lines(keywords=("power 0.6 0.05 1.5 yield 0.05 5",)),
-                        refused={"open": "power", "noise": "drift", "warm": "drift", "limit": "limit", "interdrag": "rate of shear", "implicit": "implicit",
+                        refused={"open": "power", "noise": "drift", "warm": "drift", "limit": "limit", "interdrag": "not constant", "implicit": "implicit",
                                  "spin": "sph/bulk", "idle_spin": "sph/bulk"}),
     "relax": Feature(Lines(room=("relax 2",), state=("-0.99 0",), keywords=("relax 4.0 0.02 3.0 0.5",))),
     "heat": Feature(Lines(keywords=("cv 100.0 conductivity 30.0 gruneisen 0.5 0.01",), energy=2.5),

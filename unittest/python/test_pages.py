@@ -17,7 +17,7 @@ PAGES = sorted(page for page in (ROOT / "doc" / "src").glob("*.rst") if page.ste
 # what the fragments take for granted
 
 GROUPS = ("fluid", "floor", "top", "moving", "rotor", "ground", "inlet", "outlet", "west", "nozzle", "lid", "plate", "piston",
-          "wheel", "water", "walls")
+          "wheel", "water", "walls", "body")
 EQUAL = {"rc": 3.0, "dx": 1.0, "U": 0.1, "mu": 0.5, "kappa": 1.0, "rho0": 1.0, "b": 0.5, "p": 0.0}
 ATOM = {"target": 1.0, "u": 0.1}
 SPIN = re.compile(r"sph/micropolar|sph/torque|sph/angmom|omega|inertia|spin|centroid|mu_r")

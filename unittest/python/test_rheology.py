@@ -1,4 +1,4 @@
-"""Shear viscosities that depend on the rate of shear: keywords power, carreau, cross, yield, and smagorinsky of pair_coeff.
+"""Shear viscosities that are not constant: keywords power, carreau, cross, yield, smagorinsky, and arrhenius of pair_coeff.
 
 The reference is made of sums over all pairs, with the laws and the kernel written down here.
 """
@@ -212,6 +212,69 @@ def run_newtonian(lammps, particles):
     return lammps.frame("n"), None
 
 
+# ---- temperatures ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("keywords, law", [("", lambda g, rho: MU), ("power 0.6 0.01 5", LAWS["power 0.6 0.01 5"]),
+                                           ("yield 0.3 40", LAWS["yield 0.3 40"])])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_arrhenius(lammps, keywords, law, ranks):
+    """Each particle has the factor of its own temperature, up to the bound, and in the cold the bound."""
+    particles = disordered(2, 12)
+    particles.esph[:] = np.random.default_rng(4).uniform(0.0, 6.0, len(particles))
+    particles.esph[::9] = 0.0
+    particles.write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\n" + fluid(2, mu=MU, kappa=KAPPA, c0=C0, keywords=f"cv 2 {keywords} arrhenius 3 1 4")
+           + "fix FLUID all sph/bulk\n" + HEAT + "compute T all property/atom tsph\n" + dump("f", extra="c_T c_Q") + "run 0\n", ranks=ranks)
+    frame = lammps.frame("f")
+    T = frame["c_T"]
+    factor = np.minimum(np.where(T > 0, np.exp(3 * (1 / np.where(T > 0, T, 1.0) - 1)), 4.0), 4.0)
+    assert factor.min() < 0.2 and T.min() <= 0.0 and 5 < (factor == 4.0).sum() < 60
+    force, mu, heat = Reference(particles).forces(particles.v, lambda g, rho: law(g, rho) * factor)
+    assert relative(frame["f"] - force, force) < 1e-12
+    assert relative(frame["c_Q"] - heat[0] - heat[1], heat[0]) < 1e-12
+
+
+def test_arrhenius_of_two_fluids(lammps):
+    """The harmonic mean of two fluids that differ in E alone, after write_data too; a warning of a fluid without heat."""
+    particles = disordered(2, 12, ntypes=2)
+    particles.esph[:] = 3.0
+    particles.write(lammps.path("box.data"))
+    keywords = {k: f"cv 2 arrhenius {E} 1 4" for k, E in ((1, 1), (2, 3))}
+    model = "pair_style sph/bulk\n" + "".join(f"pair_coeff {k} {k} {RHO0} {C0} {MU} {KAPPA} {SUPPORT[2]} {keywords[k]}\n" for k in (1, 2))
+    rest = "fix FLUID all sph/bulk\ncompute T all property/atom tsph\n"
+    lammps(header(2) + "read_data box.data\n" + model + rest + dump("f", extra="c_T") + "run 0\nwrite_data out.data\n")
+    frame = lammps.frame("f")
+    law = MU * np.minimum(np.exp((2 * particles.type - 1) * (1 / frame["c_T"] - 1)), 4.0)
+    force, _, _ = Reference(particles).forces(particles.v, lambda g, rho: law, like=particles.type[:, None] == particles.type[None])
+    assert relative(frame["f"] - force, force) < 1e-12
+    lammps(header(2) + "pair_style sph/bulk\nread_data out.data\n" + rest + dump("d") + "run 0\n")
+    assert relative(lammps.frame("d")["f"] - force, force) < 1e-12
+    particles.esph[:] = 0.0
+    particles.write(lammps.path("box.data"))
+    assert any("viscosity depends on it, have none" in line for line in lammps(header(2) + "read_data box.data\n" + model + rest + "run 0\n").warnings)
+
+
+def test_couette_flow_between_walls_of_two_temperatures(lammps):
+    """The stress is uniform, so that the slope of the velocity is that of 1/mu(T) with the linear profile of T; means over time."""
+    text = channel("cv 1 conductivity 1.5 arrhenius 2 1 1", integrator="temperature v_T", before="variable T atom 1+y/10\n")
+    for old, new in (("0.1*sin(PI*x/6)", "0"), ("0.2*y+0.1*sin(2*PI*y/10)", "0.02*y"), ("velocity 2.0 0 0 move no", "velocity 0.2 0 0 move no heat temp 2"),
+                     ("fix low low sph/wall", "fix low low sph/wall heat temp 1"), ("all property/atom shear_rate", "all property/atom tsph")):
+        assert old in text
+        text = text.replace(old, new)
+    lammps(text + "run 12000\nfix A all ave/atom 10 400 4000 vx y c_G\nrun 4000\n"
+           "write_dump all custom end id type f_A[*] modify sort id format float %.17g\n")
+    frame = lammps.frame("end")
+    u, y, T = (frame[f"f_A[{k}]"][frame["type"] == 1] for k in (1, 2, 3))
+    nodes = (np.arange(2000) + 0.5) / 200
+    slope = 1 / np.exp(2 * (1 / (1 + 0.1 * nodes) - 1))
+    exact = 0.2 * np.interp(y, nodes + 0.0025, np.cumsum(slope) / slope.sum())
+    print(np.abs(T - 1 - 0.1 * y).max(), np.abs(u - exact).max() / 0.2, np.abs(0.02 * y - exact).max() / 0.2)
+    assert np.abs(T - 1 - 0.1 * y).max() < 0.001
+    assert np.abs(u - exact).max() < 0.006 * 0.2
+    assert np.abs(0.02 * y - exact).max() > 0.1 * 0.2
+
+
 # ---- walls, integrators, files -----------------------------------------------------------------------------------
 
 
@@ -277,11 +340,12 @@ def test_shear_between_walls(lammps):
     assert np.all(frame["d_shear_rate"][frame["type"] == 2] == 0)
 
 
-@pytest.mark.parametrize("integrator", ["", "viscous rkl2"])
-def test_runs_restarts_and_ranks(lammps, integrator):
+@pytest.mark.parametrize("law, integrator", [("power 0.6 0.01 5 yield 0.1 10", ""), ("power 0.6 0.01 5 yield 0.1 10", "viscous rkl2"),
+                                             ("cv 0.2 conductivity 0.05 power 0.6 0.01 5 arrhenius 2 1 3", "temperature v_T")])
+def test_runs_restarts_and_ranks(lammps, law, integrator):
     """Two runs, a restart file between them, and other numbers of ranks are one long run."""
-    text = channel("power 0.6 0.01 5 yield 0.1 10", integrator=integrator)
-    again = text[text.index("fix FLUID"):]
+    text = channel(law, integrator=integrator).replace("fix FLUID", "variable T atom 1+0.5*sin(x)\nfix FLUID")
+    again = text[text.index("variable T atom"):]
     lammps(text + "write_data start.data nocoeff\n")
     text = text[:text.index("lattice")] + "read_data start.data\n" + text[text.index("region low"):]
     lammps(text + "run 20\n" + state("one"))
@@ -295,13 +359,15 @@ def test_runs_restarts_and_ranks(lammps, integrator):
             assert relative(other[column] - one[column], one[column]) < 1e-10, (name, column)
 
 
-@pytest.mark.parametrize("integrator", ["", "viscous rkl2"])
-def test_energy(lammps, integrator):
+@pytest.mark.parametrize("integrator, keywords", [("", "power 0.6 0.01 5 yield 0.1 10"), ("viscous rkl2", "power 0.6 0.01 5 yield 0.1 10"),
+                                                  ("", "cv 0.05 conductivity 0.01 arrhenius 2 1 1.5")])
+def test_energy(lammps, integrator, keywords):
     particles = disordered(2, 12, jitter=0.05, speed=0.3)
+    particles.esph[:] = 0.05
     particles.write(lammps.path("box.data"))
     changes = []
     for dt in (0.004, 0.002):
-        text = (header(2) + "read_data box.data\n" + fluid(2, mu=MU, keywords="power 0.6 0.01 5 yield 0.1 10")
+        text = (header(2) + "read_data box.data\n" + fluid(2, mu=MU, keywords=keywords)
                 + f"fix FLUID all sph/bulk {integrator}\ntimestep {dt}\ncompute E all sph/energy\n" + OUTPUT + f"run {round(0.4 / dt)}\n")
         table = lammps(text).thermo()[-1]
         changes.append(np.abs(table["c_E"] - table["c_E"][0]).max() / table["KinEng"][0])
@@ -330,7 +396,7 @@ def test_data_file_and_adapt(lammps):
 def test_table_has_the_largest_viscosity(lammps):
     particles = disordered(2, 12)
     found = {}
-    for mu, keywords in ((12.5, ""), (0.5, "yield 0.3 40"), (0.5, "power 0.6 0.01 12.5"), (0.1, "carreau 2 0.4 2 12.5"), (0.5, "smagorinsky 1 12")):
+    for mu, keywords in ((12.5, ""), (0.5, "yield 0.3 40"), (0.5, "power 0.6 0.01 12.5"), (0.1, "carreau 2 0.4 2 12.5"), (0.5, "smagorinsky 1 12"), (0.5, "cv 1 arrhenius 3 1 25")):
         particles.write(lammps.path("box.data"))
         log = lammps(header(2) + "read_data box.data\n" + fluid(2, mu=mu, kappa=KAPPA, keywords=keywords) + "fix FLUID all sph/bulk\ntimestep 1e-5\nrun 0\n").log
         line = next(line for line in log.splitlines() if line.startswith("  1-1"))
@@ -353,6 +419,11 @@ COEFF = f"pair_coeff * * 1 10 0.5 2 {SUPPORT[2]} "
     (f"pair_style sph/bulk\n{COEFF}cross 1 0 0", "m > 0"),
     (f"pair_style sph/bulk\n{COEFF}yield 0 3", "tau_y > 0"),
     (f"pair_style sph/bulk\n{COEFF}smagorinsky 1 0", "mu_max > 0"),
+    (f"pair_style sph/bulk\n{COEFF}cv 1 arrhenius 2 0 3", "T0 > 0"),
+    (f"pair_style sph/bulk\n{COEFF}cv 1 arrhenius 2 1 0.5", "factor_max >= 1"),
+    (f"pair_style sph/bulk\n{COEFF}arrhenius 2 1 3", "heat capacity"),
+    (f"pair_style sph/bulk temp 1 4711\n{COEFF}cv 1 arrhenius 2 1 3", "temp cannot be used with arrhenius"),
+    (f"pair_style sph/bulk temp energy 100 4711\n{COEFF}cv 1 arrhenius 2 1 3", "no noise without drift"),
     (f"pair_style sph/bulk\n{COEFF}power 0.5 0 1 cross 1 1 0", "not be given together"),
     (f"pair_style sph/bulk\n{COEFF}power 0.5 0", "Illegal pair_coeff power command: missing argument"),
     (f"pair_style sph/bulk shear morris\n{COEFF}yield 1 1", "requires pair style sph/bulk with shear mg"),
@@ -378,7 +449,8 @@ def test_errors_of_other_commands(lammps):
     particles.write(lammps.path("box.data"))
     text = header(2) + "read_data box.data\n"
     cases = [(fluid(2) + "fix FLUID all sph/bulk\n" + RATE + dump("p", extra="c_G"), "shear_rate needs a pair style with power"),
-             (fluid(2, keywords="yield 0.3 5") + "fix FLUID all sph/bulk viscous implicit\n", "use viscous rkl2")]
+             (fluid(2, keywords="yield 0.3 5") + "fix FLUID all sph/bulk viscous implicit\n", "use viscous rkl2"),
+             (fluid(2, keywords="cv 1 arrhenius 2 1 3") + "fix FLUID all sph/bulk viscous rkl2\n", "use viscous explicit")]
     for lines, words in cases:
         result = lammps(text + lines + "run 0\n", check=False)
         assert result.code and words in result.error, result.output[-1500:]

@@ -270,3 +270,15 @@ def test_skin_at_rest(lammps, skin, times):
     lattice(2, 12).write(lammps.path("data.txt"))
     found = re.search(r"with a skin of (\S+), which is 1.5 support radii, the neighbor list is (\S+) times as long", lammps(stream(skin, speed=0.0)).log)
     assert (found and found.groups()) == (times and ("4.5", times))
+
+
+@pytest.mark.parametrize("speed, options, warned", [(4.0, "", True), (2.0, "", False), (0.0, "", False), (4.0, "eos ideal", False), (4.0, "temp 1e-6 1", False)])
+def test_liquid_faster_than_its_sound(lammps, speed, options, warned):
+    """Above 0.3 c0 the density is far from constant, but not that of a fluid that moves as a whole; a gas has another speed of sound."""
+    disordered(2, 12, jitter=0.1, speed=0.0).write(lammps.path("data.txt"))
+    gas = "gamma 1.4 cv 100" if "ideal" in options else ""
+    found = [line for line in lammps(header(2) + f"read_data data.txt\npair_style sph/bulk {options}\n"
+                                     f"pair_coeff * * 1 10 0.1 0.2 {SUPPORT[2]} {gas}\nvelocity all ramp vx -{speed} {speed} y 0 12\nvelocity all set 20 0 0 sum yes\n"
+                                     "fix FLUID all sph/bulk\ntimestep 0.01\nneigh_modify every 1 check no\nrun 3\n").warnings
+             if "are faster than 0.3 c0: the liquid is compressed" in line]
+    assert len(found) == warned
