@@ -17,9 +17,9 @@ from run_lammps import Example, csv_rows, pyplot, save, thermo      # noqa: E402
 
 T, MU, DT, EVERY, PARTICLES = 0.001, 0.07, 0.05, 20, 100     # those of in.colloid
 KAPPA = {"zero": 0.0, "ten": 0.7}               # bulk viscosity: 0 and 10 mu
-SEEDS, STEPS, STARTS = (1, 2), 600000, 12       # runs with noise of each fluid, steps, and configurations of each in which the disc is pulled
+SEEDS, STEPS, STARTS = range(1, 9), 600000, 15  # runs of each fluid, steps, and configurations of each in which the disc is pulled
 QUICK = (1,), 30000, 2
-PULL, PULLED = 0.001, 2000                      # force, and steps
+PULL, PULLED = 0.002, 2000                      # force, and steps
 SETTLE = 200                                    # outputs before the means
 LAGS = 30, 80                                   # outputs, of the slopes; the momentum spreads in 36
 PIECES = 10                                     # of each run, for the standard errors
@@ -50,9 +50,9 @@ class Fluid:
                 spreads.append((spread(x[piece], self.lags) + spread(y[piece], self.lags)) / 2)
         ways = []
         for start in starts:
-            pulled, alone = (np.loadtxt(out / f"{what}_{start}.probe.txt")[:, 1] for what in ("pull", "rest"))
+            there, back = (np.loadtxt(out / f"{what}_{start}.probe.txt")[:, 1] for what in ("there", "back"))
             # the work of the force and of its opposite on the fluid is that of PULL/(1 - mass/PARTICLES) on the disc, as the total momentum is zero
-            ways.append((pulled - alone) / PULL * (1 - mass / PARTICLES))
+            ways.append((there - back) / 2 / PULL * (1 - mass / PARTICLES))
         near, far = LAGS
         duration = (far - near) * EVERY * DT
         self.translation, self.rotation = mean(translation), mean(rotation)
@@ -70,7 +70,7 @@ def plot(path, fluids):
         label = f"$\\kappa/\\mu$ = {KAPPA[name] / MU:.0f}"
         time = EVERY * DT * fluid.lags
         left.plot(time, fluid.spread, f"C{index}o", ms=3, mfc="none", label=f"mean square displacement$/2k_BT$, {label}")
-        left.plot(time, fluid.way[:len(time)], f"C{index}-", lw=1.0, label=f"displacement$/F$, no noise, {label}")
+        left.plot(time, fluid.way[:len(time)], f"C{index}-", lw=1.0, label=f"displacement$/F$, {label}")
         for place, (value, error) in enumerate((fluid.translation, fluid.rotation, (fluid.ratio, fluid.error))):
             right.errorbar(place + 0.2 * index - 0.1, value, error, color=f"C{index}", fmt="o", mfc="none", label=label if not place else None)
     for lag in LAGS:
@@ -87,8 +87,8 @@ def main():
     seeds, steps, count = QUICK if args.quick else (SEEDS, STEPS, STARTS)
     example.run({f"{name}_{seed}": {"kappa": kappa, "steps": steps, "seed": 4710 + seed} for name, kappa in KAPPA.items() for seed in seeds})
     starts = {name: [f"{name}_{seed}_{steps // 20 * (19 - k)}" for seed in seeds for k in range(count)] for name in KAPPA}
-    example.run({f"{what}_{start}": {"kappa": KAPPA[name], "start": start, "pull": force, "steps": PULLED}
-                 for name in KAPPA for start in starts[name] for what, force in (("rest", 0.0), ("pull", PULL))})
+    example.run({f"{what}_{start}": {"kappa": KAPPA[name], "start": start, "pull": force, "steps": PULLED, "seed": 100 + number}
+                 for name in KAPPA for number, start in enumerate(starts[name]) for what, force in (("there", PULL), ("back", -PULL))})
     fluids = {name: Fluid(example.out, name, seeds, starts[name]) for name in KAPPA}
     table = example.out / "colloid.csv"
     print("\nkappa/mu  M V^2/kT  error   I Omega^2/kT  error   D/kT    error   mobility  error   D/kT/mobility  error")

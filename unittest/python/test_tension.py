@@ -209,6 +209,19 @@ def test_adapt(lammps):
     assert result.code and "tension" in result.error
 
 
+def test_tension_that_is_off_for_a_while(lammps):
+    """With new neighbor lists in between, after which it acts on the pairs of the last one."""
+    particles = disordered(2, 12, ntypes=2, speed=2.0)
+    text = start(particles, lammps, "pair_style sph/bulk\n" + coefficients(2, sigma={(1, 2): 0.7}))
+    text += ('variable s equal "0.7*(step < 3 || step > 37)"\nfix A all adapt 1 pair sph/bulk tension 1 2 v_s\n'
+             "neighbor 2.0 bin\natom_modify sort 1 1.0\n" + dump("f.dump", 40))
+    found = []
+    for every in 36, 1:
+        lammps(text + f"neigh_modify every {every} delay 0 check no\nrun 40\n")
+        found.append(lammps.frame("f.dump"))
+    assert relative(found[1]["f"] - found[0]["f"], found[0]["f"]) < 1e-10
+
+
 def test_hybrid_styles(lammps):
     """Together with another style, and with particles that are not of the fluid."""
     particles = disordered(2, 12, ntypes=3)
