@@ -344,7 +344,7 @@ void FixSPHBulk::init_viscous()
                "on the temperatures",
                style, style);
   for (int i = 1; i <= atom->ntypes; i++)
-    if (const char *keyword = fluid->model->keyword_that_needs(VISCOUS_EXPLICIT, i))
+    if (const char *keyword = fluid->model->keyword_that_needs(THERMAL_FRICTION, i))
       if (fluid->has_type(i))
         error->all(FLERR,
                    "Fix {} viscous rkl2 or implicit cannot be used with {} of pair_coeff, which "

@@ -158,7 +158,7 @@ namespace SPHDissipation {
          {"cross", 3, 0, RHEOLOGY},
          {"yield", 2, 0, RHEOLOGY},
          {"smagorinsky", 2, 0, RHEOLOGY},
-         {"arrhenius", 3, 0, HEAT_CAPACITY | RHEOLOGY | VISCOUS_EXPLICIT}}};
+         {"arrhenius", 3, 0, HEAT_CAPACITY | RHEOLOGY | THERMAL_FRICTION}}};
     static constexpr std::array<TypeVariable, 2> TYPE_VARIABLES = {
         {{"power_n", Rheology::POWER_N}, {"yield_stress", Rheology::YIELD_STRESS}}};
 

@@ -516,7 +516,7 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
     const TypeCoeff &type = model.coeffs[atom->type[i]];
     if (type.other || (atom->mask[i] & boundary_bits)) continue;
     if (type.eos.gruneisen == 0.0 && !model.conducts(atom->type[i]) &&
-        !model.keyword_that_needs(VISCOUS_EXPLICIT, atom->type[i]))
+        !model.keyword_that_needs(THERMAL_FRICTION, atom->type[i]))
       continue;
     number[0]++;
     if (atom->esph[i] == 0.0 || !(heat(i) > 0.0)) number[1]++;

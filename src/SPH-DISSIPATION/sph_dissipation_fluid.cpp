@@ -661,17 +661,19 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
   });
 }
 
+/* ---------------------------------------------------------------------- */
+
+bool Fluid::checks_speed() const
+{
+  return fast_lists >= 0 && model->choice.eos != Eos::IDEAL && !model->choice.thermal;
+}
+
 /* ----------------------------------------------------------------------
    of the particles, at two neighbor lists one after the other: a liquid faster than that is compressed, its density
    varies by more than a percent, where it is integrated, and by 5 percent, where it is a sum: flows with sound may be as
    fast as that.  Single drops of spray may be as well.  Without walls and open ends, speeds are those in the frame of
    all.
 ------------------------------------------------------------------------- */
-
-bool Fluid::checks_speed() const
-{
-  return fast_lists >= 0 && model->choice.eos != Eos::IDEAL && !model->choice.thermal;
-}
 
 void Fluid::check_speed()
 {

@@ -101,8 +101,8 @@ namespace SPHDissipation {
     NOT_EOS_IDEAL = 8,
     NO_OPEN_ENDS = 16,
     TENSION = 32,
-    RHEOLOGY = 64,    // mu that may not be constant, see FluidModel::check_rheology()
-    VISCOUS_EXPLICIT = 128
+    RHEOLOGY = 64,            // mu that may not be constant, see FluidModel::check_rheology()
+    THERMAL_FRICTION = 128    // the friction depends on temperatures
   };
 
   // A keyword of pair_coeff and its numbers, coefficients of a type, one after another: once, or in groups of which there
