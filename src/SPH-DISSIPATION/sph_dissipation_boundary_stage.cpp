@@ -819,8 +819,8 @@ void BoundaryStage::stop_for(int i) const
   error->one(
       FLERR,
       "Particle {} of the fluid of pair style {} is inside a wall in step {}, at {:g} {:g} "
-      "{:g} with the speed {:g}: use a speed of sound of 10 times the largest speed, a smaller "
-      "time step, or a gentler start",
+      "{:g} with the speed {:g}: use a time step below the largest stable one of the log, a speed "
+      "of sound of 10 times the largest speed, or a gentler start",
       atom->tag[i], style, update->ntimestep, x[0], x[1], x[2], MathExtra::len3(atom->v[i]));
 }
 
