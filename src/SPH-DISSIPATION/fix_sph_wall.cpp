@@ -331,8 +331,8 @@ void FixSPHWall::setup(int vflag)
   if (!checked && bodies && comm->me == 0 && !utils::strmatch(force->pair_style, "^hybrid") &&
       (bodies->size() > 1 || modify->get_fix_by_style("^sph/wall").size() > 1))
     error->warning(FLERR,
-                   "Fix {} {}: bodies do not touch each other or walls: only the fluid between "
-                   "them keeps them apart",
+                   "Fix {} {}: bodies have no contact forces: only the fluid keeps them apart "
+                   "from each other and from walls",
                    id, style);
   checked = true;
   post_force(vflag);
