@@ -171,7 +171,7 @@ void FixSPHWall::check_movers() const
     if (other == this || !(other->time_integrate || dynamic_cast<FixSPHWall *>(other))) continue;
     if (other->rigid_flag) {
       const bool thermostat = (other->setmask() & FixConst::POST_FORCE) ||
-          utils::strmatch(other->style, "/n[pv]t|/nph");
+          utils::strmatch(other->style, "/n[pv][th]");
       if (noise && thermostat)
         error->all(FLERR,
                    "Fix {} {} move rigid cannot be used with the thermostat of fix {} {}: the "

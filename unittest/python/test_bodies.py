@@ -263,13 +263,17 @@ def test_bodies_of_one_temperature(lammps, options):
     (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk\nfix 4 body sph/wall move rigid"), "is also moved by fix 3 sph/wall"),
     (("fix 2 body rigid single\n", "fix 2 body rigid single\nfix 4 body rigid/nve single\n"), ""),
     (("run 0", "minimize 0 0 1 1"), "a minimization"),
+    (("sph/bulk \npair_coeff", "sph/bulk temp 0.1 7\npair_coeff", "rigid single", "rigid/nvt single temp 1.0 1.0 1.0"),
+     "cannot be used with the thermostat of fix 2 rigid/nvt"),
     (("fix 2 body rigid single\n", "group a id 13 14\ngroup b id 15 16 17\nfix 2 body rigid group 2 a b\n"),
      "do not move as a rigid body"),
 ])
 def test_errors(lammps, change, words):
     text = small(lammps, "1.0 5.0 0.7 1.8 2.5") + ("run 20\n" if "rigid body" in words else "run 0\n")
-    assert change[0] in text
-    result = lammps(text.replace(*change), check=False)
+    for old, new in zip(change[::2], change[1::2]):
+        assert old in text
+        text = text.replace(old, new)
+    result = lammps(text, check=False)
     assert result.code and words in result.error
 
 

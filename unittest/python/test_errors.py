@@ -110,6 +110,7 @@ PAIR_COEFF = [
     coeff("seven", "* * 1.0 10.0 0.5 2.0 3.0 gamma seven"),
     *[coeff("gamma must be > 0", f"* * 1.0 10.0 0.5 2.0 3.0 gamma {gamma}", pair_style=f"pair_style sph/bulk eos {eos}")
       for eos in ("tait", "ideal") for gamma in (-1, 0)],
+    coeff("gamma must be > 1 with eos ideal", "* * 1.0 10.0 0.5 2.0 3.0 gamma 1.0", pair_style="pair_style sph/bulk eos ideal"),
     coeff(["mu", "shear none"], "* * 1.0 10.0 0.5 2.0 3.0", pair_style="pair_style sph/bulk shear none"),
     coeff("3.*1-2", "3 3 1.0 10.0 0.5 2.0 3.0"),
     coeff("range.* 0 ", "0 1 1.0 10.0 0.5 2.0 3.0"),
@@ -134,6 +135,12 @@ FIX = [
     case("requires fix sph/bulk", fix="fix 1 all nve"),
     case(r"\bdamp\b", fix="fix 1 all sph/bulk damp 1.0"),
     case("fluid", fix="fix 1 fluid sph/bulk"),
+    case(["shift needs the forces", "pair_modify compute no"], fix="fix 1 all sph/bulk shift 0.1", extra="pair_modify compute no"),
+    case(["Variable T", "invalid style"], fix="variable T string hot\nfix 1 all sph/bulk temperature v_T",
+         pair_coeff="pair_coeff * * 1.0 10.0 0.5 2.0 3.0 cv 1.0"),
+    case("inertia requires pair style sph/micropolar", atom_style="atom_style sph/micropolar", pair_style=LJ, pair_coeff=LJ_COEFF,
+         box="region B block 0 9 0 9 -.5 .5\ncreate_box 2 B\ncreate_atoms 1 random 50 1 B\nset group all mass 1.0",
+         fix="fix 1 all sph/micropolar inertia 0.1 0.0"),
 ]
 
 PARTICLES = [
@@ -186,15 +193,18 @@ FILES = [
     coeff("[Mm]issing|good.sph", "* * good.sph water"),
     coeff("[Mm]issing|good.sph", "* * good.sph"),
 ]
+ATOMIC = dict(atom_style="atom_style atomic", pair_style=LJ, pair_coeff=LJ_COEFF, fix="fix 1 all nve",
+              box="region B block 0 9 0 9 -.5 .5\ncreate_box 2 B\ncreate_atoms 1 random 50 1 B\nmass * 1.0")
 COMPUTES = [
     case("keyword.*verbose|verbose", extra="compute Q all sph/dissipation verbose"),
     case("verbose", extra="compute E all sph/energy verbose"),
     case("group all", extra="group A type 1\ncompute Q A sph/dissipation"),
     case("sph/bulk", pair_style=LJ, pair_coeff=LJ_COEFF, extra="compute Q all sph/dissipation\nthermo_style custom "
          "step c_Q"),
-    case("sph/bulk", atom_style="atom_style atomic", pair_style=LJ, pair_coeff=LJ_COEFF, fix="fix 1 all nve",
-         box="region B block 0 9 0 9 -.5 .5\ncreate_box 2 B\ncreate_atoms 1 random 50 1 B\nmass * 1.0",
-         extra="compute E all sph/energy"),
+    case("sph/bulk", extra="compute E all sph/energy", **ATOMIC),
+    case("requires atom style sph/bulk", extra="compute T all sph/temp", **ATOMIC),
+    case("use run 0 first", pair_coeff="pair_coeff * * 1.0 10.0 0.5 2.0 3.0 cv 1.0", run="compute T all property/atom tsph\n"
+         "compute M all reduce max c_T\nrun 0\npair_coeff * * 1.0 10.0 0.5 2.0 3.0 cv 2.0\nvariable M equal c_M\nprint $(v_M)"),
 ]
 
 

@@ -355,13 +355,15 @@ def test_points_without_particles_are_zero(lammps):
     assert field[6, 6, 6, 0] == pytest.approx(1.0, rel=EXACT)
 
 
-def test_group(lammps):
+@pytest.mark.parametrize("dim", [2, 3])
+def test_group(lammps, dim):
     """Only particles of the group count."""
-    particles = disordered(3, 8, jitter=0.1)
+    particles = disordered(dim, 8, jitter=0.1)
     particles.v[:] = np.where(np.arange(len(particles)) % 2, 1.0, -2.0)[:, None]
     particles.write(lammps.path("box.data"))
-    lammps(header(3) + "read_data box.data\nvariable odd atom id%2\ngroup half variable odd\n" + fluid(3) + INTEGRATE
-           + "compute G half sph/grid 6 6 6 vx\ncompute P all property/grid 6 6 6 ix iy iz\n"
+    grid, place = ("6 6 6", "ix iy iz") if dim == 3 else ("6 6 1", "ix iy ix")
+    lammps(header(dim) + "read_data box.data\nvariable odd atom id%2\ngroup half variable odd\n" + fluid(dim) + INTEGRATE
+           + f"compute G half sph/grid {grid} vx\ncompute P all property/grid {grid} {place}\n"
            "dump G all grid 1 out.grid c_P:grid:data[*] c_G:grid:data\ndump_modify G format float %.17g\nrun 0\n")
     assert abs(read_grid(lammps.path("out.grid"))[-1][1] + 2.0).max() < EXACT
 
