@@ -41,6 +41,7 @@ def refused(lammps, message, inlet=INLET, outlet=OUTLET, ranks=(1, 2), run="run 
     ("velocity 0.1 0 0 condition sideways", "condition must be lagged, characteristic, or fixed, not sideways"),
     ("velocity 0.1 0 0 order 2", "order must be 0 or 1"),
     ("velocity 0.1 0 0 region nowhere", "region nowhere does not exist"),
+    ("velocity 0.1 0 0 region travels", "region travels must not move or change"),
     ("velocity v_none 0 0", "Variable none for .*sph/open does not exist"),
     ("velocity v_ 0 0", "Variable +for .*sph/open does not exist"),
     ("velocity v_word 0 0", "neither of equal style nor of atom style"),
@@ -56,7 +57,8 @@ def refused(lammps, message, inlet=INLET, outlet=OUTLET, ranks=(1, 2), run="run 
 ])
 def test_keywords(lammps, inlet, message):
     variables = ("variable word string x\nvariable nan equal 0.0*exp(1000.0)\nvariable nanatom atom 0.0*exp(-1000.0*x)\n"
-                 "variable late equal 1.0-0.5*step\nvariable behind atom 1.0-2.0*(x<-7.9)\n")
+                 "variable late equal 1.0-0.5*step\nvariable behind atom 1.0-2.0*(x<-7.9)\n"
+                 "region travels block -99 99 -99 99 -1 1 units box move v_late NULL NULL\n")
     refused(lammps, message, inlet=inlet, before=variables)
 
 
