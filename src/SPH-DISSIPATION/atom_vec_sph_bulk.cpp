@@ -49,8 +49,7 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) : AtomVecSPHBulk(lmp, false) {}
 /* ---------------------------------------------------------------------- */
 
 AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
-    AtomVec(lmp), Fields(spins), owner(atom), in_views(in_views), nmax_own(0), rmass(nullptr),
-    rho(nullptr), drho(nullptr), vfrac(nullptr), esph(nullptr), desph(nullptr), vest(nullptr)
+    AtomVec(lmp), Fields(spins), owner(atom), in_views(in_views)
 {
   molecular = Atom::ATOMIC;
   mass_type = PER_ATOM;

@@ -78,11 +78,12 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
     double ***array;
   };
   std::vector<OwnArray> own_arrays;
-  int nmax_own;    // allocated size of the own arrays
+  int nmax_own = 0;    // allocated size of the own arrays
   void add_array(const std::string &, double **, double ***, int);
 
-  double *rmass, *rho, *drho, *vfrac, *esph, *desph;
-  double **vest;
+  double *rmass = nullptr, *rho = nullptr, *drho = nullptr, *vfrac = nullptr;
+  double *esph = nullptr, *desph = nullptr;
+  double **vest = nullptr;
 };
 
 }    // namespace LAMMPS_NS

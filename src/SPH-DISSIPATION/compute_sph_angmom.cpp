@@ -32,8 +32,7 @@ enum { TOTAL = 0, ORBITAL = 3, SPIN = 6, NVALUE = 9 };
 
 /* ---------------------------------------------------------------------- */
 
-ComputeSPHAngmom::ComputeSPHAngmom(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), fixed_point(0), point{0.0, 0.0, 0.0}
+ComputeSPHAngmom::ComputeSPHAngmom(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
 {
   if (!Fields::with_spins(atom))
     error->all(FLERR, "Compute {} requires atom style sph/micropolar", style);

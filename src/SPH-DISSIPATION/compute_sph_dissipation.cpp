@@ -35,7 +35,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 ComputeSPHDissipation::ComputeSPHDissipation(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), nmax(0), heat(nullptr)
+    Compute(lmp, narg, arg)
 {
   if (narg > 3) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
   if (igroup != 0) error->all(FLERR, "Compute {} must use group all", style);

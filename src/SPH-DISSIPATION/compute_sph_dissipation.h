@@ -40,8 +40,8 @@ class ComputeSPHDissipation : public Compute {
   double memory_usage() override;
 
  private:
-  int nmax;
-  double *heat;
+  int nmax = 0;
+  double *heat = nullptr;
 
   void collect(double *, double *);
 };

@@ -109,8 +109,7 @@ enum { U = 0, RHO = 3, ROOT = 4, OMEGA = 7, NFIELD = 10 };
 /* ---------------------------------------------------------------------- */
 
 ComputeSPHSpectrum::ComputeSPHSpectrum(LAMMPS *lmp, int narg, char **arg) :
-    GridCompute(lmp, narg, arg), deconvolve(false), nshell(0), micropolar(Fields::with_spins(atom)),
-    checked(false)
+    GridCompute(lmp, narg, arg), micropolar(Fields::with_spins(atom))
 {
   if (!FourierGrid::available())
     error->all(FLERR,

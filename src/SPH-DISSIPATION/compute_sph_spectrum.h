@@ -38,9 +38,9 @@ class ComputeSPHSpectrum : public SPHDissipation::GridCompute {
   double memory_usage() override;
 
  private:
-  bool deconvolve;
-  int nshell;    // shells asked for, 0: all
-  bool micropolar, checked;
+  bool deconvolve = false;
+  int nshell = 0;    // shells asked for, 0: all
+  bool micropolar, checked = false;
   std::unique_ptr<SPHDissipation::FourierGrid> fourier;
   std::vector<std::vector<std::complex<double>>> modes;    // one array per field, see calculate()
   std::vector<double> raise;                               // factor of each mode

@@ -136,14 +136,8 @@ double rest_of_heat(const TimeStep &step, const double *v, const double *acting,
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), diffuses(false), exact(false), shift_speed(0.0),
-    remap_v_flag(0), integrated_groups(0), first_instance(false), fluid(nullptr),
-    fluid_style(without_suffix(style)), spins(Fields::with_spins(atom)), dt_of_forces(0.0),
-    dt_of_states(0.0), extrapolation(1.0), balanced(false), viscous(new ViscousSettings),
-    temperature(nullptr), temperature_done(false), last(), inertia_flag(0), factor(0.0),
-    offset(0.0), inertia_done(false), density_done(0), density_flag(0), set_up(false),
-    energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0),
-    rigid_alone(0)
+    Fix(lmp, narg, arg), fluid_style(without_suffix(style)), spins(Fields::with_spins(atom)),
+    viscous(new ViscousSettings)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   read_keywords(narg, arg);

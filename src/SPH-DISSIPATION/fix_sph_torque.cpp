@@ -37,8 +37,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), value(new Value[3]), total{0.0, 0.0, 0.0}, power(0.0), work(0.0),
-    receiving_groups(0), not_receiving(0), set_up(false)
+    Fix(lmp, narg, arg), value(new Value[3])
 {
   if (!Fields::with_spins(atom))
     error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);

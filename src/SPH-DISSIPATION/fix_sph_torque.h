@@ -46,13 +46,13 @@ class FixSPHTorque : public Fix {
 
  private:
   SPHDissipation::Value *value;    // three
-  double total[3];                 // torque on all particles in the last step, of this rank
-  double power;                    // on this rank in the last step
-  double work;                     // since the fix was defined, of this rank
+  double total[3] = {};            // torque on all particles in the last step, of this rank
+  double power = 0.0;              // on this rank in the last step
+  double work = 0.0;               // since the fix was defined, of this rank
 
-  int receiving_groups;    // bits of the groups whose spin is integrated
-  bigint not_receiving;    // # of particles that the last warning was about
-  bool set_up;             // since it was defined
+  int receiving_groups = 0;    // bits of the groups whose spin is integrated
+  bigint not_receiving = 0;    // # of particles that the last warning was about
+  bool set_up = false;         // since it was defined
 
   void check_receivers();
 };

@@ -71,11 +71,9 @@ static const char cite_wall[] =
 
 FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), motion(new WallMotion(lmp, fmt::format("Fix {}", style))),
-    condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}), move(true),
-    bodies(nullptr), noise(false), checked(false), total(), total_all(), total_summed(false),
-    heat(WallHeat::ADIABATIC), heat_value(new Value), gravity(new Value[3]), heat_rate(0.0),
-    heat_given(0.0), by_molecule(atom->molecule_flag), split_given(false), frozen(false),
-    first_number(0)
+    condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}),
+    heat(WallHeat::ADIABATIC), heat_value(new Value), gravity(new Value[3]),
+    by_molecule(atom->molecule_flag)
 {
   std::string others;    // a keyword that bodies do not have
   for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {

@@ -85,13 +85,13 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
  protected:
   SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
   SPHDissipation::WallCondition *condition;
-  bool move;
-  SPHDissipation::Bodies *bodies;    // that the fluid moves; nullptr: a wall
-  bool noise;                        // the fluid has thermal noise
-  bool checked;    // thickness checked, in the first run; false: not set up since defined
+  bool move = true;
+  SPHDissipation::Bodies *bodies = nullptr;    // that the fluid moves; nullptr: a wall
+  bool noise = false;                          // the fluid has thermal noise
+  bool checked = false;    // thickness checked, in the first run; false: not set up since defined
 
-  double total[6], total_all[6];    // force and torque, of this rank and of all
-  bool total_summed;
+  double total[6] = {}, total_all[6] = {};    // force and torque, of this rank and of all
+  bool total_summed = false;
 
   SPHDissipation::WallHeat heat;
   SPHDissipation::Value *heat_value;    // temperature, or heat per area and time
@@ -104,14 +104,14 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
  private:
   // by this rank's part of the wall to the fluid; rank 0 has what a restart file knows
 
-  double heat_rate;     // heat per time in the last step
-  double heat_given;    // heat since the fix was defined
+  double heat_rate = 0.0;     // heat per time in the last step
+  double heat_given = 0.0;    // heat since the fix was defined
 
   // bodies that the fluid moves
 
-  bool by_molecule, split_given;
-  bool frozen;         // their pressure is that of frozen fluid
-  int first_number;    // of the first body in BoundaryStage
+  bool by_molecule, split_given = false;
+  bool frozen = false;     // their pressure is that of frozen fluid
+  int first_number = 0;    // of the first body in BoundaryStage
 
   void read_bodies(const std::string &others);
   void check_bodies(const SPHDissipation::Fluid *) const;

@@ -41,13 +41,6 @@ enum {
   NSUM = SECOND + 6
 };
 
-/* ---------------------------------------------------------------------- */
-
-Bodies::Bodies(LAMMPS *lmp, int groupbit, const std::string &owner, const std::string &id) :
-    Pointers(lmp), groupbit(groupbit), owner(owner), id(id), by_molecule(false), begun(false)
-{
-}
-
 /* ----------------------------------------------------------------------
    bodies in the order of their molecules, on all processors
 ------------------------------------------------------------------------- */

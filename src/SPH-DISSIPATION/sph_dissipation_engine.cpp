@@ -34,12 +34,8 @@ using namespace SPHDissipation;
 static const Parameters NO_PARAMETERS;    // of an engine before its setup()
 
 Engine::Engine(LAMMPS *lmp) :
-    Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
-    state_pressure(nullptr), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), divergence(nullptr),
-    spin(nullptr), loops(&loops_plain), par(&NO_PARAMETERS), fixed(&NO_PARAMETERS),
-    rate_loop(nullptr), force_loop(nullptr), data(), atom_rows(new ParticleRows()),
-    threads(&one_thread), weights(nullptr), slopes(nullptr), nlocal_forces(-1), nghost_forces(-1),
-    nmax(0), nmax_weights(0), imax(0), pair_max(0), slope_max(0)
+    Pointers(lmp), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), par(&NO_PARAMETERS),
+    fixed(&NO_PARAMETERS), atom_rows(new ParticleRows())
 {
   choose_loops("auto");
 }

@@ -22,13 +22,6 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-/* ---------------------------------------------------------------------- */
-
-Exchange::Exchange(LAMMPS *lmp, Pair *pair) :
-    Pointers(lmp), pair(pair), nreceived(-1), threads(&one_thread)
-{
-}
-
 /* ----------------------------------------------------------------------
    call send(# of values per atom) for each message, with the fields that are in it
 ------------------------------------------------------------------------- */

@@ -66,7 +66,7 @@ namespace SPHDissipation {
 
   class Exchange : protected Pointers {
    public:
-    Exchange(class LAMMPS *, Pair *);
+    Exchange(class LAMMPS *lmp, Pair *pair) : Pointers(lmp), pair(pair) {}
     void set_threads(Threads *team) { threads = team; }    // which the caller keeps
     static constexpr int ROOM =
         24;    // values per atom of a message, for which the pair style asks LAMMPS
@@ -88,9 +88,9 @@ namespace SPHDissipation {
     Pair *pair;
     std::vector<Field> fields;
     std::vector<int> from_above;
-    int nreceived;    // messages so far, while somebody asks for ghosts_from_above(); else -1
+    int nreceived = -1;    // messages so far, while somebody asks for ghosts_from_above(); else -1
     mutable Threads one_thread;
-    Threads *threads;
+    Threads *threads = &one_thread;
 
     template <class Copy> int for_each(int n, const Copy &copy) const;
 

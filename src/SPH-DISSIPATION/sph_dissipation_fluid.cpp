@@ -75,9 +75,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), dim(0), support(0.0),
-    stale(false), own_list(false), integrated(0), set_up(false), announced(false), continued(false),
-    touched(false), changed(false), warned_step(0.0), noise_step(0.0), fast_lists(0)
+    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary))
 {
 }
 

@@ -35,8 +35,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 ParticleGrid::ParticleGrid(LAMMPS *lmp, const int *count_) :
-    Pointers(lmp), count{count_[0], count_[1], count_[2]}, lo(), hi(), ghost_lo(), ghost_hi(),
-    dim(domain->dimension), points(1), grid2d(nullptr), grid3d(nullptr), origin(), spacing()
+    Pointers(lmp), count{count_[0], count_[1], count_[2]}, dim(domain->dimension)
 {
   if (dim == 2) {
     grid2d = new Grid2d(lmp, world, count[0], count[1]);
@@ -318,8 +317,7 @@ double ParticleGrid::memory_usage() const
 
 /* ---------------------------------------------------------------------- */
 
-GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), count(), linear(true), grid(nullptr), nmax(0), values(nullptr)
+GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
 {
   if (!domain->box_exist)
     error->all(FLERR, "Compute {} requires a simulation box, which comes later", style);

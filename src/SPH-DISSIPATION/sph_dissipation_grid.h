@@ -62,17 +62,17 @@ namespace SPHDissipation {
     Grid3d *lammps_grid3d() const { return grid3d; }
     double memory_usage() const;
 
-    int count[3];                    // points of the box
-    int lo[3], hi[3];                // the owned ones
-    int ghost_lo[3], ghost_hi[3];    // with those that LAMMPS calls ghosts, unused here
+    int count[3];                              // points of the box
+    int lo[3] = {}, hi[3] = {};                // the owned ones
+    int ghost_lo[3] = {}, ghost_hi[3] = {};    // with those that LAMMPS calls ghosts, unused here
 
    private:
     const int dim;
-    bigint points;
-    Grid2d *grid2d;
-    Grid3d *grid3d;
+    bigint points = 1;
+    Grid2d *grid2d = nullptr;
+    Grid3d *grid3d = nullptr;
 
-    double origin[3], spacing[3];    // places of the points, as the box is now
+    double origin[3] = {}, spacing[3] = {};    // places of the points, as the box is now
     std::vector<std::vector<double>> moments, fields;
     std::vector<double> weight, offset;    // points of one row around a particle
 
@@ -120,9 +120,9 @@ namespace SPHDissipation {
     double memory_usage() override;
 
    protected:
-    int count[3];    // points
-    bool linear;     // order 1
-    ParticleGrid *grid;
+    int count[3] = {};     // points
+    bool linear = true;    // order 1
+    ParticleGrid *grid = nullptr;
 
     bool add_value(const std::string &);    // a value of the particles to map; false if unknown
     int nvalue() const { return static_cast<int>(names.size()); }
@@ -137,8 +137,9 @@ namespace SPHDissipation {
 
     std::vector<std::string> names;
     std::vector<Value> getters;
-    int nmax;
-    double **values;    // owned and ghost particles: volume (0: not mapped), then the values to map
+    int nmax = 0;
+    double **values =
+        nullptr;    // owned and ghost particles: volume (0: not mapped), then the values to map
   };
 
 }    // namespace SPHDissipation

@@ -36,14 +36,14 @@ namespace SPHDissipation {
     TypeCoeff();
 
     EosParams eos;
-    double viscosity[NVISCOSITY];
+    double viscosity[NVISCOSITY] = {};
     std::vector<double> keywords;    // coefficients of the channels, see TypeCoeffs
-    double kappa;
-    double rc;
-    double gamma;     // 0: default of the equation of state
-    double cv;        // heat capacity per mass; 0: that of the pair style
-    int intrinsic;    // 1: kappa is what the shear term gives
-    int other;        // 1: its particles belong to another style of pair_style hybrid
+    double kappa = 0.0;
+    double rc = 0.0;
+    double gamma = 0.0;    // 0: default of the equation of state
+    double cv = 0.0;       // heat capacity per mass; 0: that of the pair style
+    int intrinsic = 0;     // 1: kappa is what the shear term gives
+    int other = 0;         // 1: its particles belong to another style of pair_style hybrid
   };
 
   // The fluids as the commands of a pair style describe them: the choices of pair_style, the
@@ -113,14 +113,15 @@ namespace SPHDissipation {
 
     // number that differs where settings or coefficients do, and that of the last forces, 0 before
     std::uint64_t hash() const;
-    std::uint64_t hash_of_forces;
+    std::uint64_t hash_of_forces = 0;
 
     Settings choice;
     NoiseClock clock;
-    int diffusion_age;    // steps since the diffusion of volume was evaluated
-    std::string simd;    // pair loops to use; not in restart files, which may go to another machine
-    TypeCoeff *coeffs;    // by type, from 1
-    bool shared;          // there are types of other styles
+    int diffusion_age = 0;    // steps since the diffusion of volume was evaluated
+    std::string simd =
+        "auto";    // pair loops to use; not in restart files, which may go to another machine
+    TypeCoeff *coeffs = nullptr;    // by type, from 1
+    bool shared = false;            // there are types of other styles
 
    private:
     // what extract() gives out: the viscosities, the coefficients of unlike types, then coefficients of types, whose
@@ -145,9 +146,9 @@ namespace SPHDissipation {
     std::vector<Variable> variables;
     const std::vector<TypeKeyword> keywords;    // of types, of all channels
     const std::vector<std::pair<std::string, int>> of_types,
-        of_pairs;            // names, numbers: of types, of unlike types
-    double ***pair_given;    // by variable and type pair: what pair_coeff gave
-    int ***is_given;         // 1 if it did, 0 if the value is mixed from the types
+        of_pairs;                      // names, numbers: of types, of unlike types
+    double ***pair_given = nullptr;    // by variable and type pair: what pair_coeff gave
+    int ***is_given = nullptr;         // 1 if it did, 0 if the value is mixed from the types
 
     int npair() const { return nviscosity() + static_cast<int>(of_pairs.size()); }
     const char *inadmissible_keywords(const TypeCoeff &) const;

@@ -32,19 +32,13 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-TypeCoeff::TypeCoeff() :
-    viscosity(), keywords(Channels::NTYPE), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0),
-    other(0)
-{
-}
+TypeCoeff::TypeCoeff() : keywords(Channels::NTYPE) {}
 
 /* ---------------------------------------------------------------------- */
 
 FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
-    Pointers(lmp), hash_of_forces(0), diffusion_age(0), simd("auto"), coeffs(nullptr),
-    shared(false), style(style), spins(spins), par(new Parameters), keywords(type_keywords()),
-    of_types(type_variables()), of_pairs(unlike_keywords(spins)), pair_given(nullptr),
-    is_given(nullptr)
+    Pointers(lmp), style(style), spins(spins), par(new Parameters), keywords(type_keywords()),
+    of_types(type_variables()), of_pairs(unlike_keywords(spins))
 {
   auto add = [&](const std::string &name) {
     variables.push_back({name, nullptr, nullptr});

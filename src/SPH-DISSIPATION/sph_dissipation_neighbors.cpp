@@ -34,14 +34,6 @@ static constexpr double FLOAT_ROUND_OFF =
 
 /* ---------------------------------------------------------------------- */
 
-NeighborSearch::NeighborSearch(LAMMPS *lmp, Exchange &messages) :
-    NPair(lmp), exchange(messages), loops(nullptr), threads(nullptr), cutoff(0.0), ncalls(-1),
-    lastcall(-1), skips(false), by_id(false), nowned(0), lo(), size(), ncell()
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 std::string NeighborSearch::left_to_lammps() const
 {
   if (neighbor->style == Neighbor::NSQ) return "neighbor style nsq";

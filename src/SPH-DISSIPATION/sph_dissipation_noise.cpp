@@ -36,7 +36,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
-    Stage(lmp, engine, exchange), clock(clock), form(), data(), surface_data(), cold_arrival(false)
+    Stage(lmp, engine, exchange), clock(clock)
 {
 }
 

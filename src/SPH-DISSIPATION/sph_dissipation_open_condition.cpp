@@ -35,13 +35,6 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-OpenValues::OpenValues(LAMMPS *lmp, const std::string &owner) :
-    Pointers(lmp), owner(owner), is_given(), any_variable(false), needs_heat(false)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void OpenValues::read(Keywords &key)
 {
   struct Keyword {
@@ -150,16 +143,6 @@ double OpenValues::memory_usage() const
   double bytes = 0.0;
   for (const auto &one : value) bytes += one.memory_usage();
   return bytes;
-}
-
-/* ---------------------------------------------------------------------- */
-
-OpenCondition::OpenCondition(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane,
-                             const OpenValues &values, const OpenSamples &samples) :
-    Pointers(lmp),
-    averaging_time(0.0), clock(0.0), is_new(false), owner(owner), plane(plane), values(values),
-    samples(samples), fluid(nullptr), fields(nullptr), warm(false), kind(LAGGED), order(-1)
-{
 }
 
 /* ---------------------------------------------------------------------- */

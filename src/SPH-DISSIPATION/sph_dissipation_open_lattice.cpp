@@ -132,16 +132,6 @@ static constexpr double STRAIGHT =
 
 /* ---------------------------------------------------------------------- */
 
-ZoneLattice::ZoneLattice(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane,
-                         int groupbit) :
-    Pointers(lmp),
-    owner(owner), plane(plane), groupbit(groupbit), fluidbit(0), given_spacing(0.0), spacing(0.0),
-    half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true), unknown_sides(true)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void ZoneLattice::init(double support_in, int fluid_bit)
 {
   support = support_in;

@@ -339,8 +339,7 @@ void RefineResidual::take(NeighList *full)
 /* ---------------------------------------------------------------------- */
 
 RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
-    Pointers(lmp), items(lmp, fix), highest(0), balance(balance), pairs(lmp, items),
-    residual(lmp, items, pairs), support(0.0), smallest(0.0), fields(nullptr)
+    Pointers(lmp), items(lmp, fix), balance(balance), pairs(lmp, items), residual(lmp, items, pairs)
 {
 }
 

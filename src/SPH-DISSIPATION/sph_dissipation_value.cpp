@@ -71,13 +71,6 @@ double Value::memory_usage() const
 
 /* ---------------------------------------------------------------------- */
 
-Keywords::Keywords(LAMMPS *lmp, const std::string &owner, int first, int narg, char **arg) :
-    lmp(lmp), owner(owner), narg(narg), arg(arg), at(first), end(first), known(true)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 bool Keywords::next()
 {
   if (!known) lmp->error->all(FLERR, "Unknown {} keyword: {}", utils::lowercase(owner), keyword);

@@ -65,7 +65,10 @@ namespace SPHDissipation {
   class Keywords {
    public:
     // Begin in front of arg[first]; owner: for messages.
-    Keywords(LAMMPS *, const std::string &owner, int first, int narg, char **arg);
+    Keywords(LAMMPS *lmp, const std::string &owner, int first, int narg, char **arg) :
+        lmp(lmp), owner(owner), narg(narg), arg(arg), at(first), end(first)
+    {
+    }
 
     bool next();    // Go to the next keyword; false if there is none.
     bool is(const std::string &name, int nwords = 1);    // it is this one; go behind its words
@@ -87,7 +90,7 @@ namespace SPHDissipation {
     char **const arg;
     int at, end;            // range of its words
     std::string keyword;    // empty: in front of the first one
-    bool known;
+    bool known = true;
   };
 
 }    // namespace SPHDissipation

@@ -40,8 +40,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 StiffStage::StiffStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &where) :
-    Stage(lmp, engine, exchange), statistics(), groups(0), symmetric(true), prescribed(0), width(1),
-    where(where), known_rate(0.0), rate(0.0), outdated(true), warned(false), h(0.0)
+    Stage(lmp, engine, exchange), where(where)
 {
 }
 
@@ -50,7 +49,7 @@ StiffStage::StiffStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const st
 ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
                            const PressureStage &pressure, BoundaryStage &boundary) :
     StiffStage(lmp, engine, exchange, ""),
-    pressure(pressure), boundary(boundary), list(nullptr), bound(nullptr), omegaest(nullptr), mean()
+    pressure(pressure), boundary(boundary)
 {
   width = 3;
 }
@@ -60,7 +59,7 @@ ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
 TemperatureStage::TemperatureStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
                                    BoundaryStage &boundary) :
     StiffStage(lmp, engine, exchange, " in the conduction of heat"),
-    boundary(boundary), mean(0.0)
+    boundary(boundary)
 {
 }
 

@@ -108,7 +108,7 @@ namespace SPHDissipation {
     // of the last step: iterations, or stages; residual; seconds; and applications of Gamma in this run
 
     enum { ITERATIONS, RESIDUAL, SECONDS, APPLICATIONS, NSTATISTICS };
-    double statistics[NSTATISTICS];
+    double statistics[NSTATISTICS] = {};
 
     double memory_usage() const override;
 
@@ -123,10 +123,10 @@ namespace SPHDissipation {
    protected:
     ViscousSettings settings;
     std::string style;
-    int groups;
-    bool symmetric;              // Gamma is
-    int prescribed;              // bits of the groups of particles that are not unknown
-    int width;                   // unknowns per particle
+    int groups = 0;
+    bool symmetric = true;       // Gamma is
+    int prescribed = 0;          // bits of the groups of particles that are not unknown
+    int width = 1;               // unknowns per particle
     std::vector<int> unknown;    // owned particles
     Unknowns before;             // y-
     Unknowns guess, force;       // y_b, F(y_b) of the beginning; the solution is y_b = guess + x
@@ -150,10 +150,11 @@ namespace SPHDissipation {
 
    private:
     const std::string where;
-    double known_rate, rate;    // of the fastest mode: on lattices; of these particles, at least
-    bool outdated;              // are the two
-    bool warned;                // of iterations that were not enough, in this run
-    double h;                   // of M + h Gamma
+    double known_rate = 0.0,
+           rate = 0.0;       // of the fastest mode: on lattices; of these particles, at least
+    bool outdated = true;    // are the two
+    bool warned = false;     // of iterations that were not enough, in this run
+    double h = 0.0;          // of M + h Gamma
     std::vector<double> forces_before, torques_before, heat_before;
 
     std::string moment() const;
@@ -202,11 +203,11 @@ namespace SPHDissipation {
 
     // of this step
 
-    NeighList *list;
-    const double *bound;
-    double **omegaest;
-    Unknowns others;    // forces of other styles
-    double mean[3];     // velocity
+    NeighList *list = nullptr;
+    const double *bound = nullptr;
+    double **omegaest = nullptr;
+    Unknowns others;        // forces of other styles
+    double mean[3] = {};    // velocity
 
     // increments on v-, spin-, of the integrator's guess, by particles as they were then
 
@@ -252,7 +253,7 @@ namespace SPHDissipation {
     BoundaryStage &boundary;
     std::vector<double> flow;           // heat per time that owned and ghost atoms get
     std::vector<double> temperature;    // of owned atoms, of their energies before run()
-    double mean;                        // temperature before the step
+    double mean = 0.0;                  // temperature before the step
 
     void find_unknowns();
     void gather();
