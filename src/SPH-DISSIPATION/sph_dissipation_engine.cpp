@@ -660,13 +660,9 @@ double Engine::memory_usage() const
 {
   double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double);
   if (has_spin()) per_atom += sizeof(Spin);
-  double sum = nmax * per_atom + (double) nmax_weights * sizeof(double) +
+  return nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) + (double) pair_max * sizeof(int) +
       (double) slope_max * sizeof(double) +
-      bytes(viscosity, excess, square, volume, energy, wall_energy, wall_energy_tags, types);
-  for (const auto &rows : flow) sum += bytes(rows);
-  for (const auto &rates : flow_rate) sum += bytes(rates);
-  for (const auto &numbers : random) sum += bytes(numbers);
-  return sum + side.memory_usage() + density_sums.memory_usage() + force_sums.memory_usage() +
-      side_sums.memory_usage() + scalar_sums.memory_usage();
+      bytes(viscosity, excess, square, volume, energy, wall_energy, wall_energy_tags, types, flow,
+            flow_rate, random, side, density_sums, force_sums, side_sums, scalar_sums);
 }

@@ -256,7 +256,5 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
 
 double OpenStage::memory_usage() const
 {
-  double sum = pairs.memory_usage() + side.memory_usage();
-  for (const auto &row : rows) sum += bytes(row);
-  return sum + bytes(zone_of, forces, divergence, flow);
+  return bytes(pairs, side, rows, zone_of, forces, divergence, flow);
 }
