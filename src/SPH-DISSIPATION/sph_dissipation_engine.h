@@ -333,10 +333,9 @@ namespace SPHDissipation {
     DensitySum *density = nullptr;
     ForceSum *force = nullptr;
     ChannelSums side;
-    Field torques()    // micropolar only
-    {
-      return {side.torque(0), (std::size_t) side.width, 3};
-    }
+    // no numbers without spins
+    Field torques() { return {side.rows.data(), (std::size_t) side.width, has_spin() ? 3 : 0}; }
+    Field spins() { return field(spin, has_spin() ? spin->w : nullptr, has_spin() ? 3 : 0); }
     double *zeta_term = nullptr;         // zeta cdot/c, set by the caller on owned and ghost atoms
     double *state_pressure = nullptr;    // of their states, as zeta_term; set if there are any
     std::vector<std::vector<FlowRow>> flow;    // the same, of the flows of any type

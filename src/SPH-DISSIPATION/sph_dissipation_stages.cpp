@@ -607,11 +607,7 @@ void ForceStage::run(NeighList *list, PairTally *tally, const StepPlan &plan,
 
 void ForceStage::collect()
 {
-  const Field f = field(engine.force, engine.force->f, 3);
-  if (engine.has_spin())
-    exchange.reverse({f, engine.torques()});
-  else
-    exchange.reverse({f});
+  exchange.reverse({field(engine.force, engine.force->f, 3), engine.torques()});
 }
 
 /* ---------------------------------------------------------------------- */

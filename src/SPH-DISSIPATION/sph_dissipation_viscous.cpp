@@ -166,11 +166,8 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
   bound = bound_in;
   symmetric = symmetric_in;
 
-  const Field f = {atom->nmax ? atom->f[0] : nullptr, 3, 3};
-  if (omegaest)
-    exchange.reverse({f, {atom->nmax ? atom->torque[0] : nullptr, 3, 3}});
-  else
-    exchange.reverse({f});
+  exchange.reverse({{atom->nmax ? atom->f[0] : nullptr, 3, 3},
+                    {omegaest && atom->nmax ? atom->torque[0] : nullptr, 3, omegaest ? 3 : 0}});
   gather();
   restore();
   if (!boundary.empty()) find_rest();
@@ -262,11 +259,7 @@ void ViscousStage::set_guess()
     }
   });
 
-  const Field u = {change[0].data(), 3, 3};
-  if (omegaest)
-    exchange.forward({u, {change[1].data(), 3, 3}});
-  else
-    exchange.forward({u});
+  exchange.forward({{change[0].data(), 3, 3}, {change[1].data(), 3, omegaest ? 3 : 0}});
   engine.for_each(static_cast<int>(nall), [&](int i) {
     for (int c = 0; c < 3; c++) {
       atom->vest[i][c] += change[0][3 * i + c];
@@ -311,11 +304,7 @@ void ViscousStage::set_velocities(const Unknowns &values)
     std::copy_n(&values[row], 3, particle[i].u);
     if (omegaest) std::copy_n(&values[row + 3], 3, engine.spin[i].w);
   });
-  const Field u = field(particle, particle->u, 3);
-  if (omegaest)
-    exchange.forward({u, field(engine.spin, engine.spin->w, 3)});
-  else
-    exchange.forward({u});
+  exchange.forward({field(particle, particle->u, 3), engine.spins()});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -372,11 +361,7 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
 
   engine.accumulate_friction(list, prescribed);
   boundary.add_linear_friction();
-  const Field f = field(engine.force, engine.force->f, 3);
-  if (omegaest)
-    exchange.reverse({f, engine.torques()});
-  else
-    exchange.reverse({f});
+  exchange.reverse({field(engine.force, engine.force->f, 3), engine.torques()});
   for_unknown([&](int i, std::size_t row) {
     for (int d = 0; d < 3; d++) {
       out[row + d] = -engine.force[i].f[d];
