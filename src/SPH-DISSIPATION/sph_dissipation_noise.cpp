@@ -389,8 +389,7 @@ void NoiseStage::share_work()
   data.acceleration = first;
   data.total = flow.data();
   engine.accumulate_work(form, data);
-  const int n = force->newton_pair ? nall : nlocal;
-  engine.for_each(n, [&](int i) {
+  engine.for_each(nforce(), [&](int i) {
     atom->desph[i] += flow[i];
   });
 }

@@ -34,6 +34,13 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
+int Stage::nforce() const
+{
+  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void DensityStage::run(NeighList *list, double **vest, double **omegaest, int not_fluid,
                        bool slopes_read)
 {
@@ -289,7 +296,7 @@ void FlowStage::run(const std::function<void(std::vector<double> &)> &add)
     else {
       add(rate);
       double *const desph = atom->desph;
-      engine.for_each(nheat(), [&](int i) {
+      engine.for_each(nforce(), [&](int i) {
         desph[i] += rate[i];
       });
     }
@@ -301,15 +308,10 @@ void FlowStage::forget()
   for (auto &rate : engine.flow_rate) rate.clear();
 }
 
-int FlowStage::nheat() const
-{
-  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
-}
-
 double FlowStage::received(int groupbit) const
 {
   const std::vector<double> &heat = engine.flow_rate[HEAT_FLOW];
-  return engine.team().sum<double>(nheat(), [&](int i, double &total) {
+  return engine.team().sum<double>(nforce(), [&](int i, double &total) {
     if (atom->mask[i] & groupbit) total += heat[i];
   });
 }
@@ -396,7 +398,7 @@ double PairEnergyStage::energy(double *each_atom, int groupbit) const
 {
   const PairEnergyKernel kernel(engine.parameters().dim, engine.parameters().support);
   const int *const mask = atom->mask;
-  const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+  const int n = nforce();
   double total = 0.0;
   visit(0, pairs.size(), [&](const UnlikePair &pair, const double *, double rsq) {
     const double half = 0.5 * pair.energy * kernel.weight(rsq);
@@ -547,13 +549,6 @@ void ShiftStage::run()
 double ShiftStage::memory_usage() const
 {
   return (double) nmax * 3 * sizeof(double) + bytes(contact) + sums.memory_usage();
-}
-
-/* ---------------------------------------------------------------------- */
-
-int ForceStage::nforce() const
-{
-  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
 }
 
 /* ----------------------------------------------------------------------

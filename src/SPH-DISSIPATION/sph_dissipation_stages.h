@@ -50,6 +50,8 @@ namespace SPHDissipation {
    protected:
     Engine &engine;
     Exchange &exchange;
+    // atoms that forces and heat go to: owned ones and, with newton on, ghosts
+    int nforce() const;
   };
 
   // Pass 1: density c of the reference volumes w, for w = 1 of the number of particles, and its rate;
@@ -167,9 +169,6 @@ namespace SPHDissipation {
     double received(int groupbit) const;
 
     void forget();    // the rates of the last forces
-
-   private:
-    int nheat() const;    // atoms that heat goes to
   };
 
   // Energy of pairs of unlike types, a w_i w_j W(r) with the reference volumes w = m/rho0, see
@@ -274,7 +273,6 @@ namespace SPHDissipation {
     void heating(double *heat, double *power, int not_fluid) const;
 
    private:
-    int nforce() const;    // atoms that forces act on
     double bulk_heat(int) const;
     void add_drag_heat(int, int not_fluid, double *channel) const;
   };

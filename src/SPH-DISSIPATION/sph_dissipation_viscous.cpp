@@ -16,7 +16,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "force.h"
 #include "neighbor.h"
 #include "platform.h"
 #include "sph_dissipation_boundary_stage.h"
@@ -725,11 +724,10 @@ void TemperatureStage::find_unknowns()
 
 void TemperatureStage::gather()
 {
-  const int n = lmp->force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
   if (settings.mode == Viscous::RKL2) set_temperatures();
   engine.accumulate_flow(HEAT_FLOW, flow);
   boundary.add_surface_heat(flow);
-  engine.for_each(n, [&](int i) {
+  engine.for_each(nforce(), [&](int i) {
     flow[i] += atom->desph[i];
   });
   exchange.reverse({{flow.data(), 1, 1}});
