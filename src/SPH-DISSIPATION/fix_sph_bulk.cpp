@@ -851,7 +851,7 @@ void FixSPHBulk::shift_particles()
   const double support = fluid->support_radius();
   fluid->team().for_each(nlocal_group(), [&](int i) {
     if (atom->mask[i] & groupbit)
-      shift_particle(shift_speed, support, dtv, fluid->shift->gradient[i], atom->x[i]);
+      shift_particle(shift_speed, support, dtv, &fluid->shift->gradient[3 * i], atom->x[i]);
   });
 }
 

@@ -34,7 +34,6 @@ namespace SPHDissipation {
   class BoundaryStage : public Stage {
    public:
     BoundaryStage(class LAMMPS *, Engine &, Exchange &, const std::string &style);
-    ~BoundaryStage() override;
 
     void add(Boundary *);       // no effect if it is there
     void remove(Boundary *);    // no effect if it is not there
@@ -138,34 +137,33 @@ namespace SPHDissipation {
     double memory_usage() const override;
 
    private:
-    BoundarySum *sum;                         // of owned and ghost atoms
+    std::vector<BoundarySum> sum;             // of owned and ghost atoms
     std::vector<BoundaryHeatSum> heat_sum;    // the same; empty if nothing conducts
     BoundaryPairs pairs;                      // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
-    int group_bits, symmetric_bits, body_bits, frozen_bits;
+    int group_bits = 0, symmetric_bits = 0, body_bits = 0, frozen_bits = 0;
 
-    int rows_bits;    // that the rows of the pairs were found for
+    int rows_bits = 0;    // that the rows of the pairs were found for
 
     // for BoundarySum::filled, of boundary atoms until the list is built anew
 
     std::vector<NearKernel> near;
     std::vector<NearKernel> contact;    // for BoundarySum::occupied
 
-    int nmax;
     ThreadSums<BoundarySum> sums;
     ThreadSums<BoundaryHeatSum> heat_sums;
     ThreadSums<double> flow_sums;
     std::vector<ForceSum> repulsion;    // of several threads
     ThreadSums<ForceSum> repulsion_sums;
     SurfaceStage surface;
-    bigint surface_step;    // that the normals of the surface are for
+    bigint surface_step = -1;    // that the normals of the surface are for
 
     // pairs with symmetric friction, of each thread; numbers of boundary particles, owned and ghost
 
     std::vector<SurfacePairs> surface_pairs;
     std::vector<int> number;
-    int nboundary;
+    int nboundary = 0;
 
     // numbers of the bodies of owned and ghost atoms, 0: none; sums over the other particles of the same body, of owned
     // atoms; empty without bodies
@@ -192,7 +190,6 @@ namespace SPHDissipation {
     };
     WallForce force_of(const BoundaryPair &) const;
     void add_energies(int n, const std::function<void(int, double)> &add) const;
-    int nforce() const;    // # of owned and, with newton on, ghost particles
     void set_near();
     void find_rows(NeighList *);
     void find_pairs();

@@ -448,7 +448,7 @@ void Fluid::sum_bound()
 
 const double *Fluid::bound() const
 {
-  return (model->choice.limit != Limit::NO) ? limit->bound : nullptr;
+  return (model->choice.limit != Limit::NO) ? limit->bound.data() : nullptr;
 }
 
 /* ---------------------------------------------------------------------- */

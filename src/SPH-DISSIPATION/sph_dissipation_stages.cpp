@@ -15,7 +15,7 @@
 
 #include "atom.h"
 #include "force.h"
-#include "memory.h"
+#include "math_extra.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "sph_dissipation_engine.h"
@@ -106,35 +106,17 @@ void DensityStage::send(bool with_states, int flows, int not_fluid, int first)
 
 /* ---------------------------------------------------------------------- */
 
-LimitStage::LimitStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
-    Stage(lmp, engine, exchange), bound(nullptr), nmax(0)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
-LimitStage::~LimitStage()
-{
-  memory->destroy(bound);
-}
-
-/* ---------------------------------------------------------------------- */
-
 void LimitStage::run()
 {
-  if (nmax < atom->nmax) {
-    nmax = atom->nmax;
-    memory->destroy(bound);
-    memory->create(bound, nmax, "sph:bound");
-  }
   const int nall = atom->nlocal + atom->nghost;
-  std::fill_n(bound, nall, 0.0);
+  bound.resize(atom->nmax);
+  std::fill_n(bound.begin(), nall, 0.0);
 
   const Particle *const particle = engine.particle;
   const int *const type = atom->type;
   const Parameters &par = engine.parameters();
 
-  engine.sum_pairs(sums, bound, nall, [&](int i, int j, bigint entry, double *sum) {
+  engine.sum_pairs(sums, bound.data(), nall, [&](int i, int j, bigint entry, double *sum) {
     double rsq = 0.0;
     for (int d = 0; d < 3; d++) {
       const double del = particle[i].x[d] - particle[j].x[d];
@@ -148,15 +130,15 @@ void LimitStage::run()
     sum[j] += pair.j;
   });
 
-  exchange.reverse({{bound, 1, 1}});
-  exchange.forward({{bound, 1, 1}});
+  exchange.reverse({{bound.data(), 1, 1}});
+  exchange.forward({{bound.data(), 1, 1}});
 }
 
 /* ---------------------------------------------------------------------- */
 
 double LimitStage::memory_usage() const
 {
-  return (double) nmax * sizeof(double) + sums.memory_usage();
+  return bytes(bound, sums);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -413,7 +395,7 @@ double PairEnergyStage::energy(double *each_atom, int groupbit) const
 
 double PairEnergyStage::memory_usage() const
 {
-  return bytes(pairs) + sums.memory_usage();
+  return bytes(pairs, sums);
 }
 
 /* ----------------------------------------------------------------------
@@ -488,30 +470,13 @@ double DiffusionStage::memory_usage() const
 
 /* ---------------------------------------------------------------------- */
 
-ShiftStage::ShiftStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
-    Stage(lmp, engine, exchange), wanted(false), gradient(nullptr), nmax(0)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
-ShiftStage::~ShiftStage()
-{
-  memory->destroy(gradient);
-}
-
-/* ---------------------------------------------------------------------- */
-
 void ShiftStage::run()
 {
   const int nall = atom->nlocal + atom->nghost;
-  if (nmax < atom->nmax) {
-    nmax = atom->nmax;
-    memory->destroy(gradient);
-    memory->create(gradient, nmax, 3, "sph:gradient");
-  }
   const std::size_t n = 3 * (std::size_t) nall;
-  std::fill_n(&gradient[0][0], n, 0.0);
+
+  gradient.resize(3 * (std::size_t) atom->nmax);
+  std::fill_n(gradient.begin(), n, 0.0);
   contact.resize(nall);
 
   const LoopData &pairs = engine.pairs();
@@ -522,7 +487,7 @@ void ShiftStage::run()
           contact_inverse<decltype(k)>(dim, engine.parameters().support, engine.particle[i].vol);
     });
 
-    engine.sum_pairs(sums, &gradient[0][0], n, [&](int i, int j, bigint entry, double *sum) {
+    engine.sum_pairs(sums, gradient.data(), n, [&](int i, int j, bigint entry, double *sum) {
       const Particle &a = engine.particle[i], &b = engine.particle[j];
       double r[3], rsq = 0.0;
       for (int d = 0; d < 3; d++) {
@@ -541,14 +506,14 @@ void ShiftStage::run()
     return 0;
   });
 
-  exchange.reverse({{&gradient[0][0], 3, 3}});
+  exchange.reverse({{gradient.data(), 3, 3}});
 }
 
 /* ---------------------------------------------------------------------- */
 
 double ShiftStage::memory_usage() const
 {
-  return (double) nmax * 3 * sizeof(double) + bytes(contact) + sums.memory_usage();
+  return bytes(gradient, contact, sums);
 }
 
 /* ----------------------------------------------------------------------

@@ -86,16 +86,14 @@ namespace SPHDissipation {
 
   class LimitStage : public Stage {
    public:
-    LimitStage(class LAMMPS *, Engine &, Exchange &);
-    ~LimitStage() override;
+    using Stage::Stage;
 
     void run();    // with the volumes of particles set
     double memory_usage() const override;
 
-    double *bound;    // B of owned and ghost atoms
+    std::vector<double> bound;    // B of owned and ghost atoms
 
    private:
-    int nmax;
     ThreadSums<double> sums;
   };
 
@@ -236,18 +234,16 @@ namespace SPHDissipation {
 
   class ShiftStage : public Stage {
    public:
-    ShiftStage(class LAMMPS *, Engine &, Exchange &);
-    ~ShiftStage() override;
+    using Stage::Stage;
 
-    bool wanted;    // by a fix that shifts particles, from its init(), in every run
+    bool wanted = false;    // by a fix that shifts particles, from its init(), in every run
 
     void run();    // with the volumes of particles set
     double memory_usage() const override;
 
-    double **gradient;    // of owned atoms
+    std::vector<double> gradient;    // of owned atoms, three numbers each
 
    private:
-    int nmax;
     std::vector<double> contact;    // 1/W(V^(1/n)) of atoms, in units of the norm of the kernel
     ThreadSums<double> sums;
   };
