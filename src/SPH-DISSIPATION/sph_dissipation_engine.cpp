@@ -14,6 +14,7 @@
 #include "sph_dissipation_engine.h"
 
 #include "atom.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "sph_dissipation_fields.h"
@@ -374,12 +375,8 @@ void Engine::accumulate_rates()
 
 double Engine::slope_of(int i, int j) const
 {
-  double rsq = 0.0;
-  for (int d = 0; d < 3; d++) {
-    const double r = particle[i].x[d] - particle[j].x[d];
-    rsq += r * r;
-  }
-  return kernel_slope(par->kernel, par->dim, sqrt(rsq), par->support);
+  const double r = sqrt(MathExtra::distsq3(particle[i].x, particle[j].x));
+  return kernel_slope(par->kernel, par->dim, r, par->support);
 }
 
 /* ----------------------------------------------------------------------

@@ -17,6 +17,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "force.h"
+#include "math_extra.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 
@@ -326,9 +327,7 @@ int NeighborSearch::check(int i, int *found, int n) const
 {
   double **const x = atom->x;
   return filter(found, n, [&](int j) {
-    double rsq = 0.0;
-    for (int d = 0; d < 3; d++) rsq += (x[i][d] - x[j][d]) * (x[i][d] - x[j][d]);
-    return rsq <= cutoff * cutoff;
+    return MathExtra::distsq3(x[i], x[j]) <= cutoff * cutoff;
   });
 }
 

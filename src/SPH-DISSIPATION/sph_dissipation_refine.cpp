@@ -19,6 +19,7 @@
 #include "error.h"
 #include "fix.h"
 #include "force.h"
+#include "math_extra.h"
 #include "neigh_list.h"
 #include "sph_dissipation_balance.h"
 #include "sph_dissipation_create.h"
@@ -106,12 +107,7 @@ std::vector<int> RefinePairs::members(int i) const
 
 double RefinePairs::distance_sq(int i, int j) const
 {
-  double rsq = 0.0;
-  for (int d = 0; d < 3; d++) {
-    const double r = atom->x[j][d] - atom->x[i][d];
-    rsq += r * r;
-  }
-  return rsq;
+  return MathExtra::distsq3(atom->x[i], atom->x[j]);
 }
 
 /* ---------------------------------------------------------------------- */

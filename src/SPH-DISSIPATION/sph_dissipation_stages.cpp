@@ -117,11 +117,7 @@ void LimitStage::run()
   const Parameters &par = engine.parameters();
 
   engine.sum_pairs(sums, bound.data(), nall, [&](int i, int j, bigint entry, double *sum) {
-    double rsq = 0.0;
-    for (int d = 0; d < 3; d++) {
-      const double del = particle[i].x[d] - particle[j].x[d];
-      rsq += del * del;
-    }
+    const double rsq = MathExtra::distsq3(particle[i].x, particle[j].x);
     const double weight =
         central_weight(par.shear, par.pair[type[i] * par.ntypes_1 + type[j]], sqrt(rsq));
     const PairBound pair = bound_of_pair(weight, engine.slope(i, j, entry), rsq, particle[i].vol,
@@ -336,11 +332,9 @@ void PairEnergyStage::visit(std::size_t from, std::size_t to, Function &&functio
   const double support_sq = engine.parameters().support * engine.parameters().support;
   for (std::size_t m = from; m < to; m++) {
     const UnlikePair &pair = pairs[m];
-    double r[3], rsq = 0.0;
-    for (int d = 0; d < 3; d++) {
-      r[d] = particle[pair.i].x[d] - particle[pair.j].x[d];
-      rsq += r[d] * r[d];
-    }
+    double r[3];
+    MathExtra::sub3(particle[pair.i].x, particle[pair.j].x, r);
+    const double rsq = MathExtra::lensq3(r);
     if (rsq < support_sq) function(pair, r, rsq);
   }
 }
@@ -489,12 +483,9 @@ void ShiftStage::run()
 
     engine.sum_pairs(sums, gradient.data(), n, [&](int i, int j, bigint entry, double *sum) {
       const Particle &a = engine.particle[i], &b = engine.particle[j];
-      double r[3], rsq = 0.0;
-      for (int d = 0; d < 3; d++) {
-        r[d] = a.x[d] - b.x[d];
-        rsq += r[d] * r[d];
-      }
-      const double shape = k.shape(sqrt(rsq) / engine.parameters().support);
+      double r[3];
+      MathExtra::sub3(a.x, b.x, r);
+      const double shape = k.shape(MathExtra::len3(r) / engine.parameters().support);
       const double slope = engine.slope(i, j, entry);
       const double push_i = concentration_push(b.vol, slope, shape, contact[i]);
       const double push_j = concentration_push(a.vol, slope, shape, contact[j]);
