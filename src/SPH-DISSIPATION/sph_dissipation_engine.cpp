@@ -574,10 +574,10 @@ void Engine::add_drag(int i, int not_fluid, bool linear, double *force_of, doubl
 
 /* ---------------------------------------------------------------------- */
 
-LoopData Engine::part(PairSubset &some) const
+LoopData Engine::part(PairSubset &some, int spare) const
 {
   const std::size_t end = some.neighbor.size();
-  some.neighbor.resize(end + 3 * BLOCK, data.spare);    // pass 2 looks ahead
+  some.neighbor.resize(end + 3 * BLOCK, spare);    // pass 2 looks ahead
   LoopData part = data;
   part.inum = static_cast<int>(some.rows.size());
   part.ilist = some.rows.data();
@@ -585,19 +585,20 @@ LoopData Engine::part(PairSubset &some) const
   part.count = some.count.data();
   part.neighbor = some.neighbor.data();
   part.slope = some.slope.data();
+  part.spare = spare;
   part.tally = nullptr;
   return part;
 }
 
 void Engine::accumulate_flow(int place, PairSubset &some, double *rate) const
 {
-  loops->flow(par->flows_alike >> place & 1)(part(some), flow[place].data(), rate);
+  loops->flow(par->flows_alike >> place & 1)(part(some, data.spare), flow[place].data(), rate);
 }
 
 void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, ChannelSums &side_out,
                                double *divergence_out)
 {
-  LoopData part = this->part(some);
+  LoopData part = this->part(some, data.spare);
   part.force = force_out;
   part.side = side_out.rows.data();
   part.divergence = divergence_out;

@@ -390,7 +390,7 @@ namespace SPHDissipation {
     void set_weights();
     void grow_pairs(NeighList *, Leave);
     LoopData part(int thread) const;
-    LoopData part(PairSubset &) const;
+    LoopData part(PairSubset &, int spare) const;
     double *room_for_numbers(int thread, const LoopData &);
     void run_density(Loop);
     void run_noise(NoiseLoop, const NoiseData &);
