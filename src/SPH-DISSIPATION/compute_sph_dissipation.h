@@ -22,6 +22,8 @@ ComputeStyle(sph/dissipation,ComputeSPHDissipation);
 
 #include "compute.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 
 // Power that the dissipative forces of the last force computation turn into heat: total, by
@@ -40,8 +42,7 @@ class ComputeSPHDissipation : public Compute {
   double memory_usage() override;
 
  private:
-  int nmax = 0;
-  double *heat = nullptr;
+  std::vector<double> heat;
 
   void collect(double *, double *);
 };

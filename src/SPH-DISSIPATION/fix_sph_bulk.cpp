@@ -156,11 +156,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
 
 /* ---------------------------------------------------------------------- */
 
-FixSPHBulk::~FixSPHBulk()
-{
-  delete viscous;
-  delete temperature;
-}
+FixSPHBulk::~FixSPHBulk() = default;
 
 /* ---------------------------------------------------------------------- */
 
@@ -178,7 +174,7 @@ void FixSPHBulk::read_keywords(int narg, char **arg)
         error->all(FLERR, "Fix {} inertia needs two numbers >= 0, one of them > 0, not {} {}",
                    style, key.word(0), key.word(1));
     } else if (key.is("temperature")) {
-      if (!temperature) temperature = new Value;
+      if (!temperature) temperature.reset(new Value);
       temperature->set(lmp, key.word());
     } else if (key.is("shift")) {
       shift_speed = key.number();

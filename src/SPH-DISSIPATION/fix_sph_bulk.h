@@ -22,6 +22,8 @@ FixStyle(sph/bulk,FixSPHBulk);
 
 #include "fix.h"
 
+#include <memory>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Fields;
@@ -103,8 +105,8 @@ class FixSPHBulk : public Fix {
   double dt_of_states = 0.0;        // time step for which the states hold
   double extrapolation = 1.0;       // of velocities over half a step: 1, with thermal noise 0
   bool balanced = false;            // heat gets half of its rate at each end of a step, temp energy
-  SPHDissipation::ViscousSettings *viscous;
-  SPHDissipation::Value *temperature = nullptr;    // at the start, nullptr without
+  const std::unique_ptr<SPHDissipation::ViscousSettings> viscous;
+  std::unique_ptr<SPHDissipation::Value> temperature;    // at the start, nullptr without
   bool temperature_done = false;    // the particles have got it, in this run or before a restart
 
   SPHDissipation::Fields &fields() const;

@@ -647,8 +647,6 @@ void FixSPHOpen::warn_of_other_plane()
 
 double FixSPHOpen::memory_usage()
 {
-  return samples->memory_usage() + values->memory_usage() +
-      static_cast<double>(members.capacity() * sizeof(int) +
-                          states.capacity() * sizeof(std::pair<int, OpenState>) +
-                          sums.capacity() * sizeof(double));
+  return samples->memory_usage() + values->memory_usage() + bytes(members, sums) +
+      static_cast<double>(states.capacity() * sizeof(std::pair<int, OpenState>));
 }

@@ -137,7 +137,6 @@ FixSPHRefine::~FixSPHRefine()
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(past);
-  delete target;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -66,7 +66,7 @@ class FixSPHRefine : public Fix {
  private:
   bool by_spacing = false;    // the target is a spacing, else a volume
   std::string target_word;    // as it was given
-  SPHDissipation::Value *target;
+  const std::unique_ptr<SPHDissipation::Value> target;
   double largest_volume = 0.0;    // target that leaves enough neighbors
   std::unique_ptr<SPHDissipation::RefineBalance> balance;
   std::unique_ptr<SPHDissipation::RefineEvent> event;

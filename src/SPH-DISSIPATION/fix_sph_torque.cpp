@@ -25,7 +25,6 @@
 #include "modify.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fields.h"
-#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <cstring>
@@ -36,8 +35,7 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), value(new Value[3])
+FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
   if (!Fields::with_spins(atom))
     error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);
@@ -51,13 +49,6 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
   size_vector = 3;
   global_freq = 1;
   extscalar = extvector = 1;
-}
-
-/* ---------------------------------------------------------------------- */
-
-FixSPHTorque::~FixSPHTorque()
-{
-  delete[] value;
 }
 
 /* ---------------------------------------------------------------------- */

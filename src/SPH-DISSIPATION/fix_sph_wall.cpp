@@ -83,8 +83,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
       if (key.name() == one && others.empty()) others = one;
     if (key.is("move")) {
       const bool rigid = (strcmp(key.word(), "rigid") == 0);
-      delete bodies;
-      bodies = rigid ? new Bodies(lmp, groupbit, style, id) : nullptr;
+      bodies.reset(rigid ? new Bodies(lmp, groupbit, style, id) : nullptr);
       move = rigid || utils::logical(FLERR, key.word(), false, lmp);
     }
     if (key.is("body")) {
@@ -148,11 +147,6 @@ FixSPHWall::~FixSPHWall()
   include_walls();
   atom->delete_callback(id, Atom::GROW);
   memory->destroy(array_atom);
-  delete heat_value;
-  delete[] gravity;
-  delete condition;
-  delete bodies;
-  delete motion;
 }
 
 /* ---------------------------------------------------------------------- */

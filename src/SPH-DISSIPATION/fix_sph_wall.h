@@ -24,6 +24,7 @@ FixStyle(sph/wall,FixSPHWall);
 
 #include "sph_dissipation_boundary.h"
 
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -76,26 +77,29 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void set_boundary(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *,
                     const SPHDissipation::BoundarySum *) override;
   bool has_symmetric_friction() const override { return noise || bodies; }
-  bool has_bodies() const override { return bodies; }
+  bool has_bodies() const override { return bodies != nullptr; }
   bool has_frozen_pressure() const override { return frozen; }
   int number_bodies(int, double *) override;
   bool gives_heat() const override;
   void set_heat(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *, bool) override;
 
  protected:
-  SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
-  SPHDissipation::WallCondition *condition;
+  const std::unique_ptr<SPHDissipation::WallMotion>
+      motion;    // the torque is about the point on its axis
+  const std::unique_ptr<SPHDissipation::WallCondition> condition;
   bool move = true;
-  SPHDissipation::Bodies *bodies = nullptr;    // that the fluid moves; nullptr: a wall
-  bool noise = false;                          // the fluid has thermal noise
+  std::unique_ptr<SPHDissipation::Bodies> bodies;    // that the fluid moves; nullptr: a wall
+  bool noise = false;                                // the fluid has thermal noise
   bool checked = false;    // thickness checked, in the first run; false: not set up since defined
 
   double total[6] = {}, total_all[6] = {};    // force and torque, of this rank and of all
   bool total_summed = false;
 
   SPHDissipation::WallHeat heat;
-  SPHDissipation::Value *heat_value;    // temperature, or heat per area and time
-  SPHDissipation::Value *gravity;       // acceleration of the fluid by a body force along x, y, z
+  const std::unique_ptr<SPHDissipation::Value>
+      heat_value;    // temperature, or heat per area and time
+  const std::unique_ptr<SPHDissipation::Value[]>
+      gravity;    // acceleration of the fluid by a body force along x, y, z
   bool gravity_varies() const;
 
   bool turns_surface(bool before) const;

@@ -38,11 +38,11 @@ ParticleGrid::ParticleGrid(LAMMPS *lmp, const int *count_) :
     Pointers(lmp), count{count_[0], count_[1], count_[2]}, dim(domain->dimension)
 {
   if (dim == 2) {
-    grid2d = new Grid2d(lmp, world, count[0], count[1]);
+    grid2d.reset(new Grid2d(lmp, world, count[0], count[1]));
     grid2d->setup_grid(lo[0], hi[0], lo[1], hi[1], ghost_lo[0], ghost_hi[0], ghost_lo[1],
                        ghost_hi[1]);
   } else {
-    grid3d = new Grid3d(lmp, world, count[0], count[1], count[2]);
+    grid3d.reset(new Grid3d(lmp, world, count[0], count[1], count[2]));
     grid3d->setup_grid(lo[0], hi[0], lo[1], hi[1], lo[2], hi[2], ghost_lo[0], ghost_hi[0],
                        ghost_lo[1], ghost_hi[1], ghost_lo[2], ghost_hi[2]);
   }
@@ -51,11 +51,7 @@ ParticleGrid::ParticleGrid(LAMMPS *lmp, const int *count_) :
 
 /* ---------------------------------------------------------------------- */
 
-ParticleGrid::~ParticleGrid()
-{
-  delete grid2d;
-  delete grid3d;
-}
+ParticleGrid::~ParticleGrid() = default;
 
 /* ---------------------------------------------------------------------- */
 
@@ -334,14 +330,13 @@ GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg,
 
   pergrid_flag = 1;    // asks for reset_grid() when sub-domains change in a run
   comm_forward = 1;
-  grid = new ParticleGrid(lmp, count);
+  grid.reset(new ParticleGrid(lmp, count));
 }
 
 /* ---------------------------------------------------------------------- */
 
 GridCompute::~GridCompute()
 {
-  delete grid;
   memory->destroy(values);
 }
 
@@ -378,8 +373,7 @@ Fluid *GridCompute::fluid() const
 
 void GridCompute::reset_grid()
 {
-  delete grid;
-  grid = new ParticleGrid(lmp, count);
+  grid.reset(new ParticleGrid(lmp, count));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -58,8 +58,8 @@ namespace SPHDissipation {
     bool fits() const;    // on this processor, the sub-domain is still that of the points
 
     bigint npoint() const { return points; }    // owned
-    Grid2d *lammps_grid2d() const { return grid2d; }
-    Grid3d *lammps_grid3d() const { return grid3d; }
+    Grid2d *lammps_grid2d() const { return grid2d.get(); }
+    Grid3d *lammps_grid3d() const { return grid3d.get(); }
     double memory_usage() const;
 
     int count[3];                              // points of the box
@@ -69,8 +69,8 @@ namespace SPHDissipation {
    private:
     const int dim;
     bigint points = 1;
-    Grid2d *grid2d = nullptr;
-    Grid3d *grid3d = nullptr;
+    std::unique_ptr<Grid2d> grid2d;
+    std::unique_ptr<Grid3d> grid3d;
 
     double origin[3] = {}, spacing[3] = {};    // places of the points, as the box is now
     std::vector<std::vector<double>> moments, fields;
@@ -122,7 +122,7 @@ namespace SPHDissipation {
    protected:
     int count[3] = {};     // points
     bool linear = true;    // order 1
-    ParticleGrid *grid = nullptr;
+    std::unique_ptr<ParticleGrid> grid;
 
     bool add_value(const std::string &);    // a value of the particles to map; false if unknown
     int nvalue() const { return static_cast<int>(names.size()); }
