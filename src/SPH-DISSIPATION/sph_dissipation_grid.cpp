@@ -182,48 +182,18 @@ void ParticleGrid::sum_moments(const Smoothing &smoothing, double **values)
     for (int m = 0; m < n; m++) one[m] += w[m];
     if (!smoothing.linear) return;
 
-    auto add = [&](int k, auto &&factor) {
+    const auto add = [&](int k, int power, double across) {    // rx^power times across
       double *const sum = moments[k].data() + point;
-      for (int m = 0; m < n; m++) sum[m] += w[m] * factor(-away[m]);
+      for (int m = 0; m < n; m++) {
+        const double rx = -away[m];
+        sum[m] += w[m] * (across * (power == 0 ? 1.0 : power == 1 ? rx : rx * rx));
+      }
     };
-    add(1, [](double rx) {
-      return rx;
-    });
-    add(2, [=](double) {
-      return ry;
-    });
-    if (dim == 2) {
-      add(3, [](double rx) {
-        return rx * rx;
-      });
-      add(4, [=](double) {
-        return ry * ry;
-      });
-      add(5, [=](double rx) {
-        return rx * ry;
-      });
-    } else {
-      add(3, [=](double) {
-        return rz;
-      });
-      add(4, [](double rx) {
-        return rx * rx;
-      });
-      add(5, [=](double) {
-        return ry * ry;
-      });
-      add(6, [=](double) {
-        return rz * rz;
-      });
-      add(7, [=](double rx) {
-        return rx * ry;
-      });
-      add(8, [=](double rx) {
-        return rx * rz;
-      });
-      add(9, [=](double) {
-        return ry * rz;
-      });
+    const double across[3] = {1.0, ry, rz};
+    for (int d = 0, k = 1 + 2 * dim; d < dim; d++) {
+      add(1 + d, d == 0 ? 1 : 0, across[d]);
+      add(1 + dim + d, d == 0 ? 2 : 0, across[d] * across[d]);
+      for (int e = d + 1; e < dim; e++, k++) add(k, d == 0 ? 1 : 0, across[d] * across[e]);
     }
   });
 }
