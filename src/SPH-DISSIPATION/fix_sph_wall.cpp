@@ -442,27 +442,19 @@ bool FixSPHWall::turns_surface(bool before) const
 
 void FixSPHWall::move_surface(BoundaryStage &stage, Surface *surface, bool before)
 {
-  if (bodies) {
-    stage.for_each(atom->nlocal + atom->nghost, [&](int i) {
-      if (!(atom->mask[i] & groupbit)) return;
-      const Bodies::Body &body = (*bodies)[stage.body(i) - first_number];
-      std::copy_n(body.omega, 3, surface[i].omega);
-      if (!before) return;
-      double turned[3];
-      for (int d = 0; d < 3; d++) turned[d] = inner_product(body.rotation[d], surface[i].normal);
-      std::copy_n(turned, 3, surface[i].normal);
-    });
-    return;
-  }
   const WallVelocity now = motion->velocity();
-  const bool turns = turns_surface(before);
+  const bool turns = bodies ? before : turns_surface(before);
   const WallStep step = motion->last_step();
   stage.for_each(atom->nlocal + atom->nghost, [&](int i) {
     if (!(atom->mask[i] & groupbit)) return;
-    now.angular(surface[i].omega);
+    const Bodies::Body *const body = bodies ? &(*bodies)[stage.body(i) - first_number] : nullptr;
+    if (body)
+      std::copy_n(body->omega, 3, surface[i].omega);
+    else
+      now.angular(surface[i].omega);
     if (!turns) return;
     double turned[3];
-    step.turn(surface[i].normal, turned);
+    MathExtra::matvec(body ? body->rotation : step.rotation, surface[i].normal, turned);
     std::copy_n(turned, 3, surface[i].normal);
   });
 }
