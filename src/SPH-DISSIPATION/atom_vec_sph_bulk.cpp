@@ -173,11 +173,6 @@ void AtomVecSPHBulk::pack_data_pre(int ilocal)
   if (!slots.empty()) check_data_line(ilocal);
 }
 
-void AtomVecSPHBulk::pack_data_post(int ilocal)
-{
-  share_columns(ilocal, false);
-}
-
 /* ----------------------------------------------------------------------
    read_data drops what a line has beyond its buffer.  The fields are those of style hybrid, if there is one
 ------------------------------------------------------------------------- */

@@ -41,7 +41,7 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
   void force_clear(int, size_t) override;
   void data_atom_post(int) override;
   void pack_data_pre(int) override;
-  void pack_data_post(int) override;
+  void pack_data_post(int ilocal) override { share_columns(ilocal, false); }
   void unpack_restart_init(int) override;
   int property_atom(const std::string &) override;
   void pack_property_atom(int, double *, int, int) override;

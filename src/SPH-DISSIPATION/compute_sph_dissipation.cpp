@@ -124,10 +124,3 @@ void ComputeSPHDissipation::unpack_reverse_comm(int n, int *sendlist, double *bu
 {
   for (int k = 0; k < n; k++) heat[sendlist[k]] += buf[k];
 }
-
-/* ---------------------------------------------------------------------- */
-
-double ComputeSPHDissipation::memory_usage()
-{
-  return (double) heat.capacity() * sizeof(double);
-}

@@ -39,7 +39,7 @@ class ComputeSPHDissipation : public Compute {
   void compute_peratom() override;
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
-  double memory_usage() override;
+  double memory_usage() override { return (double) heat.capacity() * sizeof(double); }
 
  private:
   std::vector<double> heat;

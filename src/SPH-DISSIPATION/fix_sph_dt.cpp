@@ -177,10 +177,3 @@ double FixSPHDt::compute_scalar()
 {
   return update->dt;
 }
-
-/* ---------------------------------------------------------------------- */
-
-double FixSPHDt::compute_vector(int n)
-{
-  return limits[n];
-}

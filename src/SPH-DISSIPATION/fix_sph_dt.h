@@ -39,7 +39,7 @@ class FixSPHDt : public Fix {
   void setup(int) override;
   void end_of_step() override;
   double compute_scalar() override;
-  double compute_vector(int) override;
+  double compute_vector(int n) override { return limits[n]; }
 
  private:
   enum { ACOUSTIC, VISCOUS, FORCE, NLIMIT };

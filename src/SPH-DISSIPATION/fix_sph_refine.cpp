@@ -260,13 +260,6 @@ void FixSPHRefine::check_overlap()
 
 /* ---------------------------------------------------------------------- */
 
-void FixSPHRefine::init_list(int /*id*/, NeighList *ptr)
-{
-  list = ptr;
-}
-
-/* ---------------------------------------------------------------------- */
-
 bool FixSPHRefine::is_fluid(int i) const
 {
   return !(atom->mask[i] & not_fluid) && fluid->has_type(atom->type[i]);

@@ -44,7 +44,7 @@ class FixSPHRefine : public Fix {
   ~FixSPHRefine() override;
   int setmask() override;
   void init() override;
-  void init_list(int, class NeighList *) override;
+  void init_list(int /*id*/, NeighList *ptr) override { list = ptr; }
   void post_integrate() override;
   void post_force(int) override;
   double compute_vector(int) override;

@@ -185,10 +185,3 @@ void FixSPHTorque::restart(char *buf)
 {
   if (comm->me == 0) memcpy(&work, buf, sizeof(double));
 }
-
-/* ---------------------------------------------------------------------- */
-
-double FixSPHTorque::memory_usage()
-{
-  return value[0].memory_usage() + value[1].memory_usage() + value[2].memory_usage();
-}

@@ -39,7 +39,10 @@ class FixSPHTorque : public Fix {
   double compute_vector(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  double memory_usage() override;
+  double memory_usage() override
+  {
+    return value[0].memory_usage() + value[1].memory_usage() + value[2].memory_usage();
+  }
 
  private:
   SPHDissipation::Value value[3];

@@ -330,13 +330,6 @@ void FixSPHWall::setup(int vflag)
   post_force(vflag);
 }
 
-/* ---------------------------------------------------------------------- */
-
-void FixSPHWall::min_setup(int vflag)
-{
-  min_post_force(vflag);
-}
-
 /* ----------------------------------------------------------------------
    Move the wall by the mean velocity of the step; fix sph/bulk then copies the velocity
    to the extrapolated one

@@ -53,7 +53,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void setup_pre_exchange() override;
   void setup_pre_force(int) override;
   void setup(int) override;
-  void min_setup(int) override;
+  void min_setup(int vflag) override { min_post_force(vflag); }
   void initial_integrate(int) override;
   void post_integrate() override;
   void final_integrate() override;

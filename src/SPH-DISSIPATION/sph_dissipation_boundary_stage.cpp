@@ -116,11 +116,6 @@ double BoundaryStage::conductivity(int i) const
   return engine.parameters().type[atom->type[i]].flow[HEAT_FLOW];
 }
 
-double *BoundaryStage::spin(int i)
-{
-  return engine.has_spin() ? engine.spin[i].w : nullptr;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void BoundaryStage::run(NeighList *list)
@@ -299,11 +294,6 @@ bool BoundaryStage::gives_heat() const
          });
 }
 
-bool BoundaryStage::conducts() const
-{
-  return !boundaries.empty() && engine.parameters().conducts();
-}
-
 /* ---------------------------------------------------------------------- */
 
 void BoundaryStage::add_surface_heat(std::vector<double> &flow)
@@ -326,16 +316,6 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow)
 }
 
 /* ---------------------------------------------------------------------- */
-
-bool BoundaryStage::has_energy() const
-{
-  return engine.parameters().thermal || engine.parameters().continuity;
-}
-
-double BoundaryStage::over(int i) const
-{
-  return beyond_surface(sum[i].occupied);
-}
 
 double BoundaryStage::stiffness(int i) const
 {

@@ -44,7 +44,10 @@ namespace SPHDissipation {
     bool has_bodies() const { return body_bits != 0; }
     int bits_of_bodies() const { return body_bits; }
     bool all_symmetric() const { return symmetric_bits == group_bits; }
-    bool conducts() const;      // they take part in the conduction of heat
+    bool conducts() const    // they take part in the conduction of heat
+    {
+      return !boundaries.empty() && engine.constants().conducts();
+    }
     bool gives_heat() const;    // any of them, to a fluid that conducts it
 
     // after the densities: see ParticleRows::set_reference_volume()
@@ -97,7 +100,7 @@ namespace SPHDissipation {
     void set_state(int i, double rho, double pressure);
     void extend_fluid(int i, const WallCondition &, const Surface &, const BoundarySum &,
                       const double *acceleration);
-    double *spin(int i);
+    double *spin(int i) { return engine.has_spin() ? engine.spin[i].w : nullptr; }
 
     // the pressure of frozen fluid of the same body
 
@@ -175,9 +178,12 @@ namespace SPHDissipation {
     enum class FrictionPart { ALL, ADDED, BODY };    // factor of surface_factor(), less 1, 1
     void run_friction(FrictionPart, const StepNoise *, bool linear);
 
-    bool has_energy() const;    // with thermal noise, or free surfaces
+    bool has_energy() const    // with thermal noise, or free surfaces
+    {
+      return engine.constants().thermal || engine.constants().continuity;
+    }
     double conductivity(int i) const;
-    double over(int i) const;
+    double over(int i) const { return beyond_surface(sum[i].occupied); }
     double stiffness(int i) const;
     void find_bits();
     void begin(NeighList *);

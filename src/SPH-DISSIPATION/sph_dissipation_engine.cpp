@@ -647,11 +647,6 @@ void PairSubset::end_row(int spare)
   for (int l = 0; neighbor.size() % BLOCK; l++) add(spare + l, 0.0);
 }
 
-double PairSubset::memory_usage() const
-{
-  return bytes(rows, count, neighbor, first, slope);
-}
-
 /* ---------------------------------------------------------------------- */
 
 double Engine::memory_usage() const

@@ -191,7 +191,7 @@ namespace SPHDissipation {
     void add_row(int i);
     void add(int j, double slope);
     void end_row(int spare);    // fills up the last block
-    double memory_usage() const;
+    double memory_usage() const { return bytes(rows, count, neighbor, first, slope); }
 
     // function(i) for all particles of the pairs, for some of them several times, and spare ones
     template <class Function> void visit(Function &&function) const

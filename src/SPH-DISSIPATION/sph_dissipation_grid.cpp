@@ -88,13 +88,6 @@ bigint ParticleGrid::map(const Smoothing &smoothing, double **values, int nfield
   return empty_all;
 }
 
-/* ---------------------------------------------------------------------- */
-
-const double *ParticleGrid::field(int k) const
-{
-  return fields[k].data();
-}
-
 /* ----------------------------------------------------------------------
    function(index of the first point, number of points, r) for the owned points around a place, row
    by row; r = first point - place
@@ -276,13 +269,6 @@ void ParticleGrid::sum_fields(const Smoothing &smoothing, double **values, int n
 
 /* ---------------------------------------------------------------------- */
 
-double ParticleGrid::memory_usage() const
-{
-  return (double) points * (moments.size() + fields.size()) * sizeof(double);
-}
-
-/* ---------------------------------------------------------------------- */
-
 GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
 {
   if (!domain->box_exist)
@@ -451,11 +437,4 @@ void GridCompute::unpack_forward_comm(int n, int nfirst, double *buf)
   int m = 0;
   for (int i = nfirst; i < nfirst + n; i++)
     for (int k = 0; k < comm_forward; k++) values[i][k] = buf[m++];
-}
-
-/* ---------------------------------------------------------------------- */
-
-double GridCompute::memory_usage()
-{
-  return (double) nmax * comm_forward * sizeof(double) + grid->memory_usage();
 }

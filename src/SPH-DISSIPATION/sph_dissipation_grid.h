@@ -53,14 +53,20 @@ namespace SPHDissipation {
     // nfield values.  Returns how many points of all processors have no particle in reach: they get 0.
 
     bigint map(const Smoothing &, double **values, int nfield);
-    const double *field(int k) const;    // at the owned points, the first index fastest
+    const double *field(int k) const    // at the owned points, the first index fastest
+    {
+      return fields[k].data();
+    }
 
     bool fits() const;    // on this processor, the sub-domain is still that of the points
 
     bigint npoint() const { return points; }    // owned
     Grid2d *lammps_grid2d() const { return grid2d.get(); }
     Grid3d *lammps_grid3d() const { return grid3d.get(); }
-    double memory_usage() const;
+    double memory_usage() const
+    {
+      return (double) points * (moments.size() + fields.size()) * sizeof(double);
+    }
 
     int count[3];                              // points of the box
     int lo[3] = {}, hi[3] = {};                // the owned ones
@@ -117,7 +123,10 @@ namespace SPHDissipation {
     void reset_grid() override;
     int pack_forward_comm(int, int *, double *, int, int *) override;
     void unpack_forward_comm(int, int, double *) override;
-    double memory_usage() override;
+    double memory_usage() override
+    {
+      return (double) nmax * comm_forward * sizeof(double) + grid->memory_usage();
+    }
 
    protected:
     int count[3] = {};     // points

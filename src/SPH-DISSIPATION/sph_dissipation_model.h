@@ -89,8 +89,11 @@ namespace SPHDissipation {
 
     TypePair pair_fluid(int i, int j) const;
     double intrinsic_kappa(int i, int j) const;
-    double bulk_viscosity(int type) const;    // in effect
-    void warn_of_ignored() const;             // kappa without bulk term, gamma of linear
+    double bulk_viscosity(int type) const    // in effect
+    {
+      return (choice.bulk == Bulk::NONE) ? intrinsic_kappa(type, type) : coeffs[type].kappa;
+    }
+    void warn_of_ignored() const;    // kappa without bulk term, gamma of linear
 
     void write_settings(FILE *) const;
     void read_settings(FILE *);
@@ -101,11 +104,14 @@ namespace SPHDissipation {
 
     double viscosity(int k, int i, int j) const { return variables[k].value[i][j]; }
     int nviscosity() const { return number_of_viscosities(spins); }
-    bool has_torques() const;                // any of the viscosities of spins
-    double heat_capacity(int type) const;    // per mass
-    bool has_temperatures() const;           // any type has a heat capacity
-    bool has_rheology() const;               // mu of any type is not constant
-    bool has_pair_energy() const;            // any two types
+    bool has_torques() const;               // any of the viscosities of spins
+    double heat_capacity(int type) const    // per mass
+    {
+      return (coeffs[type].cv > 0.0) ? coeffs[type].cv : choice.heat_capacity;
+    }
+    bool has_temperatures() const;    // any type has a heat capacity
+    bool has_rheology() const;        // mu of any type is not constant
+    bool has_pair_energy() const;     // any two types
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 
     // a keyword of this type that needs one of these, see enum Requirement, or nullptr

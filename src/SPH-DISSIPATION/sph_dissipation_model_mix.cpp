@@ -211,11 +211,6 @@ double FluidModel::intrinsic_kappa(int i, int j) const
   return SPHDissipation::intrinsic_kappa(pair_fluid(i, j));
 }
 
-double FluidModel::bulk_viscosity(int type) const
-{
-  return (choice.bulk == Bulk::NONE) ? intrinsic_kappa(type, type) : coeffs[type].kappa;
-}
-
 /* ---------------------------------------------------------------------- */
 
 bool FluidModel::has_torques() const
@@ -410,13 +405,6 @@ bool FluidModel::has_temperatures() const
   for (int i = 1; i <= atom->ntypes; i++)
     if (!coeffs[i].other && heat_capacity(i) > 0.0) return true;
   return false;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FluidModel::heat_capacity(int type) const
-{
-  return (coeffs[type].cv > 0.0) ? coeffs[type].cv : choice.heat_capacity;
 }
 
 /* ---------------------------------------------------------------------- */

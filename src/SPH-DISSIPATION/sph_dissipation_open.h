@@ -269,8 +269,11 @@ namespace SPHDissipation {
     void check();             // errors for keywords without an effect, and for too few of them
 
     void init(const FluidModel &);
-    bool given_velocity() const;
-    bool given_state() const;                 // density or pressure
+    bool given_velocity() const { return values.given(OpenValues::VX); }
+    bool given_state() const    // density or pressure
+    {
+      return values.given(OpenValues::RHO) || values.given(OpenValues::P);
+    }
     bool has_heat() const { return warm; }    // states include the heat
 
     // Functions of an owned particle of the zone
@@ -279,9 +282,9 @@ namespace SPHDissipation {
     void velocity(int i, double *u) const;
     OpenState state(int i) const;
     double prescribed_density(int i) const { return reference(i, ZONE).rho; }    // without waves
-    double heat(int i) const;                              // per mass, without waves
-    double temperature(int i, const OpenState &) const;    // with which it conducts heat
-    double sound_at_rest(int i, bool of_zone) const;       // at the density rho0; also of the fluid
+    double heat(int i) const { return reference(i, ZONE).q; }    // per mass, without waves
+    double temperature(int i, const OpenState &) const;          // with which it conducts heat
+    double sound_at_rest(int i, bool of_zone) const;    // at the density rho0; also of the fluid
 
     OpenState at_density(int i, const OpenState &, double rho) const;    // and the same entropy
     void keep(int i, const OpenState &) const;    // the particle has this state

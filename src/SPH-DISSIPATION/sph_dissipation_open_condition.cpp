@@ -184,16 +184,6 @@ void OpenCondition::init(const FluidModel &fluid_in)
 
 /* ---------------------------------------------------------------------- */
 
-bool OpenCondition::given_velocity() const
-{
-  return values.given(OpenValues::VX);
-}
-
-bool OpenCondition::given_state() const
-{
-  return values.given(OpenValues::RHO) || values.given(OpenValues::P);
-}
-
 const EosParams &OpenCondition::eos(int i) const
 {
   return fluid->coeffs[atom->type[i]].eos;
@@ -257,13 +247,6 @@ OpenState OpenCondition::own_state(int i, Side side) const
   if (!(rho > 0.0)) rho = eos(i).rho0;
   return {0.0, rho,
           atom->esph[i] / atom->rmass[i] - elastic_energy(fluid->choice.eos, eos(i), rho)};
-}
-
-/* ---------------------------------------------------------------------- */
-
-double OpenCondition::heat(int i) const
-{
-  return reference(i, ZONE).q;
 }
 
 /* ----------------------------------------------------------------------

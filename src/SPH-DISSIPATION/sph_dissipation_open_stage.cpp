@@ -250,10 +250,3 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   });
   return total;
 }
-
-/* ---------------------------------------------------------------------- */
-
-double OpenStage::memory_usage() const
-{
-  return bytes(pairs, side, rows, zone_of, forces, divergence, flow);
-}

@@ -132,13 +132,6 @@ void LimitStage::run()
 
 /* ---------------------------------------------------------------------- */
 
-double LimitStage::memory_usage() const
-{
-  return bytes(bound, sums);
-}
-
-/* ---------------------------------------------------------------------- */
-
 void ViscosityStage::run(int not_fluid)
 {
   engine.accumulate_shear_rates(rates);
@@ -165,13 +158,6 @@ void ViscosityStage::keep(int not_fluid)
     rows.set_viscosity(i, shear_rate[i], not_fluid);
   });
   exchange.forward({{engine.viscosity.data(), 1, 1}});
-}
-
-/* ---------------------------------------------------------------------- */
-
-double ViscosityStage::memory_usage() const
-{
-  return bytes(rates);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -387,11 +373,6 @@ double PairEnergyStage::energy(double *each_atom, int groupbit) const
   return total;
 }
 
-double PairEnergyStage::memory_usage() const
-{
-  return bytes(pairs, sums);
-}
-
 /* ----------------------------------------------------------------------
    The pressure is that of the equation of state: strains stay as they are
 ------------------------------------------------------------------------- */
@@ -457,13 +438,6 @@ void DiffusionStage::set_rows(int not_fluid, int integrated)
 
 /* ---------------------------------------------------------------------- */
 
-double DiffusionStage::memory_usage() const
-{
-  return bytes(rows, impedances, sums, flow);
-}
-
-/* ---------------------------------------------------------------------- */
-
 void ShiftStage::run()
 {
   const int nall = atom->nlocal + atom->nghost;
@@ -498,13 +472,6 @@ void ShiftStage::run()
   });
 
   exchange.reverse({{gradient.data(), 3, 3}});
-}
-
-/* ---------------------------------------------------------------------- */
-
-double ShiftStage::memory_usage() const
-{
-  return bytes(gradient, contact, sums);
 }
 
 /* ----------------------------------------------------------------------

@@ -89,7 +89,7 @@ namespace SPHDissipation {
     using Stage::Stage;
 
     void run();    // with the volumes of particles set
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(bound, sums); }
 
     std::vector<double> bound;    // B of owned and ghost atoms
 
@@ -107,7 +107,7 @@ namespace SPHDissipation {
     void run(int not_fluid);
     void keep(int not_fluid);
 
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(rates); }
 
    private:
     std::vector<double> rates;    // of owned and ghost atoms
@@ -183,7 +183,7 @@ namespace SPHDissipation {
     // to none); of the pairs of the last run()
     double energy(double *each_atom, int groupbit) const;
 
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(pairs, sums); }
 
    private:
     struct UnlikePair {
@@ -217,7 +217,7 @@ namespace SPHDissipation {
 
     void add_heat(int not_fluid, int integrated) const;
 
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(rows, impedances, sums, flow); }
 
    private:
     std::vector<DiffusionRow> rows;    // of owned, ghost, and spare particles, as the next three
@@ -239,7 +239,7 @@ namespace SPHDissipation {
     bool wanted = false;    // by a fix that shifts particles, from its init(), in every run
 
     void run();    // with the volumes of particles set
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(gradient, contact, sums); }
 
     std::vector<double> gradient;    // of owned atoms, three numbers each
 

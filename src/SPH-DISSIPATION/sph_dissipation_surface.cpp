@@ -249,10 +249,3 @@ void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &ow
     s.curvature = (curvature * s.spacing > HOLLOW) ? curvature : 0.0;
   });
 }
-
-/* ---------------------------------------------------------------------- */
-
-double SurfaceStage::memory_usage() const
-{
-  return bytes(surface, sums);
-}

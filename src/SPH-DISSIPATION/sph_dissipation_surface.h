@@ -62,7 +62,7 @@ namespace SPHDissipation {
     // Do the same with known vectors toward the fluid, those of the owned particles in their order.
     void run(int bits, const std::vector<double> &sides);
 
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(surface, sums); }
 
     std::vector<Surface> surface;    // by owned and ghost atom
     bool has_flux = false;           // walls have a flux of heat, which needs curvatures

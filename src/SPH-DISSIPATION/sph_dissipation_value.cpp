@@ -64,13 +64,6 @@ void Value::evaluate(LAMMPS *lmp, int igroup)
 
 /* ---------------------------------------------------------------------- */
 
-double Value::memory_usage() const
-{
-  return static_cast<double>(column.capacity() * sizeof(double));
-}
-
-/* ---------------------------------------------------------------------- */
-
 bool Keywords::next()
 {
   if (!known) lmp->error->all(FLERR, "Unknown {} keyword: {}", utils::lowercase(owner), keyword);

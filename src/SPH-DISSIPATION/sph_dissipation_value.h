@@ -44,7 +44,10 @@ namespace SPHDissipation {
     bool is_zero() const { return !varies() && number == 0.0; }    // at all times
     double now() const { return number; }                          // if it is not of atom style
     double operator()(int i) const { return column.empty() ? number : column[i]; }
-    double memory_usage() const;    // bytes
+    double memory_usage() const    // bytes
+    {
+      return static_cast<double>(column.capacity() * sizeof(double));
+    }
 
    private:
     bool is_variable = false;

@@ -646,16 +646,6 @@ double StiffStage::memory_usage() const
                heat_before, unknown);
 }
 
-double ViscousStage::memory_usage() const
-{
-  return StiffStage::memory_usage() + bytes(others, ahead, ahead_spin, rest);
-}
-
-double TemperatureStage::memory_usage() const
-{
-  return StiffStage::memory_usage() + bytes(flow, temperature);
-}
-
 /* ----------------------------------------------------------------------
    At the start of a run, desph_before is what the step before has added to the energy that its forces have seen;
    later it is the rate by which the energy has gone half a step beyond the middle of the step.

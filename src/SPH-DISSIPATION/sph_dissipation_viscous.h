@@ -192,7 +192,10 @@ namespace SPHDissipation {
     void begin(int prescribed, double **omegaest, const double *inertia);
     void run(NeighList *, const double *bound, bool symmetric);
 
-    double memory_usage() const override;
+    double memory_usage() const override
+    {
+      return StiffStage::memory_usage() + bytes(others, ahead, ahead_spin, rest);
+    }
 
     // the velocity, relative to the mean one, of the fluid before the step and in the solution
     double scale_sq() const override;
@@ -244,7 +247,10 @@ namespace SPHDissipation {
     // after pass 2; prescribed as ViscousStage::begin()
     void run(int prescribed);
 
-    double memory_usage() const override;
+    double memory_usage() const override
+    {
+      return StiffStage::memory_usage() + bytes(flow, temperature);
+    }
 
     // temperature, relative to the mean one, before the step and in the solution
     double scale_sq() const override;
