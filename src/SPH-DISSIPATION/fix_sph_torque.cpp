@@ -24,6 +24,7 @@
 #include "fix_sph_bulk.h"
 #include "modify.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "update.h"
 
@@ -152,9 +153,7 @@ void FixSPHTorque::post_force(int /*vflag*/)
 
 double FixSPHTorque::compute_scalar()
 {
-  double all;
-  MPI_Allreduce(&work, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
+  return over_all(world, work, MPI_SUM);
 }
 
 /* ----------------------------------------------------------------------
@@ -163,9 +162,7 @@ double FixSPHTorque::compute_scalar()
 
 double FixSPHTorque::compute_vector(int d)
 {
-  double all;
-  MPI_Allreduce(&total[d], &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
+  return over_all(world, total[d], MPI_SUM);
 }
 
 /* ----------------------------------------------------------------------

@@ -310,9 +310,7 @@ void FixSPHWall::setup_pre_exchange()
     motion->stop();
   else
     motion->start();
-  int changed = set_velocity(), any;
-  MPI_Allreduce(&changed, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any) find_fluid(force)->note_change();
+  if (over_all<int>(world, set_velocity(), MPI_MAX)) find_fluid(force)->note_change();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -591,11 +589,7 @@ void FixSPHWall::min_post_force(int vflag)
 
 double FixSPHWall::compute_vector(int n)
 {
-  if (n >= 6) {
-    double all;
-    MPI_Allreduce((n == 6) ? &heat_rate : &heat_given, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-    return all;
-  }
+  if (n >= 6) return over_all(world, (n == 6) ? heat_rate : heat_given, MPI_SUM);
   if (!total_summed) MPI_Allreduce(total, total_all, 6, MPI_DOUBLE, MPI_SUM, world);
   total_summed = true;
   return total_all[n];

@@ -44,27 +44,25 @@ using namespace SPHDissipation;
 std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool(int)> &wrong)
 {
   Atom *atom = lmp->atom;
-  tagint first = MAXTAGINT, first_all;
-  int found = 0, found_all;
+  tagint first = MAXTAGINT;
+  int found = 0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!wrong(i)) continue;
     found = 1;
     if (atom->tag_enable) first = std::min(first, atom->tag[i]);
   }
-  MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MAX, lmp->world);
-  MPI_Allreduce(&first, &first_all, 1, MPI_LMP_TAGINT, MPI_MIN, lmp->world);
-  if (!found_all) return "";
-  return atom->tag_enable ? fmt::format("particle {}", first_all) : "a particle";
+  first = over_all(lmp->world, first, MPI_MIN);
+  if (!over_all(lmp->world, found, MPI_MAX)) return "";
+  return atom->tag_enable ? fmt::format("particle {}", first) : "a particle";
 }
 
 /* ---------------------------------------------------------------------- */
 
 bigint SPHDissipation::count_particles(LAMMPS *lmp, const std::function<bool(int)> &counts)
 {
-  bigint mine = 0, all;
+  bigint mine = 0;
   for (int i = 0; i < lmp->atom->nlocal; i++) mine += counts(i) ? 1 : 0;
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
-  return all;
+  return over_all(lmp->world, mine, MPI_SUM);
 }
 
 /* ---------------------------------------------------------------------- */

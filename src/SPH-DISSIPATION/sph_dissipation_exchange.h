@@ -19,6 +19,7 @@
 
 #include <cstddef>
 #include <mpi.h>
+#include <type_traits>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -58,6 +59,16 @@ namespace SPHDissipation {
     std::vector<T> all(total);
     MPI_Allgatherv(mine.data(), n, type, all.data(), counts.data(), starts.data(), type, world);
     return all;
+  }
+
+  // a number of all processors together; op: MPI_SUM, MPI_MIN, or MPI_MAX of those of each
+
+  template <class T> T over_all(MPI_Comm world, T mine, MPI_Op op)
+  {
+    const MPI_Datatype whole = (sizeof(T) == sizeof(int)) ? MPI_INT : MPI_LONG_LONG;
+    MPI_Allreduce(MPI_IN_PLACE, &mine, 1, std::is_integral<T>::value ? whole : MPI_DOUBLE, op,
+                  world);
+    return mine;
   }
 
   // The communication of a pair style between owned and ghost atoms: a stage of the step names the

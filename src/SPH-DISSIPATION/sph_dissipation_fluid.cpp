@@ -89,9 +89,7 @@ void Fluid::settings(int narg, char **arg)
 {
   model->settings(narg, arg);
 
-  int found = engine->choose_loops(model->simd), found_all;
-  MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MIN, world);
-  if (!found_all)
+  if (!over_all<int>(world, engine->choose_loops(model->simd), MPI_MIN))
     error->all(FLERR,
                "Pair_style {} simd {}: not in this processor, or not in this executable of LAMMPS",
                style, model->simd);
@@ -702,10 +700,7 @@ void Fluid::check_speed()
 
 bool Fluid::has_forces() const
 {
-  const int mine = has_own_forces() ? 1 : 0;
-  int all;
-  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
-  return all;
+  return over_all<int>(world, has_own_forces(), MPI_MIN);
 }
 
 bool Fluid::has_own_forces() const
@@ -996,14 +991,13 @@ int Fluid::number_of_heats()
 
 double Fluid::smallest_inertia() const
 {
-  double mine = UNLIMITED_STEP, smallest;
+  double mine = UNLIMITED_STEP;
   if (spins) {
     const double *const inertia = Fields::of(atom)->inertia;
     for (int i = 0; i < atom->nlocal; i++)
       if (inertia[i] > 0.0 && has_type(atom->type[i])) mine = std::min(mine, inertia[i]);
   }
-  MPI_Allreduce(&mine, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
-  return smallest;
+  return over_all(world, mine, MPI_MIN);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -21,6 +21,7 @@
 #include "grid3d.h"
 #include "memory.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
@@ -78,14 +79,13 @@ bigint ParticleGrid::map(const Smoothing &smoothing, double **values, int nfield
   weight.resize(count[0]);
   offset.resize(count[0]);
 
-  bigint empty = 0, empty_all;
+  bigint empty = 0;
   with_kernel(smoothing.kernel, [&](auto shape) {
     sum_moments<decltype(shape)>(smoothing, values);
     empty = solve(smoothing.linear);
     sum_fields<decltype(shape)>(smoothing, values, nfield);
   });
-  MPI_Allreduce(&empty, &empty_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  return empty_all;
+  return over_all(world, empty, MPI_SUM);
 }
 
 /* ----------------------------------------------------------------------
@@ -302,10 +302,7 @@ GridCompute::~GridCompute()
 
 void GridCompute::init()
 {
-  const int moved = grid->fits() ? 0 : 1;
-  int any_moved;
-  MPI_Allreduce(&moved, &any_moved, 1, MPI_INT, MPI_MAX, world);
-  if (any_moved) reset_grid();
+  if (!over_all<int>(world, grid->fits(), MPI_MIN)) reset_grid();
 
   if (domain->triclinic)
     error->all(FLERR, "Compute {} needs an orthogonal box, not a triclinic one", style);

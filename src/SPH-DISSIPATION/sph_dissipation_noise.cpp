@@ -220,12 +220,12 @@ void NoiseStage::warn_of_cold(bigint number) const
 
 void NoiseStage::find_cold_arrivals(int not_fluid)
 {
-  bigint own = 0, all;
+  bigint own = 0;
   for (int i = 0; i < atom->nlocal; i++)
     if (!engine.parameters().type[atom->type[i]].other && !(atom->mask[i] & not_fluid) &&
         atom->esph[i] == 0.0)
       own++;
-  MPI_Allreduce(&own, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint all = over_all(world, own, MPI_SUM);
   cold_arrival = all > 0;
   if (cold_arrival && comm->me == 0) warn_of_cold(all);
 }

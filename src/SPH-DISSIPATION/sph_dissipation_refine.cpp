@@ -255,7 +255,7 @@ void RefinePairs::find(NeighList *full, double farthest)
     }
     items.forward(&RefineItem::choice);
 
-    int found = 0, found_all;
+    int found = 0;
     for (int i = 0; i < atom->nlocal; i++) {
       const int j = choice[i];
       if (j < 0 || items[j].choice != static_cast<double>(atom->tag[i])) continue;
@@ -263,8 +263,7 @@ void RefinePairs::find(NeighList *full, double farthest)
       found = 1;
     }
     settle();
-    MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MAX, world);
-    if (!found_all) break;
+    if (!over_all(world, found, MPI_MAX)) break;
   }
 }
 
@@ -511,8 +510,7 @@ bigint RefineEvent::postpone(bigint most)
   for (const Split &one : splits) mine.push_back(atom->tag[one.i]);
   for (int i = 0; i < atom->nlocal; i++)
     if (pairs.leads(i)) mine.push_back(atom->tag[i]);
-  bigint number = mine.size(), all;
-  MPI_Allreduce(&number, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint all = over_all<bigint>(world, mine.size(), MPI_SUM);
   if (all <= most) return all;
 
   std::vector<tagint> tags = gather_all(world, mine, MPI_LMP_TAGINT);

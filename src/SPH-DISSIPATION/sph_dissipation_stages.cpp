@@ -230,11 +230,10 @@ void StateStage::advance(int not_fluid, const std::vector<double> &noise) const
 bigint StateStage::keep() const
 {
   const StateRows states = engine.states();
-  bigint mine = 0, all;
+  bigint mine = 0;
   for (int i = 0; i < atom->nlocal; i++)
     if (States::keep(states, i)) mine++;
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  return all;
+  return over_all(world, mine, MPI_SUM);
 }
 
 /* ---------------------------------------------------------------------- */
