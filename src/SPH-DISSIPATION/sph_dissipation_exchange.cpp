@@ -15,7 +15,6 @@
 
 #include "comm.h"
 #include "force.h"
-#include "pair.h"
 
 #include <algorithm>
 

@@ -27,7 +27,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
