@@ -246,11 +246,6 @@ bool FixSPHWall::is_wrong(double value) const
    Evaluate the variable of keyword heat when the particles are where the forces are computed.
 ------------------------------------------------------------------------- */
 
-void FixSPHWall::setup_pre_force(int vflag)
-{
-  pre_force(vflag);
-}
-
 void FixSPHWall::pre_force(int /*vflag*/)
 {
   if (!heat_value->varies() && !gravity_varies()) return;

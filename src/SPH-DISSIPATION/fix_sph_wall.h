@@ -51,7 +51,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;
-  void setup_pre_force(int) override;
+  void setup_pre_force(int vflag) override { pre_force(vflag); }
   void setup(int) override;
   void min_setup(int vflag) override { min_post_force(vflag); }
   void initial_integrate(int) override;

@@ -40,15 +40,6 @@ static constexpr double HARDNESS_OF_SOUND = 0.5;    // where particles have temp
 
 /* ---------------------------------------------------------------------- */
 
-BoundaryStage::BoundaryStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                             const std::string &style) :
-    Stage(lmp, engine, exchange),
-    style(style), surface(lmp, engine, exchange)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void BoundaryStage::add(Boundary *boundary)
 {
   remove(boundary);

@@ -33,7 +33,10 @@ namespace SPHDissipation {
 
   class BoundaryStage : public Stage {
    public:
-    BoundaryStage(class LAMMPS *, Engine &, Exchange &, const std::string &style);
+    BoundaryStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &style) :
+        Stage(lmp, engine, exchange), style(style), surface(lmp, engine, exchange)
+    {
+    }
 
     void add(Boundary *);       // no effect if it is there
     void remove(Boundary *);    // no effect if it is not there

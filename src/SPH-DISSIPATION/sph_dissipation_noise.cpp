@@ -35,13 +35,6 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
-    Stage(lmp, engine, exchange), clock(clock)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
 {
   if (neighbor->ago == 0) check_box();

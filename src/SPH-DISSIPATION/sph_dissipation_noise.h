@@ -40,7 +40,10 @@ namespace SPHDissipation {
 
   class NoiseStage : public Stage {
    public:
-    NoiseStage(class LAMMPS *, Engine &, Exchange &, NoiseClock &);
+    NoiseStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
+        Stage(lmp, engine, exchange), clock(clock)
+    {
+    }
 
     // Once in each step, before run(), which a step may call more than once: sets the step of its random numbers
 

@@ -333,13 +333,6 @@ void RefineResidual::take(NeighList *full)
 
 /* ---------------------------------------------------------------------- */
 
-RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
-    Pointers(lmp), items(lmp, fix), balance(balance), pairs(lmp, items), residual(lmp, items, pairs)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void RefineEvent::init(const Fluid &fluid, double smallest_share)
 {
   support = fluid.support_radius();

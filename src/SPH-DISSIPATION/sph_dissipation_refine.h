@@ -160,7 +160,11 @@ namespace SPHDissipation {
 
   class RefineEvent : protected Pointers {
    public:
-    RefineEvent(class LAMMPS *, Fix *, RefineBalance &);
+    RefineEvent(class LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
+        Pointers(lmp), items(lmp, fix), balance(balance), pairs(lmp, items),
+        residual(lmp, items, pairs)
+    {
+    }
 
     void init(const Fluid &, double smallest_share);
 

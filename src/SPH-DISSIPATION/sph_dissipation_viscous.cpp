@@ -38,32 +38,6 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-StiffStage::StiffStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &where) :
-    Stage(lmp, engine, exchange), where(where)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
-ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                           const PressureStage &pressure, BoundaryStage &boundary) :
-    StiffStage(lmp, engine, exchange, ""),
-    pressure(pressure), boundary(boundary)
-{
-  width = 3;
-}
-
-/* ---------------------------------------------------------------------- */
-
-TemperatureStage::TemperatureStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                                   BoundaryStage &boundary) :
-    StiffStage(lmp, engine, exchange, " in the conduction of heat"),
-    boundary(boundary)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void StiffStage::configure(const ViscousSettings &settings_in, int groups_in,
                            const std::string &style_in)
 {

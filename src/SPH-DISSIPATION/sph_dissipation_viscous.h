@@ -85,7 +85,10 @@ namespace SPHDissipation {
   class StiffStage : public Stage {
    public:
     // where = for messages, after the number of the step
-    StiffStage(class LAMMPS *, Engine &, Exchange &, const std::string &where);
+    StiffStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &where) :
+        Stage(lmp, engine, exchange), where(where)
+    {
+    }
 
     // of all integrators of the fluid, and bits of their groups; style = of the fluid, for messages
 
@@ -174,7 +177,12 @@ namespace SPHDissipation {
 
   class ViscousStage : public StiffStage {
    public:
-    ViscousStage(class LAMMPS *, Engine &, Exchange &, const PressureStage &, BoundaryStage &);
+    ViscousStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange,
+                 const PressureStage &pressure, BoundaryStage &boundary) :
+        StiffStage(lmp, engine, exchange, ""),
+        pressure(pressure), boundary(boundary)
+    {
+    }
 
     // From the integrator at the beginning of a step, of a particle that it has moved: vest, or omegaest,
     // travels with it as v + dt/m times the forces of other styles, until begin() makes it the
@@ -242,7 +250,12 @@ namespace SPHDissipation {
 
   class TemperatureStage : public StiffStage {
    public:
-    TemperatureStage(class LAMMPS *, Engine &, Exchange &, BoundaryStage &);
+    TemperatureStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange,
+                     BoundaryStage &boundary) :
+        StiffStage(lmp, engine, exchange, " in the conduction of heat"),
+        boundary(boundary)
+    {
+    }
 
     // after pass 2; prescribed as ViscousStage::begin()
     void run(int prescribed);
