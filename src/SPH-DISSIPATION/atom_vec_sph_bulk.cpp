@@ -49,8 +49,7 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp) : AtomVecSPHBulk(lmp, false) {}
 /* ---------------------------------------------------------------------- */
 
 AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
-    AtomVec(lmp), Fields(spins), owner(atom), in_views(in_views), nmax_own(0), rmass(nullptr),
-    rho(nullptr), drho(nullptr), vfrac(nullptr), esph(nullptr), desph(nullptr), vest(nullptr)
+    AtomVec(lmp), Fields(spins), owner(atom), in_views(in_views)
 {
   molecular = Atom::ATOMIC;
   mass_type = PER_ATOM;
@@ -172,11 +171,6 @@ void AtomVecSPHBulk::pack_data_pre(int ilocal)
 {
   share_columns(ilocal, true);
   if (!slots.empty()) check_data_line(ilocal);
-}
-
-void AtomVecSPHBulk::pack_data_post(int ilocal)
-{
-  share_columns(ilocal, false);
 }
 
 /* ----------------------------------------------------------------------
@@ -399,6 +393,12 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
                "yield, smagorinsky, or arrhenius of pair_coeff");
   const std::vector<double> temperature = (index == TSPH) ? temperatures() : std::vector<double>();
 
+  // what is an array, in the order of the names
+
+  const double *const array[VESTX] = {
+      nullptr, nullptr,     vfrac,     rho, esph, desph, temperature.data(),
+      nullptr, vol_support, shear_rate};
+
   for (int i = 0, n = 0; i < nlocal; i++, n += nvalues) {
     buf[n] = 0.0;
     if (!(mask[i] & groupbit)) continue;
@@ -409,36 +409,14 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
       case DNUMDEN:
         buf[n] = drho[i] / rmass[i];
         break;
-      case VOL:
-        buf[n] = vfrac[i];
-        break;
-      case RHO:
-        buf[n] = rho[i];
-        break;
-      case ESPH:
-        buf[n] = esph[i];
-        break;
-      case DESPH:
-        buf[n] = desph[i];
-        break;
       case OFFSET:
         buf[n] = (rho_sum[i] > 0.0) ? (rho[i] - rho_sum[i]) / rmass[i] : 0.0;
         break;
-      case SURFACE:
-        buf[n] = vol_support[i];
-        break;
-      case SHEAR_RATE:
-        buf[n] = shear_rate[i];
-        break;
-      case INERTIA:
-        buf[n] = inertia[i];
-        break;
-      case TSPH:
-        buf[n] = temperature[i];
-        break;
       default:
         buf[n] = (index >= NPROPERTY) ? state_value(index - NPROPERTY, i)
+            : (index < VESTX)         ? array[index][i]
             : (index < INERTIA)       ? vest[i][index - VESTX]
+            : (index == INERTIA)      ? inertia[i]
                                       : omegaest[i][index - OMEGAESTX];
     }
   }

@@ -41,7 +41,7 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
   void force_clear(int, size_t) override;
   void data_atom_post(int) override;
   void pack_data_pre(int) override;
-  void pack_data_post(int) override;
+  void pack_data_post(int ilocal) override { share_columns(ilocal, false); }
   void unpack_restart_init(int) override;
   int property_atom(const std::string &) override;
   void pack_property_atom(int, double *, int, int) override;
@@ -78,11 +78,12 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
     double ***array;
   };
   std::vector<OwnArray> own_arrays;
-  int nmax_own;    // allocated size of the own arrays
+  int nmax_own = 0;    // allocated size of the own arrays
   void add_array(const std::string &, double **, double ***, int);
 
-  double *rmass, *rho, *drho, *vfrac, *esph, *desph;
-  double **vest;
+  double *rmass = nullptr, *rho = nullptr, *drho = nullptr, *vfrac = nullptr;
+  double *esph = nullptr, *desph = nullptr;
+  double **vest = nullptr;
 };
 
 }    // namespace LAMMPS_NS

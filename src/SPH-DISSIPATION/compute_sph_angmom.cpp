@@ -21,6 +21,7 @@
 #include "domain.h"
 #include "error.h"
 #include "group.h"
+#include "math_extra.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_value.h"
 #include "update.h"
@@ -32,8 +33,7 @@ enum { TOTAL = 0, ORBITAL = 3, SPIN = 6, NVALUE = 9 };
 
 /* ---------------------------------------------------------------------- */
 
-ComputeSPHAngmom::ComputeSPHAngmom(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), fixed_point(0), point{0.0, 0.0, 0.0}
+ComputeSPHAngmom::ComputeSPHAngmom(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
 {
   if (!Fields::with_spins(atom))
     error->all(FLERR, "Compute {} requires atom style sph/micropolar", style);
@@ -65,21 +65,19 @@ void ComputeSPHAngmom::compute_vector()
   if (!fixed_point) group->xcm(igroup, group->mass(igroup), point);
 
   const double *const inertia = Fields::of(atom)->inertia;
-  double **v = atom->v;
-  double **omega = atom->omega;
   const double *const rmass = atom->rmass;
-  const int *const mask = atom->mask;
   double sum[NVALUE] = {};
 
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    double x[3];
+    if (!(atom->mask[i] & groupbit)) continue;
+    double x[3], moment[3];
     domain->unmap(atom->x[i], atom->image[i], x);
     for (int d = 0; d < 3; d++) x[d] -= point[d];
-    sum[ORBITAL] += rmass[i] * (x[1] * v[i][2] - x[2] * v[i][1]);
-    sum[ORBITAL + 1] += rmass[i] * (x[2] * v[i][0] - x[0] * v[i][2]);
-    sum[ORBITAL + 2] += rmass[i] * (x[0] * v[i][1] - x[1] * v[i][0]);
-    for (int d = 0; d < 3; d++) sum[SPIN + d] += rmass[i] * inertia[i] * omega[i][d];
+    MathExtra::cross3(x, atom->v[i], moment);
+    for (int d = 0; d < 3; d++) {
+      sum[ORBITAL + d] += rmass[i] * moment[d];
+      sum[SPIN + d] += rmass[i] * inertia[i] * atom->omega[i][d];
+    }
   }
   for (int d = 0; d < 3; d++) sum[TOTAL + d] = sum[ORBITAL + d] + sum[SPIN + d];
   MPI_Allreduce(sum, vector, NVALUE, MPI_DOUBLE, MPI_SUM, world);

@@ -34,8 +34,8 @@ class ComputeSPHAngmom : public Compute {
   void compute_vector() override;
 
  private:
-  int fixed_point;    // 0: about the center of mass
-  double point[3];
+  int fixed_point = 0;    // 0: about the center of mass
+  double point[3] = {};
 };
 
 }    // namespace LAMMPS_NS

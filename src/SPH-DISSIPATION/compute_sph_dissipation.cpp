@@ -21,13 +21,10 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
-#include "memory.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_stages.h"
 #include "update.h"
-
-#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -35,7 +32,7 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 ComputeSPHDissipation::ComputeSPHDissipation(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), nmax(0), heat(nullptr)
+    Compute(lmp, narg, arg)
 {
   if (narg > 3) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
   if (igroup != 0) error->all(FLERR, "Compute {} must use group all", style);
@@ -52,7 +49,6 @@ ComputeSPHDissipation::ComputeSPHDissipation(LAMMPS *lmp, int narg, char **arg) 
 
 ComputeSPHDissipation::~ComputeSPHDissipation()
 {
-  memory->destroy(heat);
   delete[] vector;
 }
 
@@ -105,15 +101,11 @@ void ComputeSPHDissipation::compute_vector()
 void ComputeSPHDissipation::compute_peratom()
 {
   invoked_peratom = update->ntimestep;
-  if (atom->nmax > nmax) {
-    nmax = atom->nmax;
-    memory->destroy(heat);
-    memory->create(heat, nmax, "sph/dissipation:heat");
-    vector_atom = heat;
-  }
+  heat.resize(atom->nmax);
+  vector_atom = heat.data();
 
   std::vector<double> power(size_vector);
-  collect(heat, power.data());
+  collect(heat.data(), power.data());
   if (force->newton_pair) comm->reverse_comm(this);
 }
 
@@ -131,11 +123,4 @@ int ComputeSPHDissipation::pack_reverse_comm(int n, int nfirst, double *buf)
 void ComputeSPHDissipation::unpack_reverse_comm(int n, int *sendlist, double *buf)
 {
   for (int k = 0; k < n; k++) heat[sendlist[k]] += buf[k];
-}
-
-/* ---------------------------------------------------------------------- */
-
-double ComputeSPHDissipation::memory_usage()
-{
-  return (double) nmax * sizeof(double);
 }

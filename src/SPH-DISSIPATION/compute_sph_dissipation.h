@@ -22,6 +22,8 @@ ComputeStyle(sph/dissipation,ComputeSPHDissipation);
 
 #include "compute.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 
 // Power that the dissipative forces of the last force computation turn into heat: total, by
@@ -37,11 +39,10 @@ class ComputeSPHDissipation : public Compute {
   void compute_peratom() override;
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
-  double memory_usage() override;
+  double memory_usage() override { return (double) heat.capacity() * sizeof(double); }
 
  private:
-  int nmax;
-  double *heat;
+  std::vector<double> heat;
 
   void collect(double *, double *);
 };

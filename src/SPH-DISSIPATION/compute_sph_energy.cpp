@@ -20,6 +20,7 @@
 #include "atom.h"
 #include "error.h"
 #include "force.h"
+#include "math_extra.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
@@ -67,28 +68,19 @@ void ComputeSPHEnergy::compute_vector()
 {
   invoked_vector = update->ntimestep;
 
-  double **v = atom->v;
   const double *const rmass = atom->rmass;
-  const double *const esph = atom->esph;
-  const int *const mask = atom->mask;
+  const Fields *const fields = Fields::with_spins(atom);
+
   double energy[NENERGY] = {};
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
-    energy[KINETIC] += rmass[i] * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
-    energy[INTERNAL] += esph[i];
+    if (!(atom->mask[i] & groupbit)) continue;
+    energy[KINETIC] += rmass[i] * MathExtra::lensq3(atom->v[i]);
+    energy[INTERNAL] += atom->esph[i];
+    if (fields)
+      energy[ROTATIONAL] += rmass[i] * fields->inertia[i] * MathExtra::lensq3(atom->omega[i]);
   }
   energy[KINETIC] *= 0.5 * force->mvv2e;
-
-  if (const Fields *fields = Fields::with_spins(atom)) {
-    double **omega = atom->omega;
-    for (int i = 0; i < atom->nlocal; i++) {
-      if (!(mask[i] & groupbit)) continue;
-      const double *const w = omega[i];
-      energy[ROTATIONAL] +=
-          rmass[i] * fields->inertia[i] * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-    }
-    energy[ROTATIONAL] *= 0.5 * force->mvv2e;
-  }
+  energy[ROTATIONAL] *= 0.5 * force->mvv2e;
   if (const Fluid *fluid = find_fluid(force)) {
     energy[STATES] = fluid->state_energy(groupbit);
     if (fluid->has_pair_energy()) {

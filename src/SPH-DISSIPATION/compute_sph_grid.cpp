@@ -28,9 +28,7 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-ComputeSPHGrid::ComputeSPHGrid(LAMMPS *lmp, int narg, char **arg) :
-    GridCompute(lmp, narg, arg), vector2d(nullptr), vector3d(nullptr), array2d(nullptr),
-    array3d(nullptr)
+ComputeSPHGrid::ComputeSPHGrid(LAMMPS *lmp, int narg, char **arg) : GridCompute(lmp, narg, arg)
 {
   int iarg = 6;
   while (iarg < narg && add_value(arg[iarg])) iarg++;

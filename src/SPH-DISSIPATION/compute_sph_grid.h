@@ -41,8 +41,8 @@ class ComputeSPHGrid : public SPHDissipation::GridCompute {
  private:
   // one of them, by the dimension and whether there is one value per point or more
 
-  double **vector2d, ***vector3d;
-  double ***array2d, ****array3d;
+  double **vector2d = nullptr, ***vector3d = nullptr;
+  double ***array2d = nullptr, ****array3d = nullptr;
 
   void allocate();
   void deallocate();

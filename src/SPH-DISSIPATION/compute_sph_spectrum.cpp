@@ -22,6 +22,7 @@
 #include "domain.h"
 #include "error.h"
 #include "group.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
@@ -109,8 +110,7 @@ enum { U = 0, RHO = 3, ROOT = 4, OMEGA = 7, NFIELD = 10 };
 /* ---------------------------------------------------------------------- */
 
 ComputeSPHSpectrum::ComputeSPHSpectrum(LAMMPS *lmp, int narg, char **arg) :
-    GridCompute(lmp, narg, arg), deconvolve(false), nshell(0), micropolar(Fields::with_spins(atom)),
-    checked(false)
+    GridCompute(lmp, narg, arg), micropolar(Fields::with_spins(atom))
 {
   if (!FourierGrid::available())
     error->all(FLERR,
@@ -210,23 +210,11 @@ int ComputeSPHSpectrum::last_shell() const
   return static_cast<int>(std::sqrt(ksq) / shell_width() + 0.5);
 }
 
-/* ---------------------------------------------------------------------- */
-
-void ComputeSPHSpectrum::compute_vector()
-{
-  calculate();
-}
-
-void ComputeSPHSpectrum::compute_array()
-{
-  calculate();
-}
-
 /* ----------------------------------------------------------------------
    Calculate vector and array at once.
 ------------------------------------------------------------------------- */
 
-void ComputeSPHSpectrum::calculate()
+void ComputeSPHSpectrum::compute_vector()
 {
   invoked_vector = invoked_array = update->ntimestep;
   invoked_flag |= INVOKED_VECTOR | INVOKED_ARRAY;
@@ -263,6 +251,22 @@ void ComputeSPHSpectrum::transform_fields()
   }
 }
 
+/* ----------------------------------------------------------------------
+   function(k, k^2) for the wave vectors of the modes of this processor, in their order
+------------------------------------------------------------------------- */
+
+template <class Function> void ComputeSPHSpectrum::for_modes(Function &&function) const
+{
+  for (int iz = grid->lo[2]; iz <= grid->hi[2]; iz++)
+    for (int iy = grid->lo[1]; iy <= grid->hi[1]; iy++)
+      for (int ix = grid->lo[0]; ix <= grid->hi[0]; ix++) {
+        const double k[3] = {wave_number(ix, count[0], domain->prd[0]),
+                             wave_number(iy, count[1], domain->prd[1]),
+                             wave_number(iz, count[2], domain->prd[2])};
+        function(k, MathExtra::lensq3(k));
+      }
+}
+
 /* ---------------------------------------------------------------------- */
 
 void ComputeSPHSpectrum::set_raise()
@@ -276,14 +280,9 @@ void ComputeSPHSpectrum::set_raise()
   raised_for = made_for;
   raise.clear();
   raise.reserve(grid->npoint());
-  for (int iz = grid->lo[2]; iz <= grid->hi[2]; iz++)
-    for (int iy = grid->lo[1]; iy <= grid->hi[1]; iy++)
-      for (int ix = grid->lo[0]; ix <= grid->hi[0]; ix++) {
-        const double kx = wave_number(ix, count[0], prd[0]), ky = wave_number(iy, count[1], prd[1]),
-                     kz = wave_number(iz, count[2], prd[2]);
-        raise.push_back(deconvolution(kernel, domain->dimension,
-                                      std::sqrt(kx * kx + ky * ky + kz * kz), support));
-      }
+  for_modes([&](const double *, double ksq) {
+    raise.push_back(deconvolution(kernel, domain->dimension, std::sqrt(ksq), support));
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -301,43 +300,38 @@ void ComputeSPHSpectrum::sum_modes()
   };
 
   bigint m = 0;
-  for (int iz = grid->lo[2]; iz <= grid->hi[2]; iz++)
-    for (int iy = grid->lo[1]; iy <= grid->hi[1]; iy++)
-      for (int ix = grid->lo[0]; ix <= grid->hi[0]; ix++, m++) {
-        const double k[3] = {wave_number(ix, count[0], domain->prd[0]),
-                             wave_number(iy, count[1], domain->prd[1]),
-                             wave_number(iz, count[2], domain->prd[2])};
-        const Amplitude u[3] = {modes[U][m], modes[U + 1][m], modes[U + 2][m]};
-        const double factor = deconvolve ? raise[m] : 1.0;
-        const ModeEnergies mode = split(k, u);
-        double column[NCOLUMN];
-        column[MODES] = 1.0;
-        column[SOLENOIDAL] = factor * mode.solenoidal;
-        column[DILATATIONAL] = factor * mode.dilatational;
-        column[ENSTROPHY] = 0.5 * factor * mode.curl2;
-        column[DENSITY] = factor * std::norm(modes[RHO][m]);
-        column[KINETIC] = 0.5 * factor * square(ROOT, m);
-        column[SPIN] = micropolar ? 0.5 * factor * square(OMEGA, m) : 0.0;
+  for_modes([&](const double *k, double ksq) {
+    const Amplitude u[3] = {modes[U][m], modes[U + 1][m], modes[U + 2][m]};
+    const double factor = deconvolve ? raise[m] : 1.0;
+    const ModeEnergies mode = split(k, u);
+    double column[NCOLUMN];
+    column[MODES] = 1.0;
+    column[SOLENOIDAL] = factor * mode.solenoidal;
+    column[DILATATIONAL] = factor * mode.dilatational;
+    column[ENSTROPHY] = 0.5 * factor * mode.curl2;
+    column[DENSITY] = factor * std::norm(modes[RHO][m]);
+    column[KINETIC] = 0.5 * factor * square(ROOT, m);
+    column[SPIN] = micropolar ? 0.5 * factor * square(OMEGA, m) : 0.0;
 
-        const double ksq = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
-        total[SUM_KINETIC] += column[KINETIC];
-        total[SUM_SPIN] += column[SPIN];
-        if (ksq > 0.0) {    // all but the means
-          total[SUM_SOLENOIDAL] += column[SOLENOIDAL];
-          total[SUM_DILATATIONAL] += column[DILATATIONAL];
-          total[CURL2] += factor * mode.curl2;
-          total[DIV2] += factor * mode.div2;
-          total[DENSITY2] += column[DENSITY];
-        }
+    total[SUM_KINETIC] += column[KINETIC];
+    total[SUM_SPIN] += column[SPIN];
+    if (ksq > 0.0) {    // all but the means
+      total[SUM_SOLENOIDAL] += column[SOLENOIDAL];
+      total[SUM_DILATATIONAL] += column[DILATATIONAL];
+      total[CURL2] += factor * mode.curl2;
+      total[DIV2] += factor * mode.div2;
+      total[DENSITY2] += column[DENSITY];
+    }
 
-        // all shells; in a box that has changed, modes beyond the last shell belong to the last one
+    // all shells; in a box that has changed, modes beyond the last shell belong to the last one
 
-        int shell = static_cast<int>(std::sqrt(ksq) / width + 0.5);
-        if (!nshell) shell = std::min(shell, size_array_rows - 1);
-        if (shell >= size_array_rows) continue;
-        double *const row = &own[NTOTAL + shell * NCOLUMN];
-        for (int c = MODES; c < NCOLUMN; c++) row[c] += column[c];
-      }
+    int shell = static_cast<int>(std::sqrt(ksq) / width + 0.5);
+    if (!nshell) shell = std::min(shell, size_array_rows - 1);
+    m++;
+    if (shell >= size_array_rows) return;
+    double *const row = &own[NTOTAL + shell * NCOLUMN];
+    for (int c = MODES; c < NCOLUMN; c++) row[c] += column[c];
+  });
 
   MPI_Allreduce(own.data(), all.data(), static_cast<int>(own.size()), MPI_DOUBLE, MPI_SUM, world);
   std::copy(all.begin(), all.begin() + NTOTAL, vector);

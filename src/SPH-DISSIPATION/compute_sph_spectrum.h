@@ -34,22 +34,23 @@ class ComputeSPHSpectrum : public SPHDissipation::GridCompute {
   void init() override;
   void reset_grid() override;
   void compute_vector() override;
-  void compute_array() override;
+  void compute_array() override { compute_vector(); }
   double memory_usage() override;
 
  private:
-  bool deconvolve;
-  int nshell;    // shells asked for, 0: all
-  bool micropolar, checked;
+  bool deconvolve = false;
+  int nshell = 0;    // shells asked for, 0: all
+  bool micropolar, checked = false;
   std::unique_ptr<SPHDissipation::FourierGrid> fourier;
-  std::vector<std::vector<std::complex<double>>> modes;    // one array per field, see calculate()
-  std::vector<double> raise;                               // factor of each mode
-  std::vector<double> raised_for;                          // box, support radius, kernel
+  std::vector<std::vector<std::complex<double>>>
+      modes;                         // one array per field, see compute_vector()
+  std::vector<double> raise;         // factor of each mode
+  std::vector<double> raised_for;    // box, support radius, kernel
 
   double shell_width() const;
   int last_shell() const;
-  void calculate();
   void transform_fields();
+  template <class Function> void for_modes(Function &&) const;
   void set_raise();
   void sum_modes();
   void set_dissipation();

@@ -69,14 +69,13 @@ void ComputeSPHTemp::init()
 
 void ComputeSPHTemp::translational(double *temperature) const
 {
-  double **v = atom->v;
+  double **const v = atom->v;
   const double *const rmass = atom->rmass;
-  const int *const mask = atom->mask;
 
   enum { MASS, NUMBER, MOMENTUM, NSUM = 5 };
   double own[NSUM] = {}, all[NSUM];
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
+    if (!(atom->mask[i] & groupbit)) continue;
     own[MASS] += rmass[i];
     own[NUMBER] += 1.0;
     for (int d = 0; d < 3; d++) own[MOMENTUM + d] += rmass[i] * v[i][d];
@@ -88,7 +87,7 @@ void ComputeSPHTemp::translational(double *temperature) const
 
   double square[3] = {};
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
+    if (!(atom->mask[i] & groupbit)) continue;
     for (int d = 0; d < 3; d++) {
       const double u = v[i][d] - all[MOMENTUM + d] / all[MASS];
       square[d] += rmass[i] * u * u;

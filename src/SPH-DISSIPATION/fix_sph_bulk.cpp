@@ -136,14 +136,8 @@ double rest_of_heat(const TimeStep &step, const double *v, const double *acting,
 /* ---------------------------------------------------------------------- */
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtv(0.0), dtf(0.0), diffuses(false), exact(false), shift_speed(0.0),
-    remap_v_flag(0), integrated_groups(0), first_instance(false), fluid(nullptr),
-    fluid_style(without_suffix(style)), spins(Fields::with_spins(atom)), dt_of_forces(0.0),
-    dt_of_states(0.0), extrapolation(1.0), balanced(false), viscous(new ViscousSettings),
-    temperature(nullptr), temperature_done(false), last(), inertia_flag(0), factor(0.0),
-    offset(0.0), inertia_done(false), density_done(0), density_flag(0), set_up(false),
-    energy_extrapolated(false), setup_step(0), last_instance(false), not_integrated(0),
-    rigid_alone(0)
+    Fix(lmp, narg, arg), fluid_style(without_suffix(style)), spins(Fields::with_spins(atom)),
+    viscous(new ViscousSettings)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   read_keywords(narg, arg);
@@ -162,11 +156,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
 
 /* ---------------------------------------------------------------------- */
 
-FixSPHBulk::~FixSPHBulk()
-{
-  delete viscous;
-  delete temperature;
-}
+FixSPHBulk::~FixSPHBulk() = default;
 
 /* ---------------------------------------------------------------------- */
 
@@ -184,7 +174,7 @@ void FixSPHBulk::read_keywords(int narg, char **arg)
         error->all(FLERR, "Fix {} inertia needs two numbers >= 0, one of them > 0, not {} {}",
                    style, key.word(0), key.word(1));
     } else if (key.is("temperature")) {
-      if (!temperature) temperature = new Value;
+      if (!temperature) temperature.reset(new Value);
       temperature->set(lmp, key.word());
     } else if (key.is("shift")) {
       shift_speed = key.number();
@@ -857,7 +847,7 @@ void FixSPHBulk::shift_particles()
   const double support = fluid->support_radius();
   fluid->team().for_each(nlocal_group(), [&](int i) {
     if (atom->mask[i] & groupbit)
-      shift_particle(shift_speed, support, dtv, fluid->shift->gradient[i], atom->x[i]);
+      shift_particle(shift_speed, support, dtv, &fluid->shift->gradient[3 * i], atom->x[i]);
   });
 }
 

@@ -22,6 +22,8 @@ FixStyle(sph/bulk,FixSPHBulk);
 
 #include "fix.h"
 
+#include <memory>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Fields;
@@ -76,14 +78,14 @@ class FixSPHBulk : public Fix {
   bool has_viscous_stage() const;
 
  protected:
-  double dtv, dtf;
-  bool diffuses;                   // densities change by the diffusion of volume
-  bool exact;                      // motion and heat exchange energy exactly, see integrate()
-  double shift_speed;              // scale and twice the limit of the velocity of particle shifting
-  int remap_v_flag;                // fix deform remaps velocities at periodic boundaries
-  int integrated_groups;           // bits of all groups with an integrator of this kind
-  bool first_instance;             // acts for the particles outside all these groups
-  SPHDissipation::Fluid *fluid;    // of the same name, if there is one
+  double dtv = 0.0, dtf = 0.0;
+  bool diffuses = false;          // densities change by the diffusion of volume
+  bool exact = false;             // motion and heat exchange energy exactly, see integrate()
+  double shift_speed = 0.0;       // scale and twice the limit of the velocity of particle shifting
+  int remap_v_flag = 0;           // fix deform remaps velocities at periodic boundaries
+  int integrated_groups = 0;      // bits of all groups with an integrator of this kind
+  bool first_instance = false;    // acts for the particles outside all these groups
+  SPHDissipation::Fluid *fluid = nullptr;    // of the same name, if there is one
   void check_set_up();
   void begin_step();
   int nlocal_group() const;
@@ -99,13 +101,13 @@ class FixSPHBulk : public Fix {
  private:
   const std::string fluid_style;    // also of the atom style and the pair style, without suffix
   const bool spins;                 // the particles have them
-  double dt_of_forces;              // time step that the forces are of
-  double dt_of_states;              // time step for which the states hold
-  double extrapolation;             // of velocities over half a step: 1, with thermal noise 0
-  bool balanced;                    // heat gets half of its rate at each end of a step, temp energy
-  SPHDissipation::ViscousSettings *viscous;
-  SPHDissipation::Value *temperature;    // at the start, nullptr without
-  bool temperature_done;    // the particles have got it, in this run or before a restart
+  double dt_of_forces = 0.0;        // time step that the forces are of
+  double dt_of_states = 0.0;        // time step for which the states hold
+  double extrapolation = 1.0;       // of velocities over half a step: 1, with thermal noise 0
+  bool balanced = false;            // heat gets half of its rate at each end of a step, temp energy
+  const std::unique_ptr<SPHDissipation::ViscousSettings> viscous;
+  std::unique_ptr<SPHDissipation::Value> temperature;    // at the start, nullptr without
+  bool temperature_done = false;    // the particles have got it, in this run or before a restart
 
   SPHDissipation::Fields &fields() const;
   void read_keywords(int narg, char **arg);
@@ -122,7 +124,7 @@ class FixSPHBulk : public Fix {
     bigint sum[2];
     double dt;    // time step
   };
-  Motion last;                      // at the end of the last step, of this processor
+  Motion last = {};                 // at the end of the last step, of this processor
   Motion restart_motion() const;    // on all processors; of the particles as they are written
   Motion find_motion() const;
   static Motion sum_of(const Motion &, MPI_Comm);
@@ -139,16 +141,17 @@ class FixSPHBulk : public Fix {
   void set_inertia_of(int i, double &inertia) const;    // unless it has one
   void check_inertia() const;
 
-  int inertia_flag;    // 1: the keyword is there, I = factor V^(2/n) + offset
-  double factor, offset;
-  bool inertia_done;           // the particles have the inertia of these numbers, but for new ones
-  int density_done;            // the masses were set, in this run or before a restart
-  int density_flag;            // set the masses so that the mean density is rho0
-  bool set_up;                 // since it was defined
-  bool energy_extrapolated;    // for the first forces of a run
-  bigint setup_step;           // of the last setup
-  bool last_instance;          // acts when all are set up
-  bigint not_integrated, rigid_alone;    // # of fluid particles that the last warnings were about
+  int inertia_flag = 0;    // 1: the keyword is there, I = factor V^(2/n) + offset
+  double factor = 0.0, offset = 0.0;
+  bool inertia_done = false;    // the particles have the inertia of these numbers, but for new ones
+  int density_done = 0;         // the masses were set, in this run or before a restart
+  int density_flag = 0;         // set the masses so that the mean density is rho0
+  bool set_up = false;          // since it was defined
+  bool energy_extrapolated = false;    // for the first forces of a run
+  bigint setup_step = 0;               // of the last setup
+  bool last_instance = false;          // acts when all are set up
+  bigint not_integrated = 0,
+         rigid_alone = 0;    // # of fluid particles that the last warnings were about
 };
 
 }    // namespace LAMMPS_NS

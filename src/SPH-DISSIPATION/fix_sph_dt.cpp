@@ -52,8 +52,7 @@ static double part_of(double part, double time)
 /* ---------------------------------------------------------------------- */
 
 FixSPHDt::FixSPHDt(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), fluid(nullptr), part{SPHDissipation::ACOUSTIC, 1.0, 0.25}, given(),
-    smallest(0.0), largest(UNLIMITED_STEP), limits(), set_up(false)
+    Fix(lmp, narg, arg), part{SPHDissipation::ACOUSTIC, 1.0, 0.25}, largest(UNLIMITED_STEP)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix sph/dt", error);
   if (igroup != 0) error->all(FLERR, "Fix {} must use group all", style);
@@ -177,11 +176,4 @@ void FixSPHDt::reset_step(double dt)
 double FixSPHDt::compute_scalar()
 {
   return update->dt;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FixSPHDt::compute_vector(int n)
-{
-  return limits[n];
 }

@@ -39,16 +39,16 @@ class FixSPHDt : public Fix {
   void setup(int) override;
   void end_of_step() override;
   double compute_scalar() override;
-  double compute_vector(int) override;
+  double compute_vector(int n) override { return limits[n]; }
 
  private:
   enum { ACOUSTIC, VISCOUS, FORCE, NLIMIT };
-  SPHDissipation::Fluid *fluid;
-  double part[NLIMIT];         // factors of the limits
-  bool given[NLIMIT];          // by the keyword
-  double smallest, largest;    // time steps
-  double limits[NLIMIT];       // time steps; the last ones
-  bool set_up;                 // since it was defined
+  SPHDissipation::Fluid *fluid = nullptr;
+  double part[NLIMIT];               // factors of the limits
+  bool given[NLIMIT] = {};           // by the keyword
+  double smallest = 0.0, largest;    // time steps
+  double limits[NLIMIT] = {};        // time steps; the last ones
+  bool set_up = false;               // since it was defined
 
   double allowed_step(const SPHDissipation::CoeffTable &);
   void reset_step(double);

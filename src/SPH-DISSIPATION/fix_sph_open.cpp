@@ -80,10 +80,7 @@ static const char cite_open[] =
 
 /* ---------------------------------------------------------------------- */
 
-FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), fluid(nullptr), integrator(nullptr), fields(nullptr), fluidbit(0),
-    radius(0.0), area(0.0), my_longest(0.0), longest(0.0), is_new(false), supersonic(false),
-    gap(false), set_up(false), totals_known(false), totals(NVECTOR)
+FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), totals(NVECTOR)
 {
   if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   const std::string owner = fmt::format("Fix {}", style);
@@ -650,8 +647,6 @@ void FixSPHOpen::warn_of_other_plane()
 
 double FixSPHOpen::memory_usage()
 {
-  return samples->memory_usage() + values->memory_usage() +
-      static_cast<double>(members.capacity() * sizeof(int) +
-                          states.capacity() * sizeof(std::pair<int, OpenState>) +
-                          sums.capacity() * sizeof(double));
+  return samples->memory_usage() + values->memory_usage() + bytes(members, sums) +
+      static_cast<double>(states.capacity() * sizeof(std::pair<int, OpenState>));
 }

@@ -80,19 +80,20 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::unique_ptr<SPHDissipation::OpenCondition> condition;
   std::unique_ptr<SPHDissipation::ZoneLattice> lattice;
   std::unique_ptr<SPHDissipation::OpenBalance> balance;
-  SPHDissipation::Fluid *fluid;
-  class FixSPHBulk *integrator;    // moves the fluid
-  SPHDissipation::Fields *fields;
+  SPHDissipation::Fluid *fluid = nullptr;
+  class FixSPHBulk *integrator = nullptr;    // moves the fluid
+  SPHDissipation::Fields *fields = nullptr;
   std::string fluid_name;    // group of the fluid
-  int fluidbit;
-  double radius;                 // the fluid within it is measured at the plane
-  double area;                   // cross section of a row; 0: rows have a spacing
-  double my_longest, longest;    // time in which sound crosses a support radius near the plane
-  std::vector<int> members;      // owned particles of the zone, and fluid that may come to it
-  bool is_new;                   // no forces have been computed with this zone
-  bool supersonic, gap;          // has been warned of
-  bool set_up;                   // since it was defined
-  bool totals_known;
+  int fluidbit = 0;
+  double radius = 0.0;    // the fluid within it is measured at the plane
+  double area = 0.0;      // cross section of a row; 0: rows have a spacing
+  double my_longest = 0.0,
+         longest = 0.0;        // time in which sound crosses a support radius near the plane
+  std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
+  bool is_new = false;         // no forces have been computed with this zone
+  bool supersonic = false, gap = false;    // has been warned of
+  bool set_up = false;                     // since it was defined
+  bool totals_known = false;
   std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
 

@@ -64,10 +64,8 @@ enum { BALANCE = 1, HIGHEST = BALANCE + RefineBalance::NVALUE, NSTATE };
 /* ---------------------------------------------------------------------- */
 
 FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), by_spacing(false), target(new Value), largest_volume(0.0), fluid(nullptr),
-    list(nullptr), split_above(SPLIT), merge_below(MERGE), wait(-1.0), fraction(1.0), past(nullptr),
-    not_fluid(0), last_step(-1), event_step(-1), postponed(false), totals_known(false),
-    set_up(false), totals(RefineBalance::NVALUE)
+    Fix(lmp, narg, arg), target(new Value), split_above(SPLIT), merge_below(MERGE),
+    totals(RefineBalance::NVALUE)
 {
   if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
@@ -139,7 +137,6 @@ FixSPHRefine::~FixSPHRefine()
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(past);
-  delete target;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -259,13 +256,6 @@ void FixSPHRefine::check_overlap()
       error->all(FLERR, "Fixes {} and {} of style {} both have {} particles in their groups", id,
                  other->id, style, all);
   }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixSPHRefine::init_list(int /*id*/, NeighList *ptr)
-{
-  list = ptr;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -44,7 +44,7 @@ class FixSPHRefine : public Fix {
   ~FixSPHRefine() override;
   int setmask() override;
   void init() override;
-  void init_list(int, class NeighList *) override;
+  void init_list(int /*id*/, NeighList *ptr) override { list = ptr; }
   void post_integrate() override;
   void post_force(int) override;
   double compute_vector(int) override;
@@ -64,24 +64,24 @@ class FixSPHRefine : public Fix {
   double memory_usage() override;
 
  private:
-  bool by_spacing;            // the target is a spacing, else a volume
+  bool by_spacing = false;    // the target is a spacing, else a volume
   std::string target_word;    // as it was given
-  SPHDissipation::Value *target;
-  double largest_volume;    // target that leaves enough neighbors
+  const std::unique_ptr<SPHDissipation::Value> target;
+  double largest_volume = 0.0;    // target that leaves enough neighbors
   std::unique_ptr<SPHDissipation::RefineBalance> balance;
   std::unique_ptr<SPHDissipation::RefineEvent> event;
-  SPHDissipation::Fluid *fluid;
-  class NeighList *list;
+  SPHDissipation::Fluid *fluid = nullptr;
+  class NeighList *list = nullptr;
   double split_above, merge_below;    // volume over target
-  double wait;                        // time between two events of a particle; < 0: R/c0
-  double fraction;                    // part of the particles that may have an event at once
-  double **past;                      // last event of each particle
-  int not_fluid;                      // bits of the groups of walls and open zones
-  bigint last_step;                   // step of the last call of this fix
-  bigint event_step;                  // step of the last events
-  bool postponed;                     // the last check waits for the next step
-  bool totals_known;
-  bool set_up;    // since it was defined
+  double wait = -1.0;                 // time between two events of a particle; < 0: R/c0
+  double fraction = 1.0;              // part of the particles that may have an event at once
+  double **past = nullptr;            // last event of each particle
+  int not_fluid = 0;                  // bits of the groups of walls and open zones
+  bigint last_step = -1;              // step of the last call of this fix
+  bigint event_step = -1;             // step of the last events
+  bool postponed = false;             // the last check waits for the next step
+  bool totals_known = false;
+  bool set_up = false;    // since it was defined
   std::vector<double> totals;
 
   void check_setup();

@@ -24,8 +24,8 @@
 #include "fix_sph_bulk.h"
 #include "modify.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
-#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <cstring>
@@ -36,9 +36,7 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), value(new Value[3]), total{0.0, 0.0, 0.0}, power(0.0), work(0.0),
-    receiving_groups(0), not_receiving(0), set_up(false)
+FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
   if (!Fields::with_spins(atom))
     error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);
@@ -52,13 +50,6 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
   size_vector = 3;
   global_freq = 1;
   extscalar = extvector = 1;
-}
-
-/* ---------------------------------------------------------------------- */
-
-FixSPHTorque::~FixSPHTorque()
-{
-  delete[] value;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -162,9 +153,7 @@ void FixSPHTorque::post_force(int /*vflag*/)
 
 double FixSPHTorque::compute_scalar()
 {
-  double all;
-  MPI_Allreduce(&work, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
+  return over_all(world, work, MPI_SUM);
 }
 
 /* ----------------------------------------------------------------------
@@ -173,9 +162,7 @@ double FixSPHTorque::compute_scalar()
 
 double FixSPHTorque::compute_vector(int d)
 {
-  double all;
-  MPI_Allreduce(&total[d], &all, 1, MPI_DOUBLE, MPI_SUM, world);
-  return all;
+  return over_all(world, total[d], MPI_SUM);
 }
 
 /* ----------------------------------------------------------------------
@@ -194,11 +181,4 @@ void FixSPHTorque::write_restart(FILE *fp)
 void FixSPHTorque::restart(char *buf)
 {
   if (comm->me == 0) memcpy(&work, buf, sizeof(double));
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FixSPHTorque::memory_usage()
-{
-  return value[0].memory_usage() + value[1].memory_usage() + value[2].memory_usage();
 }

@@ -21,11 +21,9 @@ FixStyle(sph/torque,FixSPHTorque);
 #define LMP_FIX_SPH_TORQUE_H
 
 #include "fix.h"
+#include "sph_dissipation_value.h"
 
 namespace LAMMPS_NS {
-namespace SPHDissipation {
-  class Value;
-}
 
 // Torque on every particle of a group from numbers or variables, and its work: the body torque m G
 // of a micropolar fluid, P3 (15).
@@ -33,7 +31,6 @@ namespace SPHDissipation {
 class FixSPHTorque : public Fix {
  public:
   FixSPHTorque(class LAMMPS *, int, char **);
-  ~FixSPHTorque() override;
   int setmask() override;
   void init() override;
   void setup(int) override;
@@ -42,17 +39,20 @@ class FixSPHTorque : public Fix {
   double compute_vector(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  double memory_usage() override;
+  double memory_usage() override
+  {
+    return value[0].memory_usage() + value[1].memory_usage() + value[2].memory_usage();
+  }
 
  private:
-  SPHDissipation::Value *value;    // three
-  double total[3];                 // torque on all particles in the last step, of this rank
-  double power;                    // on this rank in the last step
-  double work;                     // since the fix was defined, of this rank
+  SPHDissipation::Value value[3];
+  double total[3] = {};    // torque on all particles in the last step, of this rank
+  double power = 0.0;      // on this rank in the last step
+  double work = 0.0;       // since the fix was defined, of this rank
 
-  int receiving_groups;    // bits of the groups whose spin is integrated
-  bigint not_receiving;    // # of particles that the last warning was about
-  bool set_up;             // since it was defined
+  int receiving_groups = 0;    // bits of the groups whose spin is integrated
+  bigint not_receiving = 0;    // # of particles that the last warning was about
+  bool set_up = false;         // since it was defined
 
   void check_receivers();
 };

@@ -71,11 +71,9 @@ static const char cite_wall[] =
 
 FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), motion(new WallMotion(lmp, fmt::format("Fix {}", style))),
-    condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}), move(true),
-    bodies(nullptr), noise(false), checked(false), total(), total_all(), total_summed(false),
-    heat(WallHeat::ADIABATIC), heat_value(new Value), gravity(new Value[3]), heat_rate(0.0),
-    heat_given(0.0), by_molecule(atom->molecule_flag), split_given(false), frozen(false),
-    first_number(0)
+    condition(new WallCondition{false, WallSpin::ZERO, 0.0, {0.0, 0.0, 0.0}}),
+    heat(WallHeat::ADIABATIC), heat_value(new Value), gravity(new Value[3]),
+    by_molecule(atom->molecule_flag)
 {
   std::string others;    // a keyword that bodies do not have
   for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
@@ -85,8 +83,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
       if (key.name() == one && others.empty()) others = one;
     if (key.is("move")) {
       const bool rigid = (strcmp(key.word(), "rigid") == 0);
-      delete bodies;
-      bodies = rigid ? new Bodies(lmp, groupbit, style, id) : nullptr;
+      bodies.reset(rigid ? new Bodies(lmp, groupbit, style, id) : nullptr);
       move = rigid || utils::logical(FLERR, key.word(), false, lmp);
     }
     if (key.is("body")) {
@@ -150,11 +147,6 @@ FixSPHWall::~FixSPHWall()
   include_walls();
   atom->delete_callback(id, Atom::GROW);
   memory->destroy(array_atom);
-  delete heat_value;
-  delete[] gravity;
-  delete condition;
-  delete bodies;
-  delete motion;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -254,11 +246,6 @@ bool FixSPHWall::is_wrong(double value) const
    Evaluate the variable of keyword heat when the particles are where the forces are computed.
 ------------------------------------------------------------------------- */
 
-void FixSPHWall::setup_pre_force(int vflag)
-{
-  pre_force(vflag);
-}
-
 void FixSPHWall::pre_force(int /*vflag*/)
 {
   if (!heat_value->varies() && !gravity_varies()) return;
@@ -318,9 +305,7 @@ void FixSPHWall::setup_pre_exchange()
     motion->stop();
   else
     motion->start();
-  int changed = set_velocity(), any;
-  MPI_Allreduce(&changed, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any) find_fluid(force)->note_change();
+  if (over_all<int>(world, set_velocity(), MPI_MAX)) find_fluid(force)->note_change();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -336,13 +321,6 @@ void FixSPHWall::setup(int vflag)
                    id, style);
   checked = true;
   post_force(vflag);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixSPHWall::min_setup(int vflag)
-{
-  min_post_force(vflag);
 }
 
 /* ----------------------------------------------------------------------
@@ -450,27 +428,19 @@ bool FixSPHWall::turns_surface(bool before) const
 
 void FixSPHWall::move_surface(BoundaryStage &stage, Surface *surface, bool before)
 {
-  if (bodies) {
-    stage.for_each(atom->nlocal + atom->nghost, [&](int i) {
-      if (!(atom->mask[i] & groupbit)) return;
-      const Bodies::Body &body = (*bodies)[stage.body(i) - first_number];
-      std::copy_n(body.omega, 3, surface[i].omega);
-      if (!before) return;
-      double turned[3];
-      for (int d = 0; d < 3; d++) turned[d] = inner_product(body.rotation[d], surface[i].normal);
-      std::copy_n(turned, 3, surface[i].normal);
-    });
-    return;
-  }
   const WallVelocity now = motion->velocity();
-  const bool turns = turns_surface(before);
+  const bool turns = bodies ? before : turns_surface(before);
   const WallStep step = motion->last_step();
   stage.for_each(atom->nlocal + atom->nghost, [&](int i) {
     if (!(atom->mask[i] & groupbit)) return;
-    now.angular(surface[i].omega);
+    const Bodies::Body *const body = bodies ? &(*bodies)[stage.body(i) - first_number] : nullptr;
+    if (body)
+      std::copy_n(body->omega, 3, surface[i].omega);
+    else
+      now.angular(surface[i].omega);
     if (!turns) return;
     double turned[3];
-    step.turn(surface[i].normal, turned);
+    MathExtra::matvec(body ? body->rotation : step.rotation, surface[i].normal, turned);
     std::copy_n(turned, 3, surface[i].normal);
   });
 }
@@ -614,11 +584,7 @@ void FixSPHWall::min_post_force(int vflag)
 
 double FixSPHWall::compute_vector(int n)
 {
-  if (n >= 6) {
-    double all;
-    MPI_Allreduce((n == 6) ? &heat_rate : &heat_given, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-    return all;
-  }
+  if (n >= 6) return over_all(world, (n == 6) ? heat_rate : heat_given, MPI_SUM);
   if (!total_summed) MPI_Allreduce(total, total_all, 6, MPI_DOUBLE, MPI_SUM, world);
   total_summed = true;
   return total_all[n];

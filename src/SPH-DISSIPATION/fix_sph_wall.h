@@ -24,6 +24,7 @@ FixStyle(sph/wall,FixSPHWall);
 
 #include "sph_dissipation_boundary.h"
 
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -50,9 +51,9 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;
-  void setup_pre_force(int) override;
+  void setup_pre_force(int vflag) override { pre_force(vflag); }
   void setup(int) override;
-  void min_setup(int) override;
+  void min_setup(int vflag) override { min_post_force(vflag); }
   void initial_integrate(int) override;
   void post_integrate() override;
   void final_integrate() override;
@@ -76,26 +77,29 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void set_boundary(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *,
                     const SPHDissipation::BoundarySum *) override;
   bool has_symmetric_friction() const override { return noise || bodies; }
-  bool has_bodies() const override { return bodies; }
+  bool has_bodies() const override { return bodies != nullptr; }
   bool has_frozen_pressure() const override { return frozen; }
   int number_bodies(int, double *) override;
   bool gives_heat() const override;
   void set_heat(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *, bool) override;
 
  protected:
-  SPHDissipation::WallMotion *motion;    // the torque is about the point on its axis
-  SPHDissipation::WallCondition *condition;
-  bool move;
-  SPHDissipation::Bodies *bodies;    // that the fluid moves; nullptr: a wall
-  bool noise;                        // the fluid has thermal noise
-  bool checked;    // thickness checked, in the first run; false: not set up since defined
+  const std::unique_ptr<SPHDissipation::WallMotion>
+      motion;    // the torque is about the point on its axis
+  const std::unique_ptr<SPHDissipation::WallCondition> condition;
+  bool move = true;
+  std::unique_ptr<SPHDissipation::Bodies> bodies;    // that the fluid moves; nullptr: a wall
+  bool noise = false;                                // the fluid has thermal noise
+  bool checked = false;    // thickness checked, in the first run; false: not set up since defined
 
-  double total[6], total_all[6];    // force and torque, of this rank and of all
-  bool total_summed;
+  double total[6] = {}, total_all[6] = {};    // force and torque, of this rank and of all
+  bool total_summed = false;
 
   SPHDissipation::WallHeat heat;
-  SPHDissipation::Value *heat_value;    // temperature, or heat per area and time
-  SPHDissipation::Value *gravity;       // acceleration of the fluid by a body force along x, y, z
+  const std::unique_ptr<SPHDissipation::Value>
+      heat_value;    // temperature, or heat per area and time
+  const std::unique_ptr<SPHDissipation::Value[]>
+      gravity;    // acceleration of the fluid by a body force along x, y, z
   bool gravity_varies() const;
 
   bool turns_surface(bool before) const;
@@ -104,14 +108,14 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
  private:
   // by this rank's part of the wall to the fluid; rank 0 has what a restart file knows
 
-  double heat_rate;     // heat per time in the last step
-  double heat_given;    // heat since the fix was defined
+  double heat_rate = 0.0;     // heat per time in the last step
+  double heat_given = 0.0;    // heat since the fix was defined
 
   // bodies that the fluid moves
 
-  bool by_molecule, split_given;
-  bool frozen;         // their pressure is that of frozen fluid
-  int first_number;    // of the first body in BoundaryStage
+  bool by_molecule, split_given = false;
+  bool frozen = false;     // their pressure is that of frozen fluid
+  int first_number = 0;    // of the first body in BoundaryStage
 
   void read_bodies(const std::string &others);
   void check_bodies(const SPHDissipation::Fluid *) const;

@@ -14,12 +14,12 @@
 #include "sph_dissipation_bodies.h"
 
 #include "atom.h"
-#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "math_eigen.h"
 #include "math_extra.h"
 #include "neighbor.h"
+#include "sph_dissipation_exchange.h"
 #include "sph_dissipation_wall_terms.h"
 #include "update.h"
 
@@ -41,13 +41,6 @@ enum {
   NSUM = SECOND + 6
 };
 
-/* ---------------------------------------------------------------------- */
-
-Bodies::Bodies(LAMMPS *lmp, int groupbit, const std::string &owner, const std::string &id) :
-    Pointers(lmp), groupbit(groupbit), owner(owner), id(id), by_molecule(false), begun(false)
-{
-}
-
 /* ----------------------------------------------------------------------
    bodies in the order of their molecules, on all processors
 ------------------------------------------------------------------------- */
@@ -58,14 +51,8 @@ void Bodies::init(bool by_molecule_in)
   std::set<tagint> found;
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) found.insert(by_molecule ? atom->molecule[i] : 1);
-  const std::vector<tagint> mine(found.begin(), found.end());
-  int count = static_cast<int>(mine.size());
-  std::vector<int> counts(comm->nprocs), starts(comm->nprocs, 0);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int k = 1; k < comm->nprocs; k++) starts[k] = starts[k - 1] + counts[k - 1];
-  std::vector<tagint> all(starts.back() + counts.back());
-  MPI_Allgatherv(mine.data(), count, MPI_LMP_TAGINT, all.data(), counts.data(), starts.data(),
-                 MPI_LMP_TAGINT, world);
+  std::vector<tagint> all =
+      gather_all(world, std::vector<tagint>(found.begin(), found.end()), MPI_LMP_TAGINT);
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   if (begun && all == names) return;

@@ -35,7 +35,10 @@ namespace SPHDissipation {
       double rotation[3][3];                // of the last step
     };
 
-    Bodies(class LAMMPS *, int groupbit, const std::string &owner, const std::string &id);
+    Bodies(class LAMMPS *lmp, int groupbit, const std::string &owner, const std::string &id) :
+        Pointers(lmp), groupbit(groupbit), owner(owner), id(id)
+    {
+    }
 
     // a body is a molecule, or all particles are one; at the start of a run
     void init(bool by_molecule);
@@ -62,7 +65,7 @@ namespace SPHDissipation {
    private:
     const int groupbit;
     const std::string owner, id;
-    bool by_molecule, begun;
+    bool by_molecule = false, begun = false;
     std::unordered_map<tagint, int> number;    // of molecules
     std::vector<tagint> names;
     std::vector<Body> bodies;

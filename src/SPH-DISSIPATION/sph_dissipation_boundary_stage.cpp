@@ -17,7 +17,6 @@
 #include "error.h"
 #include "force.h"
 #include "math_extra.h"
-#include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "sph_dissipation_cells.h"
@@ -38,23 +37,6 @@ using namespace SPHDissipation;
 
 static constexpr double HARDNESS = 150.0;           // of kT
 static constexpr double HARDNESS_OF_SOUND = 0.5;    // where particles have temperatures: of m c0^2
-
-/* ---------------------------------------------------------------------- */
-
-BoundaryStage::BoundaryStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                             const std::string &style) :
-    Stage(lmp, engine, exchange),
-    sum(nullptr), style(style), group_bits(0), symmetric_bits(0), body_bits(0), frozen_bits(0),
-    rows_bits(0), nmax(0), surface(lmp, engine, exchange), surface_step(-1), nboundary(0)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
-BoundaryStage::~BoundaryStage()
-{
-  memory->sfree(sum);
-}
 
 /* ---------------------------------------------------------------------- */
 
@@ -125,11 +107,6 @@ double BoundaryStage::conductivity(int i) const
   return engine.parameters().type[atom->type[i]].flow[HEAT_FLOW];
 }
 
-double *BoundaryStage::spin(int i)
-{
-  return engine.has_spin() ? engine.spin[i].w : nullptr;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void BoundaryStage::run(NeighList *list)
@@ -144,11 +121,7 @@ void BoundaryStage::run(NeighList *list)
 
 void BoundaryStage::begin(NeighList *list)
 {
-  if (nmax < atom->nmax) {
-    nmax = atom->nmax;
-    memory->sfree(sum);
-    sum = (BoundarySum *) memory->smalloc(nmax * sizeof(BoundarySum), "sph:boundary_sum");
-  }
+  sum.resize(atom->nmax);
   const bool found = (neighbor->ago == 0 || group_bits != rows_bits);
   if (found) find_rows(list);
   find_pairs();
@@ -160,7 +133,7 @@ void BoundaryStage::begin(NeighList *list)
   }
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
-  for (auto boundary : boundaries) boundary->move_surface(*this, surface.surface, before);
+  for (auto boundary : boundaries) boundary->move_surface(*this, surface.surface.data(), before);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -236,13 +209,12 @@ void BoundaryStage::set_mean_pressure(int i, const BoundarySum &sum_of, const do
 void BoundaryStage::extend()
 {
   accumulate();
-  const Field sums = field(sum, &sum->weight, offsetof(BoundarySum, wd3) / sizeof(double));
-  if (engine.has_spin())
-    exchange.reverse({sums, field(sum, sum->wd3, 6)});
-  else
-    exchange.reverse({sums});
+  BoundarySum *const first = sum.data();
+  constexpr int NOT_OF_SPIN = offsetof(BoundarySum, wd3) / sizeof(double);
+  exchange.reverse({field(first, &first->weight, NOT_OF_SPIN),
+                    field(first, first->wd3, engine.has_spin() ? 6 : 0)});
   check();
-  for (auto boundary : boundaries) boundary->set_boundary(*this, surface.surface, sum);
+  for (auto boundary : boundaries) boundary->set_boundary(*this, surface.surface.data(), first);
 
   // pass 2 leaves the friction to add_friction(), but for the part that a noise with numbers of each partner needs
 
@@ -255,11 +227,7 @@ void BoundaryStage::extend()
 
   Particle *const particle = engine.particle;
   const Field state = field(particle, particle->u, 5);    // u, vol and g
-  const Field zeta_term = {engine.zeta_term, 1, 1};
-  if (engine.has_spin())
-    exchange.forward({state, zeta_term, field(engine.spin, engine.spin->w, 3)});
-  else
-    exchange.forward({state, zeta_term});
+  exchange.forward({state, {engine.zeta_term, 1, 1}, engine.spins()});
 }
 
 /* ----------------------------------------------------------------------
@@ -302,7 +270,7 @@ void BoundaryStage::extend_temperatures(bool increments)
     BoundaryHeatSum *const heat = heat_sum.data();
     exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
   }
-  for (auto boundary : boundaries) boundary->set_heat(*this, surface.surface, increments);
+  for (auto boundary : boundaries) boundary->set_heat(*this, surface.surface.data(), increments);
   FlowRow *const heat = engine.heat().data();
   exchange.forward({field(heat, &heat->vol, 4)});
 }
@@ -315,11 +283,6 @@ bool BoundaryStage::gives_heat() const
       std::any_of(boundaries.begin(), boundaries.end(), [](const Boundary *one) {
            return one->gives_heat();
          });
-}
-
-bool BoundaryStage::conducts() const
-{
-  return !boundaries.empty() && engine.parameters().conducts();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -345,27 +308,12 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow)
 
 /* ---------------------------------------------------------------------- */
 
-bool BoundaryStage::has_energy() const
-{
-  return engine.parameters().thermal || engine.parameters().continuity;
-}
-
-double BoundaryStage::over(int i) const
-{
-  return beyond_surface(sum[i].occupied);
-}
-
 double BoundaryStage::stiffness(int i) const
 {
   const Parameters &par = engine.parameters();
   if (par.thermal && !par.own_temperatures) return 2.0 * HARDNESS * force->boltz * par.temperature;
   return stiffness_of_surface(par.thermal ? HARDNESS_OF_SOUND : HARDNESS_OF_SURFACE, atom->rmass[i],
                               par.type[atom->type[i]].eos.c0);
-}
-
-int BoundaryStage::nforce() const
-{
-  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
 }
 
 /* ----------------------------------------------------------------------
@@ -495,7 +443,7 @@ void BoundaryStage::add_linear_friction()
 void BoundaryStage::repel(PairTally *tally)
 {
   if (!has_energy()) return;
-  exchange.forward({field(sum, &sum->occupied, 1)});
+  exchange.forward({field(sum.data(), &sum.data()->occupied, 1)});
   const int nall = atom->nlocal + atom->nghost, n = nforce();
 
   auto add_force = [&](int i, const double *f) {
@@ -555,7 +503,7 @@ void BoundaryStage::find_energies(double missing)
 {
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   std::vector<double> each(nall, 0.0), work(nall, 0.0);
-  exchange.forward({field(sum, &sum->occupied, 1)});
+  exchange.forward({field(sum.data(), &sum.data()->occupied, 1)});
   add_energies(nall, [&](int i, double energy) {
     each[i] += energy;
   });
@@ -735,7 +683,7 @@ void BoundaryStage::accumulate()
 {
   const int nall = atom->nlocal + atom->nghost;
   engine.team().in_parts(nall, [&](int, int from, int to) {
-    memset(sum + from, 0, (to - from) * sizeof(BoundarySum));
+    memset(sum.data() + from, 0, (to - from) * sizeof(BoundarySum));
   });
   const double *const rho = atom->rho;
   const bool has_spin = engine.has_spin();
@@ -744,7 +692,7 @@ void BoundaryStage::accumulate()
 
   with_kernel(engine.parameters().kernel, [&](auto kernel) {
     using Kernel = decltype(kernel);
-    sums.run(engine.team(), sum, nall, pairs.touched, [&](int k, BoundarySum *own) {
+    sums.run(engine.team(), sum.data(), nall, pairs.touched, [&](int k, BoundarySum *own) {
       for (const auto &pair : pairs.of_thread[k]) {
         const Particle &f = engine.particle[pair.fluid];
         const Particle &w = engine.particle[pair.wall];
@@ -830,17 +778,13 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 {
   surface.has_flux = conducts();
   surface.run(group_bits, sides);
-  return surface.surface;
+  return surface.surface.data();
 }
 
 /* ---------------------------------------------------------------------- */
 
 double BoundaryStage::memory_usage() const
 {
-  double own = 0.0;
-  for (const SurfacePairs &some : surface_pairs) own += some.memory_usage();
-  return own + (double) nmax * sizeof(BoundarySum) + pairs.memory_usage() + sums.memory_usage() +
-      heat_sums.memory_usage() + flow_sums.memory_usage() + repulsion_sums.memory_usage() +
-      surface.memory_usage() +
-      bytes(heat_sum, repulsion, near, contact, number, body_of, own_numden);
+  return bytes(surface_pairs, sum, pairs, sums, heat_sums, flow_sums, repulsion_sums, surface,
+               heat_sum, repulsion, near, contact, number, body_of, own_numden);
 }

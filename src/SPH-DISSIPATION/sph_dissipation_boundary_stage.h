@@ -33,8 +33,10 @@ namespace SPHDissipation {
 
   class BoundaryStage : public Stage {
    public:
-    BoundaryStage(class LAMMPS *, Engine &, Exchange &, const std::string &style);
-    ~BoundaryStage() override;
+    BoundaryStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &style) :
+        Stage(lmp, engine, exchange), style(style), surface(lmp, engine, exchange)
+    {
+    }
 
     void add(Boundary *);       // no effect if it is there
     void remove(Boundary *);    // no effect if it is not there
@@ -45,7 +47,10 @@ namespace SPHDissipation {
     bool has_bodies() const { return body_bits != 0; }
     int bits_of_bodies() const { return body_bits; }
     bool all_symmetric() const { return symmetric_bits == group_bits; }
-    bool conducts() const;      // they take part in the conduction of heat
+    bool conducts() const    // they take part in the conduction of heat
+    {
+      return !boundaries.empty() && engine.constants().conducts();
+    }
     bool gives_heat() const;    // any of them, to a fluid that conducts it
 
     // after the densities: see ParticleRows::set_reference_volume()
@@ -98,7 +103,7 @@ namespace SPHDissipation {
     void set_state(int i, double rho, double pressure);
     void extend_fluid(int i, const WallCondition &, const Surface &, const BoundarySum &,
                       const double *acceleration);
-    double *spin(int i);
+    double *spin(int i) { return engine.has_spin() ? engine.spin[i].w : nullptr; }
 
     // the pressure of frozen fluid of the same body
 
@@ -138,34 +143,33 @@ namespace SPHDissipation {
     double memory_usage() const override;
 
    private:
-    BoundarySum *sum;                         // of owned and ghost atoms
+    std::vector<BoundarySum> sum;             // of owned and ghost atoms
     std::vector<BoundaryHeatSum> heat_sum;    // the same; empty if nothing conducts
     BoundaryPairs pairs;                      // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
-    int group_bits, symmetric_bits, body_bits, frozen_bits;
+    int group_bits = 0, symmetric_bits = 0, body_bits = 0, frozen_bits = 0;
 
-    int rows_bits;    // that the rows of the pairs were found for
+    int rows_bits = 0;    // that the rows of the pairs were found for
 
     // for BoundarySum::filled, of boundary atoms until the list is built anew
 
     std::vector<NearKernel> near;
     std::vector<NearKernel> contact;    // for BoundarySum::occupied
 
-    int nmax;
     ThreadSums<BoundarySum> sums;
     ThreadSums<BoundaryHeatSum> heat_sums;
     ThreadSums<double> flow_sums;
     std::vector<ForceSum> repulsion;    // of several threads
     ThreadSums<ForceSum> repulsion_sums;
     SurfaceStage surface;
-    bigint surface_step;    // that the normals of the surface are for
+    bigint surface_step = -1;    // that the normals of the surface are for
 
     // pairs with symmetric friction, of each thread; numbers of boundary particles, owned and ghost
 
     std::vector<SurfacePairs> surface_pairs;
     std::vector<int> number;
-    int nboundary;
+    int nboundary = 0;
 
     // numbers of the bodies of owned and ghost atoms, 0: none; sums over the other particles of the same body, of owned
     // atoms; empty without bodies
@@ -177,9 +181,12 @@ namespace SPHDissipation {
     enum class FrictionPart { ALL, ADDED, BODY };    // factor of surface_factor(), less 1, 1
     void run_friction(FrictionPart, const StepNoise *, bool linear);
 
-    bool has_energy() const;    // with thermal noise, or free surfaces
+    bool has_energy() const    // with thermal noise, or free surfaces
+    {
+      return engine.constants().thermal || engine.constants().continuity;
+    }
     double conductivity(int i) const;
-    double over(int i) const;
+    double over(int i) const { return beyond_surface(sum[i].occupied); }
     double stiffness(int i) const;
     void find_bits();
     void begin(NeighList *);
@@ -192,7 +199,6 @@ namespace SPHDissipation {
     };
     WallForce force_of(const BoundaryPair &) const;
     void add_energies(int n, const std::function<void(int, double)> &add) const;
-    int nforce() const;    // # of owned and, with newton on, ghost particles
     void set_near();
     void find_rows(NeighList *);
     void find_pairs();

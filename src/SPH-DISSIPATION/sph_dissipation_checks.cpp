@@ -44,27 +44,25 @@ using namespace SPHDissipation;
 std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool(int)> &wrong)
 {
   Atom *atom = lmp->atom;
-  tagint first = MAXTAGINT, first_all;
-  int found = 0, found_all;
+  tagint first = MAXTAGINT;
+  int found = 0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!wrong(i)) continue;
     found = 1;
     if (atom->tag_enable) first = std::min(first, atom->tag[i]);
   }
-  MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MAX, lmp->world);
-  MPI_Allreduce(&first, &first_all, 1, MPI_LMP_TAGINT, MPI_MIN, lmp->world);
-  if (!found_all) return "";
-  return atom->tag_enable ? fmt::format("particle {}", first_all) : "a particle";
+  first = over_all(lmp->world, first, MPI_MIN);
+  if (!over_all(lmp->world, found, MPI_MAX)) return "";
+  return atom->tag_enable ? fmt::format("particle {}", first) : "a particle";
 }
 
 /* ---------------------------------------------------------------------- */
 
 bigint SPHDissipation::count_particles(LAMMPS *lmp, const std::function<bool(int)> &counts)
 {
-  bigint mine = 0, all;
+  bigint mine = 0;
   for (int i = 0; i < lmp->atom->nlocal; i++) mine += counts(i) ? 1 : 0;
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
-  return all;
+  return over_all(lmp->world, mine, MPI_SUM);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -98,57 +96,54 @@ bool SPHDissipation::is_rerun(LAMMPS *lmp)
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_rerun(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+void FluidChecks::rerun() const
 {
   if (!is_rerun(lmp)) return;
   const bool gas = (model.choice.eos == Eos::IDEAL);
   if (gas || model.choice.own_temperatures)
-    lmp->error->all(FLERR, Error::NOLASTLINE,
-                    "Pair style {} {} cannot be used with rerun: snapshots have no internal "
-                    "energies of the particles",
-                    style, gas ? "eos ideal" : "temp energy");
-  for (int i = 1; i <= lmp->atom->ntypes; i++)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {} {} cannot be used with rerun: snapshots have no internal "
+               "energies of the particles",
+               style, gas ? "eos ideal" : "temp energy");
+  for (int i = 1; i <= atom->ntypes; i++)
     if (const char *keyword = model.keyword_that_needs(HEAT_CAPACITY, i))
-      lmp->error->all(
-          FLERR, Error::NOLASTLINE,
-          "Pair style {} with {} of type {} cannot be used with rerun: snapshots have no "
-          "internal energies of the particles",
-          style, keyword, i);
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair style {} with {} of type {} cannot be used with rerun: snapshots have no "
+                 "internal energies of the particles",
+                 style, keyword, i);
   if (model.choice.continuity)
-    lmp->error->all(FLERR, Error::NOLASTLINE,
-                    "Pair style {} density continuity cannot be used with rerun: snapshots have no "
-                    "densities of the particles",
-                    style);
-  for (int i = 1; i <= lmp->atom->ntypes; i++)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {} density continuity cannot be used with rerun: snapshots have no "
+               "densities of the particles",
+               style);
+  for (int i = 1; i <= atom->ntypes; i++)
     for (const StateInfo &one : state_table())
       if (one.kind == StateKind::STRAIN && one.count(model.coeffs[i].keywords.data()) &&
-          lmp->comm->me == 0)
-        lmp->error->warning(
+          comm->me == 0)
+        error->warning(
             FLERR,
             "Pair style {} with rerun: snapshots have no strains of {}, which for type {} are "
             "taken to be zero",
             style, one.name, i);
-  if (Fields::with_spins(lmp->atom) && lmp->comm->me == 0)
-    lmp->error->warning(FLERR,
-                        "Pair style {} with rerun: snapshots have no spins, forces are those of "
-                        "the spins that the particles have now",
-                        style);
+  if (Fields::with_spins(atom) && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style {} with rerun: snapshots have no spins, forces are those of "
+                   "the spins that the particles have now",
+                   style);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_styles(LAMMPS *lmp, const std::string &style)
+void FluidChecks::styles() const
 {
-  Force *force = lmp->force;
-  Error *error = lmp->error;
-  if (!lmp->atom->style_match(style.c_str()))
+  if (!atom->style_match(style.c_str()))
     error->all(FLERR, Error::NOLASTLINE, "Pair style {} requires atom style {}", style, style);
-  if (lmp->modify->get_fix_by_style("^" + style).empty())
+  if (modify->get_fix_by_style("^" + style).empty())
     error->all(FLERR, Error::NOLASTLINE, "Pair style {} requires fix {}", style, style);
   if (force->mvv2e != 1.0)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} requires units in which mass * velocity^2 is an energy, not units {}",
-               style, lmp->update->unit_style);
+               style, update->unit_style);
 
   // the number density, forces, and walls of one fluid do not include another one
 
@@ -163,7 +158,7 @@ void SPHDissipation::check_styles(LAMMPS *lmp, const std::string &style)
 
   // other atom styles sum drho of ghost atoms, which here has been communicated already
 
-  for (const auto &other : utils::split_words(lmp->atom->get_style()))
+  for (const auto &other : utils::split_words(atom->get_style()))
     if (other == "sph" || other == "rheo" || other == "rheo/thermal" || other == "mdpd")
       error->all(
           FLERR, Error::NOLASTLINE,
@@ -172,7 +167,7 @@ void SPHDissipation::check_styles(LAMMPS *lmp, const std::string &style)
 
   // LAMMPS takes pairs with a factor of zero out of the neighbor list, and thus out of the density
 
-  if (lmp->atom->molecular != Atom::ATOMIC)
+  if (atom->molecular != Atom::ATOMIC)
     for (int k = 1; k <= 3; k++)
       if (force->special_lj[k] != 1.0)
         error->all(FLERR, Error::NOLASTLINE,
@@ -192,27 +187,26 @@ void SPHDissipation::check_styles(LAMMPS *lmp, const std::string &style)
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_noise(LAMMPS *lmp, const std::string &style)
+void FluidChecks::noise() const
 {
-  Error *error = lmp->error;
-  if (lmp->update->whichflag == 2)
+  if (update->whichflag == 2)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} with temp cannot be used in a minimization: random forces have no "
                "energy",
                style);
-  if (!lmp->atom->tag_enable)
+  if (!atom->tag_enable)
     error->all(
         FLERR, Error::NOLASTLINE,
         "Pair style {} with temp needs particles with IDs, to which its random numbers belong",
         style);
-  if (!(lmp->update->dt > 0.0))
+  if (!(update->dt > 0.0))
     error->all(
         FLERR, Error::NOLASTLINE,
         "Pair style {} with temp needs a time step > 0, not {}: its random forces are those of "
         "one step",
-        style, lmp->update->dt);
+        style, update->dt);
   for (const std::string fix_style : {"dt/reset", "sph/dt"})
-    if (!lmp->modify->get_fix_by_style("^" + fix_style).empty())
+    if (!modify->get_fix_by_style("^" + fix_style).empty())
       error->all(
           FLERR, Error::NOLASTLINE,
           "Pair style {} with temp cannot be used with fix {}: its random forces are those of "
@@ -224,12 +218,8 @@ void SPHDissipation::check_noise(LAMMPS *lmp, const std::string &style)
    dim 1: the particles are on a line along x or y, whose periodic images must not interact
 ------------------------------------------------------------------------- */
 
-static void check_line_of_particles(LAMMPS *lmp, const std::string &style, const FluidModel &model,
-                                    double support)
+void FluidChecks::line_of_particles(double support) const
 {
-  Atom *atom = lmp->atom;
-  Domain *domain = lmp->domain;
-  Error *error = lmp->error;
   const double *const prd = domain->prd;
   constexpr double ROUNDOFF = 1.0e-10;
 
@@ -239,7 +229,7 @@ static void check_line_of_particles(LAMMPS *lmp, const std::string &style, const
   for (int i = 0; i < atom->nlocal; i++)
     if (!model.coeffs[atom->type[i]].other)
       for (int d = 0; d < 2; d++) corner[d] = std::max(corner[d], atom->x[i][d]);
-  MPI_Allreduce(corner, reference, 2, MPI_DOUBLE, MPI_MAX, lmp->world);
+  MPI_Allreduce(corner, reference, 2, MPI_DOUBLE, MPI_MAX, world);
   for (int i = 0; i < atom->nlocal; i++)
     if (!model.coeffs[atom->type[i]].other)
       for (int d = 0; d < 2; d++) {
@@ -247,7 +237,7 @@ static void check_line_of_particles(LAMMPS *lmp, const std::string &style, const
         if (domain->periodicity[d]) distance = std::min(distance, std::fabs(prd[d] - distance));
         spread[d] = std::max(spread[d], distance);
       }
-  MPI_Allreduce(spread, widest, 2, MPI_DOUBLE, MPI_MAX, lmp->world);
+  MPI_Allreduce(spread, widest, 2, MPI_DOUBLE, MPI_MAX, world);
 
   const int across = (widest[0] < widest[1]) ? 0 : 1;
   if (widest[across] > ROUNDOFF * std::max(prd[0], prd[1]))
@@ -265,33 +255,28 @@ static void check_line_of_particles(LAMMPS *lmp, const std::string &style, const
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_support(LAMMPS *lmp, const std::string &style, const FluidModel &model,
-                                   int dim, double support)
+void FluidChecks::support(int dim, double support) const
 {
-  Comm *comm = lmp->comm;
-  Error *error = lmp->error;
   if (comm->cutghostuser > 0.0 && comm->cutghostuser < support)
     error->all(FLERR, Error::NOLASTLINE,
                "The ghost cutoff {} of comm_modify is smaller than the support radius {} of "
                "pair style {}",
                comm->cutghostuser, support, style);
-  if (dim == 1) check_line_of_particles(lmp, style, model, support);
+  if (dim == 1) line_of_particles(support);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_spins(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+void FluidChecks::spins() const
 {
-  if (lmp->domain->dimension != 2) return;
-  const Atom *const atom = lmp->atom;
+  if (domain->dimension != 2) return;
   const auto tilted = first_particle(lmp, [&](int i) {
     const double *const omega = atom->omega[i];
     return !model.coeffs[atom->type[i]].other && (omega[0] != 0.0 || omega[1] != 0.0);
   });
   if (!tilted.empty())
-    lmp->error->all(FLERR, Error::NOLASTLINE,
-                    "Pair style {}: spin must be along z in 2d, which that of {} is not", style,
-                    tilted);
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {}: spin must be along z in 2d, which that of {} is not", style, tilted);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -341,14 +326,12 @@ bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b
    also those that another fix moves, as the particles of a rigid body: their densities need all neighbors
 ------------------------------------------------------------------------- */
 
-void SPHDissipation::check_fluid_lists(LAMMPS *lmp, const std::string &style,
-                                       const FluidModel &model)
+void FluidChecks::fluid_lists() const
 {
-  const Neighbor *const neighbor = lmp->neighbor;
   if (!neighbor->nex_type && !neighbor->nex_group && !neighbor->includegroup) return;
   int others = 0;    // which have checks of their own
   for (const auto &name : {"^sph/wall", "^sph/open"})
-    for (const auto &ifix : lmp->modify->get_fix_by_style(name)) others |= ifix->groupbit;
+    for (const auto &ifix : modify->get_fix_by_style(name)) others |= ifix->groupbit;
 
   const std::set<Kind> kinds = all_kinds(lmp);
   const auto is_fluid = [&](const Kind &kind) {
@@ -357,81 +340,77 @@ void SPHDissipation::check_fluid_lists(LAMMPS *lmp, const std::string &style,
   for (const Kind &a : kinds)
     for (const Kind &b : kinds)
       if (a.first == b.first && is_fluid(a) && is_fluid(b) && !in_neighbor_lists(lmp, a, b))
-        lmp->error->all(FLERR, Error::NOLASTLINE,
-                        "Pair style {}: neigh_modify exclude or include leaves out pairs of the "
-                        "fluid of type {}",
-                        style, a.first);
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Pair style {}: neigh_modify exclude or include leaves out pairs of the "
+                   "fluid of type {}",
+                   style, a.first);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_room(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+void FluidChecks::room() const
 {
-  const Fields &fields = *Fields::of(lmp->atom);
-  for (int i = 1; i <= lmp->atom->ntypes; i++)
+  const Fields &fields = *Fields::of(atom);
+  for (int i = 1; i <= atom->ntypes; i++)
     for (const StateInfo &one : state_table()) {
       int count = 0;
       for (const StateInfo &guest : state_table())
         if (guest.owner == one.first) count += guest.count(model.coeffs[i].keywords.data());
       if (model.coeffs[i].other || count <= fields.room(one)) continue;
-      lmp->error->all(FLERR, Error::NOLASTLINE,
-                      "Pair style {}: the states of {} of type {} are {}, but particles have room "
-                      "for {}; use atom_style {} {}{}",
-                      style, one.keyword, i, count, fields.room(one), style, one.keyword,
-                      (one.most > 1) ? fmt::format(" {}", count) : "");
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair style {}: the states of {} of type {} are {}, but particles have room "
+                 "for {}; use atom_style {} {}{}",
+                 style, one.keyword, i, count, fields.room(one), style, one.keyword,
+                 (one.most > 1) ? fmt::format(" {}", count) : "");
     }
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_state_times(LAMMPS *lmp, const std::string &style,
-                                       const FluidModel &model)
+void FluidChecks::state_times() const
 {
   constexpr double SHORT = 1.0e-3;    // over the time step
-  if (lmp->comm->me != 0) return;
-  for (int i = 1; i <= lmp->atom->ntypes; i++) {
+  if (comm->me != 0) return;
+  for (int i = 1; i <= atom->ntypes; i++) {
     if (model.coeffs[i].other) continue;
     const double *const coeffs = model.coeffs[i].keywords.data();
     for (const StateInfo &one : state_table())
       for (int k = 0; one.instead && k < one.count(coeffs); k++)
-        if (one.time(coeffs, k) < SHORT * lmp->update->dt)
-          lmp->error->warning(FLERR,
-                              "Pair style {}: the time {:g} of {} of type {} is far below the "
-                              "time step {:g}; {} does the same",
-                              style, one.time(coeffs, k), one.name, i, lmp->update->dt,
-                              one.instead);
+        if (one.time(coeffs, k) < SHORT * update->dt)
+          error->warning(FLERR,
+                         "Pair style {}: the time {:g} of {} of type {} is far below the "
+                         "time step {:g}; {} does the same",
+                         style, one.time(coeffs, k), one.name, i, update->dt, one.instead);
   }
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_surface(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+void FluidChecks::surface() const
 {
-  if (!model.choice.continuity || lmp->comm->me != 0) return;
-  for (int i = 1; i <= lmp->atom->ntypes; i++) {
+  if (!model.choice.continuity || comm->me != 0) return;
+  for (int i = 1; i <= atom->ntypes; i++) {
     const TypeCoeff &type = model.coeffs[i];
     if (!type.other && type.eos.pb > 0.0)
-      lmp->error->warning(FLERR,
-                          "Pair style {} density continuity: pb {:g} of type {} presses free "
-                          "surfaces outward; use pb 0",
-                          style, type.eos.pb, i);
+      error->warning(FLERR,
+                     "Pair style {} density continuity: pb {:g} of type {} presses free "
+                     "surfaces outward; use pb 0",
+                     style, type.eos.pb, i);
   }
   const Shear shear = model.choice.shear;
   if ((shear == Shear::MORRIS || shear == Shear::ESPANOL) && !model.constants().inviscid)
-    lmp->error->warning(FLERR,
-                        "Pair style {} density continuity: shear {} exerts a torque on a fluid "
-                        "with a free surface that rotates; use shear mg",
-                        style, shear_name(shear));
+    error->warning(FLERR,
+                   "Pair style {} density continuity: shear {} exerts a torque on a fluid "
+                   "with a free surface that rotates; use shear mg",
+                   style, shear_name(shear));
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_masses(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+void FluidChecks::masses() const
 {
-  Atom *atom = lmp->atom;
-  Error *error = lmp->error;
   int integrated = 0;
-  for (const auto &ifix : lmp->modify->get_fix_by_style("^" + style)) integrated |= ifix->groupbit;
+  for (const auto &ifix : modify->get_fix_by_style("^" + style)) integrated |= ifix->groupbit;
 
   const auto weightless = first_particle(lmp, [&](int i) {
     const bool matters = !model.coeffs[atom->type[i]].other || (atom->mask[i] & integrated);
@@ -445,18 +424,17 @@ void SPHDissipation::check_masses(LAMMPS *lmp, const std::string &style, const F
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_numbers(LAMMPS *lmp, const std::string &style, const FluidModel &model)
+void FluidChecks::numbers() const
 {
-  Atom *atom = lmp->atom;
   const auto check = [&](const std::string &name, const std::string &help,
                          const std::function<bool(int)> &finite) {
     const auto odd = first_particle(lmp, [&](int i) {
       return !model.coeffs[atom->type[i]].other && !finite(i);
     });
     if (!odd.empty())
-      lmp->error->all(FLERR, Error::NOLASTLINE,
-                      "Pair style {}: {} must be a finite number, which that of {} is not; {}",
-                      style, name, odd, help);
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair style {}: {} must be a finite number, which that of {} is not; {}", style,
+                 name, odd, help);
   };
   const auto finite = [](const double *a) {
     return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
@@ -480,12 +458,10 @@ void SPHDissipation::check_numbers(LAMMPS *lmp, const std::string &style, const 
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_sizes(LAMMPS *lmp, const std::string &style, const FluidModel &model,
-                                 int boundary_bits)
+void FluidChecks::sizes(int boundary_bits) const
 {
   if (model.choice.volume != Volume::NUMBER) return;
   constexpr double FAR = 1.0e300, TOLERATED = 1.1;
-  Atom *atom = lmp->atom;
   const int n = atom->ntypes;
   std::vector<double> extent(2 * (n + 1), -FAR), all(2 * (n + 1));    // largest m, -m by type
   for (int i = 0; i < atom->nlocal; i++) {
@@ -494,22 +470,20 @@ void SPHDissipation::check_sizes(LAMMPS *lmp, const std::string &style, const Fl
     extent[2 * type] = std::max(extent[2 * type], atom->rmass[i]);
     extent[2 * type + 1] = std::max(extent[2 * type + 1], -atom->rmass[i]);
   }
-  MPI_Allreduce(extent.data(), all.data(), 2 * (n + 1), MPI_DOUBLE, MPI_MAX, lmp->world);
+  MPI_Allreduce(extent.data(), all.data(), 2 * (n + 1), MPI_DOUBLE, MPI_MAX, world);
   for (int type = 1; type <= n; type++)
-    if (all[2 * type] > -TOLERATED * all[2 * type + 1] && lmp->comm->me == 0)
-      lmp->error->warning(FLERR,
-                          "Pair style {}: masses of type {} differ by a factor of {:.3g}, and with "
-                          "volume number neighbors of different size get wrong volumes; use volume "
-                          "mass if it is their sizes that differ, not their densities",
-                          style, type, -all[2 * type] / all[2 * type + 1]);
+    if (all[2 * type] > -TOLERATED * all[2 * type + 1] && comm->me == 0)
+      error->warning(FLERR,
+                     "Pair style {}: masses of type {} differ by a factor of {:.3g}, and with "
+                     "volume number neighbors of different size get wrong volumes; use volume "
+                     "mass if it is their sizes that differ, not their densities",
+                     style, type, -all[2 * type] / all[2 * type + 1]);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const FluidModel &model,
-                                    const std::function<double(int)> &heat, int boundary_bits)
+void FluidChecks::energies(const std::function<double(int)> &heat, int boundary_bits) const
 {
-  Atom *atom = lmp->atom;
   const bool gas = (model.choice.eos == Eos::IDEAL);
   bigint number[2] = {0, 0}, all[2];    // of particles whose heat counts, of those without heat
   for (int i = 0; i < atom->nlocal; i++) {
@@ -521,18 +495,17 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
     number[0]++;
     if (atom->esph[i] == 0.0 || !(heat(i) > 0.0)) number[1]++;
   }
-  MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
-  if (all[1] && !gas && lmp->comm->me == 0)
-    lmp->error->warning(FLERR,
-                        "Pair style {}: {} of {} particles that conduct heat, or whose pressure or "
-                        "viscosity depends on it, have none; use keyword temperature of fix {}",
-                        style, all[1], all[0], style);
-  if (all[1] && gas && lmp->comm->me == 0)
-    lmp->error->warning(
-        FLERR,
-        "Pair style {} eos ideal: {} of {} particles have no internal energy and thus "
-        "no pressure; use set ... sph/e",
-        style, all[1], all[0]);
+  MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all[1] && !gas && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style {}: {} of {} particles that conduct heat, or whose pressure or "
+                   "viscosity depends on it, have none; use keyword temperature of fix {}",
+                   style, all[1], all[0], style);
+  if (all[1] && gas && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style {} eos ideal: {} of {} particles have no internal energy and thus "
+                   "no pressure; use set ... sph/e",
+                   style, all[1], all[0]);
 }
 
 /* ----------------------------------------------------------------------
@@ -540,11 +513,8 @@ void SPHDissipation::check_energies(LAMMPS *lmp, const std::string &style, const
    each axis
 ------------------------------------------------------------------------- */
 
-void SPHDissipation::check_neighbors(LAMMPS *lmp, const std::string &style, const FluidModel &model,
-                                     const Engine &engine, int boundary_bits, int dim,
-                                     double support)
+void FluidChecks::neighbors(const Engine &engine, int boundary_bits, int dim, double support) const
 {
-  Atom *atom = lmp->atom;
   auto is_fluid = [&](int i) {
     return !model.coeffs[atom->type[i]].other && !(atom->mask[i] & boundary_bits);
   };
@@ -553,17 +523,17 @@ void SPHDissipation::check_neighbors(LAMMPS *lmp, const std::string &style, cons
 
   bigint number[2] = {0, 0}, all[2];    // of fluid particles, of their neighbors
   for (int i = 0; i < atom->nlocal; i++) number[0] += is_fluid(i);
-  const bool ghosts = lmp->force->newton_pair;
+  const bool ghosts = force->newton_pair;
   engine.visit_pairs([&](int i, int j, bigint) {
     number[1] += is_fluid(i);
     if (ghosts || j < atom->nlocal) number[1] += is_fluid(j);
   });
-  MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+  MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
 
   const int enough = 2 * dim;
-  if (all[0] > enough && all[1] < enough * all[0] && lmp->comm->me == 0)
-    lmp->error->warning(FLERR,
-                        "Pair style {}: particles have only {:.2g} neighbors on average within the "
-                        "support radius {:g}; use an rc of three to four particle distances",
-                        style, static_cast<double>(all[1]) / static_cast<double>(all[0]), support);
+  if (all[0] > enough && all[1] < enough * all[0] && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style {}: particles have only {:.2g} neighbors on average within the "
+                   "support radius {:g}; use an rc of three to four particle distances",
+                   style, static_cast<double>(all[1]) / static_cast<double>(all[0]), support);
 }

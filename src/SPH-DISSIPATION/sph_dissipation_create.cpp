@@ -87,9 +87,7 @@ void SPHDissipation::remove_particle(LAMMPS *lmp, int i)
 
 void SPHDissipation::end_change(LAMMPS *lmp, int nlocal_before)
 {
-  bigint change = lmp->atom->nlocal - nlocal_before, all;
-  MPI_Allreduce(&change, &all, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
-  end_change_by(lmp, all);
+  end_change_by(lmp, over_all<bigint>(lmp->world, lmp->atom->nlocal - nlocal_before, MPI_SUM));
 }
 
 void SPHDissipation::end_change_by(LAMMPS *lmp, bigint change)

@@ -18,7 +18,6 @@
 
 #include "lmptype.h"
 
-#include <mpi.h>
 #include <utility>
 #include <vector>
 

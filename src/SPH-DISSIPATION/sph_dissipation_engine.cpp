@@ -14,6 +14,7 @@
 #include "sph_dissipation_engine.h"
 
 #include "atom.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "sph_dissipation_fields.h"
@@ -34,12 +35,8 @@ using namespace SPHDissipation;
 static const Parameters NO_PARAMETERS;    // of an engine before its setup()
 
 Engine::Engine(LAMMPS *lmp) :
-    Pointers(lmp), particle(nullptr), density(nullptr), force(nullptr), zeta_term(nullptr),
-    state_pressure(nullptr), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), divergence(nullptr),
-    spin(nullptr), loops(&loops_plain), par(&NO_PARAMETERS), fixed(&NO_PARAMETERS),
-    rate_loop(nullptr), force_loop(nullptr), data(), atom_rows(new ParticleRows()),
-    threads(&one_thread), weights(nullptr), slopes(nullptr), nlocal_forces(-1), nghost_forces(-1),
-    nmax(0), nmax_weights(0), imax(0), pair_max(0), slope_max(0)
+    Pointers(lmp), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), par(&NO_PARAMETERS),
+    fixed(&NO_PARAMETERS), atom_rows(new ParticleRows())
 {
   choose_loops("auto");
 }
@@ -378,12 +375,8 @@ void Engine::accumulate_rates()
 
 double Engine::slope_of(int i, int j) const
 {
-  double rsq = 0.0;
-  for (int d = 0; d < 3; d++) {
-    const double r = particle[i].x[d] - particle[j].x[d];
-    rsq += r * r;
-  }
-  return kernel_slope(par->kernel, par->dim, sqrt(rsq), par->support);
+  const double r = sqrt(MathExtra::distsq3(particle[i].x, particle[j].x));
+  return kernel_slope(par->kernel, par->dim, r, par->support);
 }
 
 /* ----------------------------------------------------------------------
@@ -581,10 +574,10 @@ void Engine::add_drag(int i, int not_fluid, bool linear, double *force_of, doubl
 
 /* ---------------------------------------------------------------------- */
 
-LoopData Engine::part(PairSubset &some) const
+LoopData Engine::part(PairSubset &some, int spare) const
 {
   const std::size_t end = some.neighbor.size();
-  some.neighbor.resize(end + 3 * BLOCK, data.spare);    // pass 2 looks ahead
+  some.neighbor.resize(end + 3 * BLOCK, spare);    // pass 2 looks ahead
   LoopData part = data;
   part.inum = static_cast<int>(some.rows.size());
   part.ilist = some.rows.data();
@@ -592,19 +585,20 @@ LoopData Engine::part(PairSubset &some) const
   part.count = some.count.data();
   part.neighbor = some.neighbor.data();
   part.slope = some.slope.data();
+  part.spare = spare;
   part.tally = nullptr;
   return part;
 }
 
 void Engine::accumulate_flow(int place, PairSubset &some, double *rate) const
 {
-  loops->flow(par->flows_alike >> place & 1)(part(some), flow[place].data(), rate);
+  loops->flow(par->flows_alike >> place & 1)(part(some, data.spare), flow[place].data(), rate);
 }
 
 void Engine::accumulate_forces(PairSubset &some, ForceSum *force_out, ChannelSums &side_out,
                                double *divergence_out)
 {
-  LoopData part = this->part(some);
+  LoopData part = this->part(some, data.spare);
   part.force = force_out;
   part.side = side_out.rows.data();
   part.divergence = divergence_out;
@@ -653,24 +647,15 @@ void PairSubset::end_row(int spare)
   for (int l = 0; neighbor.size() % BLOCK; l++) add(spare + l, 0.0);
 }
 
-double PairSubset::memory_usage() const
-{
-  return bytes(rows, count, neighbor, first, slope);
-}
-
 /* ---------------------------------------------------------------------- */
 
 double Engine::memory_usage() const
 {
   double per_atom = sizeof(Particle) + sizeof(DensitySum) + sizeof(ForceSum) + 3 * sizeof(double);
   if (has_spin()) per_atom += sizeof(Spin);
-  double sum = nmax * per_atom + (double) nmax_weights * sizeof(double) +
+  return nmax * per_atom + (double) nmax_weights * sizeof(double) +
       (double) imax * (sizeof(bigint) + sizeof(int)) + (double) pair_max * sizeof(int) +
       (double) slope_max * sizeof(double) +
-      bytes(viscosity, excess, square, volume, energy, wall_energy, wall_energy_tags, types);
-  for (const auto &rows : flow) sum += bytes(rows);
-  for (const auto &rates : flow_rate) sum += bytes(rates);
-  for (const auto &numbers : random) sum += bytes(numbers);
-  return sum + side.memory_usage() + density_sums.memory_usage() + force_sums.memory_usage() +
-      side_sums.memory_usage() + scalar_sums.memory_usage();
+      bytes(viscosity, excess, square, volume, energy, wall_energy, wall_energy_tags, types, flow,
+            flow_rate, random, side, density_sums, force_sums, side_sums, scalar_sums);
 }

@@ -191,7 +191,7 @@ namespace SPHDissipation {
     void add_row(int i);
     void add(int j, double slope);
     void end_row(int spare);    // fills up the last block
-    double memory_usage() const;
+    double memory_usage() const { return bytes(rows, count, neighbor, first, slope); }
 
     // function(i) for all particles of the pairs, for some of them several times, and spare ones
     template <class Function> void visit(Function &&function) const
@@ -329,16 +329,15 @@ namespace SPHDissipation {
     double memory_usage() const;
     const char *instruction_set() const { return loops->name; }
 
-    Particle *particle;
-    DensitySum *density;
-    ForceSum *force;
+    Particle *particle = nullptr;
+    DensitySum *density = nullptr;
+    ForceSum *force = nullptr;
     ChannelSums side;
-    Field torques()    // micropolar only
-    {
-      return {side.torque(0), (std::size_t) side.width, 3};
-    }
-    double *zeta_term;         // zeta cdot/c, set by the caller on owned and ghost atoms
-    double *state_pressure;    // of their states, as zeta_term; set if there are any
+    // no numbers without spins
+    Field torques() { return {side.rows.data(), (std::size_t) side.width, has_spin() ? 3 : 0}; }
+    Field spins() { return field(spin, has_spin() ? spin->w : nullptr, has_spin() ? 3 : 0); }
+    double *zeta_term = nullptr;         // zeta cdot/c, set by the caller on owned and ghost atoms
+    double *state_pressure = nullptr;    // of their states, as zeta_term; set if there are any
     std::vector<std::vector<FlowRow>> flow;    // the same, of the flows of any type
     std::vector<FlowRow> &heat() { return flow[HEAT_FLOW]; }
     std::vector<std::vector<double>> flow_rate;    // what each flow has given in the last forces
@@ -348,21 +347,22 @@ namespace SPHDissipation {
     void set_wall_energy(const double *);    // what walls hold of it, of owned atoms
     void forget_wall_energy();
     std::vector<Excess> excess;    // the same; empty: of no particle
-    double *divergence;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
-    Spin *spin;            // micropolar only
+    double *divergence =
+        nullptr;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
+    Spin *spin = nullptr;    // micropolar only
 
    private:
     mutable std::vector<double> wall_energy;         // empty: nothing
     mutable std::vector<tagint> wall_energy_tags;    // of the atoms in its order
     void follow_atoms() const;
-    const LoopSet *loops;
+    const LoopSet *loops = &loops_plain;
     const Parameters *par;
     const Constants *fixed;
-    Loop rate_loop, force_loop;
-    LoopData data;
+    Loop rate_loop = nullptr, force_loop = nullptr;
+    LoopData data = {};
     const std::unique_ptr<ParticleRows> atom_rows;
-    Threads one_thread, *threads;
-    double *weights;    // reference volumes of atoms
+    Threads one_thread, *threads = &one_thread;
+    double *weights = nullptr;    // reference volumes of atoms
     std::vector<double> square, volume;
     std::vector<int> types;    // of owned, ghost, and spare particles, if their coefficients differ
 
@@ -378,11 +378,11 @@ namespace SPHDissipation {
     ThreadSums<double> side_sums;
     ThreadSums<double> scalar_sums;    // of all else that is one number
 
-    double *slopes;    // F of pairs, if pass 1 leaves them
+    double *slopes = nullptr;    // F of pairs, if pass 1 leaves them
 
-    int nlocal_forces, nghost_forces;    // # of atoms that force[] is of
-    int nmax, nmax_weights, imax;
-    bigint pair_max, slope_max;
+    int nlocal_forces = -1, nghost_forces = -1;    // # of atoms that force[] is of
+    int nmax = 0, nmax_weights = 0, imax = 0;
+    bigint pair_max = 0, slope_max = 0;
 
     double slope_of(int i, int j) const;
     void grow_atoms();
@@ -390,7 +390,7 @@ namespace SPHDissipation {
     void set_weights();
     void grow_pairs(NeighList *, Leave);
     LoopData part(int thread) const;
-    LoopData part(PairSubset &) const;
+    LoopData part(PairSubset &, int spare) const;
     double *room_for_numbers(int thread, const LoopData &);
     void run_density(Loop);
     void run_noise(NoiseLoop, const NoiseData &);

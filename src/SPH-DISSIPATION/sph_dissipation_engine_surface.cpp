@@ -84,34 +84,15 @@ void Engine::accumulate_friction(SurfacePairs &some, const StepNoise *of_step, i
 
   // the pairs of each row, with spare particles up to a whole block
 
-  some.ilist.resize(nrow);
-  some.first.resize(nrow);
-  some.count.resize(nrow);
-  some.neighbor.clear();
-  some.slope.clear();
+  some.subset.begin();
   for (std::size_t k = 0; k < nrow; k++) {
-    some.ilist[k] = static_cast<int>(k);
-    some.first[k] = static_cast<bigint>(some.neighbor.size());
-    some.count[k] = some.begin[k + 1] - some.begin[k];
-    for (int p = some.begin[k]; p < some.begin[k + 1]; p++) {
-      some.neighbor.push_back(static_cast<int>(nrow) + p);
-      some.slope.push_back(some.pairs[p].slope);
-    }
-    for (int l = 0; some.neighbor.size() % BLOCK; l++) {
-      some.neighbor.push_back(static_cast<int>(spare) + l);
-      some.slope.push_back(0.0);
-    }
+    some.subset.add_row(static_cast<int>(k));
+    for (int p = some.begin[k]; p < some.begin[k + 1]; p++)
+      some.subset.add(static_cast<int>(nrow) + p, some.pairs[p].slope);
+    some.subset.end_row(static_cast<int>(spare));
   }
-  some.neighbor.resize(some.neighbor.size() + 3 * BLOCK, static_cast<int>(spare));
 
-  LoopData part = data;
-  part.inum = static_cast<int>(nrow);
-  part.ilist = some.ilist.data();
-  part.first = some.first.data();
-  part.count = some.count.data();
-  part.neighbor = some.neighbor.data();
-  part.slope = some.slope.data();
-  part.spare = static_cast<int>(spare);
+  LoopData part = this->part(some.subset, static_cast<int>(spare));
   part.particle = some.particle.data();
   part.spin = some.spin.data();
   part.excess = nullptr;
@@ -119,7 +100,6 @@ void Engine::accumulate_friction(SurfacePairs &some, const StepNoise *of_step, i
   part.weight = some.weight.data();
   part.force = some.force.data();
   part.side = some.side.rows.data();
-  part.tally = nullptr;
   if (!of_step || !of_step->surfaces.data) return force_loop(part);
 
   const NoiseData &of_all = *of_step->surfaces.data;
@@ -150,7 +130,6 @@ void Engine::accumulate_friction(SurfacePairs &some, const StepNoise *of_step, i
 
 double SurfacePairs::memory_usage() const
 {
-  return side.memory_usage() +
-      bytes(pairs, walls, begin, force, particle, spin, weight, slope, type, ilist, count, neighbor,
-            first, tag, mobility, row);
+  return bytes(side, pairs, walls, begin, force, particle, spin, weight, type, subset, tag,
+               mobility, row);
 }

@@ -62,10 +62,9 @@ namespace SPHDissipation {
 
     std::vector<Particle> particle;
     std::vector<Spin> spin;
-    std::vector<double> weight, slope;
-    std::vector<int> type, ilist, count, neighbor;
-    std::vector<bigint> first;
-    std::vector<double> tag, mobility;
+    std::vector<int> type;
+    PairSubset subset;
+    std::vector<double> weight, tag, mobility;
     std::vector<NoiseRow> row;
 
     std::size_t size() const { return walls.size() + pairs.size(); }

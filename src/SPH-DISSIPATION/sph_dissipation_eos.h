@@ -50,21 +50,16 @@ namespace SPHDissipation {
   // the defaults are those of a type without coefficients: no pressure, no energy
 
   struct EosParams {
-    SPH_FUNCTION EosParams() :
-        rho0(1.0), c0(0.0), pb(0.0), gamma(7.0), gruneisen(0.0), c_el(0.0), pb_el(0.0),
-        rho_min(-HUGE_VAL)
-    {
-    }
 
-    double rho0;     // reference density, mass/length^n
-    double c0;       // adiabatic sound speed at rho0, and at the reference temperature
-    double pb;       // background pressure: that at rho0, and at the reference temperature
-    double gamma;    // exponent of tait and ideal
+    double rho0 = 1.0;     // reference density, mass/length^n
+    double c0 = 0.0;       // adiabatic sound speed at rho0, and at the reference temperature
+    double pb = 0.0;       // background pressure: that at rho0, and at the reference temperature
+    double gamma = 7.0;    // exponent of tait and ideal
 
     // by derive()
-    double gruneisen;      // Gamma
-    double c_el, pb_el;    // sound speed and background pressure without heat
-    double rho_min;        // density below which there is no pressure; -inf with tension
+    double gruneisen = 0.0;            // Gamma
+    double c_el = 0.0, pb_el = 0.0;    // sound speed and background pressure without heat
+    double rho_min = -HUGE_VAL;    // density below which there is no pressure; -inf with tension
 
     SPH_FUNCTION double impedance() const { return rho0 * c0; }    // acoustic
     void derive(Eos eos, double gruneisen_in, double reference_heat, bool tension = true);

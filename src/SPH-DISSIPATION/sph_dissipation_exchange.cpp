@@ -15,19 +15,11 @@
 
 #include "comm.h"
 #include "force.h"
-#include "pair.h"
 
 #include <algorithm>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-/* ---------------------------------------------------------------------- */
-
-Exchange::Exchange(LAMMPS *lmp, Pair *pair) :
-    Pointers(lmp), pair(pair), nreceived(-1), threads(&one_thread)
-{
-}
 
 /* ----------------------------------------------------------------------
    call send(# of values per atom) for each message, with the fields that are in it

@@ -19,6 +19,7 @@
 
 #include <cstddef>
 #include <mpi.h>
+#include <type_traits>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -60,13 +61,23 @@ namespace SPHDissipation {
     return all;
   }
 
+  // a number of all processors together; op: MPI_SUM, MPI_MIN, or MPI_MAX of those of each
+
+  template <class T> T over_all(MPI_Comm world, T mine, MPI_Op op)
+  {
+    const MPI_Datatype whole = (sizeof(T) == sizeof(int)) ? MPI_INT : MPI_LONG_LONG;
+    MPI_Allreduce(MPI_IN_PLACE, &mine, 1, std::is_integral<T>::value ? whole : MPI_DOUBLE, op,
+                  world);
+    return mine;
+  }
+
   // The communication of a pair style between owned and ghost atoms: a stage of the step names the
   // fields that are to go, the pair style hands on the packing that LAMMPS asks for.  Fields that are
   // wider than one message go in several.
 
   class Exchange : protected Pointers {
    public:
-    Exchange(class LAMMPS *, Pair *);
+    Exchange(class LAMMPS *lmp, Pair *pair) : Pointers(lmp), pair(pair) {}
     void set_threads(Threads *team) { threads = team; }    // which the caller keeps
     static constexpr int ROOM =
         24;    // values per atom of a message, for which the pair style asks LAMMPS
@@ -88,9 +99,9 @@ namespace SPHDissipation {
     Pair *pair;
     std::vector<Field> fields;
     std::vector<int> from_above;
-    int nreceived;    // messages so far, while somebody asks for ghosts_from_above(); else -1
+    int nreceived = -1;    // messages so far, while somebody asks for ghosts_from_above(); else -1
     mutable Threads one_thread;
-    Threads *threads;
+    Threads *threads = &one_thread;
 
     template <class Copy> int for_each(int n, const Copy &copy) const;
 

@@ -50,15 +50,16 @@ namespace SPHDissipation {
     const bool has_spins;
 
     // rate of the internal energy when the step began, see TimeStep; of a particle of an open zone, see OpenCondition
-    double *desph_before;
+    double *desph_before = nullptr;
 
-    double *inertia;      // moment of inertia per mass, length^2; nullptr without spins
-    double **omegaest;    // spin at the end of the step, extrapolated; nullptr without spins
+    double *inertia = nullptr;    // moment of inertia per mass, length^2; nullptr without spins
+    double **omegaest =
+        nullptr;    // spin at the end of the step, extrapolated; nullptr without spins
 
     // States of channels, by their place in the list States; nullptr where there is no room.  Of a new particle 0; of
     // StateKind::STRAIN also minus the factor by which it differs from the density that the next forces find; -1 of a particle
     // from a data file where the file has it in the column of another one
-    double *state[MOST_STATES];
+    double *state[MOST_STATES] = {};
     std::vector<int> slots;    // places of those that there is room for
 
     int room(const StateInfo &) const;    // number of them, of a channel
@@ -67,17 +68,14 @@ namespace SPHDissipation {
     // Of density continuity: the part of rho that is the sum of the last forces, 0 of a density that waits for its first
     // sum (that of a new particle is 0, which means rho0); of the last evaluation of the diffusion the rate of the volume,
     // that of the internal energy, and how full the support is; the rate of the volume of the evaluation before
-    double *rho_sum, *vol_rate, *vol_rate_before, *vol_heat, *vol_support;
-    double *shear_rate;       // of the last forces, if any viscosity depends on it, otherwise 0
-    bool density_in_files;    // data files have a column rho
+    double *rho_sum = nullptr, *vol_rate = nullptr, *vol_rate_before = nullptr;
+    double *vol_heat = nullptr, *vol_support = nullptr;
+    double *shear_rate =
+        nullptr;    // of the last forces, if any viscosity depends on it, otherwise 0
+    bool density_in_files = false;    // data files have a column rho
 
    protected:
-    explicit Fields(bool spins) :
-        has_spins(spins), desph_before(nullptr), inertia(nullptr), omegaest(nullptr), state(),
-        rho_sum(nullptr), vol_rate(nullptr), vol_rate_before(nullptr), vol_heat(nullptr),
-        vol_support(nullptr), shear_rate(nullptr), density_in_files(false)
-    {
-    }
+    explicit Fields(bool spins) : has_spins(spins) {}
     ~Fields() = default;
   };
 

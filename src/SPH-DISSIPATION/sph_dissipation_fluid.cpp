@@ -75,9 +75,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)), dim(0), support(0.0),
-    stale(false), own_list(false), integrated(0), set_up(false), announced(false), continued(false),
-    touched(false), changed(false), warned_step(0.0), noise_step(0.0), fast_lists(0)
+    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary))
 {
 }
 
@@ -91,9 +89,7 @@ void Fluid::settings(int narg, char **arg)
 {
   model->settings(narg, arg);
 
-  int found = engine->choose_loops(model->simd), found_all;
-  MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MIN, world);
-  if (!found_all)
+  if (!over_all<int>(world, engine->choose_loops(model->simd), MPI_MIN))
     error->all(FLERR,
                "Pair_style {} simd {}: not in this processor, or not in this executable of LAMMPS",
                style, model->simd);
@@ -167,8 +163,9 @@ void Fluid::check_setup()
 {
   if (spins && model->dimension() == 1)
     error->all(FLERR, Error::NOLASTLINE, "Pair_style {} needs dim 2 or 3: no spin in dim 1", style);
-  check_styles(lmp, style);
-  check_rerun(lmp, style, *model);
+  const FluidChecks check(lmp, style, *model);
+  check.styles();
+  check.rerun();
   if (update->whichflag == 2 && model->choice.eos == Eos::IDEAL)
     error->all(FLERR,
                "Pair style {} with eos ideal cannot be used in a minimization: its energy depends "
@@ -181,14 +178,14 @@ void Fluid::check_setup()
           "Pair style {} with gruneisen cannot be used in a minimization: its energy depends "
           "on the heat of the particles, not on their positions alone",
           style);
-  if (model->choice.thermal) check_noise(lmp, style);
+  if (model->choice.thermal) check.noise();
   dim = model->dimension();
   support = model->common_support(pair->setflag);
   find_own_types();
-  check_fluid_lists(lmp, style, *model);
-  check_room(lmp, style, *model);
-  check_support(lmp, style, *model, dim, support);
-  if (spins) check_spins(lmp, style, *model);
+  check.fluid_lists();
+  check.room();
+  check.support(dim, support);
+  if (spins) check.spins();
 }
 
 /* ----------------------------------------------------------------------
@@ -271,11 +268,12 @@ void Fluid::adopt()
 
 bigint Fluid::compute(PairTally *tally)
 {
+  const FluidChecks check(lmp, style, *model);
   if (neighbor->ago == 0) {
-    check_masses(lmp, style, *model);
+    check.masses();
     if (checks_speed()) check_speed();
   }
-  if (update->setupflag) check_numbers(lmp, style, *model);
+  if (update->setupflag) check.numbers();
   if (touched) {
     const std::uint64_t hash = model->hash();
     changed = changed || hash != model->hash_of_forces;
@@ -450,7 +448,7 @@ void Fluid::sum_bound()
 
 const double *Fluid::bound() const
 {
-  return (model->choice.limit != Limit::NO) ? limit->bound : nullptr;
+  return (model->choice.limit != Limit::NO) ? limit->bound.data() : nullptr;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -704,10 +702,7 @@ void Fluid::check_speed()
 
 bool Fluid::has_forces() const
 {
-  const int mine = has_own_forces() ? 1 : 0;
-  int all;
-  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
-  return all;
+  return over_all<int>(world, has_own_forces(), MPI_MIN);
 }
 
 bool Fluid::has_own_forces() const
@@ -753,7 +748,7 @@ void Fluid::set_mean_density(int groupbit)
   // with volume mass, the volumes depend on the masses of the neighbors of other types
 
   on_host([&]() {
-    check_masses(lmp, style, *model);
+    FluidChecks(lmp, style, *model).masses();
     FluidState state(lmp, *engine, *exchange, *model);
     std::vector<double> factor(atom->ntypes + 1, 1.0);
     for (int k = 0; k < MOST; k++) {
@@ -776,6 +771,7 @@ void Fluid::announce()
 
 void Fluid::report()
 {
+  const FluidChecks check(lmp, style, *model);
   const CoeffTable table = coeff_table();
   if (!announced) {
     model->warn_of_ignored();
@@ -787,9 +783,9 @@ void Fluid::report()
                      engine->instruction_set(), table.text(update->dt) + skin_text(table),
                      state.table());
     check_all_interact();
-    check_sizes(lmp, style, *model, not_fluid());
-    check_state_times(lmp, style, *model);
-    check_surface(lmp, style, *model);
+    check.sizes(not_fluid());
+    check.state_times();
+    check.surface();
     state.warn(style, shift->wanted);
   }
   announced = true;
@@ -800,8 +796,8 @@ void Fluid::report()
   const auto heat = [&](int i) {
     return states.thermal_energy(i);
   };
-  check_energies(lmp, style, *model, heat, not_fluid());
-  check_neighbors(lmp, style, *model, *engine, not_fluid(), dim, support);
+  check.energies(heat, not_fluid());
+  check.neighbors(*engine, not_fluid(), dim, support);
 }
 
 /* ----------------------------------------------------------------------
@@ -998,14 +994,13 @@ int Fluid::number_of_heats()
 
 double Fluid::smallest_inertia() const
 {
-  double mine = UNLIMITED_STEP, smallest;
+  double mine = UNLIMITED_STEP;
   if (spins) {
     const double *const inertia = Fields::of(atom)->inertia;
     for (int i = 0; i < atom->nlocal; i++)
       if (inertia[i] > 0.0 && has_type(atom->type[i])) mine = std::min(mine, inertia[i]);
   }
-  MPI_Allreduce(&mine, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
-  return smallest;
+  return over_all(world, mine, MPI_MIN);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -200,10 +200,10 @@ namespace SPHDissipation {
     void check_time_step(const CoeffTable &);    // warning about one that is too large
 
    protected:
-    int dim;           // dimension of the kernel
-    double support;    // support radius rc
-    bool stale;        // what follows from the coefficients is to be derived anew
-    bool own_list;     // the neighbor list is not built by LAMMPS, but when it is needed
+    int dim = 0;              // dimension of the kernel
+    double support = 0.0;     // support radius rc
+    bool stale = false;       // what follows from the coefficients is to be derived anew
+    bool own_list = false;    // the neighbor list is not built by LAMMPS, but when it is needed
 
     // run a task on the particles and the half neighbor list of the host; it may set densities and masses
 
@@ -234,18 +234,20 @@ namespace SPHDissipation {
     bool
     at_rest() const;    // strains are zero: in a minimization; in a rerun, which does not know them
     double **extrapolated_spin() const;    // nullptr without spins
-    int integrated;                        // bits of the groups of its integrators
+    int integrated = 0;                    // bits of the groups of its integrators
     bool checks_speed() const;             // that of the particles, at the next neighbor list
 
    private:
-    bool set_up;           // since pair_style and pair_coeff
-    bool announced;        // the table of coefficients is up to date
-    bool continued;        // the run continues the last one, with the velocities of its last step
-    bool touched;          // by a command, which may have given the same coefficients
-    bool changed;          // other coefficients, or motions of walls, than those of the last forces
-    double warned_step;    // the time step that the last warning was about
-    double noise_step;     // the time step that was announced with the noise
-    int fast_lists;        // neighbor lists in a row with fast particles; -1: there was a warning
+    bool set_up = false;       // since pair_style and pair_coeff
+    bool announced = false;    // the table of coefficients is up to date
+    bool continued =
+        false;               // the run continues the last one, with the velocities of its last step
+    bool touched = false;    // by a command, which may have given the same coefficients
+    bool changed =
+        false;    // other coefficients, or motions of walls, than those of the last forces
+    double warned_step = 0.0;    // the time step that the last warning was about
+    double noise_step = 0.0;     // the time step that was announced with the noise
+    int fast_lists = 0;    // neighbor lists in a row with fast particles; -1: there was a warning
 
     void check_setup();
     void check_speed();

@@ -21,6 +21,7 @@
 #include "grid3d.h"
 #include "memory.h"
 #include "pair_sph_bulk.h"
+#include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
@@ -35,15 +36,14 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 ParticleGrid::ParticleGrid(LAMMPS *lmp, const int *count_) :
-    Pointers(lmp), count{count_[0], count_[1], count_[2]}, lo(), hi(), ghost_lo(), ghost_hi(),
-    dim(domain->dimension), points(1), grid2d(nullptr), grid3d(nullptr), origin(), spacing()
+    Pointers(lmp), count{count_[0], count_[1], count_[2]}, dim(domain->dimension)
 {
   if (dim == 2) {
-    grid2d = new Grid2d(lmp, world, count[0], count[1]);
+    grid2d.reset(new Grid2d(lmp, world, count[0], count[1]));
     grid2d->setup_grid(lo[0], hi[0], lo[1], hi[1], ghost_lo[0], ghost_hi[0], ghost_lo[1],
                        ghost_hi[1]);
   } else {
-    grid3d = new Grid3d(lmp, world, count[0], count[1], count[2]);
+    grid3d.reset(new Grid3d(lmp, world, count[0], count[1], count[2]));
     grid3d->setup_grid(lo[0], hi[0], lo[1], hi[1], lo[2], hi[2], ghost_lo[0], ghost_hi[0],
                        ghost_lo[1], ghost_hi[1], ghost_lo[2], ghost_hi[2]);
   }
@@ -52,11 +52,7 @@ ParticleGrid::ParticleGrid(LAMMPS *lmp, const int *count_) :
 
 /* ---------------------------------------------------------------------- */
 
-ParticleGrid::~ParticleGrid()
-{
-  delete grid2d;
-  delete grid3d;
-}
+ParticleGrid::~ParticleGrid() = default;
 
 /* ---------------------------------------------------------------------- */
 
@@ -83,21 +79,13 @@ bigint ParticleGrid::map(const Smoothing &smoothing, double **values, int nfield
   weight.resize(count[0]);
   offset.resize(count[0]);
 
-  bigint empty = 0, empty_all;
+  bigint empty = 0;
   with_kernel(smoothing.kernel, [&](auto shape) {
     sum_moments<decltype(shape)>(smoothing, values);
     empty = solve(smoothing.linear);
     sum_fields<decltype(shape)>(smoothing, values, nfield);
   });
-  MPI_Allreduce(&empty, &empty_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  return empty_all;
-}
-
-/* ---------------------------------------------------------------------- */
-
-const double *ParticleGrid::field(int k) const
-{
-  return fields[k].data();
+  return over_all(world, empty, MPI_SUM);
 }
 
 /* ----------------------------------------------------------------------
@@ -187,48 +175,18 @@ void ParticleGrid::sum_moments(const Smoothing &smoothing, double **values)
     for (int m = 0; m < n; m++) one[m] += w[m];
     if (!smoothing.linear) return;
 
-    auto add = [&](int k, auto &&factor) {
+    const auto add = [&](int k, int power, double across) {    // rx^power times across
       double *const sum = moments[k].data() + point;
-      for (int m = 0; m < n; m++) sum[m] += w[m] * factor(-away[m]);
+      for (int m = 0; m < n; m++) {
+        const double rx = -away[m];
+        sum[m] += w[m] * (across * (power == 0 ? 1.0 : power == 1 ? rx : rx * rx));
+      }
     };
-    add(1, [](double rx) {
-      return rx;
-    });
-    add(2, [=](double) {
-      return ry;
-    });
-    if (dim == 2) {
-      add(3, [](double rx) {
-        return rx * rx;
-      });
-      add(4, [=](double) {
-        return ry * ry;
-      });
-      add(5, [=](double rx) {
-        return rx * ry;
-      });
-    } else {
-      add(3, [=](double) {
-        return rz;
-      });
-      add(4, [](double rx) {
-        return rx * rx;
-      });
-      add(5, [=](double) {
-        return ry * ry;
-      });
-      add(6, [=](double) {
-        return rz * rz;
-      });
-      add(7, [=](double rx) {
-        return rx * ry;
-      });
-      add(8, [=](double rx) {
-        return rx * rz;
-      });
-      add(9, [=](double) {
-        return ry * rz;
-      });
+    const double across[3] = {1.0, ry, rz};
+    for (int d = 0, k = 1 + 2 * dim; d < dim; d++) {
+      add(1 + d, d == 0 ? 1 : 0, across[d]);
+      add(1 + dim + d, d == 0 ? 2 : 0, across[d] * across[d]);
+      for (int e = d + 1; e < dim; e++, k++) add(k, d == 0 ? 1 : 0, across[d] * across[e]);
     }
   });
 }
@@ -311,15 +269,7 @@ void ParticleGrid::sum_fields(const Smoothing &smoothing, double **values, int n
 
 /* ---------------------------------------------------------------------- */
 
-double ParticleGrid::memory_usage() const
-{
-  return (double) points * (moments.size() + fields.size()) * sizeof(double);
-}
-
-/* ---------------------------------------------------------------------- */
-
-GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), count(), linear(true), grid(nullptr), nmax(0), values(nullptr)
+GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
 {
   if (!domain->box_exist)
     error->all(FLERR, "Compute {} requires a simulation box, which comes later", style);
@@ -336,14 +286,13 @@ GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) :
 
   pergrid_flag = 1;    // asks for reset_grid() when sub-domains change in a run
   comm_forward = 1;
-  grid = new ParticleGrid(lmp, count);
+  grid.reset(new ParticleGrid(lmp, count));
 }
 
 /* ---------------------------------------------------------------------- */
 
 GridCompute::~GridCompute()
 {
-  delete grid;
   memory->destroy(values);
 }
 
@@ -353,10 +302,7 @@ GridCompute::~GridCompute()
 
 void GridCompute::init()
 {
-  const int moved = grid->fits() ? 0 : 1;
-  int any_moved;
-  MPI_Allreduce(&moved, &any_moved, 1, MPI_INT, MPI_MAX, world);
-  if (any_moved) reset_grid();
+  if (!over_all<int>(world, grid->fits(), MPI_MIN)) reset_grid();
 
   if (domain->triclinic)
     error->all(FLERR, "Compute {} needs an orthogonal box, not a triclinic one", style);
@@ -380,8 +326,7 @@ Fluid *GridCompute::fluid() const
 
 void GridCompute::reset_grid()
 {
-  delete grid;
-  grid = new ParticleGrid(lmp, count);
+  grid.reset(new ParticleGrid(lmp, count));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -489,11 +434,4 @@ void GridCompute::unpack_forward_comm(int n, int nfirst, double *buf)
   int m = 0;
   for (int i = nfirst; i < nfirst + n; i++)
     for (int k = 0; k < comm_forward; k++) values[i][k] = buf[m++];
-}
-
-/* ---------------------------------------------------------------------- */
-
-double GridCompute::memory_usage()
-{
-  return (double) nmax * comm_forward * sizeof(double) + grid->memory_usage();
 }

@@ -53,26 +53,32 @@ namespace SPHDissipation {
     // nfield values.  Returns how many points of all processors have no particle in reach: they get 0.
 
     bigint map(const Smoothing &, double **values, int nfield);
-    const double *field(int k) const;    // at the owned points, the first index fastest
+    const double *field(int k) const    // at the owned points, the first index fastest
+    {
+      return fields[k].data();
+    }
 
     bool fits() const;    // on this processor, the sub-domain is still that of the points
 
     bigint npoint() const { return points; }    // owned
-    Grid2d *lammps_grid2d() const { return grid2d; }
-    Grid3d *lammps_grid3d() const { return grid3d; }
-    double memory_usage() const;
+    Grid2d *lammps_grid2d() const { return grid2d.get(); }
+    Grid3d *lammps_grid3d() const { return grid3d.get(); }
+    double memory_usage() const
+    {
+      return (double) points * (moments.size() + fields.size()) * sizeof(double);
+    }
 
-    int count[3];                    // points of the box
-    int lo[3], hi[3];                // the owned ones
-    int ghost_lo[3], ghost_hi[3];    // with those that LAMMPS calls ghosts, unused here
+    int count[3];                              // points of the box
+    int lo[3] = {}, hi[3] = {};                // the owned ones
+    int ghost_lo[3] = {}, ghost_hi[3] = {};    // with those that LAMMPS calls ghosts, unused here
 
    private:
     const int dim;
-    bigint points;
-    Grid2d *grid2d;
-    Grid3d *grid3d;
+    bigint points = 1;
+    std::unique_ptr<Grid2d> grid2d;
+    std::unique_ptr<Grid3d> grid3d;
 
-    double origin[3], spacing[3];    // places of the points, as the box is now
+    double origin[3] = {}, spacing[3] = {};    // places of the points, as the box is now
     std::vector<std::vector<double>> moments, fields;
     std::vector<double> weight, offset;    // points of one row around a particle
 
@@ -117,12 +123,15 @@ namespace SPHDissipation {
     void reset_grid() override;
     int pack_forward_comm(int, int *, double *, int, int *) override;
     void unpack_forward_comm(int, int, double *) override;
-    double memory_usage() override;
+    double memory_usage() override
+    {
+      return (double) nmax * comm_forward * sizeof(double) + grid->memory_usage();
+    }
 
    protected:
-    int count[3];    // points
-    bool linear;     // order 1
-    ParticleGrid *grid;
+    int count[3] = {};     // points
+    bool linear = true;    // order 1
+    std::unique_ptr<ParticleGrid> grid;
 
     bool add_value(const std::string &);    // a value of the particles to map; false if unknown
     int nvalue() const { return static_cast<int>(names.size()); }
@@ -137,8 +146,9 @@ namespace SPHDissipation {
 
     std::vector<std::string> names;
     std::vector<Value> getters;
-    int nmax;
-    double **values;    // owned and ghost particles: volume (0: not mapped), then the values to map
+    int nmax = 0;
+    double **values =
+        nullptr;    // owned and ghost particles: volume (0: not mapped), then the values to map
   };
 
 }    // namespace SPHDissipation

@@ -61,19 +61,17 @@ int FluidModel::place(const char *word) const
 }
 
 /* ----------------------------------------------------------------------
-   set choice to the entry of table that has this name; false if there is none
+   set choice to the one with the number of a word; words = in the order of the enumeration; false if
+   it is none of them
 ------------------------------------------------------------------------- */
 
 template <class Choice>
-static bool choose(Choice &choice, const std::string &word,
-                   const std::vector<std::pair<std::string, Choice>> &table)
+static bool choose(Choice &choice, const std::string &word, const std::vector<std::string> &words)
 {
-  for (const auto &entry : table)
-    if (entry.first == word) {
-      choice = entry.second;
-      return true;
-    }
-  return false;
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end()) return false;
+  choice = static_cast<Choice>(found - words.begin());
+  return true;
 }
 
 /* ----------------------------------------------------------------------
@@ -172,35 +170,26 @@ void FluidModel::set_choice(const std::string &keyword, const char *word)
   bool known = false;
   std::string what = keyword;
   if (keyword == "kernel") {
-    std::vector<std::pair<std::string, Kernel>> kernels;
-    for (auto k : {Kernel::WENDLAND_C2, Kernel::WENDLAND_C4, Kernel::WENDLAND_C6, Kernel::CUBIC,
-                   Kernel::QUINTIC, Kernel::LUCY})
-      kernels.emplace_back(kernel_name(k), k);
+    std::vector<std::string> kernels;
+    for (int k = 0; k <= static_cast<int>(Kernel::LUCY); k++)
+      kernels.emplace_back(kernel_name(static_cast<Kernel>(k)));
     known = choose(choice.kernel, word, kernels);
   } else if (keyword == "eos") {
-    known = choose(choice.eos, word,
-                   {{"linear", Eos::LINEAR}, {"tait", Eos::TAIT}, {"ideal", Eos::IDEAL}});
+    known = choose(choice.eos, word, {"linear", "tait", "ideal"});
   } else if (keyword == "shear") {
     what = "shear form";
-    known = choose(choice.shear, word,
-                   {{"mg", Shear::MG},
-                    {"mg/fr", Shear::MG_FR},
-                    {"morris", Shear::MORRIS},
-                    {"espanol", Shear::ESPANOL},
-                    {"none", Shear::NONE}});
+    known = choose(choice.shear, word, {"none", "mg", "mg/fr", "morris", "espanol"});
   } else if (keyword == "bulk") {
     what = "bulk form";
-    known = choose(choice.bulk, word,
-                   {{"density", Bulk::DENSITY}, {"volume", Bulk::VOLUME}, {"none", Bulk::NONE}});
+    known = choose(choice.bulk, word, {"none", "density", "volume"});
   } else if (keyword == "volume") {
-    known = choose(choice.volume, word, {{"number", Volume::NUMBER}, {"mass", Volume::MASS}});
+    known = choose(choice.volume, word, {"number", "mass"});
   } else if (keyword == "limit") {
-    known = choose(choice.limit, word,
-                   {{"no", Limit::NO}, {"count", Limit::COUNT}, {"yes", Limit::YES}});
+    known = choose(choice.limit, word, {"no", "count", "yes"});
   } else if (keyword == "density") {
-    known = choose(choice.continuity, word, {{"sum", false}, {"continuity", true}});
+    known = choose(choice.continuity, word, {"sum", "continuity"});
   } else if (keyword == "tension") {
-    known = choose(choice.tension, word, {{"no", false}, {"yes", true}});
+    known = choose(choice.tension, word, {"no", "yes"});
   } else {
     simd = word;
     known = (simd == "auto" || simd == "none" || simd == "avx2" || simd == "avx512");

@@ -36,14 +36,14 @@ namespace SPHDissipation {
     TypeCoeff();
 
     EosParams eos;
-    double viscosity[NVISCOSITY];
+    double viscosity[NVISCOSITY] = {};
     std::vector<double> keywords;    // coefficients of the channels, see TypeCoeffs
-    double kappa;
-    double rc;
-    double gamma;     // 0: default of the equation of state
-    double cv;        // heat capacity per mass; 0: that of the pair style
-    int intrinsic;    // 1: kappa is what the shear term gives
-    int other;        // 1: its particles belong to another style of pair_style hybrid
+    double kappa = 0.0;
+    double rc = 0.0;
+    double gamma = 0.0;    // 0: default of the equation of state
+    double cv = 0.0;       // heat capacity per mass; 0: that of the pair style
+    int intrinsic = 0;     // 1: kappa is what the shear term gives
+    int other = 0;         // 1: its particles belong to another style of pair_style hybrid
   };
 
   // The fluids as the commands of a pair style describe them: the choices of pair_style, the
@@ -89,8 +89,11 @@ namespace SPHDissipation {
 
     TypePair pair_fluid(int i, int j) const;
     double intrinsic_kappa(int i, int j) const;
-    double bulk_viscosity(int type) const;    // in effect
-    void warn_of_ignored() const;             // kappa without bulk term, gamma of linear
+    double bulk_viscosity(int type) const    // in effect
+    {
+      return (choice.bulk == Bulk::NONE) ? intrinsic_kappa(type, type) : coeffs[type].kappa;
+    }
+    void warn_of_ignored() const;    // kappa without bulk term, gamma of linear
 
     void write_settings(FILE *) const;
     void read_settings(FILE *);
@@ -101,11 +104,14 @@ namespace SPHDissipation {
 
     double viscosity(int k, int i, int j) const { return variables[k].value[i][j]; }
     int nviscosity() const { return number_of_viscosities(spins); }
-    bool has_torques() const;                // any of the viscosities of spins
-    double heat_capacity(int type) const;    // per mass
-    bool has_temperatures() const;           // any type has a heat capacity
-    bool has_rheology() const;               // mu of any type is not constant
-    bool has_pair_energy() const;            // any two types
+    bool has_torques() const;               // any of the viscosities of spins
+    double heat_capacity(int type) const    // per mass
+    {
+      return (coeffs[type].cv > 0.0) ? coeffs[type].cv : choice.heat_capacity;
+    }
+    bool has_temperatures() const;    // any type has a heat capacity
+    bool has_rheology() const;        // mu of any type is not constant
+    bool has_pair_energy() const;     // any two types
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 
     // a keyword of this type that needs one of these, see enum Requirement, or nullptr
@@ -113,14 +119,15 @@ namespace SPHDissipation {
 
     // number that differs where settings or coefficients do, and that of the last forces, 0 before
     std::uint64_t hash() const;
-    std::uint64_t hash_of_forces;
+    std::uint64_t hash_of_forces = 0;
 
     Settings choice;
     NoiseClock clock;
-    int diffusion_age;    // steps since the diffusion of volume was evaluated
-    std::string simd;    // pair loops to use; not in restart files, which may go to another machine
-    TypeCoeff *coeffs;    // by type, from 1
-    bool shared;          // there are types of other styles
+    int diffusion_age = 0;    // steps since the diffusion of volume was evaluated
+    std::string simd =
+        "auto";    // pair loops to use; not in restart files, which may go to another machine
+    TypeCoeff *coeffs = nullptr;    // by type, from 1
+    bool shared = false;            // there are types of other styles
 
    private:
     // what extract() gives out: the viscosities, the coefficients of unlike types, then coefficients of types, whose
@@ -145,9 +152,9 @@ namespace SPHDissipation {
     std::vector<Variable> variables;
     const std::vector<TypeKeyword> keywords;    // of types, of all channels
     const std::vector<std::pair<std::string, int>> of_types,
-        of_pairs;            // names, numbers: of types, of unlike types
-    double ***pair_given;    // by variable and type pair: what pair_coeff gave
-    int ***is_given;         // 1 if it did, 0 if the value is mixed from the types
+        of_pairs;                      // names, numbers: of types, of unlike types
+    double ***pair_given = nullptr;    // by variable and type pair: what pair_coeff gave
+    int ***is_given = nullptr;         // 1 if it did, 0 if the value is mixed from the types
 
     int npair() const { return nviscosity() + static_cast<int>(of_pairs.size()); }
     const char *inadmissible_keywords(const TypeCoeff &) const;

@@ -25,26 +25,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-TypeCoeff::TypeCoeff() :
-    viscosity(), keywords(Channels::NTYPE), kappa(0.0), rc(0.0), gamma(0.0), cv(0.0), intrinsic(0),
-    other(0)
-{
-}
+TypeCoeff::TypeCoeff() : keywords(Channels::NTYPE) {}
 
 /* ---------------------------------------------------------------------- */
 
 FluidModel::FluidModel(LAMMPS *lmp, const std::string &style, bool spins) :
-    Pointers(lmp), hash_of_forces(0), diffusion_age(0), simd("auto"), coeffs(nullptr),
-    shared(false), style(style), spins(spins), par(new Parameters), keywords(type_keywords()),
-    of_types(type_variables()), of_pairs(unlike_keywords(spins)), pair_given(nullptr),
-    is_given(nullptr)
+    Pointers(lmp), style(style), spins(spins), par(new Parameters), keywords(type_keywords()),
+    of_types(type_variables()), of_pairs(unlike_keywords(spins))
 {
   auto add = [&](const std::string &name) {
     variables.push_back({name, nullptr, nullptr});
@@ -215,11 +208,6 @@ double FluidModel::diffusion_rate() const
 double FluidModel::intrinsic_kappa(int i, int j) const
 {
   return SPHDissipation::intrinsic_kappa(pair_fluid(i, j));
-}
-
-double FluidModel::bulk_viscosity(int type) const
-{
-  return (choice.bulk == Bulk::NONE) ? intrinsic_kappa(type, type) : coeffs[type].kappa;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -416,13 +404,6 @@ bool FluidModel::has_temperatures() const
   for (int i = 1; i <= atom->ntypes; i++)
     if (!coeffs[i].other && heat_capacity(i) > 0.0) return true;
   return false;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FluidModel::heat_capacity(int type) const
-{
-  return (coeffs[type].cv > 0.0) ? coeffs[type].cv : choice.heat_capacity;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -17,6 +17,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "force.h"
+#include "math_extra.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 
@@ -31,14 +32,6 @@ static constexpr double SPARSE = 16.0;    // most cells per particle
 static constexpr double ROUND_OFF = 1.0e-9;
 static constexpr double FLOAT_ROUND_OFF =
     1.0e-6;    // of the square of a distance, in units of the cutoff
-
-/* ---------------------------------------------------------------------- */
-
-NeighborSearch::NeighborSearch(LAMMPS *lmp, Exchange &messages) :
-    NPair(lmp), exchange(messages), loops(nullptr), threads(nullptr), cutoff(0.0), ncalls(-1),
-    lastcall(-1), skips(false), by_id(false), nowned(0), lo(), size(), ncell()
-{
-}
 
 /* ---------------------------------------------------------------------- */
 
@@ -334,9 +327,7 @@ int NeighborSearch::check(int i, int *found, int n) const
 {
   double **const x = atom->x;
   return filter(found, n, [&](int j) {
-    double rsq = 0.0;
-    for (int d = 0; d < 3; d++) rsq += (x[i][d] - x[j][d]) * (x[i][d] - x[j][d]);
-    return rsq <= cutoff * cutoff;
+    return MathExtra::distsq3(x[i], x[j]) <= cutoff * cutoff;
   });
 }
 

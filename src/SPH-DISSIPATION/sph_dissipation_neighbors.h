@@ -34,7 +34,7 @@ namespace SPHDissipation {
 
   class NeighborSearch : public NPair {
    public:
-    NeighborSearch(class LAMMPS *, Exchange &);
+    NeighborSearch(class LAMMPS *lmp, Exchange &messages) : NPair(lmp), exchange(messages) {}
 
     // what the settings of a run have that is left to LAMMPS, or empty
     std::string left_to_lammps() const;
@@ -79,17 +79,17 @@ namespace SPHDissipation {
     };
 
     Exchange &exchange;
-    const LoopSet *loops;
-    Threads *threads;
-    double cutoff;
-    bigint ncalls, lastcall;    // of class Neighbor, when the list was built
-    bool skips;                 // pair_style hybrid gives pairs of types of the fluid to others
-    bool by_id;                 // has_pair() tells which pairs with ghosts are wanted
-    double lo[3], size[3];      // of the cells
-    int ncell[3];
+    const LoopSet *loops = nullptr;
+    Threads *threads = nullptr;
+    double cutoff = 0.0;
+    bigint ncalls = -1, lastcall = -1;    // of class Neighbor, when the list was built
+    bool skips = false;    // pair_style hybrid gives pairs of types of the fluid to others
+    bool by_id = false;    // has_pair() tells which pairs with ghosts are wanted
+    double lo[3] = {}, size[3] = {};    // of the cells
+    int ncell[3] = {};
     std::vector<CellRow> all_rows, upper_rows;
     std::vector<int> members;    // nowned owned particles of the fluid, then ghosts
-    int nowned;
+    int nowned = 0;
     std::vector<int> cell;    // of each of those that are being sorted
     Sorted owned, ghosts;
     std::vector<Part> parts;

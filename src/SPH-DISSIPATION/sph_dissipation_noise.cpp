@@ -35,13 +35,6 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-NoiseStage::NoiseStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
-    Stage(lmp, engine, exchange), clock(clock), form(), data(), surface_data(), cold_arrival(false)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
 {
   if (neighbor->ago == 0) check_box();
@@ -220,12 +213,12 @@ void NoiseStage::warn_of_cold(bigint number) const
 
 void NoiseStage::find_cold_arrivals(int not_fluid)
 {
-  bigint own = 0, all;
+  bigint own = 0;
   for (int i = 0; i < atom->nlocal; i++)
     if (!engine.parameters().type[atom->type[i]].other && !(atom->mask[i] & not_fluid) &&
         atom->esph[i] == 0.0)
       own++;
-  MPI_Allreduce(&own, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint all = over_all(world, own, MPI_SUM);
   cold_arrival = all > 0;
   if (cold_arrival && comm->me == 0) warn_of_cold(all);
 }
@@ -389,8 +382,7 @@ void NoiseStage::share_work()
   data.acceleration = first;
   data.total = flow.data();
   engine.accumulate_work(form, data);
-  const int n = force->newton_pair ? nall : nlocal;
-  engine.for_each(n, [&](int i) {
+  engine.for_each(nforce(), [&](int i) {
     atom->desph[i] += flow[i];
   });
 }

@@ -40,7 +40,10 @@ namespace SPHDissipation {
 
   class NoiseStage : public Stage {
    public:
-    NoiseStage(class LAMMPS *, Engine &, Exchange &, NoiseClock &);
+    NoiseStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange, NoiseClock &clock) :
+        Stage(lmp, engine, exchange), clock(clock)
+    {
+    }
 
     // Once in each step, before run(), which a step may call more than once: sets the step of its random numbers
 
@@ -69,15 +72,15 @@ namespace SPHDissipation {
 
    private:
     NoiseClock &clock;
-    NoiseForm form;
-    NoiseData data, surface_data;
+    NoiseForm form = {};
+    NoiseData data = {}, surface_data = {};
     std::vector<NoiseCoeff> coeff, surface_coeff;
     std::vector<NoiseRow> row;
     std::vector<double> mobility;
     std::vector<double> tag, reach, share, eta, pressure, drag, drag_force;
     std::vector<double> numbers, change, flow;
     std::vector<Acceleration> acceleration;
-    bool cold_arrival;    // in this run
+    bool cold_arrival = false;    // in this run
 
     void check_box() const;
     void set_tags();

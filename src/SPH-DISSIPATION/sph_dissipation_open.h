@@ -40,7 +40,8 @@ namespace SPHDissipation {
 
   class OpenPlane : protected Pointers {
    public:
-    OpenPlane(class LAMMPS *, const std::string &owner);    // owner: for messages
+    // owner: for messages
+    OpenPlane(class LAMMPS *lmp, const std::string &owner) : Pointers(lmp), owner(owner) {}
 
     void set(char **arg);    // x y z nx ny nz length
     void set_region(const char *id) { region_id = id; }
@@ -83,16 +84,16 @@ namespace SPHDissipation {
     };
     Spot spot(const double *x) const;
 
-    double point[3], normal[3], length;
+    double point[3] = {}, normal[3] = {1.0, 0.0, 0.0}, length = 0.0;
 
    private:
     const std::string owner;
     std::string region_id;
-    Region *region;
-    double tangent[2][3];    // directions of the plane; in 2d only the first one counts
-    double lo[2], step[2];
-    int count[2];
-    bool periodic[2];
+    Region *region = nullptr;
+    double tangent[2][3] = {};    // directions of the plane; in 2d only the first one counts
+    double lo[2] = {}, step[2] = {1.0, 1.0};
+    int count[2] = {1, 1};
+    bool periodic[2] = {};
 
     void check_box() const;
     void set_tangents();
@@ -144,7 +145,7 @@ namespace SPHDissipation {
    public:
     typedef OpenPlane::Spot Spot;
 
-    OpenSamples(class LAMMPS *, const OpenPlane &);
+    OpenSamples(class LAMMPS *lmp, const OpenPlane &plane) : Pointers(lmp), plane(plane) {}
 
     void init();
     void set_times(double averaging_time, double memory);    // memory: longest lag, time units
@@ -198,7 +199,7 @@ namespace SPHDissipation {
     };
 
     const OpenPlane &plane;
-    double averaging_time, memory;
+    double averaging_time = 0.0, memory = 0.0;
     std::vector<Sums> my_sums, sums;
     std::vector<Node> nodes, before;    // before: without the last time
     std::deque<Past> history;           // the oldest first
@@ -214,7 +215,8 @@ namespace SPHDissipation {
    public:
     enum Quantity { VX, VY, VZ, RHO, P, ENERGY, TEMPERATURE, WX, WY, WZ, NQUANTITY };
 
-    OpenValues(class LAMMPS *, const std::string &owner);    // owner: for messages
+    // owner: for messages
+    OpenValues(class LAMMPS *lmp, const std::string &owner) : Pointers(lmp), owner(owner) {}
 
     void read(Keywords &);    // Set the quantities of the keyword, if it is one of them.
     void check() const;
@@ -233,8 +235,8 @@ namespace SPHDissipation {
    private:
     const std::string owner;
     Value value[NQUANTITY];
-    bool is_given[NQUANTITY];
-    bool any_variable, needs_heat;
+    bool is_given[NQUANTITY] = {};
+    bool any_variable = false, needs_heat = false;
 
     const char *fault(int k, double) const;    // says why a value is refused; nullptr: it is not
   };
@@ -251,19 +253,27 @@ namespace SPHDissipation {
 
   class OpenCondition : protected Pointers {
    public:
-    OpenCondition(class LAMMPS *, const std::string &owner, const OpenPlane &, const OpenValues &,
-                  const OpenSamples &);    // owner: for messages
+    // owner: for messages
+    OpenCondition(class LAMMPS *lmp, const std::string &owner, const OpenPlane &plane,
+                  const OpenValues &values, const OpenSamples &samples) :
+        Pointers(lmp),
+        owner(owner), plane(plane), values(values), samples(samples)
+    {
+    }
 
-    double averaging_time;    // 0: by the support radius
-    double clock;             // time of the zone, which reset_timestep does not change
-    bool is_new;              // no particle has a state yet: the heat of each is that without waves
+    double averaging_time = 0.0;    // 0: by the support radius
+    double clock = 0.0;             // time of the zone, which reset_timestep does not change
+    bool is_new = false;    // no particle has a state yet: the heat of each is that without waves
 
     void read(Keywords &);    // Set what the keyword says, if it is one of a condition.
     void check();             // errors for keywords without an effect, and for too few of them
 
     void init(const FluidModel &);
-    bool given_velocity() const;
-    bool given_state() const;                 // density or pressure
+    bool given_velocity() const { return values.given(OpenValues::VX); }
+    bool given_state() const    // density or pressure
+    {
+      return values.given(OpenValues::RHO) || values.given(OpenValues::P);
+    }
     bool has_heat() const { return warm; }    // states include the heat
 
     // Functions of an owned particle of the zone
@@ -272,9 +282,9 @@ namespace SPHDissipation {
     void velocity(int i, double *u) const;
     OpenState state(int i) const;
     double prescribed_density(int i) const { return reference(i, ZONE).rho; }    // without waves
-    double heat(int i) const;                              // per mass, without waves
-    double temperature(int i, const OpenState &) const;    // with which it conducts heat
-    double sound_at_rest(int i, bool of_zone) const;       // at the density rho0; also of the fluid
+    double heat(int i) const { return reference(i, ZONE).q; }    // per mass, without waves
+    double temperature(int i, const OpenState &) const;          // with which it conducts heat
+    double sound_at_rest(int i, bool of_zone) const;    // at the density rho0; also of the fluid
 
     OpenState at_density(int i, const OpenState &, double rho) const;    // and the same entropy
     void keep(int i, const OpenState &) const;    // the particle has this state
@@ -297,11 +307,11 @@ namespace SPHDissipation {
     const OpenPlane &plane;
     const OpenValues &values;
     const OpenSamples &samples;
-    const FluidModel *fluid;
-    const Fields *fields;
-    bool warm;
-    Kind kind;
-    int order;    // extrapolation of values from inside, kind fixed
+    const FluidModel *fluid = nullptr;
+    const Fields *fields = nullptr;
+    bool warm = false;
+    Kind kind = LAGGED;
+    int order = -1;    // extrapolation of values from inside, kind fixed
 
     // The state from which waves are counted at a particle of zone or fluid: what is prescribed, else the
     // average over time of what the fluid had
@@ -337,7 +347,10 @@ namespace SPHDissipation {
 
   class ZoneLattice : protected Pointers {
    public:
-    ZoneLattice(class LAMMPS *, const std::string &owner, const OpenPlane &, int groupbit);
+    ZoneLattice(class LAMMPS *lmp, const std::string &owner, const OpenPlane &plane, int groupbit) :
+        Pointers(lmp), owner(owner), plane(plane), groupbit(groupbit)
+    {
+    }
 
     void set_spacing(double a) { given_spacing = a; }
     bool has_spacing() const { return given_spacing > 0.0; }
@@ -369,12 +382,12 @@ namespace SPHDissipation {
     const std::string owner;
     const OpenPlane &plane;
     const int groupbit;
-    int fluidbit;
-    double given_spacing, spacing, half_width, support;
-    double moved;
-    tagint highest;        // tag that was ever given
-    bool unknown_end;      // it is not known how far the rows reach
-    bool unknown_sides;    // nor whether there is something else among them
+    int fluidbit = 0;
+    double given_spacing = 0.0, spacing = 0.0, half_width = 0.0, support = 0.0;
+    double moved = 0.0;
+    tagint highest = 0;           // tag that was ever given
+    bool unknown_end = true;      // it is not known how far the rows reach
+    bool unknown_sides = true;    // nor whether there is something else among them
     Distance distance;
 
     double step(int i) const;    // from an owned particle to the next one of its row

@@ -35,13 +35,6 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-OpenValues::OpenValues(LAMMPS *lmp, const std::string &owner) :
-    Pointers(lmp), owner(owner), is_given(), any_variable(false), needs_heat(false)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void OpenValues::read(Keywords &key)
 {
   struct Keyword {
@@ -154,16 +147,6 @@ double OpenValues::memory_usage() const
 
 /* ---------------------------------------------------------------------- */
 
-OpenCondition::OpenCondition(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane,
-                             const OpenValues &values, const OpenSamples &samples) :
-    Pointers(lmp),
-    averaging_time(0.0), clock(0.0), is_new(false), owner(owner), plane(plane), values(values),
-    samples(samples), fluid(nullptr), fields(nullptr), warm(false), kind(LAGGED), order(-1)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void OpenCondition::read(Keywords &key)
 {
   if (key.is("average")) averaging_time = key.positive();
@@ -200,16 +183,6 @@ void OpenCondition::init(const FluidModel &fluid_in)
 }
 
 /* ---------------------------------------------------------------------- */
-
-bool OpenCondition::given_velocity() const
-{
-  return values.given(OpenValues::VX);
-}
-
-bool OpenCondition::given_state() const
-{
-  return values.given(OpenValues::RHO) || values.given(OpenValues::P);
-}
 
 const EosParams &OpenCondition::eos(int i) const
 {
@@ -274,13 +247,6 @@ OpenState OpenCondition::own_state(int i, Side side) const
   if (!(rho > 0.0)) rho = eos(i).rho0;
   return {0.0, rho,
           atom->esph[i] / atom->rmass[i] - elastic_energy(fluid->choice.eos, eos(i), rho)};
-}
-
-/* ---------------------------------------------------------------------- */
-
-double OpenCondition::heat(int i) const
-{
-  return reference(i, ZONE).q;
 }
 
 /* ----------------------------------------------------------------------

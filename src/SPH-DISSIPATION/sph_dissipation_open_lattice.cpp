@@ -132,16 +132,6 @@ static constexpr double STRAIGHT =
 
 /* ---------------------------------------------------------------------- */
 
-ZoneLattice::ZoneLattice(LAMMPS *lmp, const std::string &owner, const OpenPlane &plane,
-                         int groupbit) :
-    Pointers(lmp),
-    owner(owner), plane(plane), groupbit(groupbit), fluidbit(0), given_spacing(0.0), spacing(0.0),
-    half_width(0.0), support(0.0), moved(0.0), highest(0), unknown_end(true), unknown_sides(true)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void ZoneLattice::init(double support_in, int fluid_bit)
 {
   support = support_in;
@@ -266,10 +256,7 @@ double ZoneLattice::my_largest_spacing() const
 double ZoneLattice::largest_spacing() const
 {
   if (!by_distance()) return spacing;
-  const double largest = my_largest_spacing();
-  double all;
-  MPI_Allreduce(&largest, &all, 1, MPI_DOUBLE, MPI_MAX, world);
-  return all;
+  return over_all(world, my_largest_spacing(), MPI_MAX);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -468,11 +455,9 @@ void ZoneLattice::check_seat(const double *x, const OpenBand &band) const
 
 void ZoneLattice::pack(double *buf) const
 {
-  tagint all;
-  MPI_Allreduce(&highest, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   buf[0] = unknown_sides ? 0.0 : spacing;
   buf[1] = unknown_sides ? 0.0 : half_width;
-  buf[2] = static_cast<double>(all);
+  buf[2] = static_cast<double>(over_all(world, highest, MPI_MAX));
 }
 
 void ZoneLattice::unpack(const double *buf)

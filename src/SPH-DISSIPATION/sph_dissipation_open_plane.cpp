@@ -30,14 +30,6 @@ static constexpr double PARALLEL = 1.0e-10;    // sine of an angle that counts a
 
 /* ---------------------------------------------------------------------- */
 
-OpenPlane::OpenPlane(LAMMPS *lmp, const std::string &owner) :
-    Pointers(lmp), point{0.0, 0.0, 0.0}, normal{1.0, 0.0, 0.0}, length(0.0), owner(owner),
-    region(nullptr), tangent(), lo{0.0, 0.0}, step{1.0, 1.0}, count{1, 1}, periodic{false, false}
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void OpenPlane::set(char **arg)
 {
   for (int d = 0; d < 3; d++) {
@@ -265,13 +257,6 @@ OpenPlane::Spot OpenPlane::spot(const double *x) const
       spot.n++;
     }
   return spot;
-}
-
-/* ---------------------------------------------------------------------- */
-
-OpenSamples::OpenSamples(LAMMPS *lmp, const OpenPlane &plane) :
-    Pointers(lmp), plane(plane), averaging_time(0.0), memory(0.0)
-{
 }
 
 /* ---------------------------------------------------------------------- */

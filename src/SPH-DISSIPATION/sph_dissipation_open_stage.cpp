@@ -14,7 +14,6 @@
 #include "sph_dissipation_open_stage.h"
 
 #include "atom.h"
-#include "force.h"
 #include "math_extra.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -205,7 +204,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
 
   // with newton off, what a pair of two processors gives to the ghost atom is known to its owner
 
-  const int mine = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+  const int mine = nforce();
 
   OpenImpact total = OpenImpact();
   pairs.begin();
@@ -250,13 +249,4 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
     side.clear(i);
   });
   return total;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double OpenStage::memory_usage() const
-{
-  double sum = pairs.memory_usage() + side.memory_usage();
-  for (const auto &row : rows) sum += bytes(row);
-  return sum + bytes(zone_of, forces, divergence, flow);
 }

@@ -60,7 +60,10 @@ namespace SPHDissipation {
 
     void run();                       // after the pressures, before those of boundaries
     void sum_impacts(NeighList *);    // after pass 2
-    double memory_usage() const override;
+    double memory_usage() const override
+    {
+      return bytes(pairs, side, rows, zone_of, forces, divergence, flow);
+    }
 
    private:
     std::vector<OpenZone *> zones;

@@ -19,6 +19,7 @@
 #include "error.h"
 #include "fix.h"
 #include "force.h"
+#include "math_extra.h"
 #include "neigh_list.h"
 #include "sph_dissipation_balance.h"
 #include "sph_dissipation_create.h"
@@ -106,12 +107,7 @@ std::vector<int> RefinePairs::members(int i) const
 
 double RefinePairs::distance_sq(int i, int j) const
 {
-  double rsq = 0.0;
-  for (int d = 0; d < 3; d++) {
-    const double r = atom->x[j][d] - atom->x[i][d];
-    rsq += r * r;
-  }
-  return rsq;
+  return MathExtra::distsq3(atom->x[i], atom->x[j]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -259,7 +255,7 @@ void RefinePairs::find(NeighList *full, double farthest)
     }
     items.forward(&RefineItem::choice);
 
-    int found = 0, found_all;
+    int found = 0;
     for (int i = 0; i < atom->nlocal; i++) {
       const int j = choice[i];
       if (j < 0 || items[j].choice != static_cast<double>(atom->tag[i])) continue;
@@ -267,8 +263,7 @@ void RefinePairs::find(NeighList *full, double farthest)
       found = 1;
     }
     settle();
-    MPI_Allreduce(&found, &found_all, 1, MPI_INT, MPI_MAX, world);
-    if (!found_all) break;
+    if (!over_all(world, found, MPI_MAX)) break;
   }
 }
 
@@ -334,14 +329,6 @@ void RefineResidual::take(NeighList *full)
     }
     works[i] += 0.5 * items[i].mass * dot(&du[3 * i], &du[3 * i]);
   }
-}
-
-/* ---------------------------------------------------------------------- */
-
-RefineEvent::RefineEvent(LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
-    Pointers(lmp), items(lmp, fix), highest(0), balance(balance), pairs(lmp, items),
-    residual(lmp, items, pairs), support(0.0), smallest(0.0), fields(nullptr)
-{
 }
 
 /* ---------------------------------------------------------------------- */
@@ -516,8 +503,7 @@ bigint RefineEvent::postpone(bigint most)
   for (const Split &one : splits) mine.push_back(atom->tag[one.i]);
   for (int i = 0; i < atom->nlocal; i++)
     if (pairs.leads(i)) mine.push_back(atom->tag[i]);
-  bigint number = mine.size(), all;
-  MPI_Allreduce(&number, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint all = over_all<bigint>(world, mine.size(), MPI_SUM);
   if (all <= most) return all;
 
   std::vector<tagint> tags = gather_all(world, mine, MPI_LMP_TAGINT);

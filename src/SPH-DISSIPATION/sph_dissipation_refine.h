@@ -67,7 +67,7 @@ namespace SPHDissipation {
 
   class RefineItems : protected Pointers {
    public:
-    RefineItems(class LAMMPS *lmp, Fix *fix) : Pointers(lmp), fix(fix), first(0), count(0) {}
+    RefineItems(class LAMMPS *lmp, Fix *fix) : Pointers(lmp), fix(fix) {}
 
     void resize();    // for the particles that there are; zero
     RefineItem &operator[](int i) { return items[i]; }
@@ -87,7 +87,7 @@ namespace SPHDissipation {
    private:
     Fix *fix;
     std::vector<RefineItem> items;
-    int first, count;    // which numbers of an item are sent
+    int first = 0, count = 0;    // which numbers of an item are sent
   };
 
   // Finds the partners of merges.  Each particle that is to merge chooses the nearest one that may be
@@ -130,7 +130,7 @@ namespace SPHDissipation {
   class RefineResidual : protected Pointers {
    public:
     RefineResidual(class LAMMPS *lmp, RefineItems &items, const RefinePairs &pairs) :
-        Pointers(lmp), items(items), pairs(pairs), radius(0.0)
+        Pointers(lmp), items(items), pairs(pairs)
     {
     }
 
@@ -149,7 +149,7 @@ namespace SPHDissipation {
    private:
     RefineItems &items;
     const RefinePairs &pairs;
-    double radius;
+    double radius = 0.0;
     std::vector<double> du, works;
 
     void offset(int from, int to, double *r) const;
@@ -160,7 +160,11 @@ namespace SPHDissipation {
 
   class RefineEvent : protected Pointers {
    public:
-    RefineEvent(class LAMMPS *, Fix *, RefineBalance &);
+    RefineEvent(class LAMMPS *lmp, Fix *fix, RefineBalance &balance) :
+        Pointers(lmp), items(lmp, fix), balance(balance), pairs(lmp, items),
+        residual(lmp, items, pairs)
+    {
+    }
 
     void init(const Fluid &, double smallest_share);
 
@@ -177,15 +181,15 @@ namespace SPHDissipation {
     void carry_out(NeighList *full, const Changed &changed);
 
     RefineItems items;
-    tagint highest;    // ID that was ever given
+    tagint highest = 0;    // ID that was ever given
 
    private:
     RefineBalance &balance;
     RefinePairs pairs;
     RefineResidual residual;
-    double support;
-    double smallest;    // volume of a daughter over the target
-    Fields *fields;
+    double support = 0.0;
+    double smallest = 0.0;    // volume of a daughter over the target
+    Fields *fields = nullptr;
 
     struct Split {
       int i;

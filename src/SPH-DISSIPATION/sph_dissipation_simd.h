@@ -47,11 +47,7 @@ namespace SPHDissipation {
 
     // row number i of N doubles
 
-    template <int N> SPH_INLINE const double *at(const double *row, int i)
-    {
-      return row + N * static_cast<bigint>(i);
-    }
-    template <int N> SPH_INLINE double *at(double *row, int i)
+    template <int N, class Number> SPH_INLINE Number *at(Number *row, int i)
     {
       return row + N * static_cast<bigint>(i);
     }

@@ -15,7 +15,7 @@
 
 #include "atom.h"
 #include "force.h"
-#include "memory.h"
+#include "math_extra.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "sph_dissipation_engine.h"
@@ -27,10 +27,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
+
+/* ---------------------------------------------------------------------- */
+
+int Stage::nforce() const
+{
+  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+}
 
 /* ---------------------------------------------------------------------- */
 
@@ -99,40 +105,18 @@ void DensityStage::send(bool with_states, int flows, int not_fluid, int first)
 
 /* ---------------------------------------------------------------------- */
 
-LimitStage::LimitStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
-    Stage(lmp, engine, exchange), bound(nullptr), nmax(0)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
-LimitStage::~LimitStage()
-{
-  memory->destroy(bound);
-}
-
-/* ---------------------------------------------------------------------- */
-
 void LimitStage::run()
 {
-  if (nmax < atom->nmax) {
-    nmax = atom->nmax;
-    memory->destroy(bound);
-    memory->create(bound, nmax, "sph:bound");
-  }
   const int nall = atom->nlocal + atom->nghost;
-  std::fill_n(bound, nall, 0.0);
+  bound.resize(atom->nmax);
+  std::fill_n(bound.begin(), nall, 0.0);
 
   const Particle *const particle = engine.particle;
   const int *const type = atom->type;
   const Parameters &par = engine.parameters();
 
-  engine.sum_pairs(sums, bound, nall, [&](int i, int j, bigint entry, double *sum) {
-    double rsq = 0.0;
-    for (int d = 0; d < 3; d++) {
-      const double del = particle[i].x[d] - particle[j].x[d];
-      rsq += del * del;
-    }
+  engine.sum_pairs(sums, bound.data(), nall, [&](int i, int j, bigint entry, double *sum) {
+    const double rsq = MathExtra::distsq3(particle[i].x, particle[j].x);
     const double weight =
         central_weight(par.shear, par.pair[type[i] * par.ntypes_1 + type[j]], sqrt(rsq));
     const PairBound pair = bound_of_pair(weight, engine.slope(i, j, entry), rsq, particle[i].vol,
@@ -141,15 +125,8 @@ void LimitStage::run()
     sum[j] += pair.j;
   });
 
-  exchange.reverse({{bound, 1, 1}});
-  exchange.forward({{bound, 1, 1}});
-}
-
-/* ---------------------------------------------------------------------- */
-
-double LimitStage::memory_usage() const
-{
-  return (double) nmax * sizeof(double) + sums.memory_usage();
+  exchange.reverse({{bound.data(), 1, 1}});
+  exchange.forward({{bound.data(), 1, 1}});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -180,13 +157,6 @@ void ViscosityStage::keep(int not_fluid)
     rows.set_viscosity(i, shear_rate[i], not_fluid);
   });
   exchange.forward({{engine.viscosity.data(), 1, 1}});
-}
-
-/* ---------------------------------------------------------------------- */
-
-double ViscosityStage::memory_usage() const
-{
-  return bytes(rates);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -259,11 +229,10 @@ void StateStage::advance(int not_fluid, const std::vector<double> &noise) const
 bigint StateStage::keep() const
 {
   const StateRows states = engine.states();
-  bigint mine = 0, all;
+  bigint mine = 0;
   for (int i = 0; i < atom->nlocal; i++)
     if (States::keep(states, i)) mine++;
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  return all;
+  return over_all(world, mine, MPI_SUM);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -289,7 +258,7 @@ void FlowStage::run(const std::function<void(std::vector<double> &)> &add)
     else {
       add(rate);
       double *const desph = atom->desph;
-      engine.for_each(nheat(), [&](int i) {
+      engine.for_each(nforce(), [&](int i) {
         desph[i] += rate[i];
       });
     }
@@ -301,15 +270,10 @@ void FlowStage::forget()
   for (auto &rate : engine.flow_rate) rate.clear();
 }
 
-int FlowStage::nheat() const
-{
-  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
-}
-
 double FlowStage::received(int groupbit) const
 {
   const std::vector<double> &heat = engine.flow_rate[HEAT_FLOW];
-  return engine.team().sum<double>(nheat(), [&](int i, double &total) {
+  return engine.team().sum<double>(nforce(), [&](int i, double &total) {
     if (atom->mask[i] & groupbit) total += heat[i];
   });
 }
@@ -352,11 +316,9 @@ void PairEnergyStage::visit(std::size_t from, std::size_t to, Function &&functio
   const double support_sq = engine.parameters().support * engine.parameters().support;
   for (std::size_t m = from; m < to; m++) {
     const UnlikePair &pair = pairs[m];
-    double r[3], rsq = 0.0;
-    for (int d = 0; d < 3; d++) {
-      r[d] = particle[pair.i].x[d] - particle[pair.j].x[d];
-      rsq += r[d] * r[d];
-    }
+    double r[3];
+    MathExtra::sub3(particle[pair.i].x, particle[pair.j].x, r);
+    const double rsq = MathExtra::lensq3(r);
     if (rsq < support_sq) function(pair, r, rsq);
   }
 }
@@ -396,7 +358,7 @@ double PairEnergyStage::energy(double *each_atom, int groupbit) const
 {
   const PairEnergyKernel kernel(engine.parameters().dim, engine.parameters().support);
   const int *const mask = atom->mask;
-  const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+  const int n = nforce();
   double total = 0.0;
   visit(0, pairs.size(), [&](const UnlikePair &pair, const double *, double rsq) {
     const double half = 0.5 * pair.energy * kernel.weight(rsq);
@@ -407,11 +369,6 @@ double PairEnergyStage::energy(double *each_atom, int groupbit) const
     }
   });
   return total;
-}
-
-double PairEnergyStage::memory_usage() const
-{
-  return bytes(pairs) + sums.memory_usage();
 }
 
 /* ----------------------------------------------------------------------
@@ -479,37 +436,13 @@ void DiffusionStage::set_rows(int not_fluid, int integrated)
 
 /* ---------------------------------------------------------------------- */
 
-double DiffusionStage::memory_usage() const
-{
-  return bytes(rows, impedances, sums, flow);
-}
-
-/* ---------------------------------------------------------------------- */
-
-ShiftStage::ShiftStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
-    Stage(lmp, engine, exchange), wanted(false), gradient(nullptr), nmax(0)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
-ShiftStage::~ShiftStage()
-{
-  memory->destroy(gradient);
-}
-
-/* ---------------------------------------------------------------------- */
-
 void ShiftStage::run()
 {
   const int nall = atom->nlocal + atom->nghost;
-  if (nmax < atom->nmax) {
-    nmax = atom->nmax;
-    memory->destroy(gradient);
-    memory->create(gradient, nmax, 3, "sph:gradient");
-  }
   const std::size_t n = 3 * (std::size_t) nall;
-  std::fill_n(&gradient[0][0], n, 0.0);
+
+  gradient.resize(3 * (std::size_t) atom->nmax);
+  std::fill_n(gradient.begin(), n, 0.0);
   contact.resize(nall);
 
   const LoopData &pairs = engine.pairs();
@@ -520,14 +453,11 @@ void ShiftStage::run()
           contact_inverse<decltype(k)>(dim, engine.parameters().support, engine.particle[i].vol);
     });
 
-    engine.sum_pairs(sums, &gradient[0][0], n, [&](int i, int j, bigint entry, double *sum) {
+    engine.sum_pairs(sums, gradient.data(), n, [&](int i, int j, bigint entry, double *sum) {
       const Particle &a = engine.particle[i], &b = engine.particle[j];
-      double r[3], rsq = 0.0;
-      for (int d = 0; d < 3; d++) {
-        r[d] = a.x[d] - b.x[d];
-        rsq += r[d] * r[d];
-      }
-      const double shape = k.shape(sqrt(rsq) / engine.parameters().support);
+      double r[3];
+      MathExtra::sub3(a.x, b.x, r);
+      const double shape = k.shape(MathExtra::len3(r) / engine.parameters().support);
       const double slope = engine.slope(i, j, entry);
       const double push_i = concentration_push(b.vol, slope, shape, contact[i]);
       const double push_j = concentration_push(a.vol, slope, shape, contact[j]);
@@ -539,21 +469,7 @@ void ShiftStage::run()
     return 0;
   });
 
-  exchange.reverse({{&gradient[0][0], 3, 3}});
-}
-
-/* ---------------------------------------------------------------------- */
-
-double ShiftStage::memory_usage() const
-{
-  return (double) nmax * 3 * sizeof(double) + bytes(contact) + sums.memory_usage();
-}
-
-/* ---------------------------------------------------------------------- */
-
-int ForceStage::nforce() const
-{
-  return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+  exchange.reverse({{gradient.data(), 3, 3}});
 }
 
 /* ----------------------------------------------------------------------
@@ -607,11 +523,7 @@ void ForceStage::run(NeighList *list, PairTally *tally, const StepPlan &plan,
 
 void ForceStage::collect()
 {
-  const Field f = field(engine.force, engine.force->f, 3);
-  if (engine.has_spin())
-    exchange.reverse({f, engine.torques()});
-  else
-    exchange.reverse({f});
+  exchange.reverse({field(engine.force, engine.force->f, 3), engine.torques()});
 }
 
 /* ---------------------------------------------------------------------- */

@@ -50,6 +50,8 @@ namespace SPHDissipation {
    protected:
     Engine &engine;
     Exchange &exchange;
+    // atoms that forces and heat go to: owned ones and, with newton on, ghosts
+    int nforce() const;
   };
 
   // Pass 1: density c of the reference volumes w, for w = 1 of the number of particles, and its rate;
@@ -84,16 +86,14 @@ namespace SPHDissipation {
 
   class LimitStage : public Stage {
    public:
-    LimitStage(class LAMMPS *, Engine &, Exchange &);
-    ~LimitStage() override;
+    using Stage::Stage;
 
     void run();    // with the volumes of particles set
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(bound, sums); }
 
-    double *bound;    // B of owned and ghost atoms
+    std::vector<double> bound;    // B of owned and ghost atoms
 
    private:
-    int nmax;
     ThreadSums<double> sums;
   };
 
@@ -107,7 +107,7 @@ namespace SPHDissipation {
     void run(int not_fluid);
     void keep(int not_fluid);
 
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(rates); }
 
    private:
     std::vector<double> rates;    // of owned and ghost atoms
@@ -167,9 +167,6 @@ namespace SPHDissipation {
     double received(int groupbit) const;
 
     void forget();    // the rates of the last forces
-
-   private:
-    int nheat() const;    // atoms that heat goes to
   };
 
   // Energy of pairs of unlike types, a w_i w_j W(r) with the reference volumes w = m/rho0, see
@@ -186,7 +183,7 @@ namespace SPHDissipation {
     // to none); of the pairs of the last run()
     double energy(double *each_atom, int groupbit) const;
 
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(pairs, sums); }
 
    private:
     struct UnlikePair {
@@ -220,7 +217,7 @@ namespace SPHDissipation {
 
     void add_heat(int not_fluid, int integrated) const;
 
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(rows, impedances, sums, flow); }
 
    private:
     std::vector<DiffusionRow> rows;    // of owned, ghost, and spare particles, as the next three
@@ -237,18 +234,16 @@ namespace SPHDissipation {
 
   class ShiftStage : public Stage {
    public:
-    ShiftStage(class LAMMPS *, Engine &, Exchange &);
-    ~ShiftStage() override;
+    using Stage::Stage;
 
-    bool wanted;    // by a fix that shifts particles, from its init(), in every run
+    bool wanted = false;    // by a fix that shifts particles, from its init(), in every run
 
     void run();    // with the volumes of particles set
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(gradient, contact, sums); }
 
-    double **gradient;    // of owned atoms
+    std::vector<double> gradient;    // of owned atoms, three numbers each
 
    private:
-    int nmax;
     std::vector<double> contact;    // 1/W(V^(1/n)) of atoms, in units of the norm of the kernel
     ThreadSums<double> sums;
   };
@@ -274,7 +269,6 @@ namespace SPHDissipation {
     void heating(double *heat, double *power, int not_fluid) const;
 
    private:
-    int nforce() const;    // atoms that forces act on
     double bulk_heat(int) const;
     void add_drag_heat(int, int not_fluid, double *channel) const;
   };

@@ -36,13 +36,6 @@ using MathConst::MY_2PI;
 
 /* ---------------------------------------------------------------------- */
 
-FluidState::FluidState(LAMMPS *lmp, Engine &engine, Exchange &exchange, const FluidModel &model) :
-    Stage(lmp, engine, exchange), model(model), group(0), not_fluid(0)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void FluidState::run(int group_in, int not_fluid_in, const std::function<double(int)> &pressure)
 {
   group = group_in;

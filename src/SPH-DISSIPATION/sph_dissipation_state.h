@@ -59,7 +59,10 @@ namespace SPHDissipation {
 
   class FluidState : public Stage {
    public:
-    FluidState(class LAMMPS *, Engine &, Exchange &, const FluidModel &);
+    FluidState(class LAMMPS *lmp, Engine &engine, Exchange &exchange, const FluidModel &model) :
+        Stage(lmp, engine, exchange), model(model)
+    {
+    }
 
     // with the densities of pass 1; of particles with the bit of group, without one of not_fluid
 
@@ -100,7 +103,7 @@ namespace SPHDissipation {
     };
 
     const FluidModel &model;
-    int group, not_fluid;
+    int group = 0, not_fluid = 0;
     std::vector<double> full;     // 1 for particles with full support, owned and ghost
     std::vector<Mean> means;      // by type and set
     std::vector<Range> ranges;    // by type and set

@@ -16,7 +16,6 @@
 #include "atom.h"
 #include "math_const.h"
 #include "math_extra.h"
-#include "memory.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
@@ -54,20 +53,6 @@ static double edge(double rsq, double radius)
 
 /* ---------------------------------------------------------------------- */
 
-SurfaceStage::SurfaceStage(LAMMPS *lmp, Engine &engine, Exchange &exchange) :
-    Stage(lmp, engine, exchange), surface(nullptr), has_flux(false), nmax(0), body(nullptr)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
-SurfaceStage::~SurfaceStage()
-{
-  memory->sfree(surface);
-}
-
-/* ---------------------------------------------------------------------- */
-
 void SurfaceStage::run(int bits, const BoundaryPairs &pairs, const std::vector<double> &body_in)
 {
   body = body_in.empty() ? nullptr : body_in.data();
@@ -95,11 +80,7 @@ void SurfaceStage::run(int bits, const std::vector<double> &sides)
 
 void SurfaceStage::begin()
 {
-  if (nmax < atom->nmax) {
-    nmax = atom->nmax;
-    memory->sfree(surface);
-    surface = (Surface *) memory->smalloc(nmax * sizeof(Surface), "sph:surface");
-  }
+  surface.resize(atom->nmax);
   engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
     surface[i] = Surface();
   });
@@ -128,8 +109,8 @@ void SurfaceStage::find(int bits)
 
   const double radius = (spacing > 0.0) ? std::min(support, CUTOFF * spacing) : support;
   find_outer_layer(Cells(atom->x, all, radius), owned);
-  const Field normal = field(surface, surface->normal, 3),
-              depth = field(surface, &surface->depth, 1);
+  Surface *const first = surface.data();
+  const Field normal = field(first, first->normal, 3), depth = field(first, &first->depth, 1);
   exchange.forward({normal, depth});
 
   for (const int i : all)
@@ -138,7 +119,7 @@ void SurfaceStage::find(int bits)
   exchange.forward({normal, depth});
   if (!has_flux) return;
   find_curvature(Cells(atom->x, all, radius), owned);
-  exchange.forward({field(surface, &surface->curvature, 1)});
+  exchange.forward({field(first, &first->curvature, 1)});
 }
 
 /* ----------------------------------------------------------------------
@@ -147,7 +128,7 @@ void SurfaceStage::find(int bits)
 
 void SurfaceStage::find_sides(const BoundaryPairs &pairs)
 {
-  sums.run(engine.team(), surface, atom->nlocal + atom->nghost, pairs.touched,
+  sums.run(engine.team(), surface.data(), atom->nlocal + atom->nghost, pairs.touched,
            [&](int k, Surface *sum) {
              for (const auto &pair : pairs.of_thread[k]) {
                const double *const f = engine.particle[pair.fluid].x;
@@ -156,7 +137,7 @@ void SurfaceStage::find_sides(const BoundaryPairs &pairs)
                for (int d = 0; d < 3; d++) sum[pair.wall].normal[d] += slope * (f[d] - w[d]);
              }
            });
-  exchange.reverse({field(surface, surface->normal, 3)});
+  exchange.reverse({field(surface.data(), surface.data()->normal, 3)});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -267,20 +248,4 @@ void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &ow
     const double curvature = turn / norm;
     s.curvature = (curvature * s.spacing > HOLLOW) ? curvature : 0.0;
   });
-}
-
-/* ---------------------------------------------------------------------- */
-
-double SurfaceStage::memory_usage() const
-{
-  return (double) nmax * sizeof(Surface) + sums.memory_usage();
-}
-
-double BoundaryPairs::memory_usage() const
-{
-  double sum = 0.0;
-  for (const auto &pairs : of_thread) sum += bytes(pairs);
-  for (const auto &lists : {&rows, &touched})
-    for (const auto &one : *lists) sum += bytes(one);
-  return sum;
 }

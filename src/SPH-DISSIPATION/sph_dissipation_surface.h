@@ -43,7 +43,7 @@ namespace SPHDissipation {
       for (const auto &pairs : of_thread)
         for (const auto &pair : pairs) function(pair);
     }
-    double memory_usage() const;
+    double memory_usage() const { return bytes(of_thread, rows, touched); }
   };
 
   // Where the surface of the boundary is, seen from each of its particles: from the arrangement of
@@ -51,8 +51,7 @@ namespace SPHDissipation {
 
   class SurfaceStage : public Stage {
    public:
-    SurfaceStage(class LAMMPS *, Engine &, Exchange &);
-    ~SurfaceStage() override;
+    using Stage::Stage;
 
     // when the neighbor list is new: normal, depth and spacing of the owned and ghost atoms with one
     // of these bits, from their volumes; omega is for the boundary to set
@@ -63,15 +62,14 @@ namespace SPHDissipation {
     // Do the same with known vectors toward the fluid, those of the owned particles in their order.
     void run(int bits, const std::vector<double> &sides);
 
-    double memory_usage() const override;
+    double memory_usage() const override { return bytes(surface, sums); }
 
-    Surface *surface;    // by owned and ghost atom
-    bool has_flux;       // walls have a flux of heat, which needs curvatures
+    std::vector<Surface> surface;    // by owned and ghost atom
+    bool has_flux = false;           // walls have a flux of heat, which needs curvatures
 
    private:
-    int nmax;
     ThreadSums<Surface> sums;
-    const double *body;
+    const double *body = nullptr;
 
     bool together(int i, int j) const { return !body || body[i] == body[j]; }
     template <class Task> void for_each(const std::vector<int> &, const Task &);

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 using namespace LAMMPS_NS;

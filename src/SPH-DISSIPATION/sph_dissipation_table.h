@@ -32,11 +32,7 @@ namespace SPHDissipation {
   class CoeffTable {
    public:
     // fastest = speed of any particle
-    CoeffTable(double fastest) :
-        fastest(fastest), smallest(UNLIMITED_STEP), acoustic(UNLIMITED_STEP),
-        viscous(UNLIMITED_STEP), dissipative(UNLIMITED_STEP), heat(UNLIMITED_STEP)
-    {
-    }
+    CoeffTable(double fastest) : fastest(fastest) {}
 
     // of types i and j, with the largest stable time step for their sound, and the rate of the diffusion of volume
     void add_row(int i, int j, const TypePair &, const PairInertia &, double acoustic_step,
@@ -71,7 +67,8 @@ namespace SPHDissipation {
     const double fastest;
     std::vector<Row> rows;
     std::set<int> left_out;    // optional channels that no row uses
-    double smallest, acoustic, viscous, dissipative, heat;
+    double smallest = UNLIMITED_STEP, acoustic = UNLIMITED_STEP;
+    double viscous = UNLIMITED_STEP, dissipative = UNLIMITED_STEP, heat = UNLIMITED_STEP;
 
     static double rate_of(double step) { return (step < UNLIMITED_STEP) ? 1.0 / step : 0.0; }
   };

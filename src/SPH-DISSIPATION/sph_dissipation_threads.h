@@ -20,16 +20,32 @@
 #include <cstring>
 #include <functional>
 #include <numeric>
+#include <type_traits>
 #include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // memory of vectors
+  // memory of vectors, and of what has a memory_usage(); of vectors of either, what these have
 
-  template <class... List> double bytes(const List &...list)
+  template <class T> auto bytes_of(const T &one) -> decltype(one.memory_usage())
   {
-    return (... + (static_cast<double>(list.capacity()) * sizeof(typename List::value_type)));
+    return one.memory_usage();
+  }
+
+  template <class T> double bytes_of(const std::vector<T> &list)
+  {
+    if constexpr (std::is_trivially_copyable<T>::value)
+      return static_cast<double>(list.capacity()) * sizeof(T);
+    else
+      return std::accumulate(list.begin(), list.end(), 0.0, [](double sum, const T &one) {
+        return sum + bytes_of(one);
+      });
+  }
+
+  template <class... One> double bytes(const One &...one)
+  {
+    return (... + bytes_of(one));
   }
 
   // Here there is one; those of the KOKKOS package derive from it.
@@ -133,12 +149,7 @@ namespace SPHDissipation {
       });
     }
 
-    double memory_usage() const
-    {
-      double sum = 0.0;
-      for (const auto &other : others) sum += bytes(other);
-      return sum;
-    }
+    double memory_usage() const { return bytes(others); }
 
    private:
     std::vector<std::vector<Row>> others;

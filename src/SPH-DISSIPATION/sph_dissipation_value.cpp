@@ -64,20 +64,6 @@ void Value::evaluate(LAMMPS *lmp, int igroup)
 
 /* ---------------------------------------------------------------------- */
 
-double Value::memory_usage() const
-{
-  return static_cast<double>(column.capacity() * sizeof(double));
-}
-
-/* ---------------------------------------------------------------------- */
-
-Keywords::Keywords(LAMMPS *lmp, const std::string &owner, int first, int narg, char **arg) :
-    lmp(lmp), owner(owner), narg(narg), arg(arg), at(first), end(first), known(true)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 bool Keywords::next()
 {
   if (!known) lmp->error->all(FLERR, "Unknown {} keyword: {}", utils::lowercase(owner), keyword);

@@ -44,7 +44,10 @@ namespace SPHDissipation {
     bool is_zero() const { return !varies() && number == 0.0; }    // at all times
     double now() const { return number; }                          // if it is not of atom style
     double operator()(int i) const { return column.empty() ? number : column[i]; }
-    double memory_usage() const;    // bytes
+    double memory_usage() const    // bytes
+    {
+      return static_cast<double>(column.capacity() * sizeof(double));
+    }
 
    private:
     bool is_variable = false;
@@ -65,7 +68,10 @@ namespace SPHDissipation {
   class Keywords {
    public:
     // Begin in front of arg[first]; owner: for messages.
-    Keywords(LAMMPS *, const std::string &owner, int first, int narg, char **arg);
+    Keywords(LAMMPS *lmp, const std::string &owner, int first, int narg, char **arg) :
+        lmp(lmp), owner(owner), narg(narg), arg(arg), at(first), end(first)
+    {
+    }
 
     bool next();    // Go to the next keyword; false if there is none.
     bool is(const std::string &name, int nwords = 1);    // it is this one; go behind its words
@@ -87,7 +93,7 @@ namespace SPHDissipation {
     char **const arg;
     int at, end;            // range of its words
     std::string keyword;    // empty: in front of the first one
-    bool known;
+    bool known = true;
   };
 
 }    // namespace SPHDissipation

@@ -16,7 +16,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "force.h"
 #include "neighbor.h"
 #include "platform.h"
 #include "sph_dissipation_boundary_stage.h"
@@ -36,33 +35,6 @@
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-/* ---------------------------------------------------------------------- */
-
-StiffStage::StiffStage(LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &where) :
-    Stage(lmp, engine, exchange), statistics(), groups(0), symmetric(true), prescribed(0), width(1),
-    where(where), known_rate(0.0), rate(0.0), outdated(true), warned(false), h(0.0)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
-ViscousStage::ViscousStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                           const PressureStage &pressure, BoundaryStage &boundary) :
-    StiffStage(lmp, engine, exchange, ""),
-    pressure(pressure), boundary(boundary), list(nullptr), bound(nullptr), omegaest(nullptr), mean()
-{
-  width = 3;
-}
-
-/* ---------------------------------------------------------------------- */
-
-TemperatureStage::TemperatureStage(LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                                   BoundaryStage &boundary) :
-    StiffStage(lmp, engine, exchange, " in the conduction of heat"),
-    boundary(boundary), mean(0.0)
-{
-}
 
 /* ---------------------------------------------------------------------- */
 
@@ -167,11 +139,8 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
   bound = bound_in;
   symmetric = symmetric_in;
 
-  const Field f = {atom->nmax ? atom->f[0] : nullptr, 3, 3};
-  if (omegaest)
-    exchange.reverse({f, {atom->nmax ? atom->torque[0] : nullptr, 3, 3}});
-  else
-    exchange.reverse({f});
+  exchange.reverse({{atom->nmax ? atom->f[0] : nullptr, 3, 3},
+                    {omegaest && atom->nmax ? atom->torque[0] : nullptr, 3, omegaest ? 3 : 0}});
   gather();
   restore();
   if (!boundary.empty()) find_rest();
@@ -263,11 +232,7 @@ void ViscousStage::set_guess()
     }
   });
 
-  const Field u = {change[0].data(), 3, 3};
-  if (omegaest)
-    exchange.forward({u, {change[1].data(), 3, 3}});
-  else
-    exchange.forward({u});
+  exchange.forward({{change[0].data(), 3, 3}, {change[1].data(), 3, omegaest ? 3 : 0}});
   engine.for_each(static_cast<int>(nall), [&](int i) {
     for (int c = 0; c < 3; c++) {
       atom->vest[i][c] += change[0][3 * i + c];
@@ -312,11 +277,7 @@ void ViscousStage::set_velocities(const Unknowns &values)
     std::copy_n(&values[row], 3, particle[i].u);
     if (omegaest) std::copy_n(&values[row + 3], 3, engine.spin[i].w);
   });
-  const Field u = field(particle, particle->u, 3);
-  if (omegaest)
-    exchange.forward({u, field(engine.spin, engine.spin->w, 3)});
-  else
-    exchange.forward({u});
+  exchange.forward({field(particle, particle->u, 3), engine.spins()});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -373,11 +334,7 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
 
   engine.accumulate_friction(list, prescribed);
   boundary.add_linear_friction();
-  const Field f = field(engine.force, engine.force->f, 3);
-  if (omegaest)
-    exchange.reverse({f, engine.torques()});
-  else
-    exchange.reverse({f});
+  exchange.reverse({field(engine.force, engine.force->f, 3), engine.torques()});
   for_unknown([&](int i, std::size_t row) {
     for (int d = 0; d < 3; d++) {
       out[row + d] = -engine.force[i].f[d];
@@ -663,16 +620,6 @@ double StiffStage::memory_usage() const
                heat_before, unknown);
 }
 
-double ViscousStage::memory_usage() const
-{
-  return StiffStage::memory_usage() + bytes(others, ahead, ahead_spin, rest);
-}
-
-double TemperatureStage::memory_usage() const
-{
-  return StiffStage::memory_usage() + bytes(flow, temperature);
-}
-
 /* ----------------------------------------------------------------------
    At the start of a run, desph_before is what the step before has added to the energy that its forces have seen;
    later it is the rate by which the energy has gone half a step beyond the middle of the step.
@@ -741,11 +688,10 @@ void TemperatureStage::find_unknowns()
 
 void TemperatureStage::gather()
 {
-  const int n = lmp->force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
   if (settings.mode == Viscous::RKL2) set_temperatures();
   engine.accumulate_flow(HEAT_FLOW, flow);
   boundary.add_surface_heat(flow);
-  engine.for_each(n, [&](int i) {
+  engine.for_each(nforce(), [&](int i) {
     flow[i] += atom->desph[i];
   });
   exchange.reverse({{flow.data(), 1, 1}});

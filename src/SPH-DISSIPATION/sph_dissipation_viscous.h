@@ -85,7 +85,10 @@ namespace SPHDissipation {
   class StiffStage : public Stage {
    public:
     // where = for messages, after the number of the step
-    StiffStage(class LAMMPS *, Engine &, Exchange &, const std::string &where);
+    StiffStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &where) :
+        Stage(lmp, engine, exchange), where(where)
+    {
+    }
 
     // of all integrators of the fluid, and bits of their groups; style = of the fluid, for messages
 
@@ -108,7 +111,7 @@ namespace SPHDissipation {
     // of the last step: iterations, or stages; residual; seconds; and applications of Gamma in this run
 
     enum { ITERATIONS, RESIDUAL, SECONDS, APPLICATIONS, NSTATISTICS };
-    double statistics[NSTATISTICS];
+    double statistics[NSTATISTICS] = {};
 
     double memory_usage() const override;
 
@@ -123,10 +126,10 @@ namespace SPHDissipation {
    protected:
     ViscousSettings settings;
     std::string style;
-    int groups;
-    bool symmetric;              // Gamma is
-    int prescribed;              // bits of the groups of particles that are not unknown
-    int width;                   // unknowns per particle
+    int groups = 0;
+    bool symmetric = true;       // Gamma is
+    int prescribed = 0;          // bits of the groups of particles that are not unknown
+    int width = 1;               // unknowns per particle
     std::vector<int> unknown;    // owned particles
     Unknowns before;             // y-
     Unknowns guess, force;       // y_b, F(y_b) of the beginning; the solution is y_b = guess + x
@@ -150,10 +153,11 @@ namespace SPHDissipation {
 
    private:
     const std::string where;
-    double known_rate, rate;    // of the fastest mode: on lattices; of these particles, at least
-    bool outdated;              // are the two
-    bool warned;                // of iterations that were not enough, in this run
-    double h;                   // of M + h Gamma
+    double known_rate = 0.0,
+           rate = 0.0;       // of the fastest mode: on lattices; of these particles, at least
+    bool outdated = true;    // are the two
+    bool warned = false;     // of iterations that were not enough, in this run
+    double h = 0.0;          // of M + h Gamma
     std::vector<double> forces_before, torques_before, heat_before;
 
     std::string moment() const;
@@ -173,7 +177,12 @@ namespace SPHDissipation {
 
   class ViscousStage : public StiffStage {
    public:
-    ViscousStage(class LAMMPS *, Engine &, Exchange &, const PressureStage &, BoundaryStage &);
+    ViscousStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange,
+                 const PressureStage &pressure, BoundaryStage &boundary) :
+        StiffStage(lmp, engine, exchange, ""),
+        pressure(pressure), boundary(boundary)
+    {
+    }
 
     // From the integrator at the beginning of a step, of a particle that it has moved: vest, or omegaest,
     // travels with it as v + dt/m times the forces of other styles, until begin() makes it the
@@ -191,7 +200,10 @@ namespace SPHDissipation {
     void begin(int prescribed, double **omegaest, const double *inertia);
     void run(NeighList *, const double *bound, bool symmetric);
 
-    double memory_usage() const override;
+    double memory_usage() const override
+    {
+      return StiffStage::memory_usage() + bytes(others, ahead, ahead_spin, rest);
+    }
 
     // the velocity, relative to the mean one, of the fluid before the step and in the solution
     double scale_sq() const override;
@@ -202,11 +214,11 @@ namespace SPHDissipation {
 
     // of this step
 
-    NeighList *list;
-    const double *bound;
-    double **omegaest;
-    Unknowns others;    // forces of other styles
-    double mean[3];     // velocity
+    NeighList *list = nullptr;
+    const double *bound = nullptr;
+    double **omegaest = nullptr;
+    Unknowns others;        // forces of other styles
+    double mean[3] = {};    // velocity
 
     // increments on v-, spin-, of the integrator's guess, by particles as they were then
 
@@ -238,12 +250,20 @@ namespace SPHDissipation {
 
   class TemperatureStage : public StiffStage {
    public:
-    TemperatureStage(class LAMMPS *, Engine &, Exchange &, BoundaryStage &);
+    TemperatureStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange,
+                     BoundaryStage &boundary) :
+        StiffStage(lmp, engine, exchange, " in the conduction of heat"),
+        boundary(boundary)
+    {
+    }
 
     // after pass 2; prescribed as ViscousStage::begin()
     void run(int prescribed);
 
-    double memory_usage() const override;
+    double memory_usage() const override
+    {
+      return StiffStage::memory_usage() + bytes(flow, temperature);
+    }
 
     // temperature, relative to the mean one, before the step and in the solution
     double scale_sq() const override;
@@ -252,7 +272,7 @@ namespace SPHDissipation {
     BoundaryStage &boundary;
     std::vector<double> flow;           // heat per time that owned and ghost atoms get
     std::vector<double> temperature;    // of owned atoms, of their energies before run()
-    double mean;                        // temperature before the step
+    double mean = 0.0;                  // temperature before the step
 
     void find_unknowns();
     void gather();

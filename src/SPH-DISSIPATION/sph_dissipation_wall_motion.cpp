@@ -30,16 +30,6 @@ enum { OMEGA = 3 };    // index of the angular velocity, after the velocity
 
 /* ---------------------------------------------------------------------- */
 
-WallMotion::WallMotion(LAMMPS *lmp, const std::string &owner) :
-    Pointers(lmp), owner(owner),
-    rotation_given(false), given{0.0, 0.0, 0.0, 0.0, 0.0, 1.0}, point{0.0, 0.0, 0.0}, axis{0.0, 0.0,
-                                                                                           1.0},
-    any_variable(false), known_step(-1)
-{
-}
-
-/* ---------------------------------------------------------------------- */
-
 void WallMotion::set_velocity(char **arg)
 {
   for (int d = 0; d < 3; d++) read(values[d], arg[d]);

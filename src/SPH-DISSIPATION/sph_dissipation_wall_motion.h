@@ -28,7 +28,8 @@ namespace SPHDissipation {
 
   class WallMotion : protected Pointers {
    public:
-    WallMotion(class LAMMPS *, const std::string &owner);    // owner: for messages
+    // owner: for messages
+    WallMotion(class LAMMPS *lmp, const std::string &owner) : Pointers(lmp), owner(owner) {}
 
     // arguments of the commands; what they mean is checked here
 
@@ -64,11 +65,12 @@ namespace SPHDissipation {
 
     const std::string owner;
     Component values[NVALUES];    // velocity along x, y, z and angular velocity
-    bool rotation_given;
-    double given[6];    // point and direction of the axis as in the input
-    double point[3], axis[3];
-    bool any_variable;
-    bigint known_step;    // time step that the values are for, -1 if none
+    bool rotation_given = false;
+    double given[6] = {0.0, 0.0, 0.0,
+                       0.0, 0.0, 1.0};    // point and direction of the axis as in the input
+    double point[3] = {}, axis[3] = {0.0, 0.0, 1.0};
+    bool any_variable = false;
+    bigint known_step = -1;    // time step that the values are for, -1 if none
 
     void read(Component &, const char *);
     bool evaluate(double *);

@@ -51,14 +51,6 @@ namespace SPHDissipation {
     {
       return _mm512_ternarylogic_epi64(a, all_words(bits), b, 0x6a);
     }
-    SPH_INLINE Words pattern(Vec a)
-    {
-      return _mm512_castpd_si512(a);
-    }
-    SPH_INLINE Vec value(Words a)
-    {
-      return _mm512_castsi512_pd(a);
-    }
 
 #elif defined(LOOPS_AVX2)
 
@@ -83,14 +75,6 @@ namespace SPHDissipation {
     SPH_INLINE Words masked(Words a, std::uint64_t bits, Words b)
     {
       return _mm256_and_si256(a, all_words(bits)) ^ b;
-    }
-    SPH_INLINE Words pattern(Vec a)
-    {
-      return _mm256_castpd_si256(a);
-    }
-    SPH_INLINE Vec value(Words a)
-    {
-      return _mm256_castsi256_pd(a);
     }
 
 #else
@@ -117,12 +101,18 @@ namespace SPHDissipation {
     {
       return (a & bits) ^ b;
     }
+
+#endif
+
+    // the same for all instruction sets
+
     SPH_INLINE Words pattern(Vec a)
     {
       Words bits;
       std::memcpy(&bits, &a, sizeof(bits));
       return bits;
     }
+
     SPH_INLINE Vec value(Words a)
     {
       Vec number;
@@ -130,10 +120,7 @@ namespace SPHDissipation {
       return number;
     }
 
-#endif
-
-    // the same for all instruction sets: a as the lower bits of a number between 2^52 and 2^53, whose
-    // upper ones are
+    // a as the lower bits of a number between 2^52 and 2^53, whose upper ones are
 
     constexpr std::uint64_t OFFSET_PATTERN = 0x4330000000000000;
     constexpr double OFFSET = 4503599627370496.0;
