@@ -436,9 +436,13 @@ void FluidModel::warn_of_ignored() const
     if (choice.eos == Eos::LINEAR && type.gamma > 0.0)
       error->warning(FLERR, "Pair_coeff gamma {} of type {} is ignored with eos linear", type.gamma,
                      i);
-    report_ignored(TypeCoeffs(type.keywords), [&](const char *what) {
+    const TypeCoeffs keywords_of(type.keywords);
+    report_ignored(keywords_of, [&](const char *what) {
       error->warning(FLERR, "Pair_coeff: {} of type {} is ignored", what, i);
     });
+    const char *const law = keyword_that_needs(RHEOLOGY, i);
+    if (law && Rheology::range(keywords_of.rheology(), type.viscosity[MU]).most == 0.0)
+      error->warning(FLERR, "Pair_coeff {} of type {} is ignored: mu is 0; give mu > 0", law, i);
     const double intrinsic = intrinsic_kappa(i, i);
     if (choice.bulk != Bulk::NONE || type.kappa == intrinsic) continue;
     error->warning(FLERR,

@@ -255,6 +255,13 @@ def test_arrhenius_of_two_fluids(lammps):
     assert any("viscosity depends on it, have none" in line for line in lammps(header(2) + "read_data box.data\n" + model + rest + "run 0\n").warnings)
 
 
+@pytest.mark.parametrize("keywords, ignored", [("arrhenius 3 1 4", True), ("cross 1 1 0", True), ("arrhenius 3 1 4 yield 0.3 40", False)])
+def test_law_without_a_viscosity(lammps, keywords, ignored):
+    disordered(2, 12).write(lammps.path("box.data"))
+    found = lammps(header(2) + "read_data box.data\n" + fluid(2, mu=0.0, keywords=f"cv 2 {keywords}") + "fix FLUID all sph/bulk\nrun 0\n").warnings
+    assert any("of type 1 is ignored: mu is 0" in line for line in found) == ignored
+
+
 def test_couette_flow_between_walls_of_two_temperatures(lammps):
     """The stress is uniform, so that the slope of the velocity is that of 1/mu(T) with the linear profile of T; means over time."""
     text = channel("cv 1 conductivity 1.5 arrhenius 2 1 1", integrator="temperature v_T", before="variable T atom 1+y/10\n")
