@@ -168,6 +168,7 @@ void Fluid::check_setup()
   if (spins && model->dimension() == 1)
     error->all(FLERR, Error::NOLASTLINE, "Pair_style {} needs dim 2 or 3: no spin in dim 1", style);
   check_styles(lmp, style);
+  find_own_types();
   check_rerun(lmp, style, *model);
   if (update->whichflag == 2 && model->choice.eos == Eos::IDEAL)
     error->all(FLERR,
@@ -175,7 +176,7 @@ void Fluid::check_setup()
                "on the heat of the particles, not on their positions alone",
                style);
   for (int i = 1; i <= atom->ntypes && update->whichflag == 2; i++)
-    if (TypeCoeffs(model->coeffs[i].keywords).gamma() > 0.0)
+    if (has_type(i) && TypeCoeffs(model->coeffs[i].keywords).gamma() > 0.0)
       error->all(
           FLERR,
           "Pair style {} with gruneisen cannot be used in a minimization: its energy depends "
@@ -184,7 +185,6 @@ void Fluid::check_setup()
   if (model->choice.thermal) check_noise(lmp, style);
   dim = model->dimension();
   support = model->common_support(pair->setflag);
-  find_own_types();
   check_fluid_lists(lmp, style, *model);
   check_room(lmp, style, *model);
   check_support(lmp, style, *model, dim, support);

@@ -314,7 +314,7 @@ void FluidModel::check_rheology(int i) const
 {
   const auto refuse = [&](const std::string &what) {
     for (int k = 1; k <= atom->ntypes; k++)
-      if (const char *keyword = coeffs[k].other ? nullptr : keyword_that_needs(RHEOLOGY, k))
+      if (const char *keyword = keyword_that_needs(RHEOLOGY, k))
         error->all(FLERR, Error::NOLASTLINE,
                    "Pair_coeff {} of type {}, a viscosity that is not constant, {}", keyword, k,
                    what);
@@ -360,6 +360,7 @@ bool FluidModel::is_alike(int i, int j) const
 
 const char *FluidModel::keyword_that_needs(int requirements, int type) const
 {
+  if (coeffs[type].other) return nullptr;
   for (const TypeKeyword &one : keywords)
     if ((one.needs & requirements) && coeffs[type].keywords[one.first] != 0.0) return one.name;
   return nullptr;

@@ -450,6 +450,15 @@ def test_errors(lammps, model, words):
     assert result.code and words in result.error.replace("\n", " "), result.output[-1500:]
 
 
+@pytest.mark.parametrize("end", ["rerun frame dump x y vx vy\n", "minimize 0 0 1 1\n", "unfix FLUID\nfix FLUID one sph/bulk viscous rkl2\nrun 1\n"])
+def test_keywords_of_a_type_that_another_style_has_taken(lammps, end):
+    """They are not the fluid's."""
+    disordered(2, 12, ntypes=2).write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\npair_style hybrid sph/bulk soft 1.0\npair_coeff * * sph/bulk 1 10 0.5 2 3 cv 2 gruneisen 0.1 1 arrhenius 2 1 3\n"
+           "pair_coeff 1 1 sph/bulk 1 10 0.5 2 3\npair_coeff * 2 soft 1.0\ngroup one type 1\ngroup two type 2\nfix FLUID one sph/bulk\n"
+           "fix OTHER two nve\nwrite_dump all custom frame id type x y z vx vy vz\n" + end)
+
+
 def test_errors_of_other_commands(lammps):
     """The property and the integrator; test_combinations.py has open ends."""
     particles = disordered(2, 12)
