@@ -335,11 +335,10 @@ void FixSPHBulk::init_viscous()
                style, style);
   for (int i = 1; i <= atom->ntypes; i++)
     if (const char *keyword = fluid->model->keyword_that_needs(THERMAL_FRICTION, i))
-      if (fluid->has_type(i))
-        error->all(FLERR,
-                   "Fix {} viscous rkl2 or implicit cannot be used with {} of pair_coeff, which "
-                   "type {} has: its friction depends on the temperatures; use viscous explicit",
-                   style, keyword, i);
+      error->all(FLERR,
+                 "Fix {} viscous rkl2 or implicit cannot be used with {} of pair_coeff, which "
+                 "type {} has: its friction depends on the temperatures; use viscous explicit",
+                 style, keyword, i);
   if (fluid->model->has_rheology() && settings.mode == Viscous::IMPLICIT)
     error->all(FLERR,
                "Fix {} viscous implicit cannot be used with a viscosity that is not constant; use "

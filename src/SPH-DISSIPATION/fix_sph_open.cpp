@@ -177,9 +177,8 @@ void FixSPHOpen::init()
   values->init(fluid->model->choice.eos == Eos::IDEAL);
   for (int i = 1; i <= atom->ntypes; i++)
     if (const char *keyword = fluid->model->keyword_that_needs(NO_OPEN_ENDS | RHEOLOGY, i))
-      if (fluid->has_type(i))
-        error->all(FLERR, "Fix {} cannot be used with {} of pair_coeff, which type {} has", style,
-                   keyword, i);
+      error->all(FLERR, "Fix {} cannot be used with {} of pair_coeff, which type {} has", style,
+                 keyword, i);
   check_heat();
   condition->init(*fluid->model);
   if (area > 0.0)

@@ -217,8 +217,7 @@ void FixSPHOpen::check_heat()
   const FluidModel &model = *fluid->model;
   for (int i = 1; i <= atom->ntypes; i++) {
     const char *const keyword = model.keyword_that_needs(HEAT_CAPACITY, i);
-    if (fluid->has_type(i) && values->given(OpenValues::ENERGY) && model.choice.eos != Eos::IDEAL &&
-        keyword)
+    if (keyword && values->given(OpenValues::ENERGY) && model.choice.eos != Eos::IDEAL)
       error->all(FLERR,
                  "Fix {} energy cannot be used with {} of pair_coeff, which type {} has: give "
                  "the temperature instead",

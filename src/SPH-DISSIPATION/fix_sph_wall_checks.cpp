@@ -29,6 +29,7 @@
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_value.h"
+#include "sph_dissipation_wall_terms.h"
 #include "update.h"
 
 #include <algorithm>
@@ -268,7 +269,7 @@ std::set<int> FixSPHWall::interacting_types(const Fluid *fluid) const
 
 void FixSPHWall::check_thickness(const Fluid *fluid) const
 {
-  constexpr double FULL = 0.03, MASS_ERROR = 0.2;
+  constexpr double FULL = 0.03, MASS_ERROR = 0.2, ONE_SIDE = 0.1;
   double **x = atom->x;
   const int nall = atom->nlocal + atom->nghost;
   const double support = fluid->support_radius();
@@ -296,7 +297,7 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
     const double rho0 = fluid->model->coeffs[atom->type[i]].eos.rho0;
     const double spacing = pow(atom->rmass[i] / rho0, 1.0 / dim);
 
-    double nearest = support, normal[3] = {0.0, 0.0, 0.0};
+    double nearest = support, normal[3] = {0.0, 0.0, 0.0}, lengths = 0.0;
     double weights = 1.0, moment[3] = {0.0, 0.0, 0.0};
     for_neighbors(i, [&](int j, const double *r, double distance) {
       const double near = 1.0 - distance * distance / (support * support);
@@ -305,19 +306,22 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
       if (fluid->is_boundary(j)) return;
       nearest = std::min(nearest, distance);
       const double weight = (support - distance) * (support - distance) / distance;
+      lengths += weight * distance;
       for (int d = 0; d < 3; d++) normal[d] += weight * r[d];
     });
     if (MathExtra::len3(moment) < FULL * weights * support) {
       sum[0] += atom->rmass[i];
       sum[1] += rho0 * integral / weights;
     }
-    if (nearest > 1.25 * spacing || !(MathExtra::len3(normal) > 0.0)) continue;
-    MathExtra::norm3(normal);
+    if (nearest > 1.25 * spacing || !(lengths > 0.0)) continue;
 
-    double depth = 0.0;
-    for_neighbors(i, [&](int j, const double *r, double) {
-      if (fluid->is_boundary(j)) depth = std::max(depth, -MathExtra::dot3(normal, r));
-    });
+    double depth = 0.0;    // also of one layer with fluid on both sides, which cancel each other
+    if (MathExtra::len3(normal) > ONE_SIDE * lengths) {
+      MathExtra::norm3(normal);
+      for_neighbors(i, [&](int j, const double *r, double) {
+        if (fluid->is_boundary(j)) depth = std::max(depth, -MathExtra::dot3(normal, r));
+      });
+    }
     const double missing = support - (depth + spacing);
     if (missing > 0.5 * spacing) {
       worst[0] = std::max(worst[0], missing);
@@ -325,7 +329,7 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
     }
   }
   MPI_Allreduce(worst, worst_all, 2, MPI_DOUBLE, MPI_MAX, world);
-  if (worst_all[0] > 0.0 && comm->me == 0 && !bodies)
+  if (worst_all[0] > 0.0 && comm->me == 0 && (!bodies || heat == WallHeat::FLUX))
     error->warning(FLERR,
                    "The wall of fix {} {} is thinner than the support radius {:g}, by {:.3g}: it "
                    "needs {:g} layers of particles",

@@ -163,6 +163,7 @@ void Fluid::check_setup()
 {
   if (spins && model->dimension() == 1)
     error->all(FLERR, Error::NOLASTLINE, "Pair_style {} needs dim 2 or 3: no spin in dim 1", style);
+  find_own_types();
   const FluidChecks check(lmp, style, *model);
   check.styles();
   check.rerun();
@@ -172,7 +173,7 @@ void Fluid::check_setup()
                "on the heat of the particles, not on their positions alone",
                style);
   for (int i = 1; i <= atom->ntypes && update->whichflag == 2; i++)
-    if (TypeCoeffs(model->coeffs[i].keywords).gamma() > 0.0)
+    if (has_type(i) && TypeCoeffs(model->coeffs[i].keywords).gamma() > 0.0)
       error->all(
           FLERR,
           "Pair style {} with gruneisen cannot be used in a minimization: its energy depends "
@@ -181,7 +182,6 @@ void Fluid::check_setup()
   if (model->choice.thermal) check.noise();
   dim = model->dimension();
   support = model->common_support(pair->setflag);
-  find_own_types();
   check.fluid_lists();
   check.room();
   check.support(dim, support);

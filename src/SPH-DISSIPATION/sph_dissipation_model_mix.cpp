@@ -302,7 +302,7 @@ void FluidModel::check_rheology(int i) const
 {
   const auto refuse = [&](const std::string &what) {
     for (int k = 1; k <= atom->ntypes; k++)
-      if (const char *keyword = coeffs[k].other ? nullptr : keyword_that_needs(RHEOLOGY, k))
+      if (const char *keyword = keyword_that_needs(RHEOLOGY, k))
         error->all(FLERR, Error::NOLASTLINE,
                    "Pair_coeff {} of type {}, a viscosity that is not constant, {}", keyword, k,
                    what);
@@ -348,6 +348,7 @@ bool FluidModel::is_alike(int i, int j) const
 
 const char *FluidModel::keyword_that_needs(int requirements, int type) const
 {
+  if (coeffs[type].other) return nullptr;
   for (const TypeKeyword &one : keywords)
     if ((one.needs & requirements) && coeffs[type].keywords[one.first] != 0.0) return one.name;
   return nullptr;
@@ -417,9 +418,13 @@ void FluidModel::warn_of_ignored() const
     if (choice.eos == Eos::LINEAR && type.gamma > 0.0)
       error->warning(FLERR, "Pair_coeff gamma {} of type {} is ignored with eos linear", type.gamma,
                      i);
-    report_ignored(TypeCoeffs(type.keywords), [&](const char *what) {
+    const TypeCoeffs keywords_of(type.keywords);
+    report_ignored(keywords_of, [&](const char *what) {
       error->warning(FLERR, "Pair_coeff: {} of type {} is ignored", what, i);
     });
+    const char *const law = keyword_that_needs(RHEOLOGY, i);
+    if (law && Rheology::range(keywords_of.rheology(), type.viscosity[MU]).most == 0.0)
+      error->warning(FLERR, "Pair_coeff {} of type {} is ignored: mu is 0; give mu > 0", law, i);
     const double intrinsic = intrinsic_kappa(i, i);
     if (choice.bulk != Bulk::NONE || type.kappa == intrinsic) continue;
     error->warning(FLERR,

@@ -40,7 +40,9 @@ class Lines:
     kappa: float = 2.0
     energy: float = 0.0  # internal, of each particle
     spin: str = ""  # coefficients of a fluid with spin
-    keywords: tuple = ()  # of its pair_coeff
+    cv: float = 0.0
+    conductivity: float = 0.0
+    keywords: tuple = ()  # of its pair_coeff, besides these two
     unlike: tuple = ()  # keywords of two unlike types
     others: tuple = ()  # pair_coeff of pair style soft, in a hybrid style
     hybrid: str = "{sph} soft 1.5"
@@ -92,8 +94,9 @@ def walls(speed):
                                               "fix high high sph/wall"), force=("-f_low[{k}]", "-f_high[{k}]"))
 
 
-def disc(rigid):
-    return Lines(particles=("disc",), fixes=(f"fix turn disc {rigid}", "fix disc disc sph/wall move rigid"), force=("-f_disc[{k}]",))
+def disc(rigid, heat=""):
+    return Lines(particles=("disc",), fixes=("variable hot equal 0.05", f"fix turn disc {rigid}", f"fix disc disc sph/wall move rigid {heat}"),
+                 force=("-f_disc[{k}]",), **dict(cv=100.0, conductivity=30.0, energy=2.5) if heat else {})
 
 
 def body(fix):
@@ -104,15 +107,18 @@ def body(fix):
 
 LARGE = "rkl2", "implicit"  # they start anew after a change of the time step or of a coefficient
 TARGET = "1.0-0.75*(x>3)*(x<6)+1.6*(x>10)*(x<13)"
+NOT_WITH_BODIES = {"rkl2": "viscous", "implicit": "viscous", "open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
+                   "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "not constant", "arrhenius": "not constant", "rerun": "rerun"}
+NOT_WITH_LAWS = {"warm": "drift", "limit": "limit", "interdrag": "not constant", "implicit": "implicit", "spin": "sph/bulk", "idle_spin": "sph/bulk"}
 
 FEATURES = {
     "rkl2": Feature(Lines(integrator=("viscous rkl2",)), nearly=Lines(), refused={"noise": "temp"}, nearly_with={"thinning": 1e-3}),
     "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
     "gravity": Feature(body("gravity 5.0 vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
     "walls": Feature(walls("v_U"), walls("0.3")),
-    "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused={
-        "rkl2": "viscous", "implicit": "viscous", "open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
-        "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "not constant", "rerun": "rerun"}),
+    "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused=NOT_WITH_BODIES),
+    "hot_bodies": Feature(disc("rigid single", "heat temp v_hot"), disc("rigid group 1 disc", "heat temp 0.05"),
+                          refused={**NOT_WITH_BODIES, "noise": "conductivity"}),
     "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), not_plain_with=("gas", "heat"), refused={"noise": "temp", "rerun": "rerun"}),
     "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom {TARGET}", "fix R fluid sph/refine 5 volume v_t")),
                      Lines(pair=("volume mass",), fixes=(f"variable t atom sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
@@ -147,11 +153,13 @@ FEATURES = {
                                  "variable dragy atom -0.3*c_state[1]*(c_state[3]+0.1)", "compute drag fluid reduce sum v_dragx v_dragy"))),
     "interdrag": Feature(Lines(types=2, unlike=("interdrag 0.8",))),
     "tension": Feature(Lines(types=2, unlike=("tension 0.8",))),
-    "thinning": Feature(Lines(keywords=("power 0.6 0.05 1.5 yield 0.05 5",)),
-                        refused={"open": "power", "noise": "drift", "warm": "drift", "limit": "limit", "interdrag": "not constant", "implicit": "implicit",
-                                 "spin": "sph/bulk", "idle_spin": "sph/bulk"}),
+    "thinning": Feature(Lines(keywords=("power 0.6 0.05 1.5 yield 0.05 5",)), refused={**NOT_WITH_LAWS, "open": "power", "noise": "drift"}),
+    "arrhenius": Feature(Lines(cv=100.0, energy=2.5, keywords=("arrhenius 0.05 0.02 1.5",)),
+                         Lines(cv=100.0, energy=2.5, mu=0.5 * np.exp(-1.25), keywords=(f"arrhenius 0.05 0.04 {1.5 * np.exp(1.25)}",)),
+                         not_plain_with=("adapt", "thinning"), refused={**NOT_WITH_LAWS, "open": "arrhenius", "rkl2": "viscous", "implicit": "viscous",
+                                                                       "noise": "arrhenius", "rerun": "arrhenius"}),
     "relax": Feature(Lines(room=("relax 2",), state=("-0.99 0",), keywords=("relax 4.0 0.02 3.0 0.5",))),
-    "heat": Feature(Lines(keywords=("cv 100.0 conductivity 30.0 gruneisen 0.5 0.01",), energy=2.5),
+    "heat": Feature(Lines(cv=100.0, conductivity=30.0, keywords=("gruneisen 0.5 0.01",), energy=2.5),
                     refused={"rerun": "conductivity", "noise": "conductivity", "gas": "gruneisen"}),
     "solute": Feature(Lines(room=("solute",), state=("1.0",), keywords=("solute 0.4",),
                             early=("variable amount atom 1.0+0.5*sin(id)", "set group all d_solute v_amount")),
@@ -162,7 +170,7 @@ FEATURES = {
                     refused={"open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag"}),
     "idle_spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
 }
-NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room")}  # two values of the same
+NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room"), ("bodies", "hot_bodies")}  # two values of the same
 # pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones,
 # and the random forces of a drag are no pairs'
 NO_BALANCE = {("walls", "open"): "", ("noise", "drag"): "", ("open", "overlay"): "not in the ledger"}
@@ -249,8 +257,9 @@ def coefficients(lines, first, own):
     """The fluid's are those of types first, first + 1, ..., in `own`."""
     style = f"{lines.style} " if lines.others else ""
     types = range(first, first + lines.types) if lines.types > 1 else [own]
+    keywords = " ".join((*(f"{name} {value}" for name, value in (("cv", lines.cv), ("conductivity", lines.conductivity)) if value), *lines.keywords))
     unlike = " ".join(("mu mean",) * bool(lines.others) + lines.unlike)
-    result = [f"{one} {one} {style}1.0 10.0 {lines.mu} {lines.kappa} {lines.spin} 3.0 {' '.join(lines.keywords)}" for one in types]
+    result = [f"{one} {one} {style}1.0 10.0 {lines.mu} {lines.kappa} {lines.spin} 3.0 {keywords}" for one in types]
     if unlike:
         result += [f"{one} {other} {style}{unlike}" for one, other in itertools.combinations(types, 2)]
     if lines.others:

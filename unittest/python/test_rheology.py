@@ -255,6 +255,13 @@ def test_arrhenius_of_two_fluids(lammps):
     assert any("viscosity depends on it, have none" in line for line in lammps(header(2) + "read_data box.data\n" + model + rest + "run 0\n").warnings)
 
 
+@pytest.mark.parametrize("keywords, ignored", [("arrhenius 3 1 4", True), ("cross 1 1 0", True), ("arrhenius 3 1 4 yield 0.3 40", False)])
+def test_law_without_a_viscosity(lammps, keywords, ignored):
+    disordered(2, 12).write(lammps.path("box.data"))
+    found = lammps(header(2) + "read_data box.data\n" + fluid(2, mu=0.0, keywords=f"cv 2 {keywords}") + "fix FLUID all sph/bulk\nrun 0\n").warnings
+    assert any("of type 1 is ignored: mu is 0" in line for line in found) == ignored
+
+
 def test_couette_flow_between_walls_of_two_temperatures(lammps):
     """The stress is uniform, so that the slope of the velocity is that of 1/mu(T) with the linear profile of T; means over time."""
     text = channel("cv 1 conductivity 1.5 arrhenius 2 1 1", integrator="temperature v_T", before="variable T atom 1+y/10\n")
@@ -441,6 +448,15 @@ def test_errors(lammps, model, words):
     particles.write(lammps.path("box.data"))
     result = lammps(header(2) + f"read_data box.data\n{model}\nfix FLUID all sph/bulk\nrun 0\n", check=False)
     assert result.code and words in result.error.replace("\n", " "), result.output[-1500:]
+
+
+@pytest.mark.parametrize("end", ["rerun frame dump x y vx vy\n", "minimize 0 0 1 1\n", "unfix FLUID\nfix FLUID one sph/bulk viscous rkl2\nrun 1\n"])
+def test_keywords_of_a_type_that_another_style_has_taken(lammps, end):
+    """They are not the fluid's."""
+    disordered(2, 12, ntypes=2).write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\npair_style hybrid sph/bulk soft 1.0\npair_coeff * * sph/bulk 1 10 0.5 2 3 cv 2 gruneisen 0.1 1 arrhenius 2 1 3\n"
+           "pair_coeff 1 1 sph/bulk 1 10 0.5 2 3\npair_coeff * 2 soft 1.0\ngroup one type 1\ngroup two type 2\nfix FLUID one sph/bulk\n"
+           "fix OTHER two nve\nwrite_dump all custom frame id type x y z vx vy vz\n" + end)
 
 
 def test_errors_of_other_commands(lammps):
