@@ -127,7 +127,7 @@ void Engine::grow_atoms()
    pass 2 looks at ahead of the last one.
 ------------------------------------------------------------------------- */
 
-void Engine::grow_pairs(NeighList *list, Leave leave)
+void Engine::grow_pairs(NeighList *list, bool leaves_slopes)
 {
   constexpr int PARTS = 256;    // of the rows of a thread: it gets whole ones
   if (list->inum > imax) {
@@ -168,12 +168,12 @@ void Engine::grow_pairs(NeighList *list, Leave leave)
     memory->sfree(data.neighbor);
     data.neighbor = (int *) memory->smalloc(pair_max * sizeof(int), "sph:neighbor");
   }
-  if (leave != Leave::NEIGHBOR && slope_max < pair_max) {
+  if (leaves_slopes && slope_max < pair_max) {
     slope_max = pair_max;
     memory->sfree(slopes);
     slopes = (double *) memory->smalloc(slope_max * sizeof(double), "sph:slope");
   }
-  data.slope = (leave == Leave::NEIGHBOR) ? nullptr : slopes;
+  data.slope = leaves_slopes ? slopes : nullptr;
 }
 
 /* ----------------------------------------------------------------------
@@ -294,10 +294,9 @@ void Engine::set_weights()
 
 void Engine::accumulate_density(NeighList *list, double **vest, double **omegaest, bool slopes_read)
 {
-  const bool again = loops->computes_slopes && !slopes_read && !par->spins();
-  const Leave leave = par->by_rate ? Leave::SQUARE : again ? Leave::NEIGHBOR : Leave::SLOPE;
+  const bool leaves_slopes = slopes_read || par->spins() || !loops->computes_slopes;
   grow_atoms();
-  grow_pairs(list, leave);
+  grow_pairs(list, leaves_slopes);
 
   constexpr double FAR = 1.0e15;    // where spare particles are, outside of any support
   static constexpr double REST[3] = {0.0, 0.0, 0.0};
@@ -357,7 +356,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.density = density;
   if (par->by_rate) square.resize(pair_max);
   data.square = square.data();
-  run_density(loops->density(par->kernel, par->volume, leave));
+  run_density(loops->density(par->kernel, par->volume, leaves_slopes, par->by_rate));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -98,9 +98,6 @@ namespace SPHDissipation {
     PairTally *tally;          // nullptr if nobody asks
   };
 
-  // what pass 1 leaves of each pair inside the support: its neighbor; F as well; and F (e.u)^2, for the rates of shear
-  enum class Leave { NEIGHBOR, SLOPE, SQUARE };
-
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
   typedef void (*FlowLoop)(const LoopData &, const FlowRow *, double *rate);
@@ -127,7 +124,8 @@ namespace SPHDissipation {
   struct LoopSet {
     const char *name;
     bool computes_slopes;    // pass 2 can compute F again, without spins
-    Loop (*density)(Kernel, Volume, Leave);
+    // pass 1 leaves the neighbor of each pair inside the support; F, for other loops; F (e.u)^2, for the rates of shear
+    Loop (*density)(Kernel, Volume, bool slopes, bool squares);
     Loop (*rates)(Volume);
     RateLoop shear_rates;
     Loop (*forces)(const Terms &, Bulk, Volume);
@@ -388,7 +386,7 @@ namespace SPHDissipation {
     void grow_atoms();
     void set_rows();
     void set_weights();
-    void grow_pairs(NeighList *, Leave);
+    void grow_pairs(NeighList *, bool leaves_slopes);
     LoopData part(int thread) const;
     LoopData part(PairSubset &, int spare) const;
     double *room_for_numbers(int thread, const LoopData &);

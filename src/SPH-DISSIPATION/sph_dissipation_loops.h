@@ -51,14 +51,13 @@ namespace SPHDissipation {
     // pass 1: c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED
     // W and F are zero at the support, and so where particles are farther apart, as spare ones are
 
-    template <class K, bool WEIGHTED, Leave LEAVE> void density_loop(LoopData &data)
+    template <class K, bool WEIGHTED, bool SLOPES, bool SQUARES> void density_loop(LoopData &data)
     {
       const Particle *const particle = data.particle;
       const Parameters &par = *data.par;
       const double weight_norm = par.weight_norm, slope_norm = par.slope_norm;
       const Vec support_sq = all(par.support * par.support), one = all(1.0);
       const double support_inv = 1.0 / par.support;
-      constexpr bool SLOPES = LEAVE != Leave::NEIGHBOR, SQUARES = LEAVE == Leave::SQUARE;
       bigint next = data.begin;
 
       for (int ii = 0; ii < data.inum; ii++) {
@@ -744,21 +743,23 @@ namespace SPHDissipation {
       return alike ? choose_diffusion<true>(part, dim) : choose_diffusion<false>(part, dim);
     }
 
-    template <bool WEIGHTED> Loop choose_density(Kernel kernel, Leave leave)
+    template <bool WEIGHTED, bool SQUARES> Loop choose_density(Kernel kernel, bool slopes)
     {
       return LOOPS::with_kernel(kernel, [=](auto k) -> Loop {
         using K = decltype(k);
         if constexpr (COMPUTES_SLOPES)
-          if (leave == Leave::NEIGHBOR) return density_loop<K, WEIGHTED, Leave::NEIGHBOR>;
-        return (leave == Leave::SQUARE) ? density_loop<K, WEIGHTED, Leave::SQUARE>
-                                        : density_loop<K, WEIGHTED, Leave::SLOPE>;
+          if (!slopes) return density_loop<K, WEIGHTED, false, SQUARES>;
+        return density_loop<K, WEIGHTED, true, SQUARES>;
       });
     }
 
-    inline Loop choose_density_loop(Kernel kernel, Volume volume, Leave leave)
+    inline Loop choose_density_loop(Kernel kernel, Volume volume, bool slopes, bool squares)
     {
-      return (volume == Volume::MASS) ? choose_density<true>(kernel, leave)
-                                      : choose_density<false>(kernel, leave);
+      if (volume == Volume::MASS)
+        return squares ? choose_density<true, true>(kernel, slopes)
+                       : choose_density<true, false>(kernel, slopes);
+      return squares ? choose_density<false, true>(kernel, slopes)
+                     : choose_density<false, false>(kernel, slopes);
     }
 
     inline Loop choose_rate_loop(Volume volume)

@@ -92,12 +92,13 @@ namespace SPHDissipation {
                         a[POWER_MOST]);
         else
           sum = (exponent < 0.0) ? a[POWER_MOST] : a[POWER_LEAST];
-      } else if (a[CARREAU_LAMBDA] != 0.0)
+      } else if (a[CARREAU_LAMBDA] != 0.0) {
+        const double x = a[CARREAU_LAMBDA] * rate, exponent = a[CARREAU_A];
+        const double x_to_a = (exponent == 2.0) ? x * x
+                                                : pow(x, exponent);    // Carreau's 2 is fast
         sum = a[CARREAU_INF] +
-            (mu - a[CARREAU_INF]) *
-                pow(1.0 + pow(a[CARREAU_LAMBDA] * rate, a[CARREAU_A]),
-                    (a[CARREAU_N] - 1.0) / a[CARREAU_A]);
-      else if (a[CROSS_LAMBDA] != 0.0)
+            (mu - a[CARREAU_INF]) * pow(1.0 + x_to_a, (a[CARREAU_N] - 1.0) / exponent);
+      } else if (a[CROSS_LAMBDA] != 0.0)
         sum = a[CROSS_INF] + (mu - a[CROSS_INF]) / (1.0 + pow(a[CROSS_LAMBDA] * rate, a[CROSS_M]));
       if (a[YIELD_STRESS] != 0.0)
         sum += a[YIELD_STRESS] * ((rate > 0.0) ? -expm1(-a[YIELD_M] * rate) / rate : a[YIELD_M]);
