@@ -90,8 +90,6 @@ int FixSPHDt::setmask()
 
 void FixSPHDt::init()
 {
-  if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "Fix {} does not support run_style respa", style);
   if (modify->get_fix_by_style("^sph/dt").size() + modify->get_fix_by_style("^dt/reset").size() > 1)
     error->all(FLERR, "Fix {}: only one fix can set the time step", style);
   fluid = find_fluid(force);

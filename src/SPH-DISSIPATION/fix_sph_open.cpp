@@ -146,8 +146,6 @@ int FixSPHOpen::setmask()
 void FixSPHOpen::init()
 {
   fluid = find_fluid(lmp, fmt::format("Fix {}", style));
-  if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "Fix {} does not support run_style respa", style);
   if (update->whichflag == 2)
     error->all(FLERR, "Fix {} cannot be used in a minimization: its particles have a velocity",
                style);

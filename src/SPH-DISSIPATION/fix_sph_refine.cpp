@@ -160,8 +160,6 @@ void FixSPHRefine::init()
                style, fluid->style);
   if (fluid->dimension() != domain->dimension)
     error->all(FLERR, "Fix {} requires a kernel of the dimension of the simulation", style);
-  if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "Fix {} does not support run_style respa", style);
   if (domain->deform_vremap)
     error->all(FLERR, "Fix {} does not support fix deform with remap v", style);
   if (neighbor->build_once)
