@@ -163,9 +163,9 @@ void Fluid::check_setup()
 {
   if (spins && model->dimension() == 1)
     error->all(FLERR, Error::NOLASTLINE, "Pair_style {} needs dim 2 or 3: no spin in dim 1", style);
-  find_own_types();
   const FluidChecks check(lmp, style, *model);
   check.styles();
+  find_own_types();
   check.rerun();
   if (update->whichflag == 2 && model->choice.eos == Eos::IDEAL)
     error->all(FLERR,
