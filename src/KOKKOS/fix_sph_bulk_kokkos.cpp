@@ -186,8 +186,8 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_devi
   const VolumeStep volume = changes_volume ? volume_step_on_device() : VolumeStep();
   const int bit = groupbit;
 
-  Kokkos::parallel_for(
-      "sph:integrate", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:integrate", nlocal_group(), KOKKOS_LAMBDA(int i) {
         if (!(particles.mask(i) & bit)) return;
         if (half == BEGIN)
           step.begin(particles, i);
@@ -253,8 +253,8 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::post_integrate()
   const TimeStep step = time_step();
   const int except = bits_not_followed();
 
-  Kokkos::parallel_for(
-      "sph:follow", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:follow", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (!(particles.mask(i) & except)) step.follow(particles, i);
       });
   atomKK->modified(space, EXTRAPOLATION);

@@ -141,8 +141,8 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate
   const FromPoint<DeviceType> from_point(atomKK, domain);
   const bool moves = move;
   const int bit = groupbit;
-  Kokkos::parallel_for(
-      "sph:wall_move", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:wall_move", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (!(mask(i) & bit)) return;
         double r[3], u[3];
         if (moves) {
@@ -175,10 +175,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::pre_force(int vfl
   atomKK->sync(Host, ALL_MASK);    // variables may be of any particles
   FixSPHWall::pre_force(vflag);
   if (!heat_value->is_by_atom()) return;
-  if ((int) heat_values.extent(0) < atom->nlocal) {
-    heat_values = {};
-    heat_values = decltype(heat_values)(Kokkos::NoInit("sph/wall:heat"), atom->nmax);
-  }
+  if ((int) heat_values.extent(0) < atom->nlocal) renew(heat_values, "sph/wall:heat", atom->nmax);
   const auto on_host = Kokkos::create_mirror_view(heat_values);
   for (int i = 0; i < atom->nlocal; i++) on_host(i) = (*heat_value)(i);
   Kokkos::deep_copy(heat_values, on_host);
@@ -256,10 +253,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
 {
   auto mask = atomKK->k_mask.template view<DeviceType>();
   const int bit = groupbit;
-  if ((int) particles.extent(0) < atom->nmax) {
-    particles = {};
-    particles = decltype(particles)(Kokkos::NoInit("sph/wall:particles"), atom->nmax);
-  }
+  reach(particles, "sph/wall:particles", atom->nmax);
   auto list = particles;
   Kokkos::parallel_scan(
       "sph:wall_find", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
@@ -270,9 +264,8 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
       },
       nparticles);
   if constexpr (ON_HOST) return;
-  packed = {};
-  packed = decltype(packed)(Kokkos::NoInit("sph/wall:packed"), nparticles);
-  values = decltype(values)(Kokkos::NoInit("sph/wall:values"), nparticles);
+  renew(packed, "sph/wall:packed", nparticles);
+  renew(values, "sph/wall:values", nparticles);
   numbers = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles);
 }
 
@@ -324,8 +317,8 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*
   if constexpr (ON_HOST) return k_array.template modify<DeviceType>();
 
   auto on_device = packed;
-  Kokkos::parallel_for(
-      "sph:wall_pack", Kokkos::RangePolicy<DeviceType>(0, nparticles), KOKKOS_LAMBDA(int k) {
+  for_each<DeviceType>(
+      "sph:wall_pack", nparticles, KOKKOS_LAMBDA(int k) {
         for (int c = 0; c < NVALUES; c++) on_device(k, c) = array(list(k), c);
       });
   Kokkos::deep_copy(values, packed);
@@ -464,10 +457,7 @@ void FixSPHWallKokkos<DeviceType>::unpack_exchange_kokkos(DAT::tdual_double_2d_l
 
 template <class DeviceType> double FixSPHWallKokkos<DeviceType>::memory_usage()
 {
-  return FixSPHWall::memory_usage() +
-      (double) (particles.extent(0) + numbers.extent(0)) * sizeof(int) +
-      (double) (packed.size() + values.size()) * sizeof(double) +
-      (double) heat_values.extent(0) * sizeof(double);
+  return FixSPHWall::memory_usage() + bytes_of(particles, numbers, packed, values, heat_values);
 }
 
 /* ---------------------------------------------------------------------- */

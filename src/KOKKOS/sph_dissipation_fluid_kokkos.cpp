@@ -287,8 +287,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
   set_states();
   const ParticleRows rows = *data;
   const int bits = not_fluid();
-  Kokkos::parallel_for(
-      "sph:states", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:states", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (rows.is_fluid(i, bits))
           rows.states.advance(i, nullptr, 0, 0);
         else
@@ -354,13 +354,6 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
 
 template <class DeviceType> void FluidKokkos<DeviceType>::grow()
 {
-  auto reach = [](auto &view, const char *name, int n) {
-    if ((int) view.extent(0) < n) {
-      view = std::decay_t<decltype(view)>();    // frees the old one first
-      view = std::decay_t<decltype(view)>(Kokkos::NoInit(name), n);
-    }
-    return view.data();
-  };
   const int n = atom->nmax;
   data->particle = reach(particle, "sph:particle", n);
   data->density = reach(density_sum, "sph:density", n);
@@ -396,7 +389,7 @@ template <class DeviceType> bool FluidKokkos<DeviceType>::has_rate(int place) co
 template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
 {
   auto copy = [](const auto &from, auto &view, const char *name) {
-    view = std::decay_t<decltype(view)>(Kokkos::NoInit(name), from.size());
+    renew(view, name, from.size());
     auto on_host = Kokkos::create_mirror_view(view);
     std::copy(from.begin(), from.end(), on_host.data());
     Kokkos::deep_copy(view, on_host);
@@ -441,9 +434,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
   auto vest = avec.k_vest.template view<DeviceType>();
   const ParticleRows rows = *data;
   auto weights = weight;
-  Kokkos::parallel_for(
-      "sph:particles", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:particles", atom->nlocal + atom->nghost, KOKKOS_LAMBDA(int i) {
         for (int d = 0; d < 3; d++) {
           rows.particle[i].x[d] = x(i, d);
           rows.particle[i].u[d] = vest(i, d);
@@ -539,8 +531,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
   }
   if (states || flows || continuity) {
     const bool rest = at_rest();
-    Kokkos::parallel_for(
-        "sph:states", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+    for_each<DeviceType>(
+        "sph:states", atom->nlocal, KOKKOS_LAMBDA(int i) {
           if (continuity) rows.add_offset(i, bits);
           rows.set_density(i);
           if (states) rows.set_state_pressure(i, bits, rest);
@@ -553,9 +545,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
       },
       values);
 
-  Kokkos::parallel_for(
-      "sph:volume", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:volume", atom->nlocal + atom->nghost, KOKKOS_LAMBDA(int i) {
         rows.set_density(i);
         if (flows) rows.set_flows(i, bits);
       });
@@ -580,8 +571,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_reference_volume()
   if (!on_device) return Fluid::set_reference_volume();
   const ParticleRows rows = *data;
   const int bits = boundary->bits();
-  Kokkos::parallel_for(
-      "sph:reference", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+  for_each<DeviceType>(
+      "sph:reference", atom->nlocal + atom->nghost,
       KOKKOS_LAMBDA(int i) { rows.set_reference_volume(i, bits); });
 }
 
@@ -593,8 +584,8 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::set_pressure()
   const ParticleRows rows = *data;
   const int bits = boundary->bits();
   const double *const bounds = (model->choice.limit != Limit::NO) ? bound_of.data() : nullptr;
-  Kokkos::parallel_for(
-      "sph:pressure", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+  for_each<DeviceType>(
+      "sph:pressure", atom->nlocal + atom->nghost,
       KOKKOS_LAMBDA(int i) { rows.set_pressure(i, bounds, bits); });
 
   int count = 0;
@@ -689,8 +680,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::evaluate_diffusion()
   const int bits = not_fluid(), some = integrated;
   auto row = diffusion_row;
   auto impedances = impedance;
-  Kokkos::parallel_for(
-      "sph:diffusion_row", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+  for_each<DeviceType>(
+      "sph:diffusion_row", atom->nlocal + atom->nghost,
       KOKKOS_LAMBDA(int i) { rows.set_diffusion(i, bits, some, row(i), impedances(i)); });
   with_kernel(model->choice.kernel, [&](auto kernel) {
     typedef decltype(kernel) K;
@@ -735,8 +726,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::add_diffusion_heat()
   auto heat = avec.k_vol_heat.template view<DeviceType>();
   const ParticleRows rows = *data;
   const int bits = not_fluid(), some = integrated;
-  Kokkos::parallel_for(
-      "sph:diffusion_heat", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:diffusion_heat", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (!rows.diffuses(i, bits, some)) rate(i) = heat(i) = 0.0;
         rows.desph[i] += heat(i);
       });
@@ -814,17 +805,12 @@ void FluidKokkos<DeviceType>::run_loop(const char *name, int n, const Loop &loop
 
 template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
 {
-  const auto bytes = [](const auto &...view) {
-    return (... +
-            ((double) view.size() *
-             sizeof(typename std::decay_t<decltype(view)>::non_const_value_type)));
-  };
   double of_flows = 0.0;
-  for (int k = 0; k < Flows::NUMBER; k++) of_flows += bytes(flow[k], flow_rate[k]);
+  for (int k = 0; k < Flows::NUMBER; k++) of_flows += bytes_of(flow[k], flow_rate[k]);
   return Fluid::memory_usage() + boundary_device->memory_usage() + of_flows +
-      bytes(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of, gradient_of,
-            diffusion_row, impedance) +
-      (double) NCHANNEL * bytes(data->heat[0]);
+      bytes_of(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of, gradient_of,
+               diffusion_row, impedance) +
+      (double) NCHANNEL * bytes_of(data->heat[0]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -17,8 +17,7 @@
 // The two pair loops on the device, over full neighbor lists: each particle sums up its own pairs, so
 // that nothing is added to another one, and the sums do not depend on the number of threads.
 
-#include "kokkos_type.h"
-
+#include "sph_dissipation_arrays_kokkos.h"
 #include "sph_dissipation_parameters.h"
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_rows.h"
