@@ -201,16 +201,6 @@ void AtomVecSPHBulkKokkos::grow_pointers()
 }
 
 /* ----------------------------------------------------------------------
-   function of each field whose bit is set in a mask
-------------------------------------------------------------------------- */
-
-template <class Function> void AtomVecSPHBulkKokkos::with_fields(uint64_t mask, Function &&function)
-{
-  for (const auto &field : fields)
-    if (mask & field->mask) function(*field);
-}
-
-/* ----------------------------------------------------------------------
    class AtomKokkos and fix property/atom call these two before and after they move the custom
    properties, of which ours stay where they are
 ------------------------------------------------------------------------- */
@@ -222,9 +212,8 @@ void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
     mask |= DESPH_BEFORE_MASK | OFFSET_MASK | INERTIA_MASK | STATES_MASK;
   }
   if (mask & DARRAY_MASK) mask |= OMEGAEST_MASK;
-  with_fields(mask, [=](FieldKokkos &field) {
-    field.sync(space);
-  });
+  for (const auto &field : fields)
+    if (mask & field->mask) field->sync(space);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -232,18 +221,16 @@ void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
 void AtomVecSPHBulkKokkos::modified(ExecutionSpace space, uint64_t mask)
 {
   if (mask & DVECTOR_MASK) show_custom_vectors();
-  with_fields(mask, [=](FieldKokkos &field) {
-    field.modified(space);
-  });
+  for (const auto &field : fields)
+    if (mask & field->mask) field->modified(space);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::sync_pinned(ExecutionSpace space, uint64_t mask, int async_flag)
 {
-  with_fields(mask, [=, this](FieldKokkos &field) {
-    field.sync_pinned(*this, space, async_flag);
-  });
+  for (const auto &field : fields)
+    if (mask & field->mask) field->sync_pinned(*this, space, async_flag);
 }
 
 /* ----------------------------------------------------------------------
@@ -254,9 +241,8 @@ void AtomVecSPHBulkKokkos::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sort
 {
   const uint64_t moved = ALL_MASK & ~(F_MASK | TORQUE_MASK);
   atomKK->sync(Device, moved);
-  with_fields(moved, [&](FieldKokkos &field) {
-    field.sort(sorter);
-  });
+  for (const auto &field : fields)
+    if (moved & field->mask) field->sort(sorter);
   atomKK->modified(Device, moved);
 }
 
@@ -300,16 +286,50 @@ void AtomVecSPHBulkKokkos::set_size_exchange()
   size_exchange += size_exchange_bonus;
 }
 
+/* ---------------------------------------------------------------------- */
+
+ExecutionSpace AtomVecSPHBulkKokkos::space_of_comm() const
+{
+  return lmp->kokkos->forward_comm_on_host ? HostKK : Device;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void AtomVecSPHBulkKokkos::pack(Occasion occasion, ExecutionSpace space, int n,
+                                const DAT::tdual_int_1d &list, const DAT::tdual_double_2d_lr &buf,
+                                int vel_flag)
+{
+  atomKK->sync(space, sent_mask(occasion));
+  on(space, [&](auto where) {
+    typedef decltype(where) DeviceType;
+    pack_columns<DeviceType>(columns(occasion, space), rows(occasion, space, buf, vel_flag), n,
+                             list.template view<DeviceType>());
+  });
+}
+
 /* ----------------------------------------------------------------------
-   function of an object of the class that runs on the host (HostKK) or the device
+   task(the columns that are sent, an object of the class that runs where they are) modifies them
 ------------------------------------------------------------------------- */
 
-template <class Function> static void on(ExecutionSpace space, Function &&function)
+template <class Task>
+void AtomVecSPHBulkKokkos::change(Occasion occasion, ExecutionSpace space, const Task &task)
 {
-  if (space == HostKK)
-    function(LMPHostType());
-  else
-    function(LMPDeviceType());
+  atomKK->sync(space, sent_mask(occasion));
+  on(space, [&](auto where) {
+    task(columns(occasion, space), where);
+  });
+  atomKK->modified(space, sent_mask(occasion));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void AtomVecSPHBulkKokkos::unpack(Occasion occasion, ExecutionSpace space, int n, int first,
+                                  const DAT::tdual_double_2d_lr &buf, int vel_flag)
+{
+  change(occasion, space, [&](const ColumnsKokkos &columns, auto where) {
+    unpack_columns<decltype(where)>(columns, rows(occasion, space, buf, vel_flag), n,
+                                    ParticlesFrom{first});
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -317,28 +337,14 @@ template <class Function> static void on(ExecutionSpace space, Function &&functi
 void AtomVecSPHBulkKokkos::pack_comm_bonus_kokkos(const int &n, const DAT::tdual_int_1d &list,
                                                   const DAT::tdual_double_2d_lr &buf, int vel_flag)
 {
-  const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, sent_mask(COMM));
-  on(space, [&](auto where) {
-    typedef decltype(where) DeviceType;
-    pack_columns<DeviceType>(columns(COMM, space), rows(COMM, space, buf, vel_flag), n,
-                             list.template view<DeviceType>());
-  });
+  pack(COMM, space_of_comm(), n, list, buf, vel_flag);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::unpack_comm_bonus_kokkos(const int &n, const int &first,
                                                     const DAT::tdual_double_2d_lr &buf,
                                                     int vel_flag)
 {
-  const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, sent_mask(COMM));
-  on(space, [&](auto where) {
-    unpack_columns<decltype(where)>(columns(COMM, space), rows(COMM, space, buf, vel_flag), n,
-                                    first);
-  });
-  atomKK->modified(space, sent_mask(COMM));
+  unpack(COMM, space_of_comm(), n, first, buf, vel_flag);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -346,13 +352,10 @@ void AtomVecSPHBulkKokkos::unpack_comm_bonus_kokkos(const int &n, const int &fir
 void AtomVecSPHBulkKokkos::pack_comm_self_bonus_kokkos(const int &n, const DAT::tdual_int_1d &list,
                                                        const int first)
 {
-  const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, sent_mask(COMM));
-  on(space, [&](auto where) {
+  change(COMM, space_of_comm(), [&](const ColumnsKokkos &columns, auto where) {
     typedef decltype(where) DeviceType;
-    copy_columns<DeviceType>(columns(COMM, space), n, list.template view<DeviceType>(), first);
+    copy_columns<DeviceType>(columns, n, list.template view<DeviceType>(), first);
   });
-  atomKK->modified(space, sent_mask(COMM));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -363,16 +366,12 @@ void AtomVecSPHBulkKokkos::pack_comm_self_fused_bonus_kokkos(const int &n,
                                                              const DAT::tdual_int_1d &firstrecv,
                                                              const DAT::tdual_int_1d &g2l)
 {
-  const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, sent_mask(COMM));
-  on(space, [&](auto where) {
+  change(COMM, space_of_comm(), [&](const ColumnsKokkos &columns, auto where) {
     typedef decltype(where) DeviceType;
-    copy_columns_of_swaps<DeviceType>(columns(COMM, space), n, list.template view<DeviceType>(),
-                                      sendnum_scan.template view<DeviceType>(),
-                                      firstrecv.template view<DeviceType>(),
-                                      g2l.template view<DeviceType>());
+    copy_columns_of_swaps<DeviceType>(
+        columns, n, list.template view<DeviceType>(), sendnum_scan.template view<DeviceType>(),
+        firstrecv.template view<DeviceType>(), g2l.template view<DeviceType>());
   });
-  atomKK->modified(space, sent_mask(COMM));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -381,27 +380,15 @@ void AtomVecSPHBulkKokkos::pack_border_bonus_kokkos(int n, DAT::tdual_int_1d lis
                                                     DAT::tdual_double_2d_lr &buf,
                                                     ExecutionSpace space, int vel_flag)
 {
-  atomKK->sync(space, sent_mask(BORDER));
-  on(space, [&](auto where) {
-    typedef decltype(where) DeviceType;
-    pack_columns<DeviceType>(columns(BORDER, space), rows(BORDER, space, buf, vel_flag), n,
-                             list.template view<DeviceType>());
-  });
+  pack(BORDER, space, n, list, buf, vel_flag);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::unpack_border_bonus_kokkos(const int &n, const int &first,
                                                       const DAT::tdual_double_2d_lr &buf,
                                                       ExecutionSpace space, int vel_flag)
 {
   while (first + n >= nmax) grow(0);
-  atomKK->sync(space, sent_mask(BORDER));
-  on(space, [&](auto where) {
-    unpack_columns<decltype(where)>(columns(BORDER, space), rows(BORDER, space, buf, vel_flag), n,
-                                    first);
-  });
-  atomKK->modified(space, sent_mask(BORDER));
+  unpack(BORDER, space, n, first, buf, vel_flag);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -411,14 +398,12 @@ void AtomVecSPHBulkKokkos::pack_exchange_bonus_kokkos(const int &n, DAT::tdual_d
                                                       DAT::tdual_int_1d replacement,
                                                       DAT::tdual_int_1d, ExecutionSpace space)
 {
-  atomKK->sync(space, sent_mask(EXCHANGE));
-  on(space, [&](auto where) {
+  change(EXCHANGE, space, [&](const ColumnsKokkos &columns, auto where) {
     typedef decltype(where) DeviceType;
-    pack_leaving_columns<DeviceType>(columns(EXCHANGE, space), rows(EXCHANGE, space, buf, 0), n,
+    pack_leaving_columns<DeviceType>(columns, rows(EXCHANGE, space, buf, 0), n,
                                      list.template view<DeviceType>(),
                                      replacement.template view<DeviceType>());
   });
-  atomKK->modified(space, sent_mask(EXCHANGE));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -427,11 +412,9 @@ void AtomVecSPHBulkKokkos::unpack_exchange_bonus_kokkos(DAT::tdual_double_2d_lr 
                                                         ExecutionSpace space,
                                                         DAT::tdual_int_1d &place)
 {
-  atomKK->sync(space, sent_mask(EXCHANGE));
-  on(space, [&](auto where) {
+  change(EXCHANGE, space, [&](const ColumnsKokkos &columns, auto where) {
     typedef decltype(where) DeviceType;
-    unpack_arriving_columns<DeviceType>(columns(EXCHANGE, space), rows(EXCHANGE, space, buf, 0),
-                                        nrecv / size_exchange, place.template view<DeviceType>());
+    unpack_columns<DeviceType>(columns, rows(EXCHANGE, space, buf, 0), nrecv / size_exchange,
+                               place.template view<DeviceType>());
   });
-  atomKK->modified(space, sent_mask(EXCHANGE));
 }

@@ -106,7 +106,12 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
   SPHDissipation::RowsKokkos rows(Occasion, ExecutionSpace, const DAT::tdual_double_2d_lr &,
                                   int vel_flag) const;
 
-  template <class Function> void with_fields(uint64_t, Function &&);
+  ExecutionSpace space_of_comm() const;
+  void pack(Occasion, ExecutionSpace, int n, const DAT::tdual_int_1d &,
+            const DAT::tdual_double_2d_lr &, int vel_flag);
+  void unpack(Occasion, ExecutionSpace, int n, int first, const DAT::tdual_double_2d_lr &,
+              int vel_flag);
+  template <class Task> void change(Occasion, ExecutionSpace, const Task &);
   void clear_heating();
 };
 

@@ -414,7 +414,7 @@ int FixSPHWallKokkos<DeviceType>::pack_exchange_kokkos(const int &nsend,
                                                        DAT::tdual_int_1d replacement,
                                                        ExecutionSpace space)
 {
-  auto pack = [&](auto where) {
+  on(space, [&](auto where) {
     typedef decltype(where) Space;
     buf.template sync<Space>();
     list.template sync<Space>();
@@ -424,11 +424,7 @@ int FixSPHWallKokkos<DeviceType>::pack_exchange_kokkos(const int &nsend,
                                 list.template view<Space>(), replacement.template view<Space>());
     buf.template modify<Space>();
     k_array.template modify<Space>();
-  };
-  if (space == HostKK)
-    pack(LMPHostType());
-  else
-    pack(LMPDeviceType());
+  });
   k_array.sync_host();
   return nsend * NVALUES;
 }
@@ -439,17 +435,12 @@ void FixSPHWallKokkos<DeviceType>::unpack_exchange_kokkos(DAT::tdual_double_2d_l
                                                           int /*nrecv1*/, int /*nextrarecv1*/,
                                                           ExecutionSpace space)
 {
-  auto unpack = [&](auto where) {
+  on(space, [&](auto where) {
     typedef decltype(where) Space;
-    unpack_arriving_columns<Space>(columns_of<Space>(k_array),
-                                   {buf.template view<Space>().data(), NVALUES}, nrecv,
-                                   place.template view<Space>());
+    unpack_columns<Space>(columns_of<Space>(k_array), {buf.template view<Space>().data(), NVALUES},
+                          nrecv, place.template view<Space>());
     k_array.template modify<Space>();
-  };
-  if (space == HostKK)
-    unpack(LMPHostType());
-  else
-    unpack(LMPDeviceType());
+  });
   k_array.sync_host();
 }
 

@@ -146,7 +146,8 @@ void PairSPHBulkKokkos<DeviceType>::unpack_forward_comm_kokkos(int n, int nfirst
                                                                DAT::tdual_double_1d &buf)
 {
   const ColumnsKokkos &sent = device->sent;
-  unpack_columns<DeviceType>(sent, {buf.template view<DeviceType>().data(), sent.n}, n, nfirst);
+  unpack_columns<DeviceType>(sent, {buf.template view<DeviceType>().data(), sent.n}, n,
+                             ParticlesFrom{nfirst});
 }
 
 /* ---------------------------------------------------------------------- */

@@ -29,6 +29,16 @@ namespace SPHDissipation {
     Kokkos::parallel_for(name, Kokkos::RangePolicy<DeviceType>(0, n), function);
   }
 
+  // function of an object of the class that runs on the host (HostKK) or the device
+
+  template <class Function> void on(ExecutionSpace space, Function &&function)
+  {
+    if (space == HostKK)
+      function(LMPHostType());
+    else
+      function(LMPDeviceType());
+  }
+
   // a new array of n entries without values; the old one is freed first
 
   template <class View> void renew(View &view, const char *name, int n)

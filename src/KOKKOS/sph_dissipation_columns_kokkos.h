@@ -88,13 +88,23 @@ namespace SPHDissipation {
         "sph:pack", n, KOKKOS_LAMBDA(int k) { columns.pack(list(k), buf.row(k)); });
   }
 
-  template <class DeviceType>
-  void unpack_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n, int nfirst)
+  // to particle place(k), unless that is negative
+
+  template <class DeviceType, class List>
+  void unpack_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n, const List &place)
   {
-    Kokkos::parallel_for(
-        "sph:unpack", Kokkos::RangePolicy<DeviceType>(0, n),
-        KOKKOS_LAMBDA(int k) { columns.unpack(nfirst + k, buf.row(k)); });
+    for_each<DeviceType>(
+        "sph:unpack", n, KOKKOS_LAMBDA(int k) {
+          if (place(k) >= 0) columns.unpack(place(k), buf.row(k));
+        });
   }
+
+  // the places of those that follow the first one
+
+  struct ParticlesFrom {
+    int first;
+    KOKKOS_INLINE_FUNCTION int operator()(int k) const { return first + k; }
+  };
 
   // from the particles of a list to those from nfirst on
 
@@ -134,18 +144,6 @@ namespace SPHDissipation {
         "sph:leave", n, KOKKOS_LAMBDA(int k) {
           columns.pack(list(k), buf.row(k));
           if (replacement(k) >= 0) columns.copy(replacement(k), list(k));
-        });
-  }
-
-  // particles that arrive: as number place(k), unless that is negative
-
-  template <class DeviceType, class List>
-  void unpack_arriving_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n,
-                               const List &place)
-  {
-    Kokkos::parallel_for(
-        "sph:arrive", Kokkos::RangePolicy<DeviceType>(0, n), KOKKOS_LAMBDA(int k) {
-          if (place(k) >= 0) columns.unpack(place(k), buf.row(k));
         });
   }
 
