@@ -37,18 +37,11 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 template <class View, class Pointer>
-void AtomVecSPHBulkKokkos::add_field(uint64_t mask, View &view, Pointer &pointer)
+void AtomVecSPHBulkKokkos::add_field(uint64_t mask, View &view, Pointer &pointer, Owner owner,
+                                     const std::vector<Occasion> &occasions)
 {
   typedef SPHDissipation::FieldOfKokkos<View, Pointer> Field;
-  fields.push_back(std::make_unique<Field>(mask, false, view, pointer));
-}
-
-template <class View, class Pointer>
-void AtomVecSPHBulkKokkos::add_own_field(uint64_t mask, View &view, Pointer &pointer,
-                                         const std::vector<Occasion> &occasions)
-{
-  typedef SPHDissipation::FieldOfKokkos<View, Pointer> Field;
-  fields.push_back(std::make_unique<Field>(mask, true, view, pointer));
+  fields.push_back(std::make_unique<Field>(mask, owner == OWN, view, pointer));
   for (const auto &occasion : occasions) sent[occasion].push_back(fields.back().get());
 }
 
@@ -64,32 +57,32 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
     AtomVec(lmp), AtomVecSPHBulk(lmp, spins, true), AtomVecKokkos(lmp)
 {
   AtomKokkos &atoms = *atomKK;
-  add_field(TAG_MASK, atoms.k_tag, atoms.tag);
-  add_field(TYPE_MASK, atoms.k_type, atoms.type);
-  add_field(MASK_MASK, atoms.k_mask, atoms.mask);
-  add_field(IMAGE_MASK, atoms.k_image, atoms.image);
-  add_field(X_MASK, atoms.k_x, atoms.x);
-  add_field(V_MASK, atoms.k_v, atoms.v);
-  add_field(F_MASK, atoms.k_f, atoms.f);
-  add_field(RMASS_MASK, atoms.k_rmass, atoms.rmass);
-  add_own_field(SPH_RHO_MASK, k_rho, atoms.rho, {EXCHANGE});
-  add_own_field(DRHO_MASK, k_drho, atoms.drho, {});
-  add_own_field(VFRAC_MASK, k_vfrac, atoms.vfrac, {});
-  add_own_field(ESPH_MASK, k_esph, atoms.esph, {BORDER, EXCHANGE});
-  add_own_field(DESPH_MASK, k_desph, atoms.desph, {});
-  add_own_field(VEST_MASK, k_vest, atoms.vest, {COMM, BORDER, EXCHANGE});
-  add_own_field(DESPH_BEFORE_MASK, k_desph_before, desph_before, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_rho_sum, rho_sum, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_vol_rate, vol_rate, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_vol_rate_before, vol_rate_before, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_vol_heat, vol_heat, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_vol_support, vol_support, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_shear_rate, shear_rate, {EXCHANGE});
+  add_field(TAG_MASK, atoms.k_tag, atoms.tag, ATOM);
+  add_field(TYPE_MASK, atoms.k_type, atoms.type, ATOM);
+  add_field(MASK_MASK, atoms.k_mask, atoms.mask, ATOM);
+  add_field(IMAGE_MASK, atoms.k_image, atoms.image, ATOM);
+  add_field(X_MASK, atoms.k_x, atoms.x, ATOM);
+  add_field(V_MASK, atoms.k_v, atoms.v, ATOM);
+  add_field(F_MASK, atoms.k_f, atoms.f, ATOM);
+  add_field(RMASS_MASK, atoms.k_rmass, atoms.rmass, ATOM);
+  add_field(SPH_RHO_MASK, k_rho, atoms.rho, OWN, {EXCHANGE});
+  add_field(DRHO_MASK, k_drho, atoms.drho, OWN);
+  add_field(VFRAC_MASK, k_vfrac, atoms.vfrac, OWN);
+  add_field(ESPH_MASK, k_esph, atoms.esph, OWN, {BORDER, EXCHANGE});
+  add_field(DESPH_MASK, k_desph, atoms.desph, OWN);
+  add_field(VEST_MASK, k_vest, atoms.vest, OWN, {COMM, BORDER, EXCHANGE});
+  add_field(DESPH_BEFORE_MASK, k_desph_before, desph_before, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_rho_sum, rho_sum, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_vol_rate, vol_rate, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_vol_rate_before, vol_rate_before, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_vol_heat, vol_heat, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_vol_support, vol_support, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_shear_rate, shear_rate, OWN, {EXCHANGE});
   if (has_spins) {
-    add_field(OMEGA_MASK, atoms.k_omega, atoms.omega);
-    add_field(TORQUE_MASK, atoms.k_torque, atoms.torque);
-    add_own_field(INERTIA_MASK, k_inertia, inertia, {EXCHANGE});
-    add_own_field(OMEGAEST_MASK, k_omegaest, omegaest, {COMM, BORDER, EXCHANGE});
+    add_field(OMEGA_MASK, atoms.k_omega, atoms.omega, ATOM);
+    add_field(TORQUE_MASK, atoms.k_torque, atoms.torque, ATOM);
+    add_field(INERTIA_MASK, k_inertia, inertia, OWN, {EXCHANGE});
+    add_field(OMEGAEST_MASK, k_omegaest, omegaest, OWN, {COMM, BORDER, EXCHANGE});
   }
   if (atomKK->k_dvector.extent(0))    // which fix property/atom would grow without our vectors
     error->all(FLERR, "This atom style must come before fixes property/atom with d_ names");
@@ -106,7 +99,7 @@ void AtomVecSPHBulkKokkos::process_args(int narg, char **arg)
   for (int slot : slots) {
     std::vector<Occasion> occasions = {EXCHANGE};
     if (state_info(slot).ghosts) occasions = {COMM, BORDER, EXCHANGE};
-    add_own_field(STATES_MASK, k_state[slot], state[slot], occasions);
+    add_field(STATES_MASK, k_state[slot], state[slot], OWN, occasions);
   }
   for (const auto occasion : {COMM, BORDER, EXCHANGE}) datamask_bonus |= sent_mask(occasion);
   setup_fields();

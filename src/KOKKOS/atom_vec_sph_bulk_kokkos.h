@@ -91,9 +91,9 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
 
   // in the constructor: a field of class AtomKokkos, or one of ours with the messages that it is in
 
-  template <class View, class Pointer> void add_field(uint64_t, View &, Pointer &);
+  enum Owner { ATOM, OWN };
   template <class View, class Pointer>
-  void add_own_field(uint64_t, View &, Pointer &, const std::vector<Occasion> &);
+  void add_field(uint64_t, View &, Pointer &, Owner, const std::vector<Occasion> & = {});
 
   std::vector<std::unique_ptr<SPHDissipation::FieldKokkos>> fields;
 
