@@ -45,10 +45,6 @@ void AtomVecSPHBulkKokkos::add_field(uint64_t mask, View &view, Pointer &pointer
   for (const auto &occasion : occasions) sent[occasion].push_back(fields.back().get());
 }
 
-/* ---------------------------------------------------------------------- */
-
-AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp) : AtomVecSPHBulkKokkos(lmp, false) {}
-
 /* ----------------------------------------------------------------------
    the views are those of the present atomKK, also after replicate has made another one
 ------------------------------------------------------------------------- */

@@ -40,7 +40,7 @@ namespace SPHDissipation {
 
 class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
  public:
-  AtomVecSPHBulkKokkos(class LAMMPS *);
+  AtomVecSPHBulkKokkos(class LAMMPS *, bool spins = false);
   ~AtomVecSPHBulkKokkos() override;
 
   // the atom style, where the pair style or a fix is one with /kk
@@ -82,9 +82,6 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
   tdual_field k_inertia;    // empty without spins, as the next one
   tdual_field_3 k_omegaest;
   tdual_field k_state[SPHDissipation::MOST_STATES];    // empty where there is no room
-
- protected:
-  AtomVecSPHBulkKokkos(class LAMMPS *, bool spins);
 
  private:
   enum Occasion { COMM, BORDER, EXCHANGE, NOCCASION };

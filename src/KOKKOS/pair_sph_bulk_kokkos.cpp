@@ -41,11 +41,6 @@ static constexpr bool HOST_ONLY = std::is_same_v<LMPHostType, LMPDeviceType>;
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
-PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp) : PairSPHBulkKokkos(lmp, false)
-{
-}
-
-template <class DeviceType>
 PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp, bool spins) :
     PairSPHBulk(lmp, spins), device(new FluidKokkos<DeviceType>(lmp, this, spins))
 {
