@@ -17,7 +17,6 @@
 
 #include "pair_sph_bulk_kokkos.h"
 
-#include "atom_kokkos.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
@@ -33,10 +32,6 @@
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-// the device is the host
-
-static constexpr bool HOST_ONLY = std::is_same_v<LMPHostType, LMPDeviceType>;
 
 /* ---------------------------------------------------------------------- */
 
@@ -61,7 +56,8 @@ PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp, bool spins) :
 template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::runs_on_device() const
 {
   if (!std::is_same_v<DeviceType, LMPDeviceType>) return false;
-  return !HOST_ONLY || utils::strmatch(force->pair_style, "/kk/device$");
+  return !std::is_same_v<LMPHostType, LMPDeviceType> ||
+      utils::strmatch(force->pair_style, "/kk/device$");
 }
 
 /* ----------------------------------------------------------------------
