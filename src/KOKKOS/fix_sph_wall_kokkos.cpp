@@ -191,13 +191,12 @@ void FixSPHWallKokkos<DeviceType>::move_surface_kokkos(
   const bool turns = turns_surface(before);
   const WallStep step = motion->last_step();
   auto mask = atomKK->k_mask.template view<DeviceType>();
-  auto all = boundary.particles;
-  auto surface = boundary.surface;
+  const auto walls = boundary;
   const int bit = groupbit;
-  Kokkos::parallel_for(
-      "sph:wall_surface", Kokkos::RangePolicy<DeviceType>(0, boundary.nall), KOKKOS_LAMBDA(int k) {
-        if (!(mask(all(k)) & bit)) return;
-        Surface &s = surface(k);
+  for_each<DeviceType>(
+      "sph:wall_surface", walls.nall, KOKKOS_LAMBDA(int k) {
+        if (!(mask(walls.particles(k)) & bit)) return;
+        Surface &s = walls.surface(k);
         now.angular(s.omega);
         if (!turns) return;
         double turned[3];
@@ -216,22 +215,19 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
   const WallCondition wall = *condition;
   const FromPoint<DeviceType> from_point(atomKK, domain);
   const ParticleRows rows = data;
-  auto all = boundary.particles;
-  auto surface = boundary.surface;
-  auto sums = boundary.sum;
+  const auto walls = boundary;
   auto *const spin = data.spin;
   const int bit = groupbit;
   const WallHeat kind = heat;
   const bool with_heat = data.par.conducts(), by_atom = heat_value->is_by_atom();
   const double value = heat_value->now();
   auto values = heat_values;
-  auto heat_sums = boundary.heat_sum;
 
   atomKK->sync(execution_space, IMAGE_MASK);
-  Kokkos::parallel_for(
-      "sph:wall_set", Kokkos::RangePolicy<DeviceType>(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
-        const int i = all(k);
-        const BoundarySum &sum = sums(k);
+  for_each<DeviceType>(
+      "sph:wall_set", walls.nowned, KOKKOS_LAMBDA(int k) {
+        const int i = walls.particles(k);
+        const BoundarySum &sum = walls.sum(k);
         if (!(rows.mask[i] & bit)) return;
         double *const w = spin ? spin[i].w : nullptr;
         if (w) now.angular(w);
@@ -239,11 +235,11 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
         double r[3], acceleration[3];
         from_point(i, now.point, r);
         now.acceleration_at(r, acceleration);
-        extend_fluid(rows, i, wall, surface(k), sum, acceleration, w);
-        if (with_heat && heat_sums(k).weight > 0.0)
-          rows.flow[HEAT_FLOW][i] =
-              wall_conductor(kind, by_atom ? values(i) : value, rows.particle[i].vol,
-                             rows.types[rows.type[i]].flow[HEAT_FLOW], surface(k), heat_sums(k));
+        extend_fluid(rows, i, wall, walls.surface(k), sum, acceleration, w);
+        if (with_heat && walls.heat_sum(k).weight > 0.0)
+          rows.flow[HEAT_FLOW][i] = wall_conductor(
+              kind, by_atom ? values(i) : value, rows.particle[i].vol,
+              rows.types[rows.type[i]].flow[HEAT_FLOW], walls.surface(k), walls.heat_sum(k));
       });
 }
 

@@ -47,18 +47,29 @@ namespace SPHDissipation {
 
     Kokkos::View<NearKernel *, DeviceType> contact;
     Kokkos::View<double *, DeviceType> occupied;
+
+    // particles of the fluid that may have boundary particles in their support until the list is
+    // built anew
+
+    Kokkos::View<int *, DeviceType> rows;
+    int nrows;
+
+    // Loops in which each particle sums up its own pairs of fluid and boundary: first the particles in rows, then the owned
+    // boundary particles
+
+    int size() const { return nrows + nowned; }
+    KOKKOS_INLINE_FUNCTION bool is_wall(int k) const { return k >= nrows; }
+    KOKKOS_INLINE_FUNCTION int particle(int k) const
+    {
+      return is_wall(k) ? particles(k - nrows) : rows(k);
+    }
   };
 
-  // The repulsion of the surfaces, as BoundaryStage::repel(): each particle sums up its own pairs, first those of the fluid
-  // in rows, then the boundary particles
+  // The repulsion of the surfaces, as BoundaryStage::repel()
 
   template <class DeviceType> struct RepulsionKokkos {
     LoopDataKokkos<DeviceType> data;
     BoundaryDataKokkos<DeviceType> boundary;
-    Kokkos::View<int *, DeviceType> rows;
-    int nrows;
-
-    int size() const { return nrows + boundary.nowned; }
 
     KOKKOS_INLINE_FUNCTION void operator()(int k) const
     {
@@ -81,8 +92,8 @@ namespace SPHDissipation {
 
     template <bool VIRIAL> KOKKOS_INLINE_FUNCTION int row(int k, double *virial) const
     {
-      const bool is_wall = k >= nrows;
-      const int i = is_wall ? boundary.particles(k - nrows) : rows(k);
+      const bool is_wall = boundary.is_wall(k);
+      const int i = boundary.particle(k);
       if (!is_wall && !(beyond_surface(boundary.occupied(i)) > 0.0)) return i;
       const Particle &pi = data.particle[i];
       double total[3] = {0.0, 0.0, 0.0}, heat = 0.0;
@@ -151,7 +162,7 @@ namespace SPHDissipation {
 
     // after pass 2, when ghosts have occupied() of their owners: the loop of the repulsion, see BoundaryStage::repel()
 
-    RepulsionKokkos<DeviceType> repulsion(const LoopDataKokkos<DeviceType> &) const;
+    const BoundaryDataKokkos<DeviceType> &particles() const { return boundary; }
     Kokkos::View<double *, DeviceType> occupied() const { return boundary.occupied; }
 
     double memory_usage() const;
@@ -163,7 +174,6 @@ namespace SPHDissipation {
     template <class K> void find_surface(const LoopDataKokkos<DeviceType> &);
     template <class K> void sum_fluid(const LoopDataKokkos<DeviceType> &);
     template <class K> void check(const LoopDataKokkos<DeviceType> &);
-    template <class K> void sum_surface_heat(const LoopDataKokkos<DeviceType> &, double *flow);
 
    private:
     typedef Kokkos::RangePolicy<DeviceType> Range;
@@ -174,12 +184,6 @@ namespace SPHDissipation {
     std::vector<BoundaryKokkos<DeviceType> *> boundaries;
     int bits;               // of the groups that the lists are for
     bigint surface_step;    // that the normals of the surface are for
-
-    // particles of the fluid that may have boundary particles in their support until the list is
-    // built anew
-
-    Kokkos::View<int *, DeviceType> rows;
-    int nrows;
   };
 
 }    // namespace SPHDissipation

@@ -643,8 +643,8 @@ void FluidKokkos<DeviceType>::sum_forces(PairTally *tally, const StepPlan &plan)
     });
   });
   if (!boundary->empty() && data->par.continuity) {
-    const auto repulsion = boundary_device->repulsion(*data);
-    run_loop("sph:repulsion", repulsion.size(), repulsion, tally);
+    const auto &walls = boundary_device->particles();
+    run_loop("sph:repulsion", walls.size(), RepulsionKokkos<DeviceType>{*data, walls}, tally);
   }
 
   if (!pair->vflag_atom) return;
