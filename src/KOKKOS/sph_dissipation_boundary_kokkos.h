@@ -71,25 +71,6 @@ namespace SPHDissipation {
     LoopDataKokkos<DeviceType> data;
     BoundaryDataKokkos<DeviceType> boundary;
 
-    KOKKOS_INLINE_FUNCTION void operator()(int k) const
-    {
-      double virial[6];
-      row<false>(k, virial);
-    }
-
-    // with the virial
-
-    KOKKOS_INLINE_FUNCTION void operator()(int k, EV_FLOAT &ev) const
-    {
-      double virial[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-      const int i = row<true>(k, virial);
-      for (int c = 0; c < 6; c++) ev.v[c] += virial[c];
-      if (data.vatom.extent(0))
-        for (int c = 0; c < 6; c++) data.vatom(i, c) += virial[c];
-    }
-
-    // Return the particle of a row.
-
     template <bool VIRIAL> KOKKOS_INLINE_FUNCTION int row(int k, double *virial) const
     {
       const bool is_wall = boundary.is_wall(k);
@@ -102,18 +83,12 @@ namespace SPHDissipation {
         const double force = is_wall ? push(j, i, rsq) : push(i, j, rsq);
         if (force == 0.0) return;
         const Particle &pj = data.particle[j];
+        const double f[3] = {force * r[0], force * r[1], force * r[2]};
         for (int d = 0; d < 3; d++) {
-          total[d] += force * r[d];
-          heat -= force * r[d] * (pi.u[d] - pj.u[d]);
+          total[d] += f[d];
+          heat -= f[d] * (pi.u[d] - pj.u[d]);
         }
-        if constexpr (VIRIAL) {    // half for each partner
-          virial[0] += 0.5 * force * r[0] * r[0];
-          virial[1] += 0.5 * force * r[1] * r[1];
-          virial[2] += 0.5 * force * r[2] * r[2];
-          virial[3] += 0.5 * force * r[0] * r[1];
-          virial[4] += 0.5 * force * r[0] * r[2];
-          virial[5] += 0.5 * force * r[1] * r[2];
-        }
+        if constexpr (VIRIAL) add_virial(f, r, virial);
       });
       for (int d = 0; d < 3; d++) data.f(i, d) += total[d];
       if (!is_wall) data.desph[i] += heat;

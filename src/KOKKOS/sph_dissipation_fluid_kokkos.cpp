@@ -794,9 +794,10 @@ template <class Loop>
 void FluidKokkos<DeviceType>::run_loop(const char *name, int n, const Loop &loop, bool tally)
 {
   const auto range = Kokkos::RangePolicy<DeviceType>(0, n);
-  if (!tally) return Kokkos::parallel_for(name, range, loop);
+  const VirialLoopKokkos<Loop> with_virial = {loop};
+  if (!tally) return Kokkos::parallel_for(name, range, with_virial);
   EV_FLOAT ev;
-  Kokkos::parallel_reduce(name, range, loop, ev);
+  Kokkos::parallel_reduce(name, range, with_virial, ev);
   if (pair->vflag_global)
     for (int k = 0; k < 6; k++) pair->virial[k] += ev.v[k];
 }
