@@ -34,8 +34,7 @@
 #include "sph_dissipation_threads.h"
 
 #include <algorithm>
-#include <array>
-#include <tuple>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -462,40 +461,44 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_spins()
 }
 
 /* ----------------------------------------------------------------------
-   width doubles of each particle in an array on the device, from its double number first on; none if the
-   array is empty
-------------------------------------------------------------------------- */
-
-template <class DeviceType> template <class T> struct FluidKokkos<DeviceType>::Part {
-  Kokkos::View<T *, Kokkos::LayoutRight, DeviceType> array;
-  int first, width;
-
-  Field in(T *copy) const
-  {
-    return {reinterpret_cast<double *>(copy) + first, sizeof(T) / sizeof(double),
-            array.extent(0) ? width : 0};
-  }
-};
-
-/* ----------------------------------------------------------------------
-   LAMMPS has some kinds of communication on the host, whatever the pair style is
+   fields on the device; LAMMPS has some kinds of communication on the host, whatever the pair style is
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
-template <class... T>
-void FluidKokkos<DeviceType>::send_to_ghosts(const Part<T> &...part)
+void FluidKokkos<DeviceType>::send_to_ghosts(const std::vector<Field> &fields)
 {
   if (pair->execution_space == Device && !lmp->kokkos->forward_pair_comm_legacy &&
       comm->style != Comm::TILED) {
     sent = ColumnsKokkos();
-    (sent.add(part.in(part.array.data())), ...);
+    for (const Field &one : fields) sent.add(one);
     return comm->forward_comm(pair, sent.n);
   }
-  auto send = [&](const auto &...copy) {
-    exchange->forward({part.in(copy.data())...});
-    (Kokkos::deep_copy(part.array, copy), ...);
+  const auto numbers = [n = atom->nlocal + atom->nghost](const Field &one) {
+    return Kokkos::View<double *, Kokkos::LayoutRight, DeviceType, Kokkos::MemoryUnmanaged>(
+        one.first, n ? (n - 1) * one.stride + one.width : 0);
   };
-  send(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), part.array)...);
+  std::vector<Kokkos::View<double *, Kokkos::LayoutRight, Kokkos::HostSpace>> copies;
+  std::vector<Field> on_host = fields;
+  for (Field &one : on_host) {
+    copies.push_back(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), numbers(one)));
+    one.first = copies.back().data();
+  }
+  exchange->forward(on_host);
+  for (std::size_t k = 0; k < fields.size(); k++) Kokkos::deep_copy(numbers(fields[k]), copies[k]);
+}
+
+/* ----------------------------------------------------------------------
+   a loop over the rows of the neighbor list: its members are the data and more
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <template <class, class> class Loop, class... More>
+void FluidKokkos<DeviceType>::sum_pairs(const char *name, const More &...more)
+{
+  with_kernel(model->choice.kernel, [&](auto kernel) {
+    for_each<DeviceType>(name, pair->list->inum,
+                         Loop<DeviceType, decltype(kernel)>{*data, more...});
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -510,25 +513,11 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
   // what it modifies, too: LAMMPS communicates on the host if MPI does not know the GPU
   atomKK->sync(pair->execution_space, read_mask() | modified_mask());
   set_particles();
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    typedef decltype(kernel) K;
-    Kokkos::parallel_for("sph:density", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-                         DensityLoopKokkos<DeviceType, K>{*data});
-  });
+  sum_pairs<DensityLoopKokkos>("sph:density");
 
-  Part<double> energy = {{}, 0, 1};
-  if (engine->parameters().thermal_pressure)
-    energy.array = AtomVecSPHBulkKokkos::of(atom).k_esph.template view<DeviceType>();
   const ParticleRows rows = *data;
-  Part<double> pressure_of_states = {{}, 0, 1};
-  std::array<Part<FlowRow>, Flows::NUMBER> values;
   const bool states = engine->parameters().states, continuity = engine->parameters().continuity;
   const int bits = not_fluid(), flows = engine->parameters().loops_of_flows;
-  if (states) pressure_of_states.array = state_pressure;
-  for (int k = 0; k < Flows::NUMBER; k++) {
-    values[k] = {{}, 1, 1};
-    if (flows >> k & 1) values[k].array = flow[k];
-  }
   if (states || flows || continuity) {
     const bool rest = at_rest();
     for_each<DeviceType>(
@@ -539,11 +528,12 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
           if (flows) rows.set_flow_values(i);
         });
   }
-  std::apply(
-      [&](const auto &...value) {
-        send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy, pressure_of_states, value...);
-      },
-      values);
+  std::vector<Field> fields = {field(rows.density, &rows.density->c, 2)};
+  if (engine->parameters().thermal_pressure) fields.push_back({rows.esph, 1, 1});
+  if (states) fields.push_back({rows.state_pressure, 1, 1});
+  for (int k = 0; k < Flows::NUMBER; k++)
+    if (flows >> k & 1) fields.push_back(field(rows.flow[k], &rows.flow[k]->value, 1));
+  send_to_ghosts(fields);
 
   for_each<DeviceType>(
       "sph:volume", atom->nlocal + atom->nghost, KOKKOS_LAMBDA(int i) {
@@ -557,11 +547,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_bound()
 {
   if (!on_device) return Fluid::sum_bound();
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    Kokkos::parallel_for("sph:bound", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-                         BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, bound_of.data()});
-  });
-  send_to_ghosts(Part<double>{bound_of, 0, 1});
+  sum_pairs<BoundLoopKokkos>("sph:bound", bound_of.data());
+  send_to_ghosts({{bound_of.data(), 1, 1}});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -607,13 +594,13 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
 {
   if (!on_device) return Fluid::set_boundary();
   boundary_device->run(*data, pair->list->inum);
-  Part<Spin> spins_of = {{}, 0, 3};
-  if (engine->has_spin()) spins_of.array = spin;
-  Part<FlowRow> heat = {{}, 0, 4};
-  if (boundary->conducts()) heat.array = flow[HEAT_FLOW];
-  send_to_ghosts(Part<Particle>{particle, 3, 5},    // u, vol and g
-                 Part<double>{zeta_term, 0, 1}, spins_of, heat,
-                 Part<double>{boundary_device->occupied(), 0, 1});
+  std::vector<Field> fields = {field(data->particle, data->particle->u, 5),    // u, vol and g
+                               {data->zeta_term, 1, 1}};
+  if (data->spin) fields.push_back(field(data->spin, data->spin->w, 3));
+  FlowRow *const heat = data->flow[HEAT_FLOW];
+  if (boundary->conducts()) fields.push_back(field(heat, &heat->vol, 4));
+  if (data->par.continuity) fields.push_back({boundary_device->occupied().data(), 1, 1});
+  send_to_ghosts(fields);
   boundary_device->set_excess(*data);
 }
 
@@ -622,10 +609,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_gradient()
 {
   if (!on_device) return Fluid::sum_gradient();
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    Kokkos::parallel_for("sph:gradient", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-                         ShiftLoopKokkos<DeviceType, decltype(kernel)>{*data, gradient_of});
-  });
+  sum_pairs<ShiftLoopKokkos>("sph:gradient", gradient_of);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -662,11 +646,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_flows()
   for (int k = 0; k < Flows::NUMBER; k++) {
     if (!(engine->parameters().loops_of_flows >> k & 1)) continue;
     double *const rate = has_rate(k) ? flow_rate[k].data() : nullptr;
-    with_kernel(model->choice.kernel, [&](auto kernel) {
-      Kokkos::parallel_for(
-          "sph:flow", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-          FlowLoopKokkos<DeviceType, decltype(kernel)>{*data, k, rate, k == HEAT_FLOW});
-    });
+    sum_pairs<FlowLoopKokkos>("sph:flow", k, rate, k == HEAT_FLOW);
     if (rate && k == HEAT_FLOW) boundary_device->add_surface_heat(*data, rate);
   }
 }
@@ -709,11 +689,10 @@ void FluidKokkos<DeviceType>::run_diffusion()
                                     avec.k_vol_rate.template view<DeviceType>().data(),
                                     avec.k_vol_heat.template view<DeviceType>().data(),
                                     avec.k_vol_support.template view<DeviceType>().data()};
-  const auto range = Kokkos::RangePolicy<DeviceType>(0, pair->list->inum);
-  Kokkos::parallel_for("sph:gradient", range, GradientLoopKokkos<DeviceType, K, DIM>{*data, rows});
-  send_to_ghosts(Part<DiffusionRow>{diffusion_row, DiffusionPlaces<DIM>::G, DIM});
-  Kokkos::parallel_for("sph:diffusion", range,
-                       DiffusionLoopKokkos<DeviceType, K, DIM>{*data, rows});
+  const int n = pair->list->inum;
+  for_each<DeviceType>("sph:gradient", n, GradientLoopKokkos<DeviceType, K, DIM>{*data, rows});
+  send_to_ghosts({field(rows.row, rows.row->a + DiffusionPlaces<DIM>::G, DIM)});
+  for_each<DeviceType>("sph:diffusion", n, DiffusionLoopKokkos<DeviceType, K, DIM>{*data, rows});
 }
 
 /* ---------------------------------------------------------------------- */

@@ -128,8 +128,9 @@ namespace SPHDissipation {
     void grow();
     void set_states();
     void copy_coeffs();
-    template <class T> struct Part;
-    template <class... T> void send_to_ghosts(const Part<T> &...);
+    void send_to_ghosts(const std::vector<Field> &);
+    template <template <class, class> class Loop, class... More>
+    void sum_pairs(const char *name, const More &...);
     bool has_rate(int place) const;    // of a flow
     template <class Loop> void run_loop(const char *name, int n, const Loop &, bool virial);
     template <class K, int DIM> void run_diffusion();
