@@ -19,21 +19,10 @@
 #include "pair.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_masks_kokkos.h"
-#include "sph_dissipation_sums_kokkos.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType>
-BoundaryStageKokkos<DeviceType>::BoundaryStageKokkos(LAMMPS *lmp, Pair *pair,
-                                                     BoundaryStage &stage) :
-    Pointers(lmp),
-    pair(pair), stage(stage), boundary(), bits(0), surface_step(-1)
-{
-}
 
 /* ---------------------------------------------------------------------- */
 
@@ -198,12 +187,9 @@ void BoundaryStageKokkos<DeviceType>::set_excess(LoopDataKokkos<DeviceType> &dat
   for_each<DeviceType>(
       "sph:boundary_excess", walls.nall, KOKKOS_LAMBDA(int k) {
         const int i = walls.particles(k);
-        Excess &one = walls.excess(i);
-        one.is_boundary = one.crosses = 1.0;
-        for (int d = 0; d < 3; d++) {
-          one.u[d] = loop.particle[i].u[d] - vest(i, d);
-          if (loop.spin) one.w[d] = loop.spin[i].w[d] - walls.surface(k).omega[d];
-        }
+        walls.excess(i).crosses = 1.0;
+        SPHDissipation::set_excess(walls.excess(i), loop.particle[i], &vest(i, 0),
+                                   loop.spin ? loop.spin[i].w : nullptr, walls.surface(k));
       });
 }
 
@@ -248,35 +234,6 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
 
 /* ---------------------------------------------------------------------- */
 
-namespace {
-template <class DeviceType, class K> struct SurfaceHeat {
-  LoopDataKokkos<DeviceType> loop;
-  BoundaryDataKokkos<DeviceType> walls;
-  double *flow;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int k) const
-  {
-    const FlowRow *const heat = loop.flow[HEAT_FLOW];
-    const bool is_wall = walls.is_wall(k);
-    const int i = walls.particle(k);
-    if (is_wall && heat[i].flux == 0.0) return;
-    const double to_wall = is_wall ? 1.0 : -1.0;
-    double total = 0.0;    // that the fluid gets
-    for_neighbors(loop, i, [&](int j, const double *from_j, double rsq) {
-      if ((walls.number(j) >= 0) == is_wall) return;
-      const int f = is_wall ? j : i, w = is_wall ? i : j;
-      const double flux = heat[w].flux;
-      if (flux == 0.0 || !(heat[f].coefficient > 0.0)) return;
-      const double r[3] = {to_wall * from_j[0], to_wall * from_j[1], to_wall * from_j[2]};
-      const double slope = loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support);
-      total += surface_heat(flux, loop.particle[f].vol, r, slope, walls.surface(walls.number(w)));
-    });
-    if (is_wall) flow[i] = -total;
-    loop.desph[i] -= to_wall * total;
-  }
-};
-}    // namespace
-
 template <class DeviceType>
 void BoundaryStageKokkos<DeviceType>::add_surface_heat(const LoopDataKokkos<DeviceType> &data,
                                                        double *flow)
@@ -284,7 +241,7 @@ void BoundaryStageKokkos<DeviceType>::add_surface_heat(const LoopDataKokkos<Devi
   with_kernel(data.par.kernel, [&](auto kernel) {
     typedef decltype(kernel) K;
     for_each<DeviceType>("sph:surface_heat", boundary.size(),
-                         SurfaceHeat<DeviceType, K>{data, boundary, flow});
+                         SurfaceHeatKokkos<DeviceType, K>{data, boundary, flow});
   });
 }
 
@@ -333,11 +290,7 @@ template <class DeviceType> double BoundaryStageKokkos<DeviceType>::memory_usage
 
 /* ---------------------------------------------------------------------- */
 
-namespace LAMMPS_NS {
-namespace SPHDissipation {
-  template class BoundaryStageKokkos<LMPDeviceType>;
+template class SPHDissipation::BoundaryStageKokkos<LMPDeviceType>;
 #ifdef LMP_KOKKOS_GPU
-  template class BoundaryStageKokkos<LMPHostType>;
+template class SPHDissipation::BoundaryStageKokkos<LMPHostType>;
 #endif
-}    // namespace SPHDissipation
-}    // namespace LAMMPS_NS

@@ -16,9 +16,7 @@
 
 // Boundary particles on the device, as class BoundaryStage has them on the host
 
-#include "kokkos_type.h"
 #include "pointers.h"
-
 #include "sph_dissipation_boundary.h"
 #include "sph_dissipation_sums_kokkos.h"
 #include "sph_dissipation_wall_terms.h"
@@ -65,7 +63,7 @@ namespace SPHDissipation {
     }
   };
 
-  // The repulsion of the surfaces, as BoundaryStage::repel()
+  // The repulsion of the surfaces, as BoundaryStage::repel(): after pass 2, when ghosts have the sums of their owners
 
   template <class DeviceType> struct RepulsionKokkos {
     LoopDataKokkos<DeviceType> data;
@@ -107,6 +105,35 @@ namespace SPHDissipation {
     }
   };
 
+  // The heat of surfaces, see BoundaryStageKokkos::add_surface_heat()
+
+  template <class DeviceType, class K> struct SurfaceHeatKokkos {
+    LoopDataKokkos<DeviceType> data;
+    BoundaryDataKokkos<DeviceType> boundary;
+    double *flow;
+
+    KOKKOS_INLINE_FUNCTION void operator()(int k) const
+    {
+      const FlowRow *const heat = data.flow[HEAT_FLOW];
+      const bool is_wall = boundary.is_wall(k);
+      const int i = boundary.particle(k);
+      if (is_wall && heat[i].flux == 0.0) return;
+      const double to_wall = is_wall ? 1.0 : -1.0;
+      double total = 0.0;    // that the fluid gets
+      for_neighbors(data, i, [&](int j, const double *from_j, double rsq) {
+        if ((boundary.number(j) >= 0) == is_wall) return;
+        const int f = is_wall ? j : i, w = is_wall ? i : j;
+        if (heat[w].flux == 0.0 || !(heat[f].coefficient > 0.0)) return;
+        const double r[3] = {to_wall * from_j[0], to_wall * from_j[1], to_wall * from_j[2]};
+        const double slope = data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
+        total += surface_heat(heat[w].flux, data.particle[f].vol, r, slope,
+                              boundary.surface(boundary.number(w)));
+      });
+      if (is_wall) flow[i] = -total;
+      data.desph[i] -= to_wall * total;
+    }
+  };
+
   // As class Boundary, whose functions these are on the device
 
   template <class DeviceType> class BoundaryKokkos {
@@ -121,7 +148,10 @@ namespace SPHDissipation {
 
   template <class DeviceType> class BoundaryStageKokkos : protected Pointers {
    public:
-    BoundaryStageKokkos(class LAMMPS *, Pair *, BoundaryStage &);
+    BoundaryStageKokkos(class LAMMPS *lmp, Pair *pair, BoundaryStage &stage) :
+        Pointers(lmp), pair(pair), stage(stage)
+    {
+    }
 
     // after the pressures, before pass 2: sets the values of owned boundary particles for it, which
     // the pair style sends to ghosts
@@ -135,10 +165,8 @@ namespace SPHDissipation {
 
     void add_surface_heat(const LoopDataKokkos<DeviceType> &, double *flow);
 
-    // after pass 2, when ghosts have occupied() of their owners: the loop of the repulsion, see BoundaryStage::repel()
-
+    // the particles that the last run() was about
     const BoundaryDataKokkos<DeviceType> &particles() const { return boundary; }
-    Kokkos::View<double *, DeviceType> occupied() const { return boundary.occupied; }
 
     double memory_usage() const;
 
@@ -155,10 +183,10 @@ namespace SPHDissipation {
 
     Pair *pair;
     BoundaryStage &stage;
-    BoundaryDataKokkos<DeviceType> boundary;
+    BoundaryDataKokkos<DeviceType> boundary = {};
     std::vector<BoundaryKokkos<DeviceType> *> boundaries;
-    int bits;               // of the groups that the lists are for
-    bigint surface_step;    // that the normals of the surface are for
+    int bits = 0;                // of the groups that the lists are for
+    bigint surface_step = -1;    // that the normals of the surface are for
   };
 
 }    // namespace SPHDissipation

@@ -599,7 +599,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
   if (data->spin) fields.push_back(field(data->spin, data->spin->w, 3));
   FlowRow *const heat = data->flow[HEAT_FLOW];
   if (boundary->conducts()) fields.push_back(field(heat, &heat->vol, 4));
-  if (data->par.continuity) fields.push_back({boundary_device->occupied().data(), 1, 1});
+  if (data->par.continuity) fields.push_back({boundary_device->particles().occupied.data(), 1, 1});
   send_to_ghosts(fields);
   boundary_device->set_excess(*data);
 }
@@ -719,7 +719,7 @@ template <class DeviceType> double FluidKokkos<DeviceType>::wall_energy(double *
   if (!on_device) return Fluid::wall_energy(each_atom);
   if (!model->choice.continuity) return 0.0;
   const auto occupied =
-      Kokkos::create_mirror_view_and_copy(LMPHostType(), boundary_device->occupied());
+      Kokkos::create_mirror_view_and_copy(LMPHostType(), boundary_device->particles().occupied);
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (is_boundary(i)) continue;
