@@ -231,15 +231,11 @@ template <class DeviceType> void FluidKokkos<DeviceType>::heating(double *heat, 
   const bool of_states = engine->parameters().states;
   if (of_states) atomKK->sync(Host, HEAT);
   const StateRows states = engine->states();
-  const auto copy = [&](int k) {
-    return Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
-  };
-  std::vector<decltype(copy(0))> from;
-  for (int k = 0; k < NCHANNEL; k++) from.push_back(copy(k));
+  const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat);
   for (int i = 0; i < atom->nlocal; i++) {
     if (atom->mask[i] & not_fluid()) continue;
     double channel[NCHANNEL];
-    for (int k = 0; k < NCHANNEL; k++) channel[k] = from[k](i);
+    for (int k = 0; k < NCHANNEL; k++) channel[k] = from(i, k);
     if (of_states) states.add_heat(i, channel);
     for (int k = 0; k < NCHANNEL; k++) {
       power[k] += channel[k];
@@ -364,7 +360,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
     if (has_rate(k)) reach(flow_rate[k], "sph:flow_rate", n);
   }
   data->spin = engine->has_spin() ? reach(spin, "sph:spin", n) : nullptr;
-  for (auto &heat : data->heat) reach(heat, "sph:heat", n);
+  reach(data->heat, "sph:heat", n);
   data->weight = reach(weight, "sph:weight", data->each ? n : 1);
   if (model->choice.limit != Limit::NO) reach(bound_of, "sph:bound", n);
   if (shift->wanted) reach(gradient_of, "sph:gradient", n);
@@ -788,9 +784,8 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
   double of_flows = 0.0;
   for (int k = 0; k < Flows::NUMBER; k++) of_flows += bytes_of(flow[k], flow_rate[k]);
   return Fluid::memory_usage() + boundary_device->memory_usage() + of_flows +
-      bytes_of(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of, gradient_of,
-               diffusion_row, impedance) +
-      (double) NCHANNEL * bytes_of(data->heat[0]);
+      bytes_of(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of,
+               gradient_of, diffusion_row, impedance, data->heat);
 }
 
 /* ---------------------------------------------------------------------- */

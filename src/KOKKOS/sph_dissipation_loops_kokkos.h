@@ -48,7 +48,7 @@ namespace SPHDissipation {
 
     Spin *spin;                                           // micropolar, else nullptr
     const Excess *excess;                                 // nullptr without boundaries
-    Kokkos::View<double *, DeviceType> heat[NCHANNEL];    // of owned particles
+    Kokkos::View<double *[NCHANNEL], DeviceType> heat;    // of owned particles
     const PairCoeff *coeff;    // coeff[type[i] * par.ntypes_1 + type[j * typed]]
     int typed;                 // 0: the coefficients of all pairs are the same
 
@@ -193,7 +193,7 @@ namespace SPHDissipation {
       if constexpr (Form::SPINS)
         for (int d = 0; d < 3; d++) data.torque(i, d) += total_t[d];
       for (int c = 0; c < NCHANNEL; c++) {
-        data.heat[c](i) = heat[c];
+        data.heat(i, c) = heat[c];
         data.desph[i] += heat[c];
       }
       return i;
