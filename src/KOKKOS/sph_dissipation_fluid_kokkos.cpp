@@ -427,32 +427,20 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
 
   auto x = atomKK->k_x.template view<DeviceType>();
   auto vest = avec.k_vest.template view<DeviceType>();
+  data->torque = atomKK->k_torque.template view<DeviceType>();
+  auto omegaest = avec.k_omegaest.template view<DeviceType>();
   const ParticleRows rows = *data;
+  Spin *const spins_of = data->spin;
   auto weights = weight;
   for_each<DeviceType>(
       "sph:particles", atom->nlocal + atom->nghost, KOKKOS_LAMBDA(int i) {
         for (int d = 0; d < 3; d++) {
           rows.particle[i].x[d] = x(i, d);
           rows.particle[i].u[d] = vest(i, d);
+          if (spins_of) spins_of[i].w[d] = omegaest(i, d);
         }
         rows.desph[i] = 0.0;
         if (rows.each) weights(i) = rows.reference_volume(i);
-      });
-  if (engine->has_spin()) set_spins();
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void FluidKokkos<DeviceType>::set_spins()
-{
-  auto omegaest = AtomVecSPHBulkKokkos::of(atom).k_omegaest.template view<DeviceType>();
-  auto spins_of = spin;
-  data->torque = atomKK->k_torque.template view<DeviceType>();
-
-  Kokkos::parallel_for(
-      "sph:spins", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
-        for (int d = 0; d < 3; d++) spins_of(i).w[d] = omegaest(i, d);
       });
 }
 

@@ -86,7 +86,6 @@ namespace SPHDissipation {
     void evaluate_diffusion() override;
     void add_diffusion_heat() override;
     void set_particles();
-    void set_spins();
 
    private:
     static constexpr uint64_t STATES = SPH_RHO_MASK | TYPE_MASK | MASK_MASK | STATES_MASK;
