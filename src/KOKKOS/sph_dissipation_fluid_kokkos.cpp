@@ -604,10 +604,16 @@ void FluidKokkos<DeviceType>::sum_forces(PairTally *tally, const StepPlan &plan)
   if (!on_device) return Fluid::sum_forces(tally, plan);
   data->vatom = {};
   if (pair->vflag_atom) data->vatom = decltype(data->vatom)("sph:vatom", atom->nlocal);
+  const int n = pair->list->inum;
 
   with_kernel(model->choice.kernel, [&](auto kernel) {
     with_form(data->par.terms(), [&](auto form) {
-      run_force_loop<decltype(kernel), decltype(form)>(tally);
+      typedef decltype(kernel) K;
+      typedef decltype(form) Form;
+      if (data->par.bulk == Bulk::VOLUME)
+        run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, true>{*data}, tally);
+      else
+        run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, false>{*data}, tally);
     });
   });
   if (!boundary->empty() && data->par.continuity) {
@@ -734,20 +740,6 @@ template <class DeviceType> double FluidKokkos<DeviceType>::received_heat(int gr
       },
       total);
   return total;
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType>
-template <class K, class Form>
-void FluidKokkos<DeviceType>::run_force_loop(bool virial)
-{
-  if (model->choice.bulk == Bulk::VOLUME)
-    run_loop("sph:forces", pair->list->inum, ForceLoopKokkos<DeviceType, K, Form, true>{*data},
-             virial);
-  else
-    run_loop("sph:forces", pair->list->inum, ForceLoopKokkos<DeviceType, K, Form, false>{*data},
-             virial);
 }
 
 /* ---------------------------------------------------------------------- */

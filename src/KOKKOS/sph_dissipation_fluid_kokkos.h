@@ -133,7 +133,6 @@ namespace SPHDissipation {
     bool has_rate(int place) const;    // of a flow
     template <class Loop> void run_loop(const char *name, int n, const Loop &, bool virial);
     template <class K, int DIM> void run_diffusion();
-    template <class K, class Form> void run_force_loop(bool virial);
   };
 
 }    // namespace SPHDissipation
