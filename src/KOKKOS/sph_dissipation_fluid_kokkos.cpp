@@ -68,11 +68,7 @@ FluidKokkos<DeviceType>::FluidKokkos(LAMMPS *lmp, Pair *pair, bool spins) :
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> FluidKokkos<DeviceType>::~FluidKokkos()
-{
-  host_list->ilist = host_list->numneigh = nullptr;    // ours
-  host_list->firstneigh = nullptr;
-}
+template <class DeviceType> FluidKokkos<DeviceType>::~FluidKokkos() = default;
 
 /* ---------------------------------------------------------------------- */
 
@@ -154,28 +150,22 @@ template <class DeviceType> void FluidKokkos<DeviceType>::build_host_list()
     return (tag[i] > tag[j]) == ((tag[i] + tag[j]) % 2 == 1);
   };
 
-  const int inum = pair->list->inum;
-  host_ilist.resize(inum);
-  host_numneigh.assign(nlocal, 0);
-  host_firstneigh.assign(nlocal, nullptr);
+  const int inum = host_list->inum = pair->list->inum;
+  host_list->grow(nlocal, nlocal);
+  std::fill_n(host_list->numneigh, nlocal, 0);
   host_neighbors.clear();
   std::vector<std::size_t> first(inum);
   for (int ii = 0; ii < inum; ii++) {
-    const int i = host_ilist[ii] = ilist(ii);
+    const int i = host_list->ilist[ii] = ilist(ii);
     first[ii] = host_neighbors.size();
     for (int jj = 0; jj < numneigh(i); jj++) {
       const int j = neighbors(i, jj) & NEIGHMASK;
       if (mine(i, j)) host_neighbors.push_back(j);
     }
-    host_numneigh[i] = static_cast<int>(host_neighbors.size() - first[ii]);
+    host_list->numneigh[i] = static_cast<int>(host_neighbors.size() - first[ii]);
   }
   for (int ii = 0; ii < inum; ii++)
-    host_firstneigh[host_ilist[ii]] = host_neighbors.data() + first[ii];
-
-  host_list->inum = inum;
-  host_list->ilist = host_ilist.data();
-  host_list->numneigh = host_numneigh.data();
-  host_list->firstneigh = host_firstneigh.data();
+    host_list->firstneigh[host_list->ilist[ii]] = host_neighbors.data() + first[ii];
 }
 
 /* ----------------------------------------------------------------------

@@ -97,8 +97,7 @@ namespace SPHDissipation {
     bool rates_known;    // those of the flows, from this run
     std::unique_ptr<Threads> threads;
     std::unique_ptr<NeighList> host_list;    // half; for what runs on the host
-    std::vector<int> host_ilist, host_numneigh, host_neighbors;
-    std::vector<int *> host_firstneigh;
+    std::vector<int> host_neighbors;
     int nlocal_device, nghost_device;    // # of atoms of the last computation on the device
 
     // what data refers to, on the device
