@@ -179,15 +179,11 @@ template <class DeviceType> void FluidKokkos<DeviceType>::announce()
   on_host([&]() {
     if (on_device) {
       const int n = atom->nlocal + atom->nghost;
-      const std::vector<double> rho(atom->rho, atom->rho + n), drho(atom->drho, atom->drho + n),
-          vfrac(atom->vfrac, atom->vfrac + n);
-      double *const sum = Fields::of(atom)->rho_sum;
-      const std::vector<double> rho_sum(sum, sum + atom->nlocal);
+      std::vector<std::pair<double *, std::vector<double>>> before;
+      for (double *one : {atom->rho, atom->drho, atom->vfrac, Fields::of(atom)->rho_sum})
+        before.emplace_back(one, std::vector<double>(one, one + n));
       density->run(pair->list, atom->vest, nullptr, not_fluid());
-      std::copy(rho.begin(), rho.end(), atom->rho);
-      std::copy(drho.begin(), drho.end(), atom->drho);
-      std::copy(vfrac.begin(), vfrac.end(), atom->vfrac);
-      std::copy(rho_sum.begin(), rho_sum.end(), sum);
+      for (const auto &[to, from] : before) std::copy(from.begin(), from.end(), to);
     }
     report();
   });
