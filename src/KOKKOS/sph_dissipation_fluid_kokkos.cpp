@@ -248,14 +248,6 @@ template <class DeviceType> void FluidKokkos<DeviceType>::begin_run(double dt, b
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::set_step(double dt)
-{
-  if (dt != model->parameters().step) copied = false;
-  Fluid::set_step(dt);
-}
-
-/* ---------------------------------------------------------------------- */
-
 template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
 {
   if (!on_device) {
@@ -263,7 +255,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
     Fluid::advance_states();
     return atomKK->modified(Host, STATES_MASK);
   }
-  if (!copied) copy_coeffs();
+  copy_coeffs();
   atomKK->sync(pair->execution_space, HEAT);
   set_states();
   const ParticleRows rows = *data;
@@ -364,11 +356,13 @@ template <class DeviceType> bool FluidKokkos<DeviceType>::has_rate(int place) co
 }
 
 /* ----------------------------------------------------------------------
-   coefficients of types and type pairs, and what the loops need of the model
+   coefficients of types and type pairs, and what the loops need of the model; those of states are of one time step
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
 {
+  const Parameters &par = engine->parameters();
+  if (copied && data->par.step == par.step) return;
   auto copy = [](const auto &from, auto &view, const char *name) {
     renew(view, name, from.size());
     auto on_host = Kokkos::create_mirror_view(view);
@@ -376,7 +370,6 @@ template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
     Kokkos::deep_copy(view, on_host);
     return view.data();
   };
-  const Parameters &par = engine->parameters();
   data->par = par;
   data->types = copy(par.type, types, "sph:types");
   data->coeff = copy(par.pair, pair_coeff, "sph:coeff");
@@ -478,7 +471,7 @@ void FluidKokkos<DeviceType>::sum_pairs(const char *name, const More &...more)
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
 {
   if (!on_device) return Fluid::sum_density();
-  if (!copied) copy_coeffs();
+  copy_coeffs();
   grow();
   // what it modifies, too: LAMMPS communicates on the host if MPI does not know the GPU
   atomKK->sync(pair->execution_space, read_mask() | modified_mask());

@@ -74,7 +74,6 @@ namespace SPHDissipation {
 
     void sum_density() override;
     void begin_run(double dt, bool continues) override;
-    void set_step(double dt) override;
     void advance_states() override;
     void sum_bound() override;
     void set_reference_volume() override;
