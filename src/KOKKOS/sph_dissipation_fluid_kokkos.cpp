@@ -27,7 +27,6 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_loops_kokkos.h"
-#include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_sums_kokkos.h"
@@ -276,20 +275,16 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_states()
 {
+  const auto at = [](auto &view) {
+    return view.template view<DeviceType>().data();
+  };
   const auto &avec = AtomVecSPHBulkKokkos::of(atom);
-  data->type = atomKK->k_type.template view<DeviceType>().data();
-  data->mask = atomKK->k_mask.template view<DeviceType>().data();
-  data->states = {data->types,
-                  data->type,
-                  atomKK->k_rmass.template view<DeviceType>().data(),
-                  avec.k_rho.template view<DeviceType>().data(),
-                  avec.k_drho.template view<DeviceType>().data(),
-                  model->choice.eos,
-                  avec.k_esph.template view<DeviceType>().data(),
-                  avec.k_desph.template view<DeviceType>().data(),
-                  {}};
-  for (int slot : avec.slots)
-    data->states.state[slot] = avec.k_state[slot].template view<DeviceType>().data();
+  data->type = at(atomKK->k_type);
+  data->mask = at(atomKK->k_mask);
+  data->states = {data->types,     data->type,       at(atomKK->k_rmass),
+                  at(avec.k_rho),  at(avec.k_drho),  model->choice.eos,
+                  at(avec.k_esph), at(avec.k_desph), {}};
+  for (int slot : avec.slots) data->states.state[slot] = at(avec.k_state[slot]);
   for (int k = 0; k < Flows::NUMBER; k++)
     data->states.rate[k] = (rates_known && has_rate(k)) ? flow_rate[k].data() : nullptr;
 }
@@ -749,11 +744,7 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
 
 /* ---------------------------------------------------------------------- */
 
-namespace LAMMPS_NS {
-namespace SPHDissipation {
-  template class FluidKokkos<LMPDeviceType>;
+template class SPHDissipation::FluidKokkos<LMPDeviceType>;
 #ifdef LMP_KOKKOS_GPU
-  template class FluidKokkos<LMPHostType>;
+template class SPHDissipation::FluidKokkos<LMPHostType>;
 #endif
-}    // namespace SPHDissipation
-}    // namespace LAMMPS_NS
