@@ -57,19 +57,6 @@ template <class DeviceType> struct FromPoint {
     for (int d = 0; d < 3; d++) r[d] = place[d] - point[d];
   }
 };
-
-struct Sums {
-  double value[NVALUES];
-  KOKKOS_INLINE_FUNCTION Sums()
-  {
-    for (double &one : value) one = 0.0;
-  }
-  KOKKOS_INLINE_FUNCTION Sums &operator+=(const Sums &other)
-  {
-    for (int k = 0; k < NVALUES; k++) value[k] += other.value[k];
-    return *this;
-  }
-};
 }    // namespace
 
 /* ---------------------------------------------------------------------- */
@@ -289,10 +276,10 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*
   auto f = atomKK->k_f.template view<DeviceType>();
   auto torque = atomKK->k_torque.template view<DeviceType>();
   auto list = particles;
-  Sums sums;
+  EV_FLOAT sums;    // in v
   Kokkos::parallel_reduce(
       "sph:wall_force", Kokkos::RangePolicy<DeviceType>(0, nparticles),
-      KOKKOS_LAMBDA(int k, Sums &all) {
+      KOKKOS_LAMBDA(int k, EV_FLOAT &all) {
         const int i = list(k);
         double r[3], force[3], moment[3];
         from_point(i, now.point, r);
@@ -302,12 +289,12 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*
           const double couple = has_torque ? torque(i, d) : 0.0;
           array(i, d) = force[d];
           array(i, 3 + d) = couple;
-          all.value[d] += force[d];
-          all.value[3 + d] += moment[d] + couple;
+          all.v[d] += force[d];
+          all.v[3 + d] += moment[d] + couple;
         }
       },
       sums);
-  std::copy_n(sums.value, NVALUES, total);
+  std::copy_n(sums.v, NVALUES, total);
   total_summed = false;
   book_heat();
   if constexpr (ON_HOST) return k_array.template modify<DeviceType>();
