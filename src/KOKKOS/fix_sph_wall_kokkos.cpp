@@ -34,6 +34,10 @@ using namespace SPHDissipation;
 
 static constexpr int NVALUES = 6;    // force and torque
 
+// The atom style leaves out the bits of fields that it does not have.
+
+static constexpr uint64_t MOTION = V_MASK | VEST_MASK | OMEGA_MASK;
+
 // vector from the point on the axis of a wall to its particles, as FixSPHWall::from_point()
 
 namespace {
@@ -89,7 +93,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::setup_pre_exchang
 {
   atomKK->sync(Host, ALL_MASK);
   FixSPHWall::setup_pre_exchange();
-  atomKK->modified(Host, V_MASK | VEST_MASK | spin_mask());
+  atomKK->modified(Host, MOTION);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -98,13 +102,6 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::setup(int vflag)
 {
   atomKK->sync(Host, X_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK);
   FixSPHWall::setup(vflag);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> uint64_t FixSPHWallKokkos<DeviceType>::spin_mask() const
-{
-  return atom->omega_flag ? OMEGA_MASK : EMPTY_MASK;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -119,39 +116,32 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate
   const WallVelocity now = motion->velocity();
   const WallStep step = motion->last_step();
 
-  const uint64_t modified = V_MASK | VEST_MASK | spin_mask();
-  atomKK->sync(execution_space, modified | X_MASK | IMAGE_MASK | MASK_MASK);
+  atomKK->sync(execution_space, MOTION | X_MASK | IMAGE_MASK | MASK_MASK);
   auto x = atomKK->k_x.template view<DeviceType>();
   auto v = atomKK->k_v.template view<DeviceType>();
   auto mask = atomKK->k_mask.template view<DeviceType>();
   auto vest = AtomVecSPHBulkKokkos::of(atom).k_vest.template view<DeviceType>();
   const FromPoint<DeviceType> from_point(atomKK, domain);
-  const bool moves = move;
+  auto omega = atomKK->k_omega.template view<DeviceType>();
+  const bool moves = move, spins = atom->omega_flag;
   const int bit = groupbit;
   for_each<DeviceType>(
       "sph:wall_move", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (!(mask(i) & bit)) return;
-        double r[3], u[3];
+        double r[3], u[3], w[3];
         if (moves) {
           from_point(i, old.point, r);
           step.move(r, &x(i, 0));
         }
         from_point(i, now.point, r);
         now.at(r, u);
-        for (int d = 0; d < 3; d++) vest(i, d) = v(i, d) = u[d];
+        now.angular(w);
+        for (int d = 0; d < 3; d++) {
+          vest(i, d) = v(i, d) = u[d];
+          if (spins) omega(i, d) = w[d];
+        }
       });
-
-  if (atom->omega_flag) {
-    auto omega = atomKK->k_omega.template view<DeviceType>();
-    Kokkos::parallel_for(
-        "sph:wall_spin", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
-          if (!(mask(i) & bit)) return;
-          double w[3];
-          now.angular(w);
-          for (int d = 0; d < 3; d++) omega(i, d) = w[d];
-        });
-  }
-  atomKK->modified(execution_space, modified | (move ? X_MASK : EMPTY_MASK));
+  atomKK->modified(execution_space, MOTION | (move ? X_MASK : EMPTY_MASK));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -260,8 +250,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*vflag*/)
 {
   const bool has_torque = atom->torque_flag;
-  atomKK->sync(execution_space,
-               X_MASK | F_MASK | IMAGE_MASK | MASK_MASK | (has_torque ? TORQUE_MASK : EMPTY_MASK));
+  atomKK->sync(execution_space, X_MASK | F_MASK | IMAGE_MASK | MASK_MASK | TORQUE_MASK);
   auto array = k_array.template view<DeviceType>();
   if (neighbor->ago == 0) {
     find_particles();
