@@ -175,6 +175,10 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_devi
   const ParticlesKokkos<DeviceType> particles(atomKK, AtomVecSPHBulkKokkos::of(atom));
   const TimeStep step = time_step();
   const VolumeStep volume = changes_volume ? volume_step_on_device() : VolumeStep();
+  const bool shifts = half == BEGIN && shift_speed > 0.0;
+  typename FluidKokkos<DeviceType>::Gradient gradient;
+  if (shifts) gradient = dynamic_cast<FluidKokkos<DeviceType> *>(fluid)->gradient_on_device();
+  const double speed = shift_speed, support = fluid ? fluid->support_radius() : 0.0, dt = dtv;
   const int bit = groupbit;
 
   for_each<DeviceType>(
@@ -185,8 +189,8 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_devi
         else
           step.end(particles, i);
         if (changes_volume) volume.begin(i);
+        if (shifts) shift_particle(speed, support, dt, &gradient(i, 0), &particles.x(i, 0));
       });
-  if (half == BEGIN && shift_speed > 0.0) shift_on_device();
   atomKK->modified(space, modified_mask(half));
 }
 
@@ -214,21 +218,6 @@ template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
   if (shift_speed == 0.0) return false;
   const auto *const fluidKK = dynamic_cast<FluidKokkos<DeviceType> *>(fluid);
   return !fluidKK || !fluidKK->computes_on_device();
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::shift_on_device()
-{
-  auto gradient = dynamic_cast<FluidKokkos<DeviceType> *>(fluid)->gradient_on_device();
-  auto x = atomKK->k_x.template view<DeviceType>();
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  const double speed = shift_speed, support = fluid->support_radius(), dt = dtv;
-  const int bit = groupbit;
-  Kokkos::parallel_for(
-      "sph:shift", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
-        if (mask(i) & bit) shift_particle(speed, support, dt, &gradient(i, 0), &x(i, 0));
-      });
 }
 
 /* ----------------------------------------------------------------------
