@@ -37,24 +37,13 @@ using namespace SPHDissipation;
 /* ---------------------------------------------------------------------- */
 
 template <class View, class Pointer>
-void AtomVecSPHBulkKokkos::add_field(uint64_t mask, View &view, Pointer &pointer)
+void AtomVecSPHBulkKokkos::add_field(uint64_t mask, View &view, Pointer &pointer, Owner owner,
+                                     const std::vector<Occasion> &occasions)
 {
   typedef SPHDissipation::FieldOfKokkos<View, Pointer> Field;
-  fields.push_back(std::make_unique<Field>(mask, false, view, pointer));
-}
-
-template <class View, class Pointer>
-void AtomVecSPHBulkKokkos::add_own_field(uint64_t mask, View &view, Pointer &pointer,
-                                         const std::vector<Occasion> &occasions)
-{
-  typedef SPHDissipation::FieldOfKokkos<View, Pointer> Field;
-  fields.push_back(std::make_unique<Field>(mask, true, view, pointer));
+  fields.push_back(std::make_unique<Field>(mask, owner == OWN, view, pointer));
   for (const auto &occasion : occasions) sent[occasion].push_back(fields.back().get());
 }
-
-/* ---------------------------------------------------------------------- */
-
-AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp) : AtomVecSPHBulkKokkos(lmp, false) {}
 
 /* ----------------------------------------------------------------------
    the views are those of the present atomKK, also after replicate has made another one
@@ -64,32 +53,32 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
     AtomVec(lmp), AtomVecSPHBulk(lmp, spins, true), AtomVecKokkos(lmp)
 {
   AtomKokkos &atoms = *atomKK;
-  add_field(TAG_MASK, atoms.k_tag, atoms.tag);
-  add_field(TYPE_MASK, atoms.k_type, atoms.type);
-  add_field(MASK_MASK, atoms.k_mask, atoms.mask);
-  add_field(IMAGE_MASK, atoms.k_image, atoms.image);
-  add_field(X_MASK, atoms.k_x, atoms.x);
-  add_field(V_MASK, atoms.k_v, atoms.v);
-  add_field(F_MASK, atoms.k_f, atoms.f);
-  add_field(RMASS_MASK, atoms.k_rmass, atoms.rmass);
-  add_own_field(SPH_RHO_MASK, k_rho, atoms.rho, {EXCHANGE});
-  add_own_field(DRHO_MASK, k_drho, atoms.drho, {});
-  add_own_field(VFRAC_MASK, k_vfrac, atoms.vfrac, {});
-  add_own_field(ESPH_MASK, k_esph, atoms.esph, {BORDER, EXCHANGE});
-  add_own_field(DESPH_MASK, k_desph, atoms.desph, {});
-  add_own_field(VEST_MASK, k_vest, atoms.vest, {COMM, BORDER, EXCHANGE});
-  add_own_field(DESPH_BEFORE_MASK, k_desph_before, desph_before, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_rho_sum, rho_sum, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_vol_rate, vol_rate, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_vol_rate_before, vol_rate_before, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_vol_heat, vol_heat, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_vol_support, vol_support, {EXCHANGE});
-  add_own_field(OFFSET_MASK, k_shear_rate, shear_rate, {EXCHANGE});
+  add_field(TAG_MASK, atoms.k_tag, atoms.tag, ATOM);
+  add_field(TYPE_MASK, atoms.k_type, atoms.type, ATOM);
+  add_field(MASK_MASK, atoms.k_mask, atoms.mask, ATOM);
+  add_field(IMAGE_MASK, atoms.k_image, atoms.image, ATOM);
+  add_field(X_MASK, atoms.k_x, atoms.x, ATOM);
+  add_field(V_MASK, atoms.k_v, atoms.v, ATOM);
+  add_field(F_MASK, atoms.k_f, atoms.f, ATOM);
+  add_field(RMASS_MASK, atoms.k_rmass, atoms.rmass, ATOM);
+  add_field(SPH_RHO_MASK, k_rho, atoms.rho, OWN, {EXCHANGE});
+  add_field(DRHO_MASK, k_drho, atoms.drho, OWN);
+  add_field(VFRAC_MASK, k_vfrac, atoms.vfrac, OWN);
+  add_field(ESPH_MASK, k_esph, atoms.esph, OWN, {BORDER, EXCHANGE});
+  add_field(DESPH_MASK, k_desph, atoms.desph, OWN);
+  add_field(VEST_MASK, k_vest, atoms.vest, OWN, {COMM, BORDER, EXCHANGE});
+  add_field(DESPH_BEFORE_MASK, k_desph_before, desph_before, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_rho_sum, rho_sum, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_vol_rate, vol_rate, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_vol_rate_before, vol_rate_before, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_vol_heat, vol_heat, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_vol_support, vol_support, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_shear_rate, shear_rate, OWN, {EXCHANGE});
   if (has_spins) {
-    add_field(OMEGA_MASK, atoms.k_omega, atoms.omega);
-    add_field(TORQUE_MASK, atoms.k_torque, atoms.torque);
-    add_own_field(INERTIA_MASK, k_inertia, inertia, {EXCHANGE});
-    add_own_field(OMEGAEST_MASK, k_omegaest, omegaest, {COMM, BORDER, EXCHANGE});
+    add_field(OMEGA_MASK, atoms.k_omega, atoms.omega, ATOM);
+    add_field(TORQUE_MASK, atoms.k_torque, atoms.torque, ATOM);
+    add_field(INERTIA_MASK, k_inertia, inertia, OWN, {EXCHANGE});
+    add_field(OMEGAEST_MASK, k_omegaest, omegaest, OWN, {COMM, BORDER, EXCHANGE});
   }
   if (atomKK->k_dvector.extent(0))    // which fix property/atom would grow without our vectors
     error->all(FLERR, "This atom style must come before fixes property/atom with d_ names");
@@ -106,7 +95,7 @@ void AtomVecSPHBulkKokkos::process_args(int narg, char **arg)
   for (int slot : slots) {
     std::vector<Occasion> occasions = {EXCHANGE};
     if (state_info(slot).ghosts) occasions = {COMM, BORDER, EXCHANGE};
-    add_own_field(STATES_MASK, k_state[slot], state[slot], occasions);
+    add_field(STATES_MASK, k_state[slot], state[slot], OWN, occasions);
   }
   for (const auto occasion : {COMM, BORDER, EXCHANGE}) datamask_bonus |= sent_mask(occasion);
   setup_fields();
@@ -201,16 +190,6 @@ void AtomVecSPHBulkKokkos::grow_pointers()
 }
 
 /* ----------------------------------------------------------------------
-   function of each field whose bit is set in a mask
-------------------------------------------------------------------------- */
-
-template <class Function> void AtomVecSPHBulkKokkos::with_fields(uint64_t mask, Function &&function)
-{
-  for (const auto &field : fields)
-    if (mask & field->mask) function(*field);
-}
-
-/* ----------------------------------------------------------------------
    class AtomKokkos and fix property/atom call these two before and after they move the custom
    properties, of which ours stay where they are
 ------------------------------------------------------------------------- */
@@ -222,9 +201,8 @@ void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
     mask |= DESPH_BEFORE_MASK | OFFSET_MASK | INERTIA_MASK | STATES_MASK;
   }
   if (mask & DARRAY_MASK) mask |= OMEGAEST_MASK;
-  with_fields(mask, [=](FieldKokkos &field) {
-    field.sync(space);
-  });
+  for (const auto &field : fields)
+    if (mask & field->mask) field->sync(space);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -232,18 +210,16 @@ void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
 void AtomVecSPHBulkKokkos::modified(ExecutionSpace space, uint64_t mask)
 {
   if (mask & DVECTOR_MASK) show_custom_vectors();
-  with_fields(mask, [=](FieldKokkos &field) {
-    field.modified(space);
-  });
+  for (const auto &field : fields)
+    if (mask & field->mask) field->modified(space);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::sync_pinned(ExecutionSpace space, uint64_t mask, int async_flag)
 {
-  with_fields(mask, [=, this](FieldKokkos &field) {
-    field.sync_pinned(*this, space, async_flag);
-  });
+  for (const auto &field : fields)
+    if (mask & field->mask) field->sync_pinned(*this, space, async_flag);
 }
 
 /* ----------------------------------------------------------------------
@@ -254,9 +230,8 @@ void AtomVecSPHBulkKokkos::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sort
 {
   const uint64_t moved = ALL_MASK & ~(F_MASK | TORQUE_MASK);
   atomKK->sync(Device, moved);
-  with_fields(moved, [&](FieldKokkos &field) {
-    field.sort(sorter);
-  });
+  for (const auto &field : fields)
+    if (moved & field->mask) field->sort(sorter);
   atomKK->modified(Device, moved);
 }
 
@@ -300,16 +275,50 @@ void AtomVecSPHBulkKokkos::set_size_exchange()
   size_exchange += size_exchange_bonus;
 }
 
+/* ---------------------------------------------------------------------- */
+
+ExecutionSpace AtomVecSPHBulkKokkos::space_of_comm() const
+{
+  return lmp->kokkos->forward_comm_on_host ? HostKK : Device;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void AtomVecSPHBulkKokkos::pack(Occasion occasion, ExecutionSpace space, int n,
+                                const DAT::tdual_int_1d &list, const DAT::tdual_double_2d_lr &buf,
+                                int vel_flag)
+{
+  atomKK->sync(space, sent_mask(occasion));
+  on(space, [&](auto where) {
+    typedef decltype(where) DeviceType;
+    pack_columns<DeviceType>(columns(occasion, space), rows(occasion, space, buf, vel_flag), n,
+                             list.template view<DeviceType>());
+  });
+}
+
 /* ----------------------------------------------------------------------
-   function of an object of the class that runs on the host (HostKK) or the device
+   task(the columns that are sent, an object of the class that runs where they are) modifies them
 ------------------------------------------------------------------------- */
 
-template <class Function> static void on(ExecutionSpace space, Function &&function)
+template <class Task>
+void AtomVecSPHBulkKokkos::change(Occasion occasion, ExecutionSpace space, const Task &task)
 {
-  if (space == HostKK)
-    function(LMPHostType());
-  else
-    function(LMPDeviceType());
+  atomKK->sync(space, sent_mask(occasion));
+  on(space, [&](auto where) {
+    task(columns(occasion, space), where);
+  });
+  atomKK->modified(space, sent_mask(occasion));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void AtomVecSPHBulkKokkos::unpack(Occasion occasion, ExecutionSpace space, int n, int first,
+                                  const DAT::tdual_double_2d_lr &buf, int vel_flag)
+{
+  change(occasion, space, [&](const ColumnsKokkos &columns, auto where) {
+    unpack_columns<decltype(where)>(columns, rows(occasion, space, buf, vel_flag), n,
+                                    ParticlesFrom{first});
+  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -317,28 +326,14 @@ template <class Function> static void on(ExecutionSpace space, Function &&functi
 void AtomVecSPHBulkKokkos::pack_comm_bonus_kokkos(const int &n, const DAT::tdual_int_1d &list,
                                                   const DAT::tdual_double_2d_lr &buf, int vel_flag)
 {
-  const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, sent_mask(COMM));
-  on(space, [&](auto where) {
-    typedef decltype(where) DeviceType;
-    pack_columns<DeviceType>(columns(COMM, space), rows(COMM, space, buf, vel_flag), n,
-                             list.template view<DeviceType>());
-  });
+  pack(COMM, space_of_comm(), n, list, buf, vel_flag);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::unpack_comm_bonus_kokkos(const int &n, const int &first,
                                                     const DAT::tdual_double_2d_lr &buf,
                                                     int vel_flag)
 {
-  const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, sent_mask(COMM));
-  on(space, [&](auto where) {
-    unpack_columns<decltype(where)>(columns(COMM, space), rows(COMM, space, buf, vel_flag), n,
-                                    first);
-  });
-  atomKK->modified(space, sent_mask(COMM));
+  unpack(COMM, space_of_comm(), n, first, buf, vel_flag);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -346,13 +341,10 @@ void AtomVecSPHBulkKokkos::unpack_comm_bonus_kokkos(const int &n, const int &fir
 void AtomVecSPHBulkKokkos::pack_comm_self_bonus_kokkos(const int &n, const DAT::tdual_int_1d &list,
                                                        const int first)
 {
-  const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, sent_mask(COMM));
-  on(space, [&](auto where) {
+  change(COMM, space_of_comm(), [&](const ColumnsKokkos &columns, auto where) {
     typedef decltype(where) DeviceType;
-    copy_columns<DeviceType>(columns(COMM, space), n, list.template view<DeviceType>(), first);
+    copy_columns<DeviceType>(columns, n, list.template view<DeviceType>(), first);
   });
-  atomKK->modified(space, sent_mask(COMM));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -363,16 +355,12 @@ void AtomVecSPHBulkKokkos::pack_comm_self_fused_bonus_kokkos(const int &n,
                                                              const DAT::tdual_int_1d &firstrecv,
                                                              const DAT::tdual_int_1d &g2l)
 {
-  const auto space = lmp->kokkos->forward_comm_on_host ? HostKK : Device;
-  atomKK->sync(space, sent_mask(COMM));
-  on(space, [&](auto where) {
+  change(COMM, space_of_comm(), [&](const ColumnsKokkos &columns, auto where) {
     typedef decltype(where) DeviceType;
-    copy_columns_of_swaps<DeviceType>(columns(COMM, space), n, list.template view<DeviceType>(),
-                                      sendnum_scan.template view<DeviceType>(),
-                                      firstrecv.template view<DeviceType>(),
-                                      g2l.template view<DeviceType>());
+    copy_columns_of_swaps<DeviceType>(
+        columns, n, list.template view<DeviceType>(), sendnum_scan.template view<DeviceType>(),
+        firstrecv.template view<DeviceType>(), g2l.template view<DeviceType>());
   });
-  atomKK->modified(space, sent_mask(COMM));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -381,27 +369,15 @@ void AtomVecSPHBulkKokkos::pack_border_bonus_kokkos(int n, DAT::tdual_int_1d lis
                                                     DAT::tdual_double_2d_lr &buf,
                                                     ExecutionSpace space, int vel_flag)
 {
-  atomKK->sync(space, sent_mask(BORDER));
-  on(space, [&](auto where) {
-    typedef decltype(where) DeviceType;
-    pack_columns<DeviceType>(columns(BORDER, space), rows(BORDER, space, buf, vel_flag), n,
-                             list.template view<DeviceType>());
-  });
+  pack(BORDER, space, n, list, buf, vel_flag);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::unpack_border_bonus_kokkos(const int &n, const int &first,
                                                       const DAT::tdual_double_2d_lr &buf,
                                                       ExecutionSpace space, int vel_flag)
 {
   while (first + n >= nmax) grow(0);
-  atomKK->sync(space, sent_mask(BORDER));
-  on(space, [&](auto where) {
-    unpack_columns<decltype(where)>(columns(BORDER, space), rows(BORDER, space, buf, vel_flag), n,
-                                    first);
-  });
-  atomKK->modified(space, sent_mask(BORDER));
+  unpack(BORDER, space, n, first, buf, vel_flag);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -411,14 +387,12 @@ void AtomVecSPHBulkKokkos::pack_exchange_bonus_kokkos(const int &n, DAT::tdual_d
                                                       DAT::tdual_int_1d replacement,
                                                       DAT::tdual_int_1d, ExecutionSpace space)
 {
-  atomKK->sync(space, sent_mask(EXCHANGE));
-  on(space, [&](auto where) {
+  change(EXCHANGE, space, [&](const ColumnsKokkos &columns, auto where) {
     typedef decltype(where) DeviceType;
-    pack_leaving_columns<DeviceType>(columns(EXCHANGE, space), rows(EXCHANGE, space, buf, 0), n,
+    pack_leaving_columns<DeviceType>(columns, rows(EXCHANGE, space, buf, 0), n,
                                      list.template view<DeviceType>(),
                                      replacement.template view<DeviceType>());
   });
-  atomKK->modified(space, sent_mask(EXCHANGE));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -427,11 +401,9 @@ void AtomVecSPHBulkKokkos::unpack_exchange_bonus_kokkos(DAT::tdual_double_2d_lr 
                                                         ExecutionSpace space,
                                                         DAT::tdual_int_1d &place)
 {
-  atomKK->sync(space, sent_mask(EXCHANGE));
-  on(space, [&](auto where) {
+  change(EXCHANGE, space, [&](const ColumnsKokkos &columns, auto where) {
     typedef decltype(where) DeviceType;
-    unpack_arriving_columns<DeviceType>(columns(EXCHANGE, space), rows(EXCHANGE, space, buf, 0),
-                                        nrecv / size_exchange, place.template view<DeviceType>());
+    unpack_columns<DeviceType>(columns, rows(EXCHANGE, space, buf, 0), nrecv / size_exchange,
+                               place.template view<DeviceType>());
   });
-  atomKK->modified(space, sent_mask(EXCHANGE));
 }

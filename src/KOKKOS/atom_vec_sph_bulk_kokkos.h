@@ -40,7 +40,7 @@ namespace SPHDissipation {
 
 class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
  public:
-  AtomVecSPHBulkKokkos(class LAMMPS *);
+  AtomVecSPHBulkKokkos(class LAMMPS *, bool spins = false);
   ~AtomVecSPHBulkKokkos() override;
 
   // the atom style, where the pair style or a fix is one with /kk
@@ -83,17 +83,14 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
   tdual_field_3 k_omegaest;
   tdual_field k_state[SPHDissipation::MOST_STATES];    // empty where there is no room
 
- protected:
-  AtomVecSPHBulkKokkos(class LAMMPS *, bool spins);
-
  private:
   enum Occasion { COMM, BORDER, EXCHANGE, NOCCASION };
 
   // in the constructor: a field of class AtomKokkos, or one of ours with the messages that it is in
 
-  template <class View, class Pointer> void add_field(uint64_t, View &, Pointer &);
+  enum Owner { ATOM, OWN };
   template <class View, class Pointer>
-  void add_own_field(uint64_t, View &, Pointer &, const std::vector<Occasion> &);
+  void add_field(uint64_t, View &, Pointer &, Owner, const std::vector<Occasion> & = {});
 
   std::vector<std::unique_ptr<SPHDissipation::FieldKokkos>> fields;
 
@@ -106,7 +103,12 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
   SPHDissipation::RowsKokkos rows(Occasion, ExecutionSpace, const DAT::tdual_double_2d_lr &,
                                   int vel_flag) const;
 
-  template <class Function> void with_fields(uint64_t, Function &&);
+  ExecutionSpace space_of_comm() const;
+  void pack(Occasion, ExecutionSpace, int n, const DAT::tdual_int_1d &,
+            const DAT::tdual_double_2d_lr &, int vel_flag);
+  void unpack(Occasion, ExecutionSpace, int n, int first, const DAT::tdual_double_2d_lr &,
+              int vel_flag);
+  template <class Task> void change(Occasion, ExecutionSpace, const Task &);
   void clear_heating();
 };
 

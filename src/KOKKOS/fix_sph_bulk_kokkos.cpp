@@ -28,48 +28,39 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-namespace LAMMPS_NS {
-namespace SPHDissipation {
+// arrays on the device as functions, see TimeStep
 
-  // arrays on the device as functions, see TimeStep
+namespace {
+template <class DeviceType> struct ParticlesKokkos {
+  typedef Kokkos::View<double *, Kokkos::LayoutRight, DeviceType> t_field;
+  typedef Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> t_field_3;
+  typedef ArrayTypes<DeviceType> AT;
 
-  template <class DeviceType> struct ParticlesKokkos {
-    typedef Kokkos::View<double *, Kokkos::LayoutRight, DeviceType> t_field;
-    typedef Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> t_field_3;
-    typedef ArrayTypes<DeviceType> AT;
+  typename AT::t_kkfloat_1d_3_lr x;
+  typename AT::t_kkfloat_1d_3 v, omega;
+  typename AT::t_kkacc_1d_3 f, torque;
+  typename AT::t_int_1d mask;
+  typename AT::t_kkfloat_1d rmass;
+  t_field esph, desph, desph_before, inertia;
+  t_field_3 vest, omegaest;
+  bool has_spins;
 
-    typename AT::t_kkfloat_1d_3_lr x;
-    typename AT::t_kkfloat_1d_3 v, omega;
-    typename AT::t_kkacc_1d_3 f, torque;
-    typename AT::t_int_1d mask;
-    typename AT::t_kkfloat_1d rmass;
-    t_field esph, desph, desph_before, inertia;
-    t_field_3 vest, omegaest;
-    bool has_spins;
-
-    ParticlesKokkos(AtomKokkos *atoms)
-    {
-      x = atoms->k_x.template view<DeviceType>();
-      v = atoms->k_v.template view<DeviceType>();
-      f = atoms->k_f.template view<DeviceType>();
-      mask = atoms->k_mask.template view<DeviceType>();
-      rmass = atoms->k_rmass.template view<DeviceType>();
-      const auto &avec = AtomVecSPHBulkKokkos::of(atoms);
-      esph = avec.k_esph.template view<DeviceType>();
-      desph = avec.k_desph.template view<DeviceType>();
-      desph_before = avec.k_desph_before.template view<DeviceType>();
-      vest = avec.k_vest.template view<DeviceType>();
-      has_spins = avec.has_spins;
-      if (!has_spins) return;
-      omega = atoms->k_omega.template view<DeviceType>();
-      torque = atoms->k_torque.template view<DeviceType>();
-      inertia = avec.k_inertia.template view<DeviceType>();
-      omegaest = avec.k_omegaest.template view<DeviceType>();
-    }
-  };
-
-}    // namespace SPHDissipation
-}    // namespace LAMMPS_NS
+  ParticlesKokkos(AtomKokkos *atoms, const AtomVecSPHBulkKokkos &avec) :
+      x(atoms->k_x.template view<DeviceType>()), v(atoms->k_v.template view<DeviceType>()),
+      omega(atoms->k_omega.template view<DeviceType>()), f(atoms->k_f.template view<DeviceType>()),
+      torque(atoms->k_torque.template view<DeviceType>()),
+      mask(atoms->k_mask.template view<DeviceType>()),
+      rmass(atoms->k_rmass.template view<DeviceType>()),
+      esph(avec.k_esph.template view<DeviceType>()),
+      desph(avec.k_desph.template view<DeviceType>()),
+      desph_before(avec.k_desph_before.template view<DeviceType>()),
+      inertia(avec.k_inertia.template view<DeviceType>()),
+      vest(avec.k_vest.template view<DeviceType>()),
+      omegaest(avec.k_omegaest.template view<DeviceType>()), has_spins(avec.has_spins)
+  {
+  }
+};
+}    // namespace
 
 // The atom style leaves out the bits of fields that it does not have.
 
@@ -181,21 +172,25 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_devi
   const auto space = execution_space;
   const bool changes_volume = diffuses && half == BEGIN;
   atomKK->sync(space, changes_volume ? READ | DIFFUSION : READ);
-  const ParticlesKokkos<DeviceType> particles(atomKK);
+  const ParticlesKokkos<DeviceType> particles(atomKK, AtomVecSPHBulkKokkos::of(atom));
   const TimeStep step = time_step();
   const VolumeStep volume = changes_volume ? volume_step_on_device() : VolumeStep();
+  const bool shifts = half == BEGIN && shift_speed > 0.0;
+  typename FluidKokkos<DeviceType>::Gradient gradient;
+  if (shifts) gradient = dynamic_cast<FluidKokkos<DeviceType> *>(fluid)->gradient_on_device();
+  const double speed = shift_speed, support = fluid ? fluid->support_radius() : 0.0, dt = dtv;
   const int bit = groupbit;
 
-  Kokkos::parallel_for(
-      "sph:integrate", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:integrate", nlocal_group(), KOKKOS_LAMBDA(int i) {
         if (!(particles.mask(i) & bit)) return;
         if (half == BEGIN)
           step.begin(particles, i);
         else
           step.end(particles, i);
         if (changes_volume) volume.begin(i);
+        if (shifts) shift_particle(speed, support, dt, &gradient(i, 0), &particles.x(i, 0));
       });
-  if (half == BEGIN && shift_speed > 0.0) shift_on_device();
   atomKK->modified(space, modified_mask(half));
 }
 
@@ -225,21 +220,6 @@ template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
   return !fluidKK || !fluidKK->computes_on_device();
 }
 
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::shift_on_device()
-{
-  auto gradient = dynamic_cast<FluidKokkos<DeviceType> *>(fluid)->gradient_on_device();
-  auto x = atomKK->k_x.template view<DeviceType>();
-  auto mask = atomKK->k_mask.template view<DeviceType>();
-  const double speed = shift_speed, support = fluid->support_radius(), dt = dtv;
-  const int bit = groupbit;
-  Kokkos::parallel_for(
-      "sph:shift", Kokkos::RangePolicy<DeviceType>(0, nlocal_group()), KOKKOS_LAMBDA(int i) {
-        if (mask(i) & bit) shift_particle(speed, support, dt, &gradient(i, 0), &x(i, 0));
-      });
-}
-
 /* ----------------------------------------------------------------------
    as reset_extrapolation() of the CPU style
 ------------------------------------------------------------------------- */
@@ -249,12 +229,12 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::post_integrate()
   if (!first_instance || (integrated_groups & 1)) return;
   const auto space = execution_space;
   atomKK->sync(space, MOTION | EXTRAPOLATION | MASK_MASK);
-  const ParticlesKokkos<DeviceType> particles(atomKK);
+  const ParticlesKokkos<DeviceType> particles(atomKK, AtomVecSPHBulkKokkos::of(atom));
   const TimeStep step = time_step();
   const int except = bits_not_followed();
 
-  Kokkos::parallel_for(
-      "sph:follow", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:follow", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (!(particles.mask(i) & except)) step.follow(particles, i);
       });
   atomKK->modified(space, EXTRAPOLATION);
@@ -279,7 +259,7 @@ template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::anybody_without_i
   if (!needs_inertia() || neighbor->ago != 0) return false;
 
   atomKK->sync(execution_space, MASK_MASK | INERTIA_MASK);
-  const ParticlesKokkos<DeviceType> particles(atomKK);
+  const ParticlesKokkos<DeviceType> particles(atomKK, AtomVecSPHBulkKokkos::of(atom));
   const int bit = groupbit;
   int count = 0, all;
   Kokkos::parallel_reduce(

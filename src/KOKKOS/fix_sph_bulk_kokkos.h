@@ -47,7 +47,6 @@ template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
   // of these; public because CUDA asks for it of functions with lambdas
 
   void integrate_on_device(Half);
-  void shift_on_device();
   bool anybody_without_inertia() const;
 
  private:

@@ -30,10 +30,7 @@ namespace LAMMPS_NS {
 
 template <class DeviceType> class FixSPHMicropolarKokkos : public FixSPHBulkKokkos<DeviceType> {
  public:
-  FixSPHMicropolarKokkos(class LAMMPS *lmp, int narg, char **arg) :
-      FixSPHBulkKokkos<DeviceType>(lmp, narg, arg)
-  {
-  }
+  using FixSPHBulkKokkos<DeviceType>::FixSPHBulkKokkos;
 };
 
 }    // namespace LAMMPS_NS

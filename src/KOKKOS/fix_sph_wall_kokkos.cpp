@@ -34,6 +34,10 @@ using namespace SPHDissipation;
 
 static constexpr int NVALUES = 6;    // force and torque
 
+// The atom style leaves out the bits of fields that it does not have.
+
+static constexpr uint64_t MOTION = V_MASK | VEST_MASK | OMEGA_MASK;
+
 // vector from the point on the axis of a wall to its particles, as FixSPHWall::from_point()
 
 namespace {
@@ -55,19 +59,6 @@ template <class DeviceType> struct FromPoint {
     for (int d = 0; d < 3; d++) folded[d] = x(i, d);
     const auto place = DomainKokkos::unmap(prd, h, triclinic, folded, image(i));
     for (int d = 0; d < 3; d++) r[d] = place[d] - point[d];
-  }
-};
-
-struct Sums {
-  double value[NVALUES];
-  KOKKOS_INLINE_FUNCTION Sums()
-  {
-    for (double &one : value) one = 0.0;
-  }
-  KOKKOS_INLINE_FUNCTION Sums &operator+=(const Sums &other)
-  {
-    for (int k = 0; k < NVALUES; k++) value[k] += other.value[k];
-    return *this;
   }
 };
 }    // namespace
@@ -102,7 +93,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::setup_pre_exchang
 {
   atomKK->sync(Host, ALL_MASK);
   FixSPHWall::setup_pre_exchange();
-  atomKK->modified(Host, V_MASK | VEST_MASK | spin_mask());
+  atomKK->modified(Host, MOTION);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -111,13 +102,6 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::setup(int vflag)
 {
   atomKK->sync(Host, X_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK);
   FixSPHWall::setup(vflag);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> uint64_t FixSPHWallKokkos<DeviceType>::spin_mask() const
-{
-  return atom->omega_flag ? OMEGA_MASK : EMPTY_MASK;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -132,39 +116,32 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate
   const WallVelocity now = motion->velocity();
   const WallStep step = motion->last_step();
 
-  const uint64_t modified = V_MASK | VEST_MASK | spin_mask();
-  atomKK->sync(execution_space, modified | X_MASK | IMAGE_MASK | MASK_MASK);
+  atomKK->sync(execution_space, MOTION | X_MASK | IMAGE_MASK | MASK_MASK);
   auto x = atomKK->k_x.template view<DeviceType>();
   auto v = atomKK->k_v.template view<DeviceType>();
   auto mask = atomKK->k_mask.template view<DeviceType>();
   auto vest = AtomVecSPHBulkKokkos::of(atom).k_vest.template view<DeviceType>();
   const FromPoint<DeviceType> from_point(atomKK, domain);
-  const bool moves = move;
+  auto omega = atomKK->k_omega.template view<DeviceType>();
+  const bool moves = move, spins = atom->omega_flag;
   const int bit = groupbit;
-  Kokkos::parallel_for(
-      "sph:wall_move", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:wall_move", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (!(mask(i) & bit)) return;
-        double r[3], u[3];
+        double r[3], u[3], w[3];
         if (moves) {
           from_point(i, old.point, r);
           step.move(r, &x(i, 0));
         }
         from_point(i, now.point, r);
         now.at(r, u);
-        for (int d = 0; d < 3; d++) vest(i, d) = v(i, d) = u[d];
+        now.angular(w);
+        for (int d = 0; d < 3; d++) {
+          vest(i, d) = v(i, d) = u[d];
+          if (spins) omega(i, d) = w[d];
+        }
       });
-
-  if (atom->omega_flag) {
-    auto omega = atomKK->k_omega.template view<DeviceType>();
-    Kokkos::parallel_for(
-        "sph:wall_spin", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
-          if (!(mask(i) & bit)) return;
-          double w[3];
-          now.angular(w);
-          for (int d = 0; d < 3; d++) omega(i, d) = w[d];
-        });
-  }
-  atomKK->modified(execution_space, modified | (move ? X_MASK : EMPTY_MASK));
+  atomKK->modified(execution_space, MOTION | (move ? X_MASK : EMPTY_MASK));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -175,10 +152,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::pre_force(int vfl
   atomKK->sync(Host, ALL_MASK);    // variables may be of any particles
   FixSPHWall::pre_force(vflag);
   if (!heat_value->is_by_atom()) return;
-  if ((int) heat_values.extent(0) < atom->nlocal) {
-    heat_values = {};
-    heat_values = decltype(heat_values)(Kokkos::NoInit("sph/wall:heat"), atom->nmax);
-  }
+  if ((int) heat_values.extent(0) < atom->nlocal) renew(heat_values, "sph/wall:heat", atom->nmax);
   const auto on_host = Kokkos::create_mirror_view(heat_values);
   for (int i = 0; i < atom->nlocal; i++) on_host(i) = (*heat_value)(i);
   Kokkos::deep_copy(heat_values, on_host);
@@ -194,13 +168,12 @@ void FixSPHWallKokkos<DeviceType>::move_surface_kokkos(
   const bool turns = turns_surface(before);
   const WallStep step = motion->last_step();
   auto mask = atomKK->k_mask.template view<DeviceType>();
-  auto all = boundary.particles;
-  auto surface = boundary.surface;
+  const auto walls = boundary;
   const int bit = groupbit;
-  Kokkos::parallel_for(
-      "sph:wall_surface", Kokkos::RangePolicy<DeviceType>(0, boundary.nall), KOKKOS_LAMBDA(int k) {
-        if (!(mask(all(k)) & bit)) return;
-        Surface &s = surface(k);
+  for_each<DeviceType>(
+      "sph:wall_surface", walls.nall, KOKKOS_LAMBDA(int k) {
+        if (!(mask(walls.particles(k)) & bit)) return;
+        Surface &s = walls.surface(k);
         now.angular(s.omega);
         if (!turns) return;
         double turned[3];
@@ -219,22 +192,19 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
   const WallCondition wall = *condition;
   const FromPoint<DeviceType> from_point(atomKK, domain);
   const ParticleRows rows = data;
-  auto all = boundary.particles;
-  auto surface = boundary.surface;
-  auto sums = boundary.sum;
+  const auto walls = boundary;
   auto *const spin = data.spin;
   const int bit = groupbit;
   const WallHeat kind = heat;
   const bool with_heat = data.par.conducts(), by_atom = heat_value->is_by_atom();
   const double value = heat_value->now();
   auto values = heat_values;
-  auto heat_sums = boundary.heat_sum;
 
   atomKK->sync(execution_space, IMAGE_MASK);
-  Kokkos::parallel_for(
-      "sph:wall_set", Kokkos::RangePolicy<DeviceType>(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
-        const int i = all(k);
-        const BoundarySum &sum = sums(k);
+  for_each<DeviceType>(
+      "sph:wall_set", walls.nowned, KOKKOS_LAMBDA(int k) {
+        const int i = walls.particles(k);
+        const BoundarySum &sum = walls.sum(k);
         if (!(rows.mask[i] & bit)) return;
         double *const w = spin ? spin[i].w : nullptr;
         if (w) now.angular(w);
@@ -242,11 +212,11 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
         double r[3], acceleration[3];
         from_point(i, now.point, r);
         now.acceleration_at(r, acceleration);
-        extend_fluid(rows, i, wall, surface(k), sum, acceleration, w);
-        if (with_heat && heat_sums(k).weight > 0.0)
-          rows.flow[HEAT_FLOW][i] =
-              wall_conductor(kind, by_atom ? values(i) : value, rows.particle[i].vol,
-                             rows.types[rows.type[i]].flow[HEAT_FLOW], surface(k), heat_sums(k));
+        extend_fluid(rows, i, wall, walls.surface(k), sum, acceleration, w);
+        if (with_heat && walls.heat_sum(k).weight > 0.0)
+          rows.flow[HEAT_FLOW][i] = wall_conductor(
+              kind, by_atom ? values(i) : value, rows.particle[i].vol,
+              rows.types[rows.type[i]].flow[HEAT_FLOW], walls.surface(k), walls.heat_sum(k));
       });
 }
 
@@ -256,10 +226,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
 {
   auto mask = atomKK->k_mask.template view<DeviceType>();
   const int bit = groupbit;
-  if ((int) particles.extent(0) < atom->nmax) {
-    particles = {};
-    particles = decltype(particles)(Kokkos::NoInit("sph/wall:particles"), atom->nmax);
-  }
+  reach(particles, "sph/wall:particles", atom->nmax);
   auto list = particles;
   Kokkos::parallel_scan(
       "sph:wall_find", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal),
@@ -270,9 +237,8 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
       },
       nparticles);
   if constexpr (ON_HOST) return;
-  packed = {};
-  packed = decltype(packed)(Kokkos::NoInit("sph/wall:packed"), nparticles);
-  values = decltype(values)(Kokkos::NoInit("sph/wall:values"), nparticles);
+  renew(packed, "sph/wall:packed", nparticles);
+  renew(values, "sph/wall:values", nparticles);
   numbers = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), particles);
 }
 
@@ -284,8 +250,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*vflag*/)
 {
   const bool has_torque = atom->torque_flag;
-  atomKK->sync(execution_space,
-               X_MASK | F_MASK | IMAGE_MASK | MASK_MASK | (has_torque ? TORQUE_MASK : EMPTY_MASK));
+  atomKK->sync(execution_space, X_MASK | F_MASK | IMAGE_MASK | MASK_MASK | TORQUE_MASK);
   auto array = k_array.template view<DeviceType>();
   if (neighbor->ago == 0) {
     find_particles();
@@ -300,10 +265,10 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*
   auto f = atomKK->k_f.template view<DeviceType>();
   auto torque = atomKK->k_torque.template view<DeviceType>();
   auto list = particles;
-  Sums sums;
+  EV_FLOAT sums;    // in v
   Kokkos::parallel_reduce(
       "sph:wall_force", Kokkos::RangePolicy<DeviceType>(0, nparticles),
-      KOKKOS_LAMBDA(int k, Sums &all) {
+      KOKKOS_LAMBDA(int k, EV_FLOAT &all) {
         const int i = list(k);
         double r[3], force[3], moment[3];
         from_point(i, now.point, r);
@@ -313,19 +278,19 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*
           const double couple = has_torque ? torque(i, d) : 0.0;
           array(i, d) = force[d];
           array(i, 3 + d) = couple;
-          all.value[d] += force[d];
-          all.value[3 + d] += moment[d] + couple;
+          all.v[d] += force[d];
+          all.v[3 + d] += moment[d] + couple;
         }
       },
       sums);
-  std::copy_n(sums.value, NVALUES, total);
+  std::copy_n(sums.v, NVALUES, total);
   total_summed = false;
   book_heat();
   if constexpr (ON_HOST) return k_array.template modify<DeviceType>();
 
   auto on_device = packed;
-  Kokkos::parallel_for(
-      "sph:wall_pack", Kokkos::RangePolicy<DeviceType>(0, nparticles), KOKKOS_LAMBDA(int k) {
+  for_each<DeviceType>(
+      "sph:wall_pack", nparticles, KOKKOS_LAMBDA(int k) {
         for (int c = 0; c < NVALUES; c++) on_device(k, c) = array(list(k), c);
       });
   Kokkos::deep_copy(values, packed);
@@ -421,7 +386,7 @@ int FixSPHWallKokkos<DeviceType>::pack_exchange_kokkos(const int &nsend,
                                                        DAT::tdual_int_1d replacement,
                                                        ExecutionSpace space)
 {
-  auto pack = [&](auto where) {
+  on(space, [&](auto where) {
     typedef decltype(where) Space;
     buf.template sync<Space>();
     list.template sync<Space>();
@@ -431,11 +396,7 @@ int FixSPHWallKokkos<DeviceType>::pack_exchange_kokkos(const int &nsend,
                                 list.template view<Space>(), replacement.template view<Space>());
     buf.template modify<Space>();
     k_array.template modify<Space>();
-  };
-  if (space == HostKK)
-    pack(LMPHostType());
-  else
-    pack(LMPDeviceType());
+  });
   k_array.sync_host();
   return nsend * NVALUES;
 }
@@ -446,17 +407,12 @@ void FixSPHWallKokkos<DeviceType>::unpack_exchange_kokkos(DAT::tdual_double_2d_l
                                                           int /*nrecv1*/, int /*nextrarecv1*/,
                                                           ExecutionSpace space)
 {
-  auto unpack = [&](auto where) {
+  on(space, [&](auto where) {
     typedef decltype(where) Space;
-    unpack_arriving_columns<Space>(columns_of<Space>(k_array),
-                                   {buf.template view<Space>().data(), NVALUES}, nrecv,
-                                   place.template view<Space>());
+    unpack_columns<Space>(columns_of<Space>(k_array), {buf.template view<Space>().data(), NVALUES},
+                          nrecv, place.template view<Space>());
     k_array.template modify<Space>();
-  };
-  if (space == HostKK)
-    unpack(LMPHostType());
-  else
-    unpack(LMPDeviceType());
+  });
   k_array.sync_host();
 }
 
@@ -464,10 +420,7 @@ void FixSPHWallKokkos<DeviceType>::unpack_exchange_kokkos(DAT::tdual_double_2d_l
 
 template <class DeviceType> double FixSPHWallKokkos<DeviceType>::memory_usage()
 {
-  return FixSPHWall::memory_usage() +
-      (double) (particles.extent(0) + numbers.extent(0)) * sizeof(int) +
-      (double) (packed.size() + values.size()) * sizeof(double) +
-      (double) heat_values.extent(0) * sizeof(double);
+  return FixSPHWall::memory_usage() + bytes_of(particles, numbers, packed, values, heat_values);
 }
 
 /* ---------------------------------------------------------------------- */

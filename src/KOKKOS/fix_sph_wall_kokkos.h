@@ -76,8 +76,6 @@ class FixSPHWallKokkos :
   Kokkos::View<int *, Kokkos::HostSpace> numbers;
   Kokkos::View<double *, DeviceType>
       heat_values;    // by owned particle, if that is how they are given
-
-  uint64_t spin_mask() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -17,7 +17,6 @@
 
 #include "pair_sph_bulk_kokkos.h"
 
-#include "atom_kokkos.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
@@ -34,16 +33,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// the device is the host
-
-static constexpr bool HOST_ONLY = std::is_same_v<LMPHostType, LMPDeviceType>;
-
 /* ---------------------------------------------------------------------- */
-
-template <class DeviceType>
-PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp) : PairSPHBulkKokkos(lmp, false)
-{
-}
 
 template <class DeviceType>
 PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp, bool spins) :
@@ -66,7 +56,8 @@ PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp, bool spins) :
 template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::runs_on_device() const
 {
   if (!std::is_same_v<DeviceType, LMPDeviceType>) return false;
-  return !HOST_ONLY || utils::strmatch(force->pair_style, "/kk/device$");
+  return !std::is_same_v<LMPHostType, LMPDeviceType> ||
+      utils::strmatch(force->pair_style, "/kk/device$");
 }
 
 /* ----------------------------------------------------------------------
@@ -146,7 +137,8 @@ void PairSPHBulkKokkos<DeviceType>::unpack_forward_comm_kokkos(int n, int nfirst
                                                                DAT::tdual_double_1d &buf)
 {
   const ColumnsKokkos &sent = device->sent;
-  unpack_columns<DeviceType>(sent, {buf.template view<DeviceType>().data(), sent.n}, n, nfirst);
+  unpack_columns<DeviceType>(sent, {buf.template view<DeviceType>().data(), sent.n}, n,
+                             ParticlesFrom{nfirst});
 }
 
 /* ---------------------------------------------------------------------- */

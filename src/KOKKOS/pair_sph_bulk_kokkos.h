@@ -37,14 +37,11 @@ namespace SPHDissipation {
 
 template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public KokkosBase {
  public:
-  PairSPHBulkKokkos(class LAMMPS *);
+  PairSPHBulkKokkos(class LAMMPS *, bool spins = false);
 
   void init_style() override;
   int pack_forward_comm_kokkos(int, DAT::tdual_int_1d, DAT::tdual_double_1d &, int, int *) override;
   void unpack_forward_comm_kokkos(int, int, DAT::tdual_double_1d &) override;
-
- protected:
-  PairSPHBulkKokkos(class LAMMPS *, bool spins);
 
  private:
   SPHDissipation::FluidKokkos<DeviceType> *const device;    // the fluid

@@ -19,21 +19,10 @@
 #include "pair.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_masks_kokkos.h"
-#include "sph_dissipation_sums_kokkos.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType>
-BoundaryStageKokkos<DeviceType>::BoundaryStageKokkos(LAMMPS *lmp, Pair *pair,
-                                                     BoundaryStage &stage) :
-    Pointers(lmp),
-    pair(pair), stage(stage), boundary(), bits(0), surface_step(-1), nrows(0)
-{
-}
 
 /* ---------------------------------------------------------------------- */
 
@@ -67,8 +56,7 @@ template <class DeviceType>
 void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<DeviceType> &data)
 {
   bits = stage.bits();
-  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
-  const int some = bits;
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost, some = bits;
   const ParticleRows fluid = data;
   auto all_of = [&](int n) {
     int found = 0;
@@ -80,15 +68,11 @@ void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<Device
   boundary.nowned = all_of(nlocal);
   boundary.nall = all_of(nall);
 
-  boundary.number = {};
-  boundary.number = decltype(boundary.number)(Kokkos::NoInit("sph:boundary_number"), nall);
-  auto number = boundary.number;
-  boundary.particles = decltype(boundary.particles)(Kokkos::NoInit("sph:boundary"), boundary.nall);
-  boundary.surface =
-      decltype(boundary.surface)(Kokkos::NoInit("sph:boundary_surface"), boundary.nall);
-  boundary.sum = decltype(boundary.sum)(Kokkos::NoInit("sph:boundary_sum"), boundary.nowned);
-  boundary.near = decltype(boundary.near)(Kokkos::NoInit("sph:boundary_near"), boundary.nall);
-
+  renew(boundary.number, "sph:boundary_number", nall);
+  renew(boundary.particles, "sph:boundary", boundary.nall);
+  renew(boundary.surface, "sph:boundary_surface", boundary.nall);
+  renew(boundary.sum, "sph:boundary_sum", boundary.nowned);
+  renew(boundary.near, "sph:boundary_near", boundary.nall);
   boundary.excess = {};
   boundary.excess = decltype(boundary.excess)("sph:boundary_excess", nall);
 
@@ -97,25 +81,24 @@ void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<Device
   boundary.contact = {};
   boundary.occupied = {};
   if (repels) {
-    boundary.contact =
-        decltype(boundary.contact)(Kokkos::NoInit("sph:boundary_contact"), boundary.nall);
+    renew(boundary.contact, "sph:boundary_contact", boundary.nall);
     boundary.occupied = decltype(boundary.occupied)("sph:boundary_occupied", nall);
   }
 
-  auto particles = boundary.particles;
-  auto near = boundary.near;
-  auto contact = boundary.contact;
+  const auto walls = boundary;
   Kokkos::parallel_scan(
       "sph:boundary", Range(0, nall), KOKKOS_LAMBDA(int i, int &k, bool last) {
         const bool is_boundary = fluid.mask[i] & some;
         if (last) {
-          number(i) = is_boundary ? k : -1;
+          walls.number(i) = is_boundary ? k : -1;
           if (is_boundary) {
-            particles(k) = i;
+            walls.particles(k) = i;
             const double volume = fluid.particle[i].vol;
-            near(k) = near_kernel(fluid.par.dim, fluid.par.support, fluid.par.weight_norm, volume);
+            walls.near(k) =
+                near_kernel(fluid.par.dim, fluid.par.support, fluid.par.weight_norm, volume);
             if (repels)
-              contact(k) = contact_kernel(fluid.par.dim, fluid.par.support, contact_norm, volume);
+              walls.contact(k) =
+                  contact_kernel(fluid.par.dim, fluid.par.support, contact_norm, volume);
           }
         }
         if (is_boundary) k++;
@@ -127,33 +110,26 @@ void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<Device
 template <class DeviceType>
 void BoundaryStageKokkos<DeviceType>::find_rows(const LoopDataKokkos<DeviceType> &data, int inum)
 {
-  auto ilist = data.ilist;
-  auto numneigh = data.numneigh;
-  auto neighbors = data.neighbors;
-  auto number = boundary.number;
-  if ((int) rows.extent(0) < inum) {
-    rows = {};
-    rows = decltype(rows)(Kokkos::NoInit("sph:boundary_rows"), atom->nmax);
-  }
-  auto found = rows;
-  auto excess = boundary.excess;
+  if ((int) boundary.rows.extent(0) < inum) renew(boundary.rows, "sph:boundary_rows", atom->nmax);
+  const auto loop = data;
+  const auto walls = boundary;
   Kokkos::parallel_scan(
       "sph:boundary_rows", Range(0, inum),
       KOKKOS_LAMBDA(int ii, int &k, bool last) {
-        const int i = ilist(ii);
-        if (number(i) >= 0) return;
-        const int jnum = numneigh(i);
+        const int i = loop.ilist(ii);
+        if (walls.number(i) >= 0) return;
+        const int jnum = loop.numneigh(i);
         for (int jj = 0; jj < jnum; jj++)
-          if (number(neighbors(i, jj) & NEIGHMASK) >= 0) {
+          if (walls.number(loop.neighbors(i, jj) & NEIGHMASK) >= 0) {
             if (last) {
-              found(k) = i;
-              excess(i).crosses = 1.0;
+              walls.rows(k) = i;
+              walls.excess(i).crosses = 1.0;
             }
             k++;
             return;
           }
       },
-      nrows);
+      boundary.nrows);
 }
 
 /* ----------------------------------------------------------------------
@@ -168,13 +144,12 @@ void BoundaryStageKokkos<DeviceType>::find_surface(const LoopDataKokkos<DeviceTy
 {
   Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> side("sph:boundary_side",
                                                                   boundary.nowned);
-  auto particles = boundary.particles;
-  auto number = boundary.number;
-  auto loop = data;
-  Kokkos::parallel_for(
-      "sph:boundary_side", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
-        for_neighbors(loop, particles(k), [&](int j, const double *r, double rsq) {
-          if (number(j) >= 0) return;
+  const auto loop = data;
+  const auto walls = boundary;
+  for_each<DeviceType>(
+      "sph:boundary_side", walls.nowned, KOKKOS_LAMBDA(int k) {
+        for_neighbors(loop, walls.particles(k), [&](int j, const double *r, double rsq) {
+          if (walls.number(j) >= 0) return;
           const double slope = loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support);
           for (int d = 0; d < 3; d++) side(k, d) -= slope * r[d];
         });
@@ -207,19 +182,14 @@ void BoundaryStageKokkos<DeviceType>::set_excess(LoopDataKokkos<DeviceType> &dat
   data.excess = boundary.excess.data();
   if (update->whichflag == 2) return;
   auto vest = AtomVecSPHBulkKokkos::of(atom).k_vest.template view<DeviceType>();
-  auto particles = boundary.particles;
-  auto surface = boundary.surface;
-  auto excess = boundary.excess;
-  const LoopDataKokkos<DeviceType> loop = data;
-  Kokkos::parallel_for(
-      "sph:boundary_excess", Range(0, boundary.nall), KOKKOS_LAMBDA(int k) {
-        const int i = particles(k);
-        Excess &one = excess(i);
-        one.is_boundary = one.crosses = 1.0;
-        for (int d = 0; d < 3; d++) {
-          one.u[d] = loop.particle[i].u[d] - vest(i, d);
-          if (loop.spin) one.w[d] = loop.spin[i].w[d] - surface(k).omega[d];
-        }
+  const auto loop = data;
+  const auto walls = boundary;
+  for_each<DeviceType>(
+      "sph:boundary_excess", walls.nall, KOKKOS_LAMBDA(int k) {
+        const int i = walls.particles(k);
+        walls.excess(i).crosses = 1.0;
+        SPHDissipation::set_excess(walls.excess(i), loop.particle[i], &vest(i, 0),
+                                   loop.spin ? loop.spin[i].w : nullptr, walls.surface(k));
       });
 }
 
@@ -231,25 +201,21 @@ template <class DeviceType>
 template <class K>
 void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType> &data)
 {
-  auto particles = boundary.particles;
-  auto number = boundary.number;
-  auto surface = boundary.surface;
-  auto sum = boundary.sum;
   const bool with_heat = stage.conducts();
   if (with_heat && (int) boundary.heat_sum.extent(0) != boundary.nowned)
-    boundary.heat_sum =
-        decltype(boundary.heat_sum)(Kokkos::NoInit("sph:boundary_heat_sum"), boundary.nowned);
-  auto heat_sum = boundary.heat_sum;
-  auto loop = data;
-  Kokkos::parallel_for(
-      "sph:boundary_sum", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
-        const Particle w = loop.particle[particles(k)];
-        const Surface s = surface(k);
+    renew(boundary.heat_sum, "sph:boundary_heat_sum", boundary.nowned);
+  const auto loop = data;
+  const auto walls = boundary;
+  for_each<DeviceType>(
+      "sph:boundary_sum", walls.nowned, KOKKOS_LAMBDA(int k) {
+        const int i = walls.particles(k);
+        const Particle w = loop.particle[i];
+        const Surface s = walls.surface(k);
         BoundarySum total = {};
         BoundaryHeatSum heat = {};
-        const double conductivity = loop.types[loop.type[particles(k)]].flow[HEAT_FLOW];
-        for_neighbors(loop, particles(k), [&](int j, const double *r, double rsq) {
-          if (number(j) >= 0) return;
+        const double conductivity = loop.types[loop.type[i]].flow[HEAT_FLOW];
+        for_neighbors(loop, i, [&](int j, const double *r, double rsq) {
+          if (walls.number(j) >= 0) return;
           const Particle &f = loop.particle[j];
           const double kernel_weight =
               loop.par.weight_norm * K::shape(Kokkos::sqrt(rsq) / loop.par.support);
@@ -261,75 +227,22 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
                            loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support),
                            height, conductivity, heat);
         });
-        sum(k) = total;
-        if (with_heat) heat_sum(k) = heat;
+        walls.sum(k) = total;
+        if (with_heat) walls.heat_sum(k) = heat;
       });
 }
 
-// heat per time that the particle f of the fluid gets by the boundary particle w, r = x_w - x_f
-
-namespace {
-template <class DeviceType, class K> struct SurfaceHeat {
-  LoopDataKokkos<DeviceType> loop;
-  Kokkos::View<int *, DeviceType> number;
-  Kokkos::View<Surface *, DeviceType> surface;
-
-  KOKKOS_INLINE_FUNCTION double operator()(int f, int w, const double *r, double rsq) const
-  {
-    const double flux = loop.flow[HEAT_FLOW][w].flux;
-    if (flux == 0.0 || !(loop.flow[HEAT_FLOW][f].coefficient > 0.0)) return 0.0;
-    const double slope = loop.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / loop.par.support);
-    return surface_heat(flux, loop.particle[f].vol, r, slope, surface(number(w)));
-  }
-};
-}    // namespace
-
-/* ----------------------------------------------------------------------
-   each particle sums up its own pairs
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
 void BoundaryStageKokkos<DeviceType>::add_surface_heat(const LoopDataKokkos<DeviceType> &data,
                                                        double *flow)
 {
   with_kernel(data.par.kernel, [&](auto kernel) {
-    sum_surface_heat<decltype(kernel)>(data, flow);
+    typedef decltype(kernel) K;
+    for_each<DeviceType>("sph:surface_heat", boundary.size(),
+                         SurfaceHeatKokkos<DeviceType, K>{data, boundary, flow});
   });
-}
-
-template <class DeviceType>
-template <class K>
-void BoundaryStageKokkos<DeviceType>::sum_surface_heat(const LoopDataKokkos<DeviceType> &data,
-                                                       double *flow)
-{
-  auto list = rows;
-  auto particles = boundary.particles;
-  auto number = boundary.number;
-  auto surface = boundary.surface;
-  auto loop = data;
-  const SurfaceHeat<DeviceType, K> heat_of = {loop, number, surface};
-  Kokkos::parallel_for(
-      "sph:surface_heat", Range(0, nrows), KOKKOS_LAMBDA(int k) {
-        const int i = list(k);
-        double total = 0.0;
-        for_neighbors(loop, i, [&](int j, const double *r, double rsq) {
-          if (number(j) < 0) return;
-          const double to_wall[3] = {-r[0], -r[1], -r[2]};
-          total += heat_of(i, j, to_wall, rsq);
-        });
-        loop.desph[i] += total;
-      });
-  Kokkos::parallel_for(
-      "sph:surface_heat_given", Range(0, boundary.nowned), KOKKOS_LAMBDA(int k) {
-        const int i = particles(k);
-        if (loop.flow[HEAT_FLOW][i].flux == 0.0) return;
-        double total = 0.0;
-        for_neighbors(loop, i, [&](int j, const double *r, double rsq) {
-          if (number(j) < 0) total += heat_of(j, i, r, rsq);
-        });
-        flow[i] = -total;
-        loop.desph[i] -= total;
-      });
 }
 
 /* ----------------------------------------------------------------------
@@ -341,26 +254,23 @@ template <class DeviceType>
 template <class K>
 void BoundaryStageKokkos<DeviceType>::check(const LoopDataKokkos<DeviceType> &data)
 {
-  auto list = rows;
-  auto number = boundary.number;
-  auto near = boundary.near;
-  auto contact = boundary.contact;
-  auto occupied = boundary.occupied;
-  const bool repels = data.par.continuity;
-  auto loop = data;
+  const auto loop = data;
+  const auto walls = boundary;
+  const bool repels = loop.par.continuity;
   int first;
   Kokkos::parallel_reduce(
-      "sph:boundary_check", Range(0, nrows),
+      "sph:boundary_check", Range(0, walls.nrows),
       KOKKOS_LAMBDA(int k, int &smallest) {
-        const int i = list(k);
+        const int i = walls.rows(k);
         double filled = 0.0, touched = 0.0;
         for_neighbors(loop, i, [&](int j, const double *, double rsq) {
-          if (number(j) < 0) return;
+          const int wall = walls.number(j);
+          if (wall < 0) return;
           const double distance = Kokkos::sqrt(rsq);
-          filled += near(number(j)).template at<K>(distance);
-          if (repels) touched += contact(number(j)).template at<ContactKernel>(distance);
+          filled += walls.near(wall).template at<K>(distance);
+          if (repels) touched += walls.contact(wall).template at<ContactKernel>(distance);
         });
-        if (repels) occupied(i) = touched;
+        if (repels) walls.occupied(i) = touched;
         if (filled > INSIDE_WALL && i < smallest) smallest = i;
       },
       Kokkos::Min<int>(first));
@@ -371,33 +281,16 @@ void BoundaryStageKokkos<DeviceType>::check(const LoopDataKokkos<DeviceType> &da
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType>
-RepulsionKokkos<DeviceType>
-BoundaryStageKokkos<DeviceType>::repulsion(const LoopDataKokkos<DeviceType> &data) const
-{
-  return {data, boundary, rows, nrows};
-}
-
-/* ---------------------------------------------------------------------- */
-
 template <class DeviceType> double BoundaryStageKokkos<DeviceType>::memory_usage() const
 {
-  return (double) (boundary.number.extent(0) + rows.extent(0)) * sizeof(int) +
-      (double) boundary.nall * (sizeof(int) + sizeof(Surface) + sizeof(NearKernel)) +
-      (double) boundary.nowned * sizeof(BoundarySum) +
-      (double) boundary.excess.extent(0) * sizeof(Excess) +
-      (double) boundary.contact.extent(0) * sizeof(NearKernel) +
-      (double) boundary.occupied.extent(0) * sizeof(double) +
-      (double) boundary.heat_sum.extent(0) * sizeof(BoundaryHeatSum);
+  return bytes_of(boundary.number, boundary.rows, boundary.particles, boundary.surface,
+                  boundary.near, boundary.sum, boundary.excess, boundary.contact, boundary.occupied,
+                  boundary.heat_sum);
 }
 
 /* ---------------------------------------------------------------------- */
 
-namespace LAMMPS_NS {
-namespace SPHDissipation {
-  template class BoundaryStageKokkos<LMPDeviceType>;
+template class SPHDissipation::BoundaryStageKokkos<LMPDeviceType>;
 #ifdef LMP_KOKKOS_GPU
-  template class BoundaryStageKokkos<LMPHostType>;
+template class SPHDissipation::BoundaryStageKokkos<LMPHostType>;
 #endif
-}    // namespace SPHDissipation
-}    // namespace LAMMPS_NS

@@ -16,9 +16,7 @@
 
 // Boundary particles on the device, as class BoundaryStage has them on the host
 
-#include "kokkos_type.h"
 #include "pointers.h"
-
 #include "sph_dissipation_boundary.h"
 #include "sph_dissipation_sums_kokkos.h"
 #include "sph_dissipation_wall_terms.h"
@@ -47,42 +45,34 @@ namespace SPHDissipation {
 
     Kokkos::View<NearKernel *, DeviceType> contact;
     Kokkos::View<double *, DeviceType> occupied;
+
+    // particles of the fluid that may have boundary particles in their support until the list is
+    // built anew
+
+    Kokkos::View<int *, DeviceType> rows;
+    int nrows;
+
+    // Loops in which each particle sums up its own pairs of fluid and boundary: first the particles in rows, then the owned
+    // boundary particles
+
+    int size() const { return nrows + nowned; }
+    KOKKOS_INLINE_FUNCTION bool is_wall(int k) const { return k >= nrows; }
+    KOKKOS_INLINE_FUNCTION int particle(int k) const
+    {
+      return is_wall(k) ? particles(k - nrows) : rows(k);
+    }
   };
 
-  // The repulsion of the surfaces, as BoundaryStage::repel(): each particle sums up its own pairs, first those of the fluid
-  // in rows, then the boundary particles
+  // The repulsion of the surfaces, as BoundaryStage::repel(): after pass 2, when ghosts have the sums of their owners
 
   template <class DeviceType> struct RepulsionKokkos {
     LoopDataKokkos<DeviceType> data;
     BoundaryDataKokkos<DeviceType> boundary;
-    Kokkos::View<int *, DeviceType> rows;
-    int nrows;
-
-    int size() const { return nrows + boundary.nowned; }
-
-    KOKKOS_INLINE_FUNCTION void operator()(int k) const
-    {
-      double virial[6];
-      row<false>(k, virial);
-    }
-
-    // with the virial
-
-    KOKKOS_INLINE_FUNCTION void operator()(int k, EV_FLOAT &ev) const
-    {
-      double virial[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-      const int i = row<true>(k, virial);
-      for (int c = 0; c < 6; c++) ev.v[c] += virial[c];
-      if (data.vatom.extent(0))
-        for (int c = 0; c < 6; c++) data.vatom(i, c) += virial[c];
-    }
-
-    // Return the particle of a row.
 
     template <bool VIRIAL> KOKKOS_INLINE_FUNCTION int row(int k, double *virial) const
     {
-      const bool is_wall = k >= nrows;
-      const int i = is_wall ? boundary.particles(k - nrows) : rows(k);
+      const bool is_wall = boundary.is_wall(k);
+      const int i = boundary.particle(k);
       if (!is_wall && !(beyond_surface(boundary.occupied(i)) > 0.0)) return i;
       const Particle &pi = data.particle[i];
       double total[3] = {0.0, 0.0, 0.0}, heat = 0.0;
@@ -91,18 +81,12 @@ namespace SPHDissipation {
         const double force = is_wall ? push(j, i, rsq) : push(i, j, rsq);
         if (force == 0.0) return;
         const Particle &pj = data.particle[j];
+        const double f[3] = {force * r[0], force * r[1], force * r[2]};
         for (int d = 0; d < 3; d++) {
-          total[d] += force * r[d];
-          heat -= force * r[d] * (pi.u[d] - pj.u[d]);
+          total[d] += f[d];
+          heat -= f[d] * (pi.u[d] - pj.u[d]);
         }
-        if constexpr (VIRIAL) {    // half for each partner
-          virial[0] += 0.5 * force * r[0] * r[0];
-          virial[1] += 0.5 * force * r[1] * r[1];
-          virial[2] += 0.5 * force * r[2] * r[2];
-          virial[3] += 0.5 * force * r[0] * r[1];
-          virial[4] += 0.5 * force * r[0] * r[2];
-          virial[5] += 0.5 * force * r[1] * r[2];
-        }
+        if constexpr (VIRIAL) add_virial(f, r, virial);
       });
       for (int d = 0; d < 3; d++) data.f(i, d) += total[d];
       if (!is_wall) data.desph[i] += heat;
@@ -121,6 +105,35 @@ namespace SPHDissipation {
     }
   };
 
+  // The heat of surfaces, see BoundaryStageKokkos::add_surface_heat()
+
+  template <class DeviceType, class K> struct SurfaceHeatKokkos {
+    LoopDataKokkos<DeviceType> data;
+    BoundaryDataKokkos<DeviceType> boundary;
+    double *flow;
+
+    KOKKOS_INLINE_FUNCTION void operator()(int k) const
+    {
+      const FlowRow *const heat = data.flow[HEAT_FLOW];
+      const bool is_wall = boundary.is_wall(k);
+      const int i = boundary.particle(k);
+      if (is_wall && heat[i].flux == 0.0) return;
+      const double to_wall = is_wall ? 1.0 : -1.0;
+      double total = 0.0;    // that the fluid gets
+      for_neighbors(data, i, [&](int j, const double *from_j, double rsq) {
+        if ((boundary.number(j) >= 0) == is_wall) return;
+        const int f = is_wall ? j : i, w = is_wall ? i : j;
+        if (heat[w].flux == 0.0 || !(heat[f].coefficient > 0.0)) return;
+        const double r[3] = {to_wall * from_j[0], to_wall * from_j[1], to_wall * from_j[2]};
+        const double slope = data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
+        total += surface_heat(heat[w].flux, data.particle[f].vol, r, slope,
+                              boundary.surface(boundary.number(w)));
+      });
+      if (is_wall) flow[i] = -total;
+      data.desph[i] -= to_wall * total;
+    }
+  };
+
   // As class Boundary, whose functions these are on the device
 
   template <class DeviceType> class BoundaryKokkos {
@@ -135,7 +148,10 @@ namespace SPHDissipation {
 
   template <class DeviceType> class BoundaryStageKokkos : protected Pointers {
    public:
-    BoundaryStageKokkos(class LAMMPS *, Pair *, BoundaryStage &);
+    BoundaryStageKokkos(class LAMMPS *lmp, Pair *pair, BoundaryStage &stage) :
+        Pointers(lmp), pair(pair), stage(stage)
+    {
+    }
 
     // after the pressures, before pass 2: sets the values of owned boundary particles for it, which
     // the pair style sends to ghosts
@@ -149,10 +165,8 @@ namespace SPHDissipation {
 
     void add_surface_heat(const LoopDataKokkos<DeviceType> &, double *flow);
 
-    // after pass 2, when ghosts have occupied() of their owners: the loop of the repulsion, see BoundaryStage::repel()
-
-    RepulsionKokkos<DeviceType> repulsion(const LoopDataKokkos<DeviceType> &) const;
-    Kokkos::View<double *, DeviceType> occupied() const { return boundary.occupied; }
+    // the particles that the last run() was about
+    const BoundaryDataKokkos<DeviceType> &particles() const { return boundary; }
 
     double memory_usage() const;
 
@@ -163,23 +177,16 @@ namespace SPHDissipation {
     template <class K> void find_surface(const LoopDataKokkos<DeviceType> &);
     template <class K> void sum_fluid(const LoopDataKokkos<DeviceType> &);
     template <class K> void check(const LoopDataKokkos<DeviceType> &);
-    template <class K> void sum_surface_heat(const LoopDataKokkos<DeviceType> &, double *flow);
 
    private:
     typedef Kokkos::RangePolicy<DeviceType> Range;
 
     Pair *pair;
     BoundaryStage &stage;
-    BoundaryDataKokkos<DeviceType> boundary;
+    BoundaryDataKokkos<DeviceType> boundary = {};
     std::vector<BoundaryKokkos<DeviceType> *> boundaries;
-    int bits;               // of the groups that the lists are for
-    bigint surface_step;    // that the normals of the surface are for
-
-    // particles of the fluid that may have boundary particles in their support until the list is
-    // built anew
-
-    Kokkos::View<int *, DeviceType> rows;
-    int nrows;
+    int bits = 0;                // of the groups that the lists are for
+    bigint surface_step = -1;    // that the normals of the surface are for
   };
 
 }    // namespace SPHDissipation

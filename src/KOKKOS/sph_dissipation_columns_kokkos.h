@@ -17,7 +17,7 @@
 // Numbers of particles that go to other particles or processors, in and out of the buffers of LAMMPS:
 // the package's own fields, which the pack and unpack functions of AtomVecKokkos do not know.
 
-#include "kokkos_type.h"
+#include "sph_dissipation_arrays_kokkos.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_states.h"
 
@@ -84,27 +84,35 @@ namespace SPHDissipation {
   template <class DeviceType, class List>
   void pack_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n, const List &list)
   {
-    Kokkos::parallel_for(
-        "sph:pack", Kokkos::RangePolicy<DeviceType>(0, n),
-        KOKKOS_LAMBDA(int k) { columns.pack(list(k), buf.row(k)); });
+    for_each<DeviceType>(
+        "sph:pack", n, KOKKOS_LAMBDA(int k) { columns.pack(list(k), buf.row(k)); });
   }
 
-  template <class DeviceType>
-  void unpack_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n, int nfirst)
+  // to particle place(k), unless that is negative
+
+  template <class DeviceType, class List>
+  void unpack_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n, const List &place)
   {
-    Kokkos::parallel_for(
-        "sph:unpack", Kokkos::RangePolicy<DeviceType>(0, n),
-        KOKKOS_LAMBDA(int k) { columns.unpack(nfirst + k, buf.row(k)); });
+    for_each<DeviceType>(
+        "sph:unpack", n, KOKKOS_LAMBDA(int k) {
+          if (place(k) >= 0) columns.unpack(place(k), buf.row(k));
+        });
   }
+
+  // the places of those that follow the first one
+
+  struct ParticlesFrom {
+    int first;
+    KOKKOS_INLINE_FUNCTION int operator()(int k) const { return first + k; }
+  };
 
   // from the particles of a list to those from nfirst on
 
   template <class DeviceType, class List>
   void copy_columns(const ColumnsKokkos &columns, int n, const List &list, int nfirst)
   {
-    Kokkos::parallel_for(
-        "sph:copy", Kokkos::RangePolicy<DeviceType>(0, n),
-        KOKKOS_LAMBDA(int k) { columns.copy(list(k), nfirst + k); });
+    for_each<DeviceType>(
+        "sph:copy", n, KOKKOS_LAMBDA(int k) { columns.copy(list(k), nfirst + k); });
   }
 
   // the same for all swaps of a single processor at once, see CommKokkos::forward_comm()
@@ -114,8 +122,8 @@ namespace SPHDissipation {
                              const Ints &sendnum_scan, const Ints &firstrecv,
                              const Ints &owner_of_ghost)
   {
-    Kokkos::parallel_for(
-        "sph:copy", Kokkos::RangePolicy<DeviceType>(0, n), KOKKOS_LAMBDA(int k) {
+    for_each<DeviceType>(
+        "sph:copy", n, KOKKOS_LAMBDA(int k) {
           int swap = 0;
           while (k >= sendnum_scan(swap)) swap++;
           const int i = (swap > 0) ? k - sendnum_scan(swap - 1) : k;
@@ -132,22 +140,10 @@ namespace SPHDissipation {
   void pack_leaving_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n,
                             const List &list, const List &replacement)
   {
-    Kokkos::parallel_for(
-        "sph:leave", Kokkos::RangePolicy<DeviceType>(0, n), KOKKOS_LAMBDA(int k) {
+    for_each<DeviceType>(
+        "sph:leave", n, KOKKOS_LAMBDA(int k) {
           columns.pack(list(k), buf.row(k));
           if (replacement(k) >= 0) columns.copy(replacement(k), list(k));
-        });
-  }
-
-  // particles that arrive: as number place(k), unless that is negative
-
-  template <class DeviceType, class List>
-  void unpack_arriving_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n,
-                               const List &place)
-  {
-    Kokkos::parallel_for(
-        "sph:arrive", Kokkos::RangePolicy<DeviceType>(0, n), KOKKOS_LAMBDA(int k) {
-          if (place(k) >= 0) columns.unpack(place(k), buf.row(k));
         });
   }
 

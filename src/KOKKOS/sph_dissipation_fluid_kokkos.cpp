@@ -27,15 +27,13 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_loops_kokkos.h"
-#include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_sums_kokkos.h"
 #include "sph_dissipation_threads.h"
 
 #include <algorithm>
-#include <array>
-#include <tuple>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -69,11 +67,7 @@ FluidKokkos<DeviceType>::FluidKokkos(LAMMPS *lmp, Pair *pair, bool spins) :
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> FluidKokkos<DeviceType>::~FluidKokkos()
-{
-  host_list->ilist = host_list->numneigh = nullptr;    // ours
-  host_list->firstneigh = nullptr;
-}
+template <class DeviceType> FluidKokkos<DeviceType>::~FluidKokkos() = default;
 
 /* ---------------------------------------------------------------------- */
 
@@ -155,28 +149,22 @@ template <class DeviceType> void FluidKokkos<DeviceType>::build_host_list()
     return (tag[i] > tag[j]) == ((tag[i] + tag[j]) % 2 == 1);
   };
 
-  const int inum = pair->list->inum;
-  host_ilist.resize(inum);
-  host_numneigh.assign(nlocal, 0);
-  host_firstneigh.assign(nlocal, nullptr);
+  const int inum = host_list->inum = pair->list->inum;
+  host_list->grow(nlocal, nlocal);
+  std::fill_n(host_list->numneigh, nlocal, 0);
   host_neighbors.clear();
   std::vector<std::size_t> first(inum);
   for (int ii = 0; ii < inum; ii++) {
-    const int i = host_ilist[ii] = ilist(ii);
+    const int i = host_list->ilist[ii] = ilist(ii);
     first[ii] = host_neighbors.size();
     for (int jj = 0; jj < numneigh(i); jj++) {
       const int j = neighbors(i, jj) & NEIGHMASK;
       if (mine(i, j)) host_neighbors.push_back(j);
     }
-    host_numneigh[i] = static_cast<int>(host_neighbors.size() - first[ii]);
+    host_list->numneigh[i] = static_cast<int>(host_neighbors.size() - first[ii]);
   }
   for (int ii = 0; ii < inum; ii++)
-    host_firstneigh[host_ilist[ii]] = host_neighbors.data() + first[ii];
-
-  host_list->inum = inum;
-  host_list->ilist = host_ilist.data();
-  host_list->numneigh = host_numneigh.data();
-  host_list->firstneigh = host_firstneigh.data();
+    host_list->firstneigh[host_list->ilist[ii]] = host_neighbors.data() + first[ii];
 }
 
 /* ----------------------------------------------------------------------
@@ -190,15 +178,11 @@ template <class DeviceType> void FluidKokkos<DeviceType>::announce()
   on_host([&]() {
     if (on_device) {
       const int n = atom->nlocal + atom->nghost;
-      const std::vector<double> rho(atom->rho, atom->rho + n), drho(atom->drho, atom->drho + n),
-          vfrac(atom->vfrac, atom->vfrac + n);
-      double *const sum = Fields::of(atom)->rho_sum;
-      const std::vector<double> rho_sum(sum, sum + atom->nlocal);
+      std::vector<std::pair<double *, std::vector<double>>> before;
+      for (double *one : {atom->rho, atom->drho, atom->vfrac, Fields::of(atom)->rho_sum})
+        before.emplace_back(one, std::vector<double>(one, one + n));
       density->run(pair->list, atom->vest, nullptr, not_fluid());
-      std::copy(rho.begin(), rho.end(), atom->rho);
-      std::copy(drho.begin(), drho.end(), atom->drho);
-      std::copy(vfrac.begin(), vfrac.end(), atom->vfrac);
-      std::copy(rho_sum.begin(), rho_sum.end(), sum);
+      for (const auto &[to, from] : before) std::copy(from.begin(), from.end(), to);
     }
     report();
   });
@@ -232,15 +216,11 @@ template <class DeviceType> void FluidKokkos<DeviceType>::heating(double *heat, 
   const bool of_states = engine->parameters().states;
   if (of_states) atomKK->sync(Host, HEAT);
   const StateRows states = engine->states();
-  const auto copy = [&](int k) {
-    return Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat[k]);
-  };
-  std::vector<decltype(copy(0))> from;
-  for (int k = 0; k < NCHANNEL; k++) from.push_back(copy(k));
+  const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), data->heat);
   for (int i = 0; i < atom->nlocal; i++) {
     if (atom->mask[i] & not_fluid()) continue;
     double channel[NCHANNEL];
-    for (int k = 0; k < NCHANNEL; k++) channel[k] = from[k](i);
+    for (int k = 0; k < NCHANNEL; k++) channel[k] = from(i, k);
     if (of_states) states.add_heat(i, channel);
     for (int k = 0; k < NCHANNEL; k++) {
       power[k] += channel[k];
@@ -267,14 +247,6 @@ template <class DeviceType> void FluidKokkos<DeviceType>::begin_run(double dt, b
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::set_step(double dt)
-{
-  if (dt != model->parameters().step) copied = false;
-  Fluid::set_step(dt);
-}
-
-/* ---------------------------------------------------------------------- */
-
 template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
 {
   if (!on_device) {
@@ -282,13 +254,13 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
     Fluid::advance_states();
     return atomKK->modified(Host, STATES_MASK);
   }
-  if (!copied) copy_coeffs();
+  copy_coeffs();
   atomKK->sync(pair->execution_space, HEAT);
   set_states();
   const ParticleRows rows = *data;
   const int bits = not_fluid();
-  Kokkos::parallel_for(
-      "sph:states", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:states", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (rows.is_fluid(i, bits))
           rows.states.advance(i, nullptr, 0, 0);
         else
@@ -303,20 +275,16 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_states()
 {
+  const auto at = [](auto &view) {
+    return view.template view<DeviceType>().data();
+  };
   const auto &avec = AtomVecSPHBulkKokkos::of(atom);
-  data->type = atomKK->k_type.template view<DeviceType>().data();
-  data->mask = atomKK->k_mask.template view<DeviceType>().data();
-  data->states = {data->types,
-                  data->type,
-                  atomKK->k_rmass.template view<DeviceType>().data(),
-                  avec.k_rho.template view<DeviceType>().data(),
-                  avec.k_drho.template view<DeviceType>().data(),
-                  model->choice.eos,
-                  avec.k_esph.template view<DeviceType>().data(),
-                  avec.k_desph.template view<DeviceType>().data(),
-                  {}};
-  for (int slot : avec.slots)
-    data->states.state[slot] = avec.k_state[slot].template view<DeviceType>().data();
+  data->type = at(atomKK->k_type);
+  data->mask = at(atomKK->k_mask);
+  data->states = {data->types,     data->type,       at(atomKK->k_rmass),
+                  at(avec.k_rho),  at(avec.k_drho),  model->choice.eos,
+                  at(avec.k_esph), at(avec.k_desph), {}};
+  for (int slot : avec.slots) data->states.state[slot] = at(avec.k_state[slot]);
   for (int k = 0; k < Flows::NUMBER; k++)
     data->states.rate[k] = (rates_known && has_rate(k)) ? flow_rate[k].data() : nullptr;
 }
@@ -354,13 +322,6 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
 
 template <class DeviceType> void FluidKokkos<DeviceType>::grow()
 {
-  auto reach = [](auto &view, const char *name, int n) {
-    if ((int) view.extent(0) < n) {
-      view = std::decay_t<decltype(view)>();    // frees the old one first
-      view = std::decay_t<decltype(view)>(Kokkos::NoInit(name), n);
-    }
-    return view.data();
-  };
   const int n = atom->nmax;
   data->particle = reach(particle, "sph:particle", n);
   data->density = reach(density_sum, "sph:density", n);
@@ -372,7 +333,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
     if (has_rate(k)) reach(flow_rate[k], "sph:flow_rate", n);
   }
   data->spin = engine->has_spin() ? reach(spin, "sph:spin", n) : nullptr;
-  for (auto &heat : data->heat) reach(heat, "sph:heat", n);
+  reach(data->heat, "sph:heat", n);
   data->weight = reach(weight, "sph:weight", data->each ? n : 1);
   if (model->choice.limit != Limit::NO) reach(bound_of, "sph:bound", n);
   if (shift->wanted) reach(gradient_of, "sph:gradient", n);
@@ -390,19 +351,20 @@ template <class DeviceType> bool FluidKokkos<DeviceType>::has_rate(int place) co
 }
 
 /* ----------------------------------------------------------------------
-   coefficients of types and type pairs, and what the loops need of the model
+   coefficients of types and type pairs, and what the loops need of the model; those of states are of one time step
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
 {
+  const Parameters &par = engine->parameters();
+  if (copied && data->par.step == par.step) return;
   auto copy = [](const auto &from, auto &view, const char *name) {
-    view = std::decay_t<decltype(view)>(Kokkos::NoInit(name), from.size());
+    renew(view, name, from.size());
     auto on_host = Kokkos::create_mirror_view(view);
     std::copy(from.begin(), from.end(), on_host.data());
     Kokkos::deep_copy(view, on_host);
     return view.data();
   };
-  const Parameters &par = engine->parameters();
   data->par = par;
   data->types = copy(par.type, types, "sph:types");
   data->coeff = copy(par.pair, pair_coeff, "sph:coeff");
@@ -439,71 +401,62 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
 
   auto x = atomKK->k_x.template view<DeviceType>();
   auto vest = avec.k_vest.template view<DeviceType>();
+  data->torque = atomKK->k_torque.template view<DeviceType>();
+  auto omegaest = avec.k_omegaest.template view<DeviceType>();
   const ParticleRows rows = *data;
+  Spin *const spins_of = data->spin;
   auto weights = weight;
-  Kokkos::parallel_for(
-      "sph:particles", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:particles", atom->nlocal + atom->nghost, KOKKOS_LAMBDA(int i) {
         for (int d = 0; d < 3; d++) {
           rows.particle[i].x[d] = x(i, d);
           rows.particle[i].u[d] = vest(i, d);
+          if (spins_of) spins_of[i].w[d] = omegaest(i, d);
         }
         rows.desph[i] = 0.0;
         if (rows.each) weights(i) = rows.reference_volume(i);
       });
-  if (engine->has_spin()) set_spins();
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType> void FluidKokkos<DeviceType>::set_spins()
-{
-  auto omegaest = AtomVecSPHBulkKokkos::of(atom).k_omegaest.template view<DeviceType>();
-  auto spins_of = spin;
-  data->torque = atomKK->k_torque.template view<DeviceType>();
-
-  Kokkos::parallel_for(
-      "sph:spins", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
-        for (int d = 0; d < 3; d++) spins_of(i).w[d] = omegaest(i, d);
-      });
 }
 
 /* ----------------------------------------------------------------------
-   width doubles of each particle in an array on the device, from its double number first on; none if the
-   array is empty
-------------------------------------------------------------------------- */
-
-template <class DeviceType> template <class T> struct FluidKokkos<DeviceType>::Part {
-  Kokkos::View<T *, Kokkos::LayoutRight, DeviceType> array;
-  int first, width;
-
-  Field in(T *copy) const
-  {
-    return {reinterpret_cast<double *>(copy) + first, sizeof(T) / sizeof(double),
-            array.extent(0) ? width : 0};
-  }
-};
-
-/* ----------------------------------------------------------------------
-   LAMMPS has some kinds of communication on the host, whatever the pair style is
+   fields on the device; LAMMPS has some kinds of communication on the host, whatever the pair style is
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
-template <class... T>
-void FluidKokkos<DeviceType>::send_to_ghosts(const Part<T> &...part)
+void FluidKokkos<DeviceType>::send_to_ghosts(const std::vector<Field> &fields)
 {
   if (pair->execution_space == Device && !lmp->kokkos->forward_pair_comm_legacy &&
       comm->style != Comm::TILED) {
     sent = ColumnsKokkos();
-    (sent.add(part.in(part.array.data())), ...);
+    for (const Field &one : fields) sent.add(one);
     return comm->forward_comm(pair, sent.n);
   }
-  auto send = [&](const auto &...copy) {
-    exchange->forward({part.in(copy.data())...});
-    (Kokkos::deep_copy(part.array, copy), ...);
+  const auto numbers = [n = atom->nlocal + atom->nghost](const Field &one) {
+    return Kokkos::View<double *, Kokkos::LayoutRight, DeviceType, Kokkos::MemoryUnmanaged>(
+        one.first, n ? (n - 1) * one.stride + one.width : 0);
   };
-  send(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), part.array)...);
+  std::vector<Kokkos::View<double *, Kokkos::LayoutRight, Kokkos::HostSpace>> copies;
+  std::vector<Field> on_host = fields;
+  for (Field &one : on_host) {
+    copies.push_back(Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), numbers(one)));
+    one.first = copies.back().data();
+  }
+  exchange->forward(on_host);
+  for (std::size_t k = 0; k < fields.size(); k++) Kokkos::deep_copy(numbers(fields[k]), copies[k]);
+}
+
+/* ----------------------------------------------------------------------
+   a loop over the rows of the neighbor list: its members are the data and more
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <template <class, class> class Loop, class... More>
+void FluidKokkos<DeviceType>::sum_pairs(const char *name, const More &...more)
+{
+  with_kernel(model->choice.kernel, [&](auto kernel) {
+    for_each<DeviceType>(name, pair->list->inum,
+                         Loop<DeviceType, decltype(kernel)>{*data, more...});
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -513,49 +466,35 @@ void FluidKokkos<DeviceType>::send_to_ghosts(const Part<T> &...part)
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
 {
   if (!on_device) return Fluid::sum_density();
-  if (!copied) copy_coeffs();
+  copy_coeffs();
   grow();
   // what it modifies, too: LAMMPS communicates on the host if MPI does not know the GPU
   atomKK->sync(pair->execution_space, read_mask() | modified_mask());
   set_particles();
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    typedef decltype(kernel) K;
-    Kokkos::parallel_for("sph:density", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-                         DensityLoopKokkos<DeviceType, K>{*data});
-  });
+  sum_pairs<DensityLoopKokkos>("sph:density");
 
-  Part<double> energy = {{}, 0, 1};
-  if (engine->parameters().thermal_pressure)
-    energy.array = AtomVecSPHBulkKokkos::of(atom).k_esph.template view<DeviceType>();
   const ParticleRows rows = *data;
-  Part<double> pressure_of_states = {{}, 0, 1};
-  std::array<Part<FlowRow>, Flows::NUMBER> values;
   const bool states = engine->parameters().states, continuity = engine->parameters().continuity;
   const int bits = not_fluid(), flows = engine->parameters().loops_of_flows;
-  if (states) pressure_of_states.array = state_pressure;
-  for (int k = 0; k < Flows::NUMBER; k++) {
-    values[k] = {{}, 1, 1};
-    if (flows >> k & 1) values[k].array = flow[k];
-  }
   if (states || flows || continuity) {
     const bool rest = at_rest();
-    Kokkos::parallel_for(
-        "sph:states", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+    for_each<DeviceType>(
+        "sph:states", atom->nlocal, KOKKOS_LAMBDA(int i) {
           if (continuity) rows.add_offset(i, bits);
           rows.set_density(i);
           if (states) rows.set_state_pressure(i, bits, rest);
           if (flows) rows.set_flow_values(i);
         });
   }
-  std::apply(
-      [&](const auto &...value) {
-        send_to_ghosts(Part<DensitySum>{density_sum, 0, 2}, energy, pressure_of_states, value...);
-      },
-      values);
+  std::vector<Field> fields = {field(rows.density, &rows.density->c, 2)};
+  if (engine->parameters().thermal_pressure) fields.push_back({rows.esph, 1, 1});
+  if (states) fields.push_back({rows.state_pressure, 1, 1});
+  for (int k = 0; k < Flows::NUMBER; k++)
+    if (flows >> k & 1) fields.push_back(field(rows.flow[k], &rows.flow[k]->value, 1));
+  send_to_ghosts(fields);
 
-  Kokkos::parallel_for(
-      "sph:volume", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
-      KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:volume", atom->nlocal + atom->nghost, KOKKOS_LAMBDA(int i) {
         rows.set_density(i);
         if (flows) rows.set_flows(i, bits);
       });
@@ -566,11 +505,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_bound()
 {
   if (!on_device) return Fluid::sum_bound();
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    Kokkos::parallel_for("sph:bound", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-                         BoundLoopKokkos<DeviceType, decltype(kernel)>{*data, bound_of.data()});
-  });
-  send_to_ghosts(Part<double>{bound_of, 0, 1});
+  sum_pairs<BoundLoopKokkos>("sph:bound", bound_of.data());
+  send_to_ghosts({{bound_of.data(), 1, 1}});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -580,8 +516,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_reference_volume()
   if (!on_device) return Fluid::set_reference_volume();
   const ParticleRows rows = *data;
   const int bits = boundary->bits();
-  Kokkos::parallel_for(
-      "sph:reference", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+  for_each<DeviceType>(
+      "sph:reference", atom->nlocal + atom->nghost,
       KOKKOS_LAMBDA(int i) { rows.set_reference_volume(i, bits); });
 }
 
@@ -593,8 +529,8 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::set_pressure()
   const ParticleRows rows = *data;
   const int bits = boundary->bits();
   const double *const bounds = (model->choice.limit != Limit::NO) ? bound_of.data() : nullptr;
-  Kokkos::parallel_for(
-      "sph:pressure", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+  for_each<DeviceType>(
+      "sph:pressure", atom->nlocal + atom->nghost,
       KOKKOS_LAMBDA(int i) { rows.set_pressure(i, bounds, bits); });
 
   int count = 0;
@@ -616,13 +552,13 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
 {
   if (!on_device) return Fluid::set_boundary();
   boundary_device->run(*data, pair->list->inum);
-  Part<Spin> spins_of = {{}, 0, 3};
-  if (engine->has_spin()) spins_of.array = spin;
-  Part<FlowRow> heat = {{}, 0, 4};
-  if (boundary->conducts()) heat.array = flow[HEAT_FLOW];
-  send_to_ghosts(Part<Particle>{particle, 3, 5},    // u, vol and g
-                 Part<double>{zeta_term, 0, 1}, spins_of, heat,
-                 Part<double>{boundary_device->occupied(), 0, 1});
+  std::vector<Field> fields = {field(data->particle, data->particle->u, 5),    // u, vol and g
+                               {data->zeta_term, 1, 1}};
+  if (data->spin) fields.push_back(field(data->spin, data->spin->w, 3));
+  FlowRow *const heat = data->flow[HEAT_FLOW];
+  if (boundary->conducts()) fields.push_back(field(heat, &heat->vol, 4));
+  if (data->par.continuity) fields.push_back({boundary_device->particles().occupied.data(), 1, 1});
+  send_to_ghosts(fields);
   boundary_device->set_excess(*data);
 }
 
@@ -631,10 +567,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_gradient()
 {
   if (!on_device) return Fluid::sum_gradient();
-  with_kernel(model->choice.kernel, [&](auto kernel) {
-    Kokkos::parallel_for("sph:gradient", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-                         ShiftLoopKokkos<DeviceType, decltype(kernel)>{*data, gradient_of});
-  });
+  sum_pairs<ShiftLoopKokkos>("sph:gradient", gradient_of);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -645,15 +578,21 @@ void FluidKokkos<DeviceType>::sum_forces(PairTally *tally, const StepPlan &plan)
   if (!on_device) return Fluid::sum_forces(tally, plan);
   data->vatom = {};
   if (pair->vflag_atom) data->vatom = decltype(data->vatom)("sph:vatom", atom->nlocal);
+  const int n = pair->list->inum;
 
   with_kernel(model->choice.kernel, [&](auto kernel) {
     with_form(data->par.terms(), [&](auto form) {
-      run_force_loop<decltype(kernel), decltype(form)>(tally);
+      typedef decltype(kernel) K;
+      typedef decltype(form) Form;
+      if (data->par.bulk == Bulk::VOLUME)
+        run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, true>{*data}, tally);
+      else
+        run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, false>{*data}, tally);
     });
   });
   if (!boundary->empty() && data->par.continuity) {
-    const auto repulsion = boundary_device->repulsion(*data);
-    run_loop("sph:repulsion", repulsion.size(), repulsion, tally);
+    const auto &walls = boundary_device->particles();
+    run_loop("sph:repulsion", walls.size(), RepulsionKokkos<DeviceType>{*data, walls}, tally);
   }
 
   if (!pair->vflag_atom) return;
@@ -671,11 +610,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_flows()
   for (int k = 0; k < Flows::NUMBER; k++) {
     if (!(engine->parameters().loops_of_flows >> k & 1)) continue;
     double *const rate = has_rate(k) ? flow_rate[k].data() : nullptr;
-    with_kernel(model->choice.kernel, [&](auto kernel) {
-      Kokkos::parallel_for(
-          "sph:flow", Kokkos::RangePolicy<DeviceType>(0, pair->list->inum),
-          FlowLoopKokkos<DeviceType, decltype(kernel)>{*data, k, rate, k == HEAT_FLOW});
-    });
+    sum_pairs<FlowLoopKokkos>("sph:flow", k, rate, k == HEAT_FLOW);
     if (rate && k == HEAT_FLOW) boundary_device->add_surface_heat(*data, rate);
   }
 }
@@ -689,8 +624,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::evaluate_diffusion()
   const int bits = not_fluid(), some = integrated;
   auto row = diffusion_row;
   auto impedances = impedance;
-  Kokkos::parallel_for(
-      "sph:diffusion_row", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal + atom->nghost),
+  for_each<DeviceType>(
+      "sph:diffusion_row", atom->nlocal + atom->nghost,
       KOKKOS_LAMBDA(int i) { rows.set_diffusion(i, bits, some, row(i), impedances(i)); });
   with_kernel(model->choice.kernel, [&](auto kernel) {
     typedef decltype(kernel) K;
@@ -718,11 +653,10 @@ void FluidKokkos<DeviceType>::run_diffusion()
                                     avec.k_vol_rate.template view<DeviceType>().data(),
                                     avec.k_vol_heat.template view<DeviceType>().data(),
                                     avec.k_vol_support.template view<DeviceType>().data()};
-  const auto range = Kokkos::RangePolicy<DeviceType>(0, pair->list->inum);
-  Kokkos::parallel_for("sph:gradient", range, GradientLoopKokkos<DeviceType, K, DIM>{*data, rows});
-  send_to_ghosts(Part<DiffusionRow>{diffusion_row, DiffusionPlaces<DIM>::G, DIM});
-  Kokkos::parallel_for("sph:diffusion", range,
-                       DiffusionLoopKokkos<DeviceType, K, DIM>{*data, rows});
+  const int n = pair->list->inum;
+  for_each<DeviceType>("sph:gradient", n, GradientLoopKokkos<DeviceType, K, DIM>{*data, rows});
+  send_to_ghosts({field(rows.row, rows.row->a + DiffusionPlaces<DIM>::G, DIM)});
+  for_each<DeviceType>("sph:diffusion", n, DiffusionLoopKokkos<DeviceType, K, DIM>{*data, rows});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -735,8 +669,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::add_diffusion_heat()
   auto heat = avec.k_vol_heat.template view<DeviceType>();
   const ParticleRows rows = *data;
   const int bits = not_fluid(), some = integrated;
-  Kokkos::parallel_for(
-      "sph:diffusion_heat", Kokkos::RangePolicy<DeviceType>(0, atom->nlocal), KOKKOS_LAMBDA(int i) {
+  for_each<DeviceType>(
+      "sph:diffusion_heat", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (!rows.diffuses(i, bits, some)) rate(i) = heat(i) = 0.0;
         rows.desph[i] += heat(i);
       });
@@ -749,7 +683,7 @@ template <class DeviceType> double FluidKokkos<DeviceType>::wall_energy(double *
   if (!on_device) return Fluid::wall_energy(each_atom);
   if (!model->choice.continuity) return 0.0;
   const auto occupied =
-      Kokkos::create_mirror_view_and_copy(LMPHostType(), boundary_device->occupied());
+      Kokkos::create_mirror_view_and_copy(LMPHostType(), boundary_device->particles().occupied);
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (is_boundary(i)) continue;
@@ -785,27 +719,14 @@ template <class DeviceType> double FluidKokkos<DeviceType>::received_heat(int gr
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType>
-template <class K, class Form>
-void FluidKokkos<DeviceType>::run_force_loop(bool virial)
-{
-  if (model->choice.bulk == Bulk::VOLUME)
-    run_loop("sph:forces", pair->list->inum, ForceLoopKokkos<DeviceType, K, Form, true>{*data},
-             virial);
-  else
-    run_loop("sph:forces", pair->list->inum, ForceLoopKokkos<DeviceType, K, Form, false>{*data},
-             virial);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <class DeviceType>
 template <class Loop>
 void FluidKokkos<DeviceType>::run_loop(const char *name, int n, const Loop &loop, bool tally)
 {
   const auto range = Kokkos::RangePolicy<DeviceType>(0, n);
-  if (!tally) return Kokkos::parallel_for(name, range, loop);
+  const VirialLoopKokkos<Loop> with_virial = {loop};
+  if (!tally) return Kokkos::parallel_for(name, range, with_virial);
   EV_FLOAT ev;
-  Kokkos::parallel_reduce(name, range, loop, ev);
+  Kokkos::parallel_reduce(name, range, with_virial, ev);
   if (pair->vflag_global)
     for (int k = 0; k < 6; k++) pair->virial[k] += ev.v[k];
 }
@@ -814,26 +735,16 @@ void FluidKokkos<DeviceType>::run_loop(const char *name, int n, const Loop &loop
 
 template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
 {
-  const auto bytes = [](const auto &...view) {
-    return (... +
-            ((double) view.size() *
-             sizeof(typename std::decay_t<decltype(view)>::non_const_value_type)));
-  };
   double of_flows = 0.0;
-  for (int k = 0; k < Flows::NUMBER; k++) of_flows += bytes(flow[k], flow_rate[k]);
+  for (int k = 0; k < Flows::NUMBER; k++) of_flows += bytes_of(flow[k], flow_rate[k]);
   return Fluid::memory_usage() + boundary_device->memory_usage() + of_flows +
-      bytes(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of, gradient_of,
-            diffusion_row, impedance) +
-      (double) NCHANNEL * bytes(data->heat[0]);
+      bytes_of(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of,
+               gradient_of, diffusion_row, impedance, data->heat);
 }
 
 /* ---------------------------------------------------------------------- */
 
-namespace LAMMPS_NS {
-namespace SPHDissipation {
-  template class FluidKokkos<LMPDeviceType>;
+template class SPHDissipation::FluidKokkos<LMPDeviceType>;
 #ifdef LMP_KOKKOS_GPU
-  template class FluidKokkos<LMPHostType>;
+template class SPHDissipation::FluidKokkos<LMPHostType>;
 #endif
-}    // namespace SPHDissipation
-}    // namespace LAMMPS_NS

@@ -74,7 +74,6 @@ namespace SPHDissipation {
 
     void sum_density() override;
     void begin_run(double dt, bool continues) override;
-    void set_step(double dt) override;
     void advance_states() override;
     void sum_bound() override;
     void set_reference_volume() override;
@@ -86,7 +85,6 @@ namespace SPHDissipation {
     void evaluate_diffusion() override;
     void add_diffusion_heat() override;
     void set_particles();
-    void set_spins();
 
    private:
     static constexpr uint64_t STATES = SPH_RHO_MASK | TYPE_MASK | MASK_MASK | STATES_MASK;
@@ -98,8 +96,7 @@ namespace SPHDissipation {
     bool rates_known;    // those of the flows, from this run
     std::unique_ptr<Threads> threads;
     std::unique_ptr<NeighList> host_list;    // half; for what runs on the host
-    std::vector<int> host_ilist, host_numneigh, host_neighbors;
-    std::vector<int *> host_firstneigh;
+    std::vector<int> host_neighbors;
     int nlocal_device, nghost_device;    // # of atoms of the last computation on the device
 
     // what data refers to, on the device
@@ -128,12 +125,12 @@ namespace SPHDissipation {
     void grow();
     void set_states();
     void copy_coeffs();
-    template <class T> struct Part;
-    template <class... T> void send_to_ghosts(const Part<T> &...);
+    void send_to_ghosts(const std::vector<Field> &);
+    template <template <class, class> class Loop, class... More>
+    void sum_pairs(const char *name, const More &...);
     bool has_rate(int place) const;    // of a flow
     template <class Loop> void run_loop(const char *name, int n, const Loop &, bool virial);
     template <class K, int DIM> void run_diffusion();
-    template <class K, class Form> void run_force_loop(bool virial);
   };
 
 }    // namespace SPHDissipation

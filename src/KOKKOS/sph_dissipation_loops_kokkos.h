@@ -17,8 +17,7 @@
 // The two pair loops on the device, over full neighbor lists: each particle sums up its own pairs, so
 // that nothing is added to another one, and the sums do not depend on the number of threads.
 
-#include "kokkos_type.h"
-
+#include "sph_dissipation_arrays_kokkos.h"
 #include "sph_dissipation_parameters.h"
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_rows.h"
@@ -49,7 +48,7 @@ namespace SPHDissipation {
 
     Spin *spin;                                           // micropolar, else nullptr
     const Excess *excess;                                 // nullptr without boundaries
-    Kokkos::View<double *, DeviceType> heat[NCHANNEL];    // of owned particles
+    Kokkos::View<double *[NCHANNEL], DeviceType> heat;    // of owned particles
     const PairCoeff *coeff;    // coeff[type[i] * par.ntypes_1 + type[j * typed]]
     int typed;                 // 0: the coefficients of all pairs are the same
 
@@ -57,6 +56,49 @@ namespace SPHDissipation {
     typename AT::t_kkacc_1d_3 f, torque;    // torque: micropolar
     Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> vatom;    // if it is asked for
   };
+
+  // function(j, r = r_i - r_j, r^2) for each neighbor of particle i inside the support
+
+  template <class DeviceType, class Function>
+  KOKKOS_FORCEINLINE_FUNCTION void for_neighbors(const LoopDataKokkos<DeviceType> &data, int i,
+                                                 const Function &function)
+  {
+    const Particle &pi = data.particle[i];
+    const int jnum = data.numneigh(i);
+    for (int jj = 0; jj < jnum; jj++) {
+      const int j = data.neighbors(i, jj) & NEIGHMASK;
+      const Particle &pj = data.particle[j];
+      const double r[3] = {pi.x[0] - pj.x[0], pi.x[1] - pj.x[1], pi.x[2] - pj.x[2]};
+      const double rsq = dot(r, r);
+      if (rsq < data.par.support * data.par.support) function(j, r, rsq);
+    }
+  }
+
+  // A loop with a row(k, virial), which adds the virial of a particle and returns its number, without and with it
+
+  template <class Loop> struct VirialLoopKokkos {
+    Loop loop;
+
+    KOKKOS_INLINE_FUNCTION void operator()(int k) const { loop.template row<false>(k, nullptr); }
+    KOKKOS_INLINE_FUNCTION void operator()(int k, EV_FLOAT &ev) const
+    {
+      double virial[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+      const int i = loop.template row<true>(k, virial);
+      for (int c = 0; c < 6; c++) ev.v[c] += virial[c];
+      if (loop.data.vatom.extent(0))
+        for (int c = 0; c < 6; c++) loop.data.vatom(i, c) += virial[c];
+    }
+  };
+
+  // half of a pair; a and b are r and the force on i, whose order decides the round-off alone
+
+  SPH_INLINE void add_virial(const double *a, const double *b, double *virial)
+  {
+    for (int d = 0; d < 3; d++) virial[d] += 0.5 * a[d] * b[d];
+    virial[3] += 0.5 * a[0] * b[1];
+    virial[4] += 0.5 * a[0] * b[2];
+    virial[5] += 0.5 * a[1] * b[2];
+  }
 
   // pass 1: c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij
 
@@ -67,24 +109,17 @@ namespace SPHDissipation {
     {
       const int i = data.ilist(ii);
       const Particle pi = data.particle[i];
-      const double support_sq = data.par.support * data.par.support;
       const double support_inv = 1.0 / data.par.support;
       double c = data.par.self_weight * data.weight[i * data.each], cdot = 0.0;
 
-      const int jnum = data.numneigh(i);
-      for (int jj = 0; jj < jnum; jj++) {
-        const int j = data.neighbors(i, jj) & NEIGHMASK;
+      for_neighbors(data, i, [&](int j, const double *r, double rsq) {
         const Particle &pj = data.particle[j];
-        const double dx = pi.x[0] - pj.x[0], dy = pi.x[1] - pj.x[1], dz = pi.x[2] - pj.x[2];
-        const double rsq = dx * dx + dy * dy + dz * dz;
-        if (rsq >= support_sq) continue;
-        const double approach =
-            dx * (pi.u[0] - pj.u[0]) + dy * (pi.u[1] - pj.u[1]) + dz * (pi.u[2] - pj.u[2]);
+        const double u[3] = {pi.u[0] - pj.u[0], pi.u[1] - pj.u[1], pi.u[2] - pj.u[2]};
         const double q = Kokkos::sqrt(rsq) * support_inv;
         const double weight = data.weight[j * data.each];
         c += weight * data.par.weight_norm * K::shape(q);
-        cdot -= weight * data.par.slope_norm * K::slope(q) * approach;
-      }
+        cdot -= weight * data.par.slope_norm * K::slope(q) * dot(r, u);
+      });
       data.density[i] = {c, cdot};
     }
   };
@@ -94,24 +129,7 @@ namespace SPHDissipation {
   template <class DeviceType, class K, class Form, bool VOLUME> struct ForceLoopKokkos {
     LoopDataKokkos<DeviceType> data;
 
-    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
-    {
-      double virial[6];
-      row<false>(ii, virial);
-    }
-
-    // with the virial
-
-    KOKKOS_INLINE_FUNCTION void operator()(int ii, EV_FLOAT &ev) const
-    {
-      double virial[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-      row<true>(ii, virial);
-      for (int k = 0; k < 6; k++) ev.v[k] += virial[k];
-      if (data.vatom.extent(0))
-        for (int k = 0; k < 6; k++) data.vatom(data.ilist(ii), k) = virial[k];
-    }
-
-    template <bool VIRIAL> KOKKOS_INLINE_FUNCTION void row(int ii, double *virial) const
+    template <bool VIRIAL> KOKKOS_INLINE_FUNCTION int row(int ii, double *virial) const
     {
       const int i = data.ilist(ii);
       const Particle pi = data.particle[i];
@@ -164,14 +182,7 @@ namespace SPHDissipation {
         for (int d = 0; d < 3; d++) total_f[d] += pair.f[d];
         for (int c = 0; c < NCHANNEL; c++) heat[c] += pair.heat[c];
 
-        if constexpr (VIRIAL) {    // half for each partner
-          virial[0] += 0.5 * pair.r[0] * pair.f[0];
-          virial[1] += 0.5 * pair.r[1] * pair.f[1];
-          virial[2] += 0.5 * pair.r[2] * pair.f[2];
-          virial[3] += 0.5 * pair.r[0] * pair.f[1];
-          virial[4] += 0.5 * pair.r[0] * pair.f[2];
-          virial[5] += 0.5 * pair.r[1] * pair.f[2];
-        }
+        if constexpr (VIRIAL) add_virial(pair.r, pair.f, virial);
       }
 
       heat[BULK_HEAT] =
@@ -182,9 +193,10 @@ namespace SPHDissipation {
       if constexpr (Form::SPINS)
         for (int d = 0; d < 3; d++) data.torque(i, d) += total_t[d];
       for (int c = 0; c < NCHANNEL; c++) {
-        data.heat[c](i) = heat[c];
+        data.heat(i, c) = heat[c];
         data.desph[i] += heat[c];
       }
+      return i;
     }
 
     // all heat of a pair with a boundary to the fluid

@@ -23,23 +23,6 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // function(j, r = r_i - r_j, r^2) for each neighbor of particle i inside the support
-
-  template <class DeviceType, class Function>
-  KOKKOS_FORCEINLINE_FUNCTION void for_neighbors(const LoopDataKokkos<DeviceType> &data, int i,
-                                                 const Function &function)
-  {
-    const Particle &pi = data.particle[i];
-    const int jnum = data.numneigh(i);
-    for (int jj = 0; jj < jnum; jj++) {
-      const int j = data.neighbors(i, jj) & NEIGHMASK;
-      const Particle &pj = data.particle[j];
-      const double r[3] = {pi.x[0] - pj.x[0], pi.x[1] - pj.x[1], pi.x[2] - pj.x[2]};
-      const double rsq = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-      if (rsq < data.par.support * data.par.support) function(j, r, rsq);
-    }
-  }
-
   // a flow, as flow_loop() of the CPU styles
 
   template <class DeviceType, class K> struct FlowLoopKokkos {

@@ -238,13 +238,9 @@ void BoundaryStage::set_excess()
 {
   if (engine.excess.empty() || update->whichflag == 2) return;
   engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
-    if (!(atom->mask[i] & group_bits & ~symmetric_bits)) return;
-    Excess &one = engine.excess[i];
-    one.is_boundary = 1.0;
-    for (int d = 0; d < 3; d++) {
-      one.u[d] = engine.particle[i].u[d] - atom->vest[i][d];
-      if (engine.has_spin()) one.w[d] = engine.spin[i].w[d] - surface.surface[i].omega[d];
-    }
+    if (atom->mask[i] & group_bits & ~symmetric_bits)
+      SPHDissipation::set_excess(engine.excess[i], engine.particle[i], atom->vest[i], spin(i),
+                                 surface.surface[i]);
   });
 }
 

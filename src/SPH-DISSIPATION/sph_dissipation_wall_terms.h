@@ -524,6 +524,19 @@ namespace SPHDissipation {
     extend_motion(condition, surface, sum, rows.particle[i].u, spin);
   }
 
+  // What velocity and spin (nullptr: there is none) of a boundary particle in pass 2 exceed its own velocity u and the spin of
+  // its rigid body by
+
+  SPH_FUNCTION void set_excess(Excess &excess, const Particle &particle, const double *u,
+                               const double *spin, const Surface &surface)
+  {
+    excess.is_boundary = 1.0;
+    for (int d = 0; d < 3; d++) {
+      excess.u[d] = particle.u[d] - u[d];
+      if (spin) excess.w[d] = spin[d] - surface.omega[d];
+    }
+  }
+
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS
 
