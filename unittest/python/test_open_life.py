@@ -93,6 +93,19 @@ def test_ideal_gas(lammps, condition):
     assert max(errors) < 1e-7
 
 
+def test_energy_of_what_enters(lammps):
+    """Without heat capacity, what enters has the given internal energy, and what was there keeps its own."""
+    channel, mass = Channel(), lattice_mass(lammps)
+    lammps(channel.text(lammps, f"velocity {channel.vector(U)} energy 2.5", "density 1.0", velocity=stream, timestep=0.25, mass=mass, esph=0.5 * mass, integrate="")
+           + "compute e all property/atom esph\n" + dump("out.dump", 400, "c_e") + "run 400\n", ranks=2)
+    frame = lammps.frame("out.dump")
+    fluid = (frame["x"][:, 0] > 1.0) & (frame["x"][:, 0] < channel.length)
+    entered = frame["x"][:, 0] < 0.25 * 400 * U - 1.0
+    for here, energy in ((fluid & entered, 2.5), (fluid & (frame["x"][:, 0] > 0.25 * 400 * U + 1.0), 0.5)):
+        assert here.sum() > 20
+        np.testing.assert_allclose(frame["c_e"][here], energy * mass, rtol=1e-9)
+
+
 def test_averages_begin_when_there_is_fluid(lammps):
     """A gap in front of the outlet, whose velocity is from inside: when the stream arrives, it goes on as before.  With averages
     that began at zero in the gap, the zone would stop."""

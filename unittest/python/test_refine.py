@@ -517,6 +517,7 @@ BAD = [("fix R all sph/refine 1", "Illegal fix sph/refine"),
        ("pair_style sph/bulk\npair_coeff * * 1.0 10.0 0.5 2.0 3.0\nfix R all sph/refine 1 volume 1.0", "volume number"),
        ("pair_style zero 3.0\npair_coeff * *\nfix R all sph/refine 1 volume 1.0", "requires pair style sph/bulk"),
        ("neigh_modify once yes\nfix R all sph/refine 1 volume 1.0", "once must be no"),
+       ("comm_modify vel yes\nfix D all deform 1 x erate 0.1 remap v\nfix R all sph/refine 1 volume 1.0", "fix deform with remap v"),
        ("fix R all sph/refine 1 volume v_", "Variable  for Fix sph/refine does not exist")]
 
 
