@@ -163,17 +163,18 @@ class Cylinder:
         return 1 - self.expansion + self.first_order(1.0, 0.0)[0]
 
 
-def inviscid(kind, k, ratio=1.0, c=1.0, place=0.25 * np.pi, waves=6, angles=64):
-    """Mean force of a standing wave p cos(k x + place) over pi k E sin(2 place), for any k, without viscosity and spring: all multipoles, and the
-    flux of momentum through a circle"""
+def inviscid(kind, k, ratio=1.0, c=1.0, hold=0.0, place=0.25 * np.pi, waves=6, angles=64):
+    """Mean force of a standing wave p cos(k x + place) over pi k E sin(2 place), for any k, without viscosity: all multipoles, and the flux of
+    momentum through a circle"""
     n = np.arange(waves)
+    spring = np.where(n == 1, hold**2 * (ratio + 1), 0)
     r, t = 3.0, (np.arange(angles) + 0.5) * 2 * np.pi / angles
     if kind == "drop":
-        inside = jvp(n, k / c) / jv(n, k / c) / (ratio * c)
+        inside = jvp(n, k / c) / (ratio * c) / (jv(n, k / c) - spring * k / (ratio * c) * jvp(n, k / c))
         scattered = -(jvp(n, k) - inside * jv(n, k)) / (h1vp(n, k) - inside * hankel1(n, k))
     else:
         # the velocity of a body that moves is that of the pressure on it, over its mass
-        inside = np.where(n == 1, 1 / (k * ratio), 0) if kind == "rigid" else 0 * n
+        inside = np.where(n == 1, 1 / (k * (ratio - spring)), 0) if kind == "rigid" else 0 * n
         scattered = -(jvp(n, k) - inside * jv(n, k)) / (h1vp(n, k) - inside * hankel1(n, k))
     factors = np.where(n > 0, 2, 1) * 0.5 * (1j**n * np.exp(1j * place) + (-1j)**n * np.exp(-1j * place))
     cos, sin = np.cos(np.outer(n, t)), np.sin(np.outer(n, t))

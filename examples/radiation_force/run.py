@@ -10,27 +10,24 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from exact import Cylinder, added_mass, elasticity, inviscid
 from scipy.integrate import solve_ivp
-from scipy.optimize import minimize_scalar
-from scipy.special import kv
+from scipy.optimize import brentq, minimize_scalar
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from run_lammps import Example, csv_rows, pyplot, save      # noqa: E402
 
-# thickness of the boundary layer, particles in a radius, wavenumber, the unit of length being the radius
-CASES = [(0.6, 8, 0.25), (0.6, 6, 0.15), (1.0, 6, 0.25), (0.6, 6, 0.25), (0.3, 6, 0.25), (0.6, 4, 0.25)]
-QUICK_CASES = [(0.6, 4, 0.25)]
-WIDTH, BULK, PERIODS = 10, 2, 9     # as in the input
-FIRST = 3                           # periods before the means
-# of the force over theory, less 1: the mean one of the finest lattice, of all; the first-order one; the README says why
-FINEST, MEAN, FIRST_ORDER = -0.12, -0.18, 0.03
-
-
-def added_mass(delta):
-    """of a cylinder over its mass of fluid, with the force of the boundary layer as imaginary part (Stokes 1851)"""
-    x = (1 - 1j) / delta
-    return 1 + 4 * kv(1, x) / (x * kv(0, x))
+# body, thickness of the boundary layer, particles in a radius; density and speed of sound of the body over those of the fluid
+CASES = [("wall", 0.6, 10), ("rigid", 1.0, 6, 0.1, 12.65), ("rigid", 0.6, 6, 0.1, 12.65), ("rigid", 0.3, 6, 0.1, 12.65), ("rigid", 0.6, 6, 5, 1.789),
+         ("drop", 0.6, 6, 2, 1), ("drop", 0.6, 6, 0.5, 1.4142),
+         ("wall", 1.0, 6), ("wall", 0.6, 6), ("wall", 0.3, 6), ("wall", 0.6, 6, 1, 1, 4), ("wall", 0.6, 4)]
+QUICK_CASES = [("wall", 0.6, 4), ("drop", 0.6, 4, 2, 1)]
+WAVENUMBER, WIDTH, BULK, HOLD, SUPPORT = 0.25, 10, 2, 0.3, 4.25     # as in the input
+LIGHT = 0.1
+PERIODS = {"wall": (3, 9), "none": (3, 9), "drop": (6, 12), "rigid": (6, 12)}     # of the means
+# bounds of the errors: of the finest lattice, of all walls, of bodies that move, of first order
+FINEST, WALLS, MOVING, FIRST_ORDER = 0.05, 0.13, 0.12, 0.03
 
 
 def between(omega, viscosity, push, q, x, offset):
@@ -47,31 +44,49 @@ def between(omega, viscosity, push, q, x, offset):
 
 
 class Run:
-    def __init__(self, delta, n, k, **more):
-        self.delta, self.n, self.k = delta, n, k
-        self.name = ".".join(["alone"] * bool(more) + [f"{delta:g}", f"{n}", f"{k:g}"])
-        # of the energy of the wave, what both boundary layers and the bulk lose in a period over 2 pi, about; the drive makes up for half of gain
-        loss = 0.5 * delta**2 * k**2 * (1 + BULK) + (0 if more else added_mass(delta).imag * k / WIDTH)
-        self.variables = {"n": n, "delta": delta, "k": k, "gain": round(2.4 * loss, 3), "periods": PERIODS, **more}
+    """One cylinder: a run of LAMMPS if it is at rest, two with opposite phases of the wave if it moves."""
+
+    def __init__(self, body, delta, n, ratio=1, c=1, support=SUPPORT, **more):
+        self.body, self.delta, self.n, self.ratio, self.c, self.support = body, delta, n, ratio, c, support
+        self.name = f"{body}.{delta:g}.{n}.{ratio:g}.{c:g}" + (f".{support:g}" if support != SUPPORT else "") + ("." + more["ends"] if "ends" in more else "")
+        # of the energy of the wave, what the bulk and the boundary layers lose in a period over 2 pi, about; the drive makes up for half of gain
+        loss = 0.5 * delta**2 * WAVENUMBER**2 * (1 + BULK)
+        if body != "none":
+            loss += Cylinder(body, WAVENUMBER, delta, 0.0, ratio, c).first_order(1.0, 0.0)[0].imag * WAVENUMBER / WIDTH
+        self.variables = {"body": body, "n": n, "delta": delta, "ratio": ratio, "c": c, "support": support, "gain": round(2.4 * loss, 3), "periods": PERIODS[body][1], **more}
+        if body == "rigid" or "ends" in more:
+            self.variables["part"] = 0.3 if ratio < 1 else 0.4       # of the time step, for a stiff body
+        self.moves = body in ("drop", "rigid")
+
+    def jobs(self):
+        phases = (("", 0.004), (".back", -0.004)) if self.moves else (("", 0.004),)
+        return {self.name + phase: {**self.variables, "mach": mach} for phase, mach in phases}
 
     def read(self, out):
         words = (out / f"{self.name}.given.txt").read_text().split()
         self.given = given = {name: float(number) for name, number in zip(words[::2], words[1::2])}
-        table = np.loadtxt(out / f"{self.name}.force.txt")[:, 1:6]
-        period = 2 * np.pi / self.k
-        table = table[(table[:, 0] >= FIRST * period) & (table[:, 0] <= (PERIODS + 1e-6) * period)]
+        tables = [np.loadtxt(out / f"{name}.force.txt")[:, 1:7] for name in self.jobs()]
+        period = 2 * np.pi / given["k"]
+        first, last = PERIODS[self.body]
+        rows = (tables[0][:, 0] >= first * period) & (tables[0][:, 0] <= (last + 1e-6) * period)
+        table = tables[0][rows]
         time, columns = table[:, 0] - table[:, 0].mean(), table[:, 1:]
+        odd, even = columns, columns
+        if self.moves:      # what is linear in the wave, however slowly it decays, changes its sign with the wave
+            back = tables[1][rows, 1:]
+            odd, even = 0.5 * (columns - back), 0.5 * (columns + back)
         weight = np.cos(np.pi * time / (time[-1] - time[0]))[:, None]**2
 
-        def harmonics(omega):
+        def harmonics(omega, columns):
             waves = [f(m * omega * time) for m in (1, 2, 3) for f in (np.cos, np.sin)]
             basis = np.column_stack([np.ones_like(time), time, *waves]) * weight
             found = np.linalg.lstsq(basis, columns * weight, rcond=None)[0]
             return found, ((columns * weight - basis @ found)[:, 0]**2).sum()
 
-        self.omega = minimize_scalar(lambda omega: harmonics(omega)[1], bounds=(0.85 * self.k, 1.1 * self.k), method="bounded", options={"xatol": 1e-9}).x
-        found = harmonics(self.omega)[0]
-        self.waves, self.mean = found[2] + 1j * found[3], found[0, 3]      # of exp(-i omega t)
+        k = given["k"]
+        self.omega = minimize_scalar(lambda omega: harmonics(omega, odd)[1], bounds=(0.85 * k, 1.1 * k), method="bounded", options={"xatol": 1e-9}).x
+        found = harmonics(self.omega, odd)[0]
+        self.waves, self.mean = found[2] + 1j * found[3], harmonics(self.omega, even)[0][0, 3]      # of exp(-i omega t)
 
     def offset(self):
         """of a wall, in spacings, from the frequency of the wave alone"""
@@ -79,10 +94,10 @@ class Run:
 
     def measure(self, offset):
         omega, given = self.omega, self.given
-        wave, left, right, force = self.waves
-        length, x0, area = given["length"], given["x0"], given["area"]
+        wave, left, right, force, speed = self.waves
+        length, x0, area, width = given["length"], given["x0"], given["area"], given["width"]
         q, viscosity, offset = np.pi / length, given["mu"] + given["kappa"], offset / self.n
-        push = given["gain"] * self.k * wave * (1 - 0.5 * abs(wave / given["mach"])**2)
+        push = given["gain"] * given["k"] * wave * (1 - 0.5 * abs(wave / given["mach"])**2)
 
         # plane waves left and right of the cylinder: their ratio is that of the densities next to the walls, and they have the momentum of the fluid
         (free_left, more_left), (free_right, more_right) = (between(omega, viscosity, sign * push, q, x, offset) for sign, x in ((1, x0), (-1, length - x0)))
@@ -93,75 +108,113 @@ class Run:
         p, u, push = 0.5 * (p_left + p_right), 0.5 * (u_left - u_right), push * np.sin(q * x0)
 
         # at the cylinder, with the flow around those of the next periods of the box
-        others = np.pi * area / (6 * given["width"]**2)
-        dipole = 1 + added_mass(np.sqrt(2 * given["mu"] * np.pi / (omega * area)))
-        u /= 1 - others * dipole
-        acceleration, slope = -1j * omega * u, 1j * omega * p * (1 - others)
+        radius, hold = np.sqrt(area / np.pi), HOLD * given["k"] / omega
+        cylinder = Cylinder(self.body, omega * radius, np.sqrt(2 * given["mu"] / omega) / radius, given["kappa"] / radius, self.ratio, self.c, hold)
+        others, expansion = np.pi * area / (6 * width**2), 1 - cylinder.expansion
+        far = u
+        for _ in range(3):
+            dipole, velocity = cylinder.first_order(u, push * radius)
+            u = far + others * dipole
+        acceleration, slope = -1j * omega * u, 1j * omega * p * (1 - others * expansion)
         unit = area * omega * (abs(left)**2 + abs(right)**2) / 8 * np.sin(2 * omega * x0)
         self.force = self.mean / unit
-        self.theory = 0.5 * area * (p.conjugate() * (acceleration - push) + (dipole * u).conjugate() * slope).real / unit
-        self.plane = plane_wave(self.delta)
-        self.error = self.force / self.theory - 1
-        self.first_order = abs(force / area + push) / abs(dipole * acceleration) - 1
+        self.steady = cylinder.steady_flow(length / radius, width / radius, x0 / radius)
+        self.size = inviscid(self.body, omega * radius, self.ratio, self.c, hold, omega * x0) - inviscid(self.body, 1e-3, self.ratio, self.c, hold)
+        self.theory = 0.5 * area * ((expansion * p).conjugate() * (acceleration - push) + dipole.conjugate() * slope).real / unit + self.steady + self.size
+        # of the force, or for bodies that move, on which the forces of their volume and of their motion may cancel, of the unit
+        self.error = (self.force - self.theory) / (1 if self.moves else self.theory)
+        self.first_order = abs(speed / velocity if self.moves else (force / area + push) / (acceleration * added_mass(cylinder.delta) + acceleration)) - 1
 
 
-def plane_wave(delta):
-    """the mean force on a cylinder at rest over pi a^2 k E sin 2kx, for a small ka in an infinite fluid"""
-    return 2 + added_mass(delta).real
+def small(body, delta, ratio=1.0, hold=0.0, steady=True):
+    """Theory of a small ka; with the steady flow in the box of the runs"""
+    cylinder = Cylinder(body, WAVENUMBER, delta, BULK * 0.5 * delta**2 * WAVENUMBER, ratio, hold=hold)
+    length = np.pi / WAVENUMBER
+    return cylinder.expansion_and_dipole().real + (cylinder.steady_flow(length, WIDTH, 0.25 * length) if steady else 0)
 
 
 def plot(path, runs):
     plt = pyplot()
-    figure, (forces, errors) = plt.subplots(1, 2, figsize=(9.2, 3.9))
-    delta = np.linspace(0.02, 1.2, 100)
-    forces.plot(delta, [plane_wave(d) for d in delta], "k-", lw=0.9, label="theory, small $ka$")
+    figure, (forces, errors, light) = plt.subplots(1, 3, figsize=(11.5, 3.9))
+    walls = [run for run in runs if run.body == "wall" and run.support == SUPPORT]
+    delta = np.linspace(0.02, 1.2, 25)
+    forces.plot(delta, [small("wall", one, steady=False) for one in delta], "k-", lw=0.9, label="theory, small $ka$")
     forces.axhline(3, color="k", lw=0.7, ls=":", label="without viscosity")
-    errors.axhline(0, color="k", lw=0.5)
-    for n, mark in ((4, "^"), (6, "s"), (8, "o")):
-        some = [run for run in runs if run.n == n and run.k == 0.25]
+    for n, mark in ((4, "^"), (6, "s"), (10, "o")):
+        some = [run for run in walls if run.n == n]
         forces.plot([run.delta for run in some], [run.force for run in some], mark, color="C0", mfc="none", label=f"{n} particles in the radius")
-    some = [run for run in runs if run.delta == 0.6 and run.k == 0.25]
+    forces.plot([run.delta for run in walls], [run.theory for run in walls], "_", color="k", ms=9, label="theory in full")
+    forces.set(title="cylinder at rest", xlabel="boundary layer over radius, $\\delta/a$", ylabel="mean force over $\\pi a^2 k E \\sin 2kx$",
+               xlim=(0, 1.2), ylim=(2, 6.5))
+    forces.legend(loc="upper left")
+
+    some = [run for run in walls if run.delta == 0.6]
+    errors.axhline(0, color="k", lw=0.5)
     errors.plot([1 / run.n for run in some], [100 * run.error for run in some], "o-", color="C0", mfc="none", lw=0.8, label="mean force")
     errors.plot([1 / run.n for run in some], [100 * run.first_order for run in some], "x-", color="C1", lw=0.8, label="force of first order")
-    some = [run for run in runs if run.k == 0.25]
-    forces.plot([run.delta for run in some], [run.theory for run in some], "_", color="k", ms=9, label="theory, waves that are there")
-    forces.set(xlabel="boundary layer over radius, $\\delta/a$", ylabel="mean force over $\\pi a^2 k E \\sin 2kx$", xlim=(0, 1.2), ylim=(2, 6))
-    forces.legend(loc="upper left")
-    errors.set(xlabel="particle spacing over radius", ylabel="deviation from theory [%], $\\delta/a$ = 0.6", xlim=(0, 0.27), ylim=(-20, 5))
+    errors.set(title="at rest, $\\delta/a$ = 0.6", xlabel="particle spacing over radius", ylabel="deviation from theory [%]", xlim=(0, 0.27), ylim=(-20, 5))
     errors.legend(loc="lower left")
-    return save(figure, path, legends=(forces, errors))
+
+    some = [run for run in runs if run.body == "rigid" and run.ratio == LIGHT]
+    light.axhline(0, color="k", lw=0.5)
+    light.plot(delta, [small("rigid", one, LIGHT, HOLD, steady=False) for one in delta], "k--", lw=0.9, label="theory, no steady flow")
+    light.plot(delta, [small("rigid", one, LIGHT, HOLD) for one in delta], "k-", lw=0.9, label="theory, steady flow in the box")
+    light.plot([run.delta for run in some], [run.theory for run in some], "_", color="k", ms=9, label="theory in full")
+    light.plot([run.delta for run in some], [run.force for run in some], "s", color="C2", mfc="none", label="particles")
+    light.set(title=f"rigid body of {LIGHT:g} of the density", xlabel="boundary layer over radius, $\\delta/a$", ylabel="mean force over $\\pi a^2 k E \\sin 2kx$",
+              xlim=(0, 1.2), ylim=(-0.8, 0.8))
+    light.legend(loc="upper left")
+    return save(figure, path, legends=(forces, errors, light))
 
 
 def main():
     example = Example(HERE, "The force of sound on a cylinder.")
     args = example.arguments()
     runs = [Run(*case) for case in (QUICK_CASES if args.quick else CASES)]
-    alone = Run(0.6, 4 if args.quick else 6, 0.25, cylinder="no", width=2)
-    example.run({run.name: run.variables for run in [*runs, alone]})
-    for run in [*runs, alone]:
+    alone = Run("none", 0.6, 4 if args.quick else 6, width=2)
+    rigid = [] if args.quick else [Run("none", 0.6, 6, 1, c, ends="rigid", width=2) for c in (1, 2, 4)]
+    example.run({name: variables for run in [*runs, *rigid, alone] for name, variables in run.jobs().items()})
+    for run in [*runs, *rigid, alone]:
         run.read(example.out)
     offset = alone.offset()
     for run in runs:
         run.measure(offset)
-    runs.sort(key=lambda run: (run.delta, run.n, run.k))
+    runs.sort(key=lambda run: (["wall", "drop", "rigid"].index(run.body), run.ratio, run.delta, run.n))
 
-    print(f"\nwave alone: frequency {alone.omega * alone.given['length'] / np.pi:.4f} of that of walls at the surface, which act {offset:.2f} spacings behind it\n")
+    print(f"\nwave alone: frequency {alone.omega * alone.given['length'] / np.pi:.4f} of that of walls at the surface, which act {offset:.2f} spacings behind it")
+    for run in rigid:
+        print(f"between rigid bodies with a modulus of {run.c**2:g} times that of the fluid: {run.offset():.2f} spacings behind it")
+    print("shear modulus of the lattice over pressure: " + ", ".join(f"{elasticity(support):.4f} at a support of {support:g}" for support in (3, 4, SUPPORT)) + "\n")
     table = example.out / "radiation_force.csv"
-    with csv_rows(table, ["delta", "particles", "ka", "force", "theory", "of_small_ka", "error", "error_of_first_order"]) as writerow:
-        print("delta/a  particles in a  k a   force    theory   theory, small ka  error    error of the force of first order")
+    header = ["body", "ratio", "c", "delta", "particles", "support", "force", "theory", "steady", "size", "error", "error_of_first_order"]
+    with csv_rows(table, header) as writerow:
+        print("body   density  c       delta/a  particles in a  support  force    theory   steady flow  size     error    first order")
         for run in runs:
-            row = [f"{run.delta:g}", run.n, f"{run.k:g}", f"{run.force:.4f}", f"{run.theory:.4f}", f"{run.plane:.4f}", f"{run.error:.4f}", f"{run.first_order:.4f}"]
+            row = [run.body, f"{run.ratio:g}", f"{run.c:g}", f"{run.delta:g}", run.n, f"{run.support:g}", *(f"{number:.4f}" for number in (
+                   run.force, run.theory, run.steady, run.size, run.error, run.first_order))]
             writerow(row)
-            print("{:<8} {:<15} {:<5} {:<8} {:<8} {:<17} {:<8} {}".format(*row))
+            print("{:<6} {:<8} {:<7} {:<8} {:<15} {:<8} {:<8} {:<8} {:<12} {:<8} {:<8} {}".format(*row))
     print()
 
-    finest = max(run.n for run in runs)
-    example.merit("largest error of the force of first order", max((run.first_order for run in runs), key=abs), -FIRST_ORDER, FIRST_ORDER)
-    example.merit("largest error of the mean force", min(run.error for run in runs), MEAN, 0)
+    light = [run for run in runs if run.body == "rigid" and run.ratio == LIGHT]
+    if light:
+        print(f"a rigid body of {LIGHT:g} of the density goes to the node of the pressure for delta/a above")
+        print(f"  {np.interp(0, [run.force for run in light], [run.delta for run in light]):.2f}  particles, between the runs")
+        for hold, steady, words in ((HOLD, True, "theory of a small ka"), (0, True, "theory, without the spring"), (0, False, "theory, without spring and steady flow")):
+            print(f"  {brentq(lambda delta: small('rigid', delta, LIGHT, hold, steady), 0.2, 3, xtol=1e-4):.2f}  {words}")
+        print()
+
+    walls = [run for run in runs if run.body == "wall" and run.support == SUPPORT]
+    example.merit("largest error of first order", max((run.first_order for run in runs), key=abs), -FIRST_ORDER, FIRST_ORDER)
+    example.merit("largest error of the force on a cylinder at rest", max((run.error for run in walls), key=abs), -WALLS, WALLS)
+    example.merit("largest error of the force on a cylinder that moves", max((run.error for run in runs if run.moves), key=abs), -MOVING, MOVING)
     if not args.quick:
-        coarse, fine = (run.error for run in runs if run.delta == 0.6 and run.k == 0.25 and run.n in (4, finest))
-        example.merit(f"error of the mean force, {finest} particles in the radius", fine, FINEST, 0)
-        example.merit("error with 4 particles over that of the finest lattice", coarse / fine, 1.3, 3)
+        finest = max(run.n for run in walls)
+        error = {run.n: run.error for run in walls if run.delta == 0.6}
+        example.merit(f"error of the force on a cylinder at rest, {finest} particles in the radius", error[finest], -FINEST, FINEST)
+        example.merit("error with 4 particles over that of the finest lattice", error[4] / error[finest], 1.5, 5)
+        example.merit("force on the light body, thinnest layer", light[0].force, -0.5, -0.3)
+        example.merit("force on the light body, thickest layer", light[-1].force, 0.3, 0.5)
     return example.finish(plot(example.out / "radiation_force.png", runs), table)
 
 

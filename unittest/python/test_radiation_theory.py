@@ -65,10 +65,13 @@ def test_steady_flow_is_linear_in_two_numbers(body):
     assert slopes @ cylinder.drawn(16.0)[0][2:] == pytest.approx(cylinder.force(16.0) - far, abs=1e-3)
 
 
-@pytest.mark.parametrize("kind, ratio, c, small", [("wall", 1, 1, 3), ("rigid", 0.1, 1, 1 - 1.8 / 1.1), ("drop", 2, 1, 0.5 + 2 / 3), ("drop", 1, 2, 0.75)])
-def test_size(kind, ratio, c, small):
-    """Small cylinders without viscosity; the next order is (ka)^2, with a logarithm."""
-    errors = [inviscid(kind, k, ratio, c) - small for k in (0.01, 0.1)]
+@pytest.mark.parametrize("kind, ratio, c, hold, small", [
+    ("wall", 1, 1, 0, 3), ("rigid", 0.1, 1, 0, 1 - 1.8 / 1.1), ("drop", 2, 1, 0, 0.5 + 2 / 3), ("drop", 1, 2, 0, 0.75),
+    ("rigid", 0.5, 1, 0.4, 1 - 2 * 0.74 / 1.26), ("drop", 0.5, 1, 0.4, -1 - 2 * 0.74 / 1.26)])
+def test_size(kind, ratio, c, hold, small):
+    """Small cylinders without viscosity, those with a spring of the density ratio - hold^2 (ratio + 1) in motion; the next order is (ka)^2, with a
+    logarithm."""
+    errors = [inviscid(kind, k, ratio, c, hold) - small for k in (0.01, 0.1)]
     assert abs(errors[0]) < 1e-3
     assert abs(errors[0]) < 0.05 * abs(errors[1])
 
