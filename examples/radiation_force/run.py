@@ -20,7 +20,7 @@ from run_lammps import Example, csv_rows, pyplot, save      # noqa: E402
 
 # body, thickness of the boundary layer, particles in a radius; density and speed of sound of the body over those of the fluid
 CASES = [("wall", 0.6, 10), ("rigid", 1.0, 6, 0.1, 12.65), ("rigid", 0.6, 6, 0.1, 12.65), ("rigid", 0.3, 6, 0.1, 12.65), ("rigid", 0.6, 6, 5, 1.789),
-         ("drop", 0.6, 6, 2, 1), ("drop", 0.6, 6, 0.5, 1.4142),
+         ("drop", 0.6, 6, 2, 1), ("drop", 0.6, 6, 1, 2), ("drop", 0.6, 6, 0.5, 1.4142),
          ("wall", 1.0, 6), ("wall", 0.6, 6), ("wall", 0.3, 6), ("wall", 0.6, 6, 1, 1, 4), ("wall", 0.6, 4)]
 QUICK_CASES = [("wall", 0.6, 4), ("drop", 0.6, 4, 2, 1)]
 WAVENUMBER, WIDTH, BULK, HOLD, SUPPORT = 0.25, 10, 2, 0.3, 4.25     # as in the input
