@@ -26,6 +26,7 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <cstring>
@@ -36,7 +37,8 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), value(new Value[3])
 {
   if (!Fields::with_spins(atom))
     error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);
@@ -51,6 +53,10 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   global_freq = 1;
   extscalar = extvector = 1;
 }
+
+/* ---------------------------------------------------------------------- */
+
+FixSPHTorque::~FixSPHTorque() = default;
 
 /* ---------------------------------------------------------------------- */
 
@@ -181,4 +187,11 @@ void FixSPHTorque::write_restart(FILE *fp)
 void FixSPHTorque::restart(char *buf)
 {
   if (comm->me == 0) memcpy(&work, buf, sizeof(double));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixSPHTorque::memory_usage()
+{
+  return value[0].memory_usage() + value[1].memory_usage() + value[2].memory_usage();
 }

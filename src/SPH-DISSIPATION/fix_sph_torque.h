@@ -21,9 +21,13 @@ FixStyle(sph/torque,FixSPHTorque);
 #define LMP_FIX_SPH_TORQUE_H
 
 #include "fix.h"
-#include "sph_dissipation_value.h"
+
+#include <memory>
 
 namespace LAMMPS_NS {
+namespace SPHDissipation {
+  class Value;
+}
 
 // Torque on every particle of a group from numbers or variables, and its work: the body torque m G
 // of a micropolar fluid, P3 (15).
@@ -31,6 +35,7 @@ namespace LAMMPS_NS {
 class FixSPHTorque : public Fix {
  public:
   FixSPHTorque(class LAMMPS *, int, char **);
+  ~FixSPHTorque() override;
   int setmask() override;
   void init() override;
   void setup(int) override;
@@ -39,13 +44,10 @@ class FixSPHTorque : public Fix {
   double compute_vector(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  double memory_usage() override
-  {
-    return value[0].memory_usage() + value[1].memory_usage() + value[2].memory_usage();
-  }
+  double memory_usage() override;
 
  private:
-  SPHDissipation::Value value[3];
+  const std::unique_ptr<SPHDissipation::Value[]> value;    // three
   double total[3] = {};    // torque on all particles in the last step, of this rank
   double power = 0.0;      // on this rank in the last step
   double work = 0.0;       // since the fix was defined, of this rank
