@@ -152,6 +152,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::build_host_list()
   const int inum = host_list->inum = pair->list->inum;
   host_list->grow(nlocal, nlocal);
   std::fill_n(host_list->numneigh, nlocal, 0);
+  std::fill_n(host_list->firstneigh, nlocal, static_cast<int *>(nullptr));
   host_neighbors.clear();
   std::vector<std::size_t> first(inum);
   for (int ii = 0; ii < inum; ii++) {

@@ -65,6 +65,9 @@ namespace SPHDissipation {
 
   template <class T> T over_all(MPI_Comm world, T mine, MPI_Op op)
   {
+    static_assert(std::is_same<T, double>::value || std::is_same<T, int>::value ||
+                      (std::is_integral<T>::value && sizeof(T) == sizeof(long long)),
+                  "MPI_INT, MPI_LONG_LONG, or MPI_DOUBLE");
     const MPI_Datatype whole = (sizeof(T) == sizeof(int)) ? MPI_INT : MPI_LONG_LONG;
     MPI_Allreduce(MPI_IN_PLACE, &mine, 1, std::is_integral<T>::value ? whole : MPI_DOUBLE, op,
                   world);

@@ -87,9 +87,9 @@ namespace SPHDissipation {
       double sum = mu;
       if (a[POWER_N] != 0.0) {
         const double exponent = a[POWER_N] - 1.0;
-        if (exponent == 0.0 || rate > 0.0)
-          sum = between(a[POWER_LEAST], (exponent == 0.0) ? mu : mu * pow(rate, exponent),
-                        a[POWER_MOST]);
+        const bool constant = exponent == 0.0 || mu == 0.0;
+        if (constant || rate > 0.0)
+          sum = between(a[POWER_LEAST], constant ? mu : mu * pow(rate, exponent), a[POWER_MOST]);
         else
           sum = (exponent < 0.0) ? a[POWER_MOST] : a[POWER_LEAST];
       } else if (a[CARREAU_LAMBDA] != 0.0) {
@@ -116,7 +116,7 @@ namespace SPHDissipation {
     static Range range(const double *a, double mu)
     {
       Range of = {mu, mu};
-      if (a[POWER_N] == 1.0)
+      if (a[POWER_N] == 1.0 || (a[POWER_N] != 0.0 && mu == 0.0))
         of.least = of.most = between(a[POWER_LEAST], mu, a[POWER_MOST]);
       else if (a[POWER_N] != 0.0)
         of = {a[POWER_LEAST], a[POWER_MOST]};

@@ -255,7 +255,7 @@ def test_arrhenius_of_two_fluids(lammps):
     assert any("viscosity depends on it, have none" in line for line in lammps(header(2) + "read_data box.data\n" + model + rest + "run 0\n").warnings)
 
 
-@pytest.mark.parametrize("keywords, ignored", [("arrhenius 3 1 4", True), ("cross 1 1 0", True), ("arrhenius 3 1 4 yield 0.3 40", False)])
+@pytest.mark.parametrize("keywords, ignored", [("arrhenius 3 1 4", True), ("cross 1 1 0", True), ("power 0.5 0 1", True), ("power 1.5 0.1 1", False), ("arrhenius 3 1 4 yield 0.3 40", False)])
 def test_law_without_a_viscosity(lammps, keywords, ignored):
     disordered(2, 12).write(lammps.path("box.data"))
     found = lammps(header(2) + "read_data box.data\n" + fluid(2, mu=0.0, keywords=f"cv 2 {keywords}") + "fix FLUID all sph/bulk\nrun 0\n").warnings
