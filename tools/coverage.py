@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-only
 """Which lines of the C++ sources the tests run, by gcov.
 
-    CXXFLAGS="-O1 --coverage" ./sphd test         # or parts of it: -R NAME; a build folder of its own
+    CXXFLAGS=--coverage ./sphd test         # or parts of it: -R NAME; a build folder of its own
     tools/coverage.py "$(dirname "$(readlink -f build/lmp)")"
 
 Prints the table per file: lines, lines not run, share that is run; with --lines also the lines that no test runs.
@@ -15,7 +15,6 @@ import json
 import subprocess
 import tempfile
 from pathlib import Path
-
 
 
 def counts(build):
