@@ -119,13 +119,13 @@ namespace SPHDissipation {
   {
     switch (shear) {
       case Shear::MG:
-        return surface ? 25.0 : 21.0;
+        return surface ? 33.0 : 21.0;
       case Shear::MG_FR:
-        return surface ? 21.0 : 17.0;
+        return surface ? 28.0 : 17.0;
       case Shear::MORRIS:
-        return surface ? 11.0 : 8.0;
+        return surface ? 14.0 : 8.0;
       case Shear::ESPANOL:
-        return surface ? 13.0 : 10.0;
+        return surface ? 17.0 : 10.0;
       default:
         return 0.0;
     }

@@ -35,7 +35,11 @@ namespace SPHDissipation {
 
   constexpr double CLOSEST = 0.25;
   constexpr double CLOSEST_MEAN = 0.45;
-  constexpr double CLOSEST_PAIR = 0.5;    // of surface_factor(): the first layer of a lattice
+
+  // Least distance d in surface_factor(), in spacings; in disorder a third of the first layer of the fluid is nearer than
+  // the first layer of a lattice, whose distance is taken where the surface is not known
+
+  constexpr double CLOSEST_PAIR = 0.2, FIRST_LAYER = 0.5;
 
   // q = level + slope d + bend d^2 next to the surface, d < 0 behind it
 
@@ -289,11 +293,14 @@ namespace SPHDissipation {
 
   // Symmetric friction across a surface: the pair of f with w has that of the velocity of the body itself, times (d + h)/d
   // with the distances d of f and h of w from the surface.  Of a velocity that is zero at the surface and linear in d, this
-  // is the force of its continuation behind the surface, -h times its slope
+  // is the force of its continuation behind the surface, -h times its slope.  Where the surface is not known, d is that of
+  // the first layer of a lattice.
 
   SPH_FUNCTION double surface_factor(const Surface &s, const double *r)
   {
-    const double inside = -s.depth - inner_product(s.normal, r), least = CLOSEST_PAIR * s.spacing;
+    const bool known = inner_product(s.normal, s.normal) > 0.0;
+    const double inside = -s.depth - inner_product(s.normal, r);
+    const double least = (known ? CLOSEST_PAIR : FIRST_LAYER) * s.spacing;
     const double d = (inside > least) ? inside : least;
     return (d + s.depth) / d;
   }
