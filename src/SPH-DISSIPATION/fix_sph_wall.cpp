@@ -36,6 +36,7 @@
 #include "sph_dissipation_integrate.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_value.h"
+#include "sph_dissipation_viscous.h"
 #include "sph_dissipation_wall_motion.h"
 #include "sph_dissipation_wall_terms.h"
 #include "update.h"
@@ -188,7 +189,6 @@ void FixSPHWall::init()
                style);
 
   if (bodies) check_bodies(fluid);
-  if (bodies) bodies->init(by_molecule);
   frozen = bodies && !fluid->model->choice.continuity;
   motion->init();
   if (!heat_value->init(lmp, fmt::format("fix {} heat", style), true))
@@ -203,7 +203,7 @@ void FixSPHWall::init()
 
   exclude_walls();
   if (bodies)
-    check_movers();
+    bodies->init(by_molecule, check_movers());
   else
     check_particles();
   const std::set<int> felt = interacting_types(fluid);
@@ -320,6 +320,7 @@ void FixSPHWall::setup(int vflag)
                    "from each other and from walls",
                    id, style);
   checked = true;
+  if (bodies) note_forces();
   post_force(vflag);
 }
 
@@ -360,7 +361,8 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
 
 void FixSPHWall::post_integrate()
 {
-  bodies->advance(!noise);
+  bodies->advance(find_fluid(force)->viscous->choice().extrapolation(noise));
+  add_rest_of_heat();
   set_acting();
 }
 
@@ -381,6 +383,25 @@ void FixSPHWall::final_integrate()
 void FixSPHWall::end_of_step()
 {
   bodies->end_step();
+  note_forces();
+  add_rest_of_heat();
+}
+
+void FixSPHWall::note_forces()
+{
+  const Fluid *const fluid = find_fluid(force);
+  if (fluid->viscous->active()) bodies->note_forces(fluid->own_forces());
+}
+
+/* ----------------------------------------------------------------------
+   as fix sph/bulk does for the particles of the fluid
+------------------------------------------------------------------------- */
+
+void FixSPHWall::add_rest_of_heat()
+{
+  if (!find_fluid(force)->viscous->active()) return;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) atom->esph[i] += bodies->rest_of_heat(i);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -392,6 +413,11 @@ int FixSPHWall::number_bodies(int first, double *body)
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) body[i] = first + bodies->of(i);
   return first + bodies->size();
+}
+
+RigidMotions *FixSPHWall::rigid_motions()
+{
+  return bodies.get();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -80,6 +80,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   bool has_bodies() const override { return bodies != nullptr; }
   bool has_frozen_pressure() const override { return frozen; }
   int number_bodies(int, double *) override;
+  SPHDissipation::RigidMotions *rigid_motions() override;
   bool gives_heat() const override;
   void set_heat(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *, bool) override;
 
@@ -119,8 +120,10 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
   void read_bodies(const std::string &others);
   void check_bodies(const SPHDissipation::Fluid *) const;
-  void check_movers() const;
+  bool check_movers() const;
   void set_acting();
+  void note_forces();
+  void add_rest_of_heat();
 
   bool is_wrong(double value) const;    // as the value of keyword heat
   void check_heat() const;

@@ -16,7 +16,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "fix_sph_bulk.h"
 #include "force.h"
 #include "group.h"
 #include "math_const.h"
@@ -26,6 +25,7 @@
 #include "pair_hybrid.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_value.h"
@@ -152,22 +152,19 @@ void FixSPHWall::check_bodies(const Fluid *fluid) const
   refuse(fluid->model->has_rheology(), "viscosities that are not constant");
   refuse(!modify->get_fix_by_style("^sph/open").empty(), "fix sph/open");
   refuse(!modify->get_fix_by_style("^sph/torque").empty(), "fix sph/torque");
-  for (const auto &ifix : modify->get_fix_list()) {
-    auto *const integrator = dynamic_cast<FixSPHBulk *>(ifix);
-    refuse(integrator && integrator->has_viscous_stage(),
-           fmt::format("viscous rkl2 or implicit of fix {}", ifix->style));
-  }
 }
 
 /* ----------------------------------------------------------------------
-   Check that one fix for rigid bodies, and no other fix, moves the particles of the bodies.
+   Check that one fix for rigid bodies, and no other fix, moves the particles of the bodies.  Return whether it moves them with the
+   angular velocity of the orientation in the middle of the step, as all but rigid/nve and its like do.
 ------------------------------------------------------------------------- */
 
-void FixSPHWall::check_movers() const
+bool FixSPHWall::check_movers() const
 {
   if (group->count(igroup) == 0)
     error->all(FLERR, "Fix {} group {} has no particles", style, group->names[igroup]);
   std::vector<int> movers(atom->nlocal, 0);
+  bool lagging = false;
   for (const auto &other : modify->get_fix_list()) {
     if (other == this || !(other->time_integrate || dynamic_cast<FixSPHWall *>(other))) continue;
     if (other->rigid_flag) {
@@ -178,8 +175,14 @@ void FixSPHWall::check_movers() const
                    "Fix {} {} move rigid cannot be used with the thermostat of fix {} {}: the "
                    "noise of the pair style, keyword temp, is one",
                    id, style, other->id, other->style);
+      bool is_mover = false;
       for (int i = 0; i < atom->nlocal; i++)
-        if (atom->mask[i] & other->groupbit) movers[i]++;
+        if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) {
+          movers[i]++;
+          is_mover = true;
+        }
+      if (!utils::strmatch(other->style, "^rigid/n"))
+        lagging = lagging || over_all<int>(world, is_mover, MPI_MAX);
       continue;
     }
     const auto shared = first_particle(lmp, [&](int i) {
@@ -197,6 +200,7 @@ void FixSPHWall::check_movers() const
                "Fix {} {} move rigid: {} must be moved by one fix for rigid bodies, as fix rigid "
                "or rigid/small",
                id, style, wrong);
+  return lagging;
 }
 
 /* ----------------------------------------------------------------------

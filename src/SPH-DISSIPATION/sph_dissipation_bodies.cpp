@@ -19,6 +19,7 @@
 #include "math_eigen.h"
 #include "math_extra.h"
 #include "neighbor.h"
+#include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_wall_terms.h"
 #include "update.h"
@@ -45,9 +46,10 @@ enum {
    bodies in the order of their molecules, on all processors
 ------------------------------------------------------------------------- */
 
-void Bodies::init(bool by_molecule_in)
+void Bodies::init(bool by_molecule_in, bool lagging_in)
 {
   by_molecule = by_molecule_in;
+  lagging = lagging_in;
   std::set<tagint> found;
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) found.insert(by_molecule ? atom->molecule[i] : 1);
@@ -121,43 +123,76 @@ void Bodies::sum(double **velocity)
       body.inertia[d] = trace - second[d];
       body.inertia[3 + d] = -second[3 + d];
     }
+    find_axes(body);
   }
 }
 
 /* ----------------------------------------------------------------------
-   Omega = I^-1 L, without the directions in which a line or a point has no inertia
+   of a line or a point without the directions in which it has no inertia
 ------------------------------------------------------------------------- */
 
-void Bodies::set_acting(Body &body, const double *v, const double *angular) const
+void Bodies::find_axes(Body &body) const
 {
   constexpr double NOTHING = 1.0e-7;    // of the largest moment of inertia
-  const double angular_now[3] = {angular[0], angular[1], angular[2]};
-  for (int d = 0; d < 3; d++) {
-    body.v[d] = v[d];
-    body.omega[d] = 0.0;
-  }
   const double *const I = body.inertia;
-  if (domain->dimension == 2) {
-    if (I[2] > 0.0) body.omega[2] = angular_now[2] / I[2];
-    return;
+  double moment[3] = {0.0, 0.0, I[2]}, columns[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  if (domain->dimension == 3) {
+    const double tensor[3][3] = {{I[0], I[3], I[4]}, {I[3], I[1], I[5]}, {I[4], I[5], I[2]}};
+    MathEigen::jacobi3(tensor, moment, columns);
   }
-  const double tensor[3][3] = {{I[0], I[3], I[4]}, {I[3], I[1], I[5]}, {I[4], I[5], I[2]}};
-  double moment[3], axis[3][3];
-  MathEigen::jacobi3(tensor, moment, axis);    // columns
   const double most = std::max({moment[0], moment[1], moment[2]});
   for (int k = 0; k < 3; k++) {
-    if (!(moment[k] > NOTHING * most)) continue;
-    double part = 0.0;
-    for (int d = 0; d < 3; d++) part += axis[d][k] * angular_now[d];
-    for (int d = 0; d < 3; d++) body.omega[d] += axis[d][k] * part / moment[k];
+    body.moment[k] = (moment[k] > NOTHING * most) ? moment[k] : 0.0;
+    for (int d = 0; d < 3; d++) body.axis[k][d] = columns[d][k];
   }
+}
+
+/* ----------------------------------------------------------------------
+   I^-1 L, along the principal axes, or in space
+------------------------------------------------------------------------- */
+
+static void turn_along(const Bodies::Body &body, const double *angular, double *rate)
+{
+  for (int k = 0; k < 3; k++)
+    rate[k] = (body.moment[k] > 0.0) ? inner_product(body.axis[k], angular) / body.moment[k] : 0.0;
+}
+
+static void from_axes(const Bodies::Body &body, const double *rate, double *omega)
+{
+  for (int d = 0; d < 3; d++)
+    omega[d] = rate[0] * body.axis[0][d] + rate[1] * body.axis[1][d] + rate[2] * body.axis[2][d];
+}
+
+static void set_acting(Bodies::Body &body, const double *v, const double *angular)
+{
+  double rate[3];
+  turn_along(body, angular, rate);
+  from_axes(body, rate, body.omega);
+  if (v != body.v) std::copy_n(v, 3, body.v);
+}
+
+static void rotation_by(const double *omega, double time, double rotation[3][3])
+{
+  const double rate = MathExtra::len3(omega), angle = rate * time;
+  const double s = sin(angle), c = 1.0 - cos(angle);
+  double axis[3] = {0.0, 0.0, 0.0};
+  for (int d = 0; d < 3 && rate > 0.0; d++) axis[d] = omega[d] / rate;
+  const double cross[3][3] = {
+      {0.0, -axis[2], axis[1]}, {axis[2], 0.0, -axis[0]}, {-axis[1], axis[0], 0.0}};
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++)
+      rotation[a][b] = (a == b ? 1.0 - c : 0.0) + s * cross[a][b] + c * axis[a] * axis[b];
 }
 
 /* ---------------------------------------------------------------------- */
 
 void Bodies::velocity_at(int i, double *v) const
 {
-  const Body &body = bodies[of(i)];
+  velocity_of(bodies[of(i)], i, v);
+}
+
+void Bodies::velocity_of(const Body &body, int i, double *v) const
+{
   double r[3];
   domain->unmap(atom->x[i], atom->image[i], r);
   for (int d = 0; d < 3; d++) r[d] -= body.x[d];
@@ -205,34 +240,41 @@ bool Bodies::start(bool keep)
 }
 
 /* ----------------------------------------------------------------------
-   The rotation of a step is that by the angular velocity in its middle.
+   The rotation of a step is that by the angular velocity in its middle.  The angular momentum, which gets the torques, belongs to
+   the orientation in the middle if the particles move with its angular velocity.  Forces of others are what the bodies have got
+   in the first half of the step, and not by the pair style.
 ------------------------------------------------------------------------- */
 
-void Bodies::advance(bool extrapolate)
+void Bodies::advance(double extrapolation)
 {
+  const std::vector<Body> before = bodies;
+  const double dt = update->dt, rate = (dt > 0.0) ? 2.0 / dt : 0.0;
   sum(atom->v);
   for (Body &body : bodies) {
-    double v[3], angular[3];
-    std::copy_n(body.v, 3, v);
-    std::copy_n(body.angular, 3, angular);
-    set_acting(body, v, angular);
-    const double rate = MathExtra::len3(body.omega), angle = rate * update->dt;
-    const double s = sin(angle), c = 1.0 - cos(angle);
-    double axis[3] = {0.0, 0.0, 0.0};
-    for (int d = 0; d < 3 && rate > 0.0; d++) axis[d] = body.omega[d] / rate;
-    const double cross[3][3] = {
-        {0.0, -axis[2], axis[1]}, {axis[2], 0.0, -axis[0]}, {-axis[1], axis[0], 0.0}};
-    for (int a = 0; a < 3; a++)
-      for (int b = 0; b < 3; b++)
-        body.rotation[a][b] = (a == b ? 1.0 - c : 0.0) + s * cross[a][b] + c * axis[a] * axis[b];
+    set_acting(body, body.v, body.angular);
+    rotation_by(body.omega, dt, body.rotation);
   }
   if (neighbor->ago == 0 || update->ntimestep == update->firststep + 1) check(atom->v);
-  if (!extrapolate) return;
-  for (Body &body : bodies) {
+
+  for (int k = 0; k < size(); k++) {
+    Body &body = bodies[k];
+    std::copy_n(body.v, 3, body.v_middle);
+    std::copy_n(body.angular, 3, body.angular_middle);
+    if (lagging) {
+      double back[3][3];
+      rotation_by(body.omega, -0.5 * dt, back);
+      MathExtra::matvec(back, body.angular, body.angular_middle);
+    }
+    body.rest =
+        rest_between(before[k], body.v_end, body.angular_end, body.v_middle, body.angular_middle);
     double v[3], angular[3];
     for (int d = 0; d < 3; d++) {
-      v[d] = 2.0 * body.v[d] - body.v_end[d];
-      angular[d] = 2.0 * body.angular[d] - body.angular_end[d];
+      const double dv = body.v_middle[d] - body.v_end[d];
+      const double turn = body.angular_middle[d] - body.angular_end[d];
+      body.others[0][d] = rate * body.mass * dv - body.own[0][d];
+      body.others[1][d] = rate * turn - body.own[1][d];
+      v[d] = body.v_middle[d] + extrapolation * dv;
+      angular[d] = body.angular_middle[d] + extrapolation * turn;
     }
     set_acting(body, v, angular);
   }
@@ -242,13 +284,133 @@ void Bodies::advance(bool extrapolate)
 
 void Bodies::end_step()
 {
-  std::vector<Body> acting = bodies;
+  const std::vector<Body> acting = bodies;
   sum(atom->v);
   for (int k = 0; k < size(); k++) {
     std::copy_n(bodies[k].v, 3, bodies[k].v_end);
     std::copy_n(bodies[k].angular, 3, bodies[k].angular_end);
     std::copy_n(acting[k].v, 3, bodies[k].v);
-    std::copy_n(acting[k].omega, 3, bodies[k].omega);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Bodies::note_forces(const ForceSum *forces)
+{
+  std::vector<double> all(WIDTH * bodies.size(), 0.0);
+  sum_forces(
+      [=](int i) {
+        return forces[i].f;
+      },
+      all.data());
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, world);
+  for (int k = 0; k < size(); k++) {
+    Body &body = bodies[k];
+    std::copy_n(&all[WIDTH * k], WIDTH, body.own[0]);
+    body.rest =
+        rest_between(body, body.v_middle, body.angular_middle, body.v_end, body.angular_end);
+  }
+}
+
+void Bodies::sum_forces(const std::function<const double *(int)> &force, double *sums) const
+{
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const int k = of(i);
+    double r[3], torque[3];
+    domain->unmap(atom->x[i], atom->image[i], r);
+    for (int d = 0; d < 3; d++) r[d] -= bodies[k].x[d];
+    const double *const f = force(i);
+    cross_product(r, f, torque);
+    for (int d = 0; d < 3; d++) {
+      sums[WIDTH * k + d] += f[d];
+      sums[WIDTH * k + 3 + d] += torque[d];
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   See TimeStep and rest_of_heat() of the fluid: half a kick from the first velocity to the second one
+------------------------------------------------------------------------- */
+
+double Bodies::rest_between(const Body &body, const double *v, const double *angular,
+                            const double *v_after, const double *angular_after) const
+{
+  double mean[3], rate[3], omega[3], power = 0.0;
+  for (int d = 0; d < 3; d++) mean[d] = 0.5 * (angular[d] + angular_after[d]);
+  turn_along(body, mean, rate);
+  from_axes(body, rate, omega);
+  for (int d = 0; d < 3; d++)
+    power += body.own[0][d] * (body.v[d] - 0.5 * (v[d] + v_after[d])) +
+        body.own[1][d] * (body.omega[d] - omega[d]);
+  return 0.5 * update->dt * power;
+}
+
+double Bodies::rest_of_heat(int i) const
+{
+  const Body &body = bodies[of(i)];
+  return body.rest * atom->rmass[i] / body.mass;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Bodies::append(bool starts, RigidRows &rows) const
+{
+  for (const Body &body : bodies) {
+    double before[WIDTH], guess[WIDTH], others[WIDTH];
+    std::copy_n(starts ? body.v_end : body.v_middle, 3, before);
+    turn_along(body, starts ? body.angular_end : body.angular_middle, before + 3);
+    std::copy_n(body.v, 3, guess);
+    std::copy_n(body.others[0], 3, others);
+    for (int k = 0; k < 3; k++) {
+      guess[3 + k] = inner_product(body.axis[k], body.omega);
+      others[3 + k] = inner_product(body.axis[k], body.others[1]);
+    }
+    for (int k = 0; k < WIDTH; k++) {
+      rows.mass.push_back((k < 3) ? body.mass : body.moment[k - 3]);
+      rows.before.push_back(before[k]);
+      rows.guess.push_back(starts ? before[k] : guess[k]);
+      rows.others.push_back(starts ? 0.0 : others[k]);
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Bodies::velocities(const double *rows,
+                        const std::function<void(int, const double *)> &function) const
+{
+  std::vector<Body> moving = bodies;
+  for (int k = 0; k < size(); k++) {
+    std::copy_n(rows + WIDTH * k, 3, moving[k].v);
+    from_axes(moving[k], rows + WIDTH * k + 3, moving[k].omega);
+  }
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    double v[3];
+    velocity_of(moving[of(i)], i, v);
+    function(i, v);
+  }
+}
+
+void Bodies::add_forces(const std::function<const double *(int)> &force, double *rows) const
+{
+  std::vector<double> sums(WIDTH * bodies.size(), 0.0);
+  sum_forces(force, sums.data());
+  for (int k = 0; k < size(); k++) {
+    const double *const own = &sums[WIDTH * k];
+    for (int d = 0; d < 3; d++) {
+      rows[WIDTH * k + d] += own[d];
+      rows[WIDTH * k + 3 + d] += inner_product(bodies[k].axis[d], own + 3);
+    }
+  }
+}
+
+void Bodies::act(const double *rows)
+{
+  for (int k = 0; k < size(); k++) {
+    std::copy_n(rows + WIDTH * k, 3, bodies[k].v);
+    from_axes(bodies[k], rows + WIDTH * k + 3, bodies[k].omega);
   }
 }
 

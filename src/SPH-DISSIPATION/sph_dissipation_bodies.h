@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_BODIES_H
 
 #include "pointers.h"
+#include "sph_dissipation_boundary.h"
 
 #include <string>
 #include <unordered_map>
@@ -22,17 +23,22 @@
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  struct ForceSum;
 
   // Rigid bodies of particles that another fix moves: place and velocity of each from those of its particles, and the
   // velocity at the end of a step, extrapolated from that of its middle
 
-  class Bodies : protected Pointers {
+  class Bodies : public RigidMotions, protected Pointers {
    public:
     struct Body {
       double mass, x[3], v[3], omega[3];    // center of mass; acting velocity, of the forces
       double angular[3], inertia[6];        // angular momentum, about the center: xx yy zz xy xz yz
       double v_end[3], angular_end[3];      // at the end of the last step
-      double rotation[3][3];                // of the last step
+      double axis[3][3], moment[3];         // principal ones; 0 without inertia
+      double v_middle[3], angular_middle[3];    // in the middle of the last step
+      double own[2][3], others[2][3];    // last force and torque of the pair style, of others
+      double rest;                       // see rest_of_heat()
+      double rotation[3][3];             // of the last step
     };
 
     Bodies(class LAMMPS *lmp, int groupbit, const std::string &owner, const std::string &id) :
@@ -40,10 +46,11 @@ namespace SPHDissipation {
     {
     }
 
-    // a body is a molecule, or all particles are one; at the start of a run
-    void init(bool by_molecule);
+    // A body is a molecule, or all particles are one; at the start of a run.  lagging: the fix that moves them gives them the
+    // angular velocity of the orientation in the middle of the step
+    void init(bool by_molecule, bool lagging);
 
-    int size() const { return static_cast<int>(bodies.size()); }
+    int size() const override { return static_cast<int>(bodies.size()); }
     const Body &operator[](int k) const { return bodies[k]; }
     int of(int i) const;    // body of an owned particle
 
@@ -53,9 +60,23 @@ namespace SPHDissipation {
     // At the start of a run, with the velocities of the particles; keep: the acting velocity is vest of the particles.
     // Returns whether the bodies move as at the end of the last step.
     bool start(bool keep);
-    // after the particles have moved: the acting velocity is that of the middle of the step, or extrapolated to its end
-    void advance(bool extrapolate);
+    // after the particles have moved: the acting velocity is that of the middle of the step, with this part of the increment
+    // on it that there was since the last step
+    void advance(double extrapolation);
     void end_step();    // with the velocities at the end of the step
+
+    // of the pair style, at the end of a step and at the start of a run, on the owned particles
+    void note_forces(const ForceSum *);
+
+    // with these: energy of half a step, by which the forces of the pair style work at another velocity than the acting one, of an
+    // owned particle of its body
+    double rest_of_heat(int i) const;
+
+    void append(bool starts, RigidRows &) const override;
+    void velocities(const double *,
+                    const std::function<void(int, const double *)> &) const override;
+    void add_forces(const std::function<const double *(int)> &, double *) const override;
+    void act(const double *) override;
 
     // motion at the end of the last step in restart files: a number of each body and six for its velocity
     static constexpr int NRESTART = 7;
@@ -65,7 +86,7 @@ namespace SPHDissipation {
    private:
     const int groupbit;
     const std::string owner, id;
-    bool by_molecule = false, begun = false;
+    bool by_molecule = false, lagging = false, begun = false;
     std::unordered_map<tagint, int> number;    // of molecules
     std::vector<tagint> names;
     std::vector<Body> bodies;
@@ -73,7 +94,11 @@ namespace SPHDissipation {
 
     void sum(double **velocity);
     void check(double **velocity) const;
-    void set_acting(Body &, const double *v, const double *angular) const;
+    void find_axes(Body &) const;
+    void velocity_of(const Body &, int i, double *v) const;
+    void sum_forces(const std::function<const double *(int)> &, double *) const;
+    double rest_between(const Body &, const double *v, const double *angular, const double *v_after,
+                        const double *angular_after) const;
   };
 
 }    // namespace SPHDissipation

@@ -14,6 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_BOUNDARY_H
 #define LMP_SPH_DISSIPATION_BOUNDARY_H
 
+#include <functional>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -24,6 +25,34 @@ namespace SPHDissipation {
   struct BoundarySum;
   struct OpenImpact;
   struct Surface;
+
+  // Rigid bodies as unknowns of the large viscosities: six rows each, velocity and, along the principal axes, angular
+  // velocity; forces and torques have the same rows.  All processors have those of all bodies
+
+  struct RigidRows {
+    std::vector<double> mass, before, guess, others;    // as those of ViscousStage
+  };
+
+  class RigidMotions {
+   public:
+    static constexpr int WIDTH = 6;
+    virtual int size() const = 0;    // bodies
+
+    // starts: at the start of a run, with the velocities of the time of the positions
+    virtual void append(bool starts, RigidRows &) const = 0;
+
+    // function(i, velocity) for each of the owned particles
+    virtual void velocities(const double *rows,
+                            const std::function<void(int, const double *)> &) const = 0;
+
+    // of force(i) on the owned particles
+    virtual void add_forces(const std::function<const double *(int)> &, double *rows) const = 0;
+
+    virtual void act(const double *rows) = 0;    // these are the velocities that forces depend on
+
+   protected:
+    ~RigidMotions() = default;
+  };
 
   // Interface of a fix whose particles are not fluid, but represent what lies beyond its edge: what
   // the fix does between the two passes of the pair style.  The fix hands itself to
@@ -53,6 +82,7 @@ namespace SPHDissipation {
 
     virtual bool has_bodies() const { return false; }
     virtual int number_bodies(int first, double * /*body*/) { return first; }
+    virtual RigidMotions *rigid_motions() { return nullptr; }
 
     // The pressure of its particles is that of frozen fluid, BoundaryStage::set_frozen(), whose energy is that of the
     // equation of state

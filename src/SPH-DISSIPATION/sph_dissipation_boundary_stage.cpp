@@ -112,7 +112,7 @@ double BoundaryStage::conductivity(int i) const
 void BoundaryStage::run(NeighList *list)
 {
   begin(list);
-  extend();
+  extend(false);
   set_excess();
   extend_temperatures(false);
 }
@@ -206,15 +206,18 @@ void BoundaryStage::set_mean_pressure(int i, const BoundarySum &sum_of, const do
 
 /* ---------------------------------------------------------------------- */
 
-void BoundaryStage::extend()
+void BoundaryStage::extend(bool increments)
 {
+  if (increments && all_symmetric()) return;
   accumulate();
   BoundarySum *const first = sum.data();
   constexpr int NOT_OF_SPIN = offsetof(BoundarySum, wd3) / sizeof(double);
   exchange.reverse({field(first, &first->weight, NOT_OF_SPIN),
                     field(first, first->wd3, engine.has_spin() ? 6 : 0)});
   check();
-  for (auto boundary : boundaries) boundary->set_boundary(*this, surface.surface.data(), first);
+  for (auto boundary : boundaries)
+    if (!(increments && boundary->has_symmetric_friction()))
+      boundary->set_boundary(*this, surface.surface.data(), first);
 
   // pass 2 leaves the friction to add_friction(), but for the part that a noise with numbers of each partner needs
 
@@ -427,6 +430,7 @@ void BoundaryStage::add_linear_friction()
     own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
       for (int d = 0; d < 3; d++) {
         engine.force[pair.fluid].f[d] += own.force[k].f[d];
+        engine.force[pair.wall].f[d] -= own.force[k].f[d];
         if (engine.has_spin()) engine.side.torque(pair.fluid)[d] += own.side.torque(k)[d];
       }
     });
@@ -516,7 +520,7 @@ void BoundaryStage::find_energies_at_rest(NeighList *list)
 {
   set_reference_volume();
   begin(list);
-  extend();
+  extend(false);
   find_energies(0.0);
 }
 

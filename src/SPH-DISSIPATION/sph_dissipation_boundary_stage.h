@@ -59,8 +59,9 @@ namespace SPHDissipation {
     // after the pressures, before pass 2
     void run(NeighList *);
 
-    // the same again in this step, for other velocities and pressures of the fluid
-    void extend();
+    // the same again in this step, for other velocities and pressures of the fluid; increments: of velocities alone, after
+    // PressureStage::set_bulk_term(), where particles with symmetric friction have nothing but their velocity
+    void extend(bool increments);
 
     // after run(): of the pairs of fluid and walls, what rates of shear are made of
     void set_squares();

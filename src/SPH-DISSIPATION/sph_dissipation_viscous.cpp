@@ -143,10 +143,13 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
                     {omegaest && atom->nmax ? atom->torque[0] : nullptr, 3, omegaest ? 3 : 0}});
   gather();
   restore();
-  if (!boundary.empty()) find_rest();
+  if (!boundary.all_symmetric()) find_rest();
 
   solve_step();
   add_velocities(x);
+  Unknowns acting(guess.begin() + first_of_bodies(), guess.end());
+  for (std::size_t k = 0; k < acting.size(); k++) acting[k] += x[first_of_bodies() + k];
+  rigid.act(acting.data());
   statistics[SECONDS] = platform::walltime() - begin;
 }
 
@@ -181,7 +184,7 @@ bool StiffStage::is_unknown(int i) const
 void StiffStage::resize()
 {
   for (Unknowns *one : {&mass, &inverse_mass, &x, &residual, &before, &guess, &force})
-    one->resize(width * unknown.size());
+    one->resize(first_of_bodies() + rows_of_bodies);
 }
 
 /* ----------------------------------------------------------------------
@@ -193,6 +196,8 @@ void ViscousStage::find_unknowns(const double *inertia)
   unknown.clear();
   for (int i = 0; i < atom->nlocal; i++)
     if (is_unknown(i)) unknown.push_back(i);
+  rigid.find(update->setupflag);
+  rows_of_bodies = rigid.size();
 
   resize();
   others.resize(x.size());
@@ -205,6 +210,13 @@ void ViscousStage::find_unknowns(const double *inertia)
       before[row] = turns ? atom->omega[i][d - 3] : atom->v[i][d];
     }
   });
+  for (int k = 0; k < rows_of_bodies; k++) {
+    const std::size_t row = first_of_bodies() + k;
+    mass[row] = rigid.of().mass[k];
+    inverse_mass[row] = (mass[row] > 0.0) ? 1.0 / mass[row] : 0.0;
+    before[row] = rigid.of().before[k];
+    others[row] = rigid.of().others[k];
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -230,6 +242,9 @@ void ViscousStage::set_guess()
       others[row] = rate * mass[row] * carried;
       change[s][3 * i + c] = (same ? (s ? ahead_spin : ahead)[3 * i + c] : 0.0) - carried;
     }
+  });
+  rigid.velocities(rigid.of().guess.data(), [&](int i, const double *u) {
+    for (int c = 0; c < 3; c++) change[0][3 * i + c] = u[c] - atom->vest[i][c];
   });
 
   exchange.forward({{change[0].data(), 3, 3}, {change[1].data(), 3, omegaest ? 3 : 0}});
@@ -257,6 +272,14 @@ void ViscousStage::gather()
     }
     sums[3] += atom->rmass[i];
   }
+  const double *const on_bodies = rigid.forces([this](int i) {
+    return atom->f[i];
+  });
+  for (int k = 0; k < rows_of_bodies; k++) {
+    const std::size_t row = first_of_bodies() + k;
+    guess[row] = rigid.of().guess[k];
+    force[row] = on_bodies[k] + others[row];
+  }
   if (settings.mode != Viscous::IMPLICIT) return;    // nobody needs the scale
   sum(sums, 4);
   for (int d = 0; d < 3; d++) mean[d] = (sums[3] > 0.0) ? sums[d] / sums[3] : 0.0;
@@ -276,6 +299,9 @@ void ViscousStage::set_velocities(const Unknowns &values)
   for_unknown([&](int i, std::size_t row) {
     std::copy_n(&values[row], 3, particle[i].u);
     if (omegaest) std::copy_n(&values[row + 3], 3, engine.spin[i].w);
+  });
+  rigid.velocities(values.data() + first_of_bodies(), [&](int i, const double *u) {
+    std::copy_n(u, 3, particle[i].u);
   });
   exchange.forward({field(particle, particle->u, 3), engine.spins()});
 }
@@ -299,9 +325,9 @@ void ViscousStage::set_bulk_term()
 void ViscousStage::find_rest()
 {
   rest.clear();
-  set_velocities(Unknowns(width * unknown.size(), 0.0));
+  set_velocities(Unknowns(x.size(), 0.0));
   set_bulk_term();
-  boundary.extend();
+  boundary.extend(true);
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     if (!(atom->mask[i] & boundary.bits())) continue;
     const Particle &p = engine.particle[i];
@@ -319,8 +345,8 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
 {
   set_velocities(in);
   set_bulk_term();
-  if (!boundary.empty()) {
-    boundary.extend();
+  if (!boundary.all_symmetric()) {
+    boundary.extend(true);
     for (const auto &one : rest) {
       Particle &p = engine.particle[one.i];
       p.g -= one.g;
@@ -341,6 +367,10 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
       if (omegaest) out[row + 3 + d] = -engine.side.torque(i)[d];
     }
   });
+  const double *const on_bodies = rigid.forces([this](int i) {
+    return engine.force[i].f;
+  });
+  for (int k = 0; k < rows_of_bodies; k++) out[first_of_bodies() + k] = -on_bodies[k];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -366,6 +396,14 @@ void StiffStage::sum(double *values, int n) const
   MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, world);
 }
 
+/* ---------------------------------------------------------------------- */
+
+int ViscousStage::component(int k) const
+{
+  const int first = static_cast<int>(first_of_bodies());
+  return (k < first) ? k % width : (k - first) % RigidMotions::WIDTH;
+}
+
 /* ----------------------------------------------------------------------
    no iteration is needed if the residual moves particles by less than the rounding of positions
 ------------------------------------------------------------------------- */
@@ -375,7 +413,7 @@ double ViscousStage::scale_sq() const
   const double distance = DBL_EPSILON * engine.constants().support;
   const double rest = (update->dt > 0.0) ? distance / (update->dt * settings.tolerance) : 0.0;
   return team().sum<double>(static_cast<int>(x.size()), [&](int k, double &total) {
-    const int d = k % width;
+    const int d = component(k);
     const double frame = (d < 3) ? mean[d] : 0.0;
     const double v0 = before[k] - frame, v = guess[k] + x[k] - frame;
     total += 0.5 * mass[k] * (v0 * v0 + v * v);
@@ -514,6 +552,10 @@ double StiffStage::estimated_rate()
   const std::size_t n = mass.size();
   Unknowns u(n), drag(n);
   for (std::size_t k = 0; k < n; k++) {
+    if (k >= first_of_bodies()) {
+      drag[k] = mass[k] * sin(WAVES[0] * (k - first_of_bodies() + 1));
+      continue;
+    }
     const double *const position = atom->x[unknown[k / width]];
     const std::size_t d = k % width;
     const double phase = position[0] * WAVES[d] + position[1] * WAVES[(d + 1) % 6] +

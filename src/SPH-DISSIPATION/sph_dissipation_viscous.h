@@ -14,6 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_VISCOUS_H
 #define LMP_SPH_DISSIPATION_VISCOUS_H
 
+#include "sph_dissipation_rigid.h"
 #include "sph_dissipation_solvers.h"
 #include "sph_dissipation_stages.h"
 
@@ -131,6 +132,7 @@ namespace SPHDissipation {
     int prescribed = 0;          // bits of the groups of particles that are not unknown
     int width = 1;               // unknowns per particle
     std::vector<int> unknown;    // owned particles
+    int rows_of_bodies = 0;      // unknowns behind those of the particles
     Unknowns before;             // y-
     Unknowns guess, force;       // y_b, F(y_b) of the beginning; the solution is y_b = guess + x
 
@@ -143,6 +145,7 @@ namespace SPHDissipation {
       });
     }
     void resize();    // of all unknowns
+    std::size_t first_of_bodies() const { return width * unknown.size(); }
     void solve_step();
 
     virtual void friction(const Unknowns &in, Unknowns &out) = 0;    // out = Gamma in
@@ -169,7 +172,7 @@ namespace SPHDissipation {
   };
 
   // Large viscosities.  Unknown are the velocities, with spins, of the particles of the fluid that the integrators
-  // move.  This stage sets v_b as the velocity that the forces see (vest, omegaest), on owned and ghost atoms.
+  // move, and those of bodies that the fluid moves.  This stage sets v_b as the velocity that the forces see (vest, omegaest), on owned and ghost atoms.
   // One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
   //
   // F contains the forces of other styles.  They come after those of the pair style, so F has those
@@ -180,7 +183,7 @@ namespace SPHDissipation {
     ViscousStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange,
                  const PressureStage &pressure, BoundaryStage &boundary) :
         StiffStage(lmp, engine, exchange, ""),
-        pressure(pressure), boundary(boundary)
+        pressure(pressure), boundary(boundary), rigid(lmp, engine, exchange, boundary)
     {
     }
 
@@ -202,7 +205,8 @@ namespace SPHDissipation {
 
     double memory_usage() const override
     {
-      return StiffStage::memory_usage() + bytes(others, ahead, ahead_spin, rest);
+      return StiffStage::memory_usage() + rigid.memory_usage() +
+          bytes(others, ahead, ahead_spin, rest);
     }
 
     // the velocity, relative to the mean one, of the fluid before the step and in the solution
@@ -211,6 +215,7 @@ namespace SPHDissipation {
    private:
     const PressureStage &pressure;
     BoundaryStage &boundary;
+    RigidStage rigid;
 
     // of this step
 
@@ -232,6 +237,7 @@ namespace SPHDissipation {
     };
     std::vector<Rest> rest;
 
+    int component(int k) const;    // of a row: 0 to 2 of a velocity, 3 to 5 of a rotation
     void find_unknowns(const double *inertia);
     void set_guess();
     void gather();
