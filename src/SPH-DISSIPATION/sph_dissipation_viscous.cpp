@@ -147,8 +147,8 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
 
   solve_step();
   add_velocities(x);
-  Unknowns acting(guess.begin() + first_of_bodies(), guess.end());
-  for (std::size_t k = 0; k < acting.size(); k++) acting[k] += x[first_of_bodies() + k];
+  Unknowns acting(x.begin() + first_of_bodies(), x.end());
+  for (std::size_t k = 0; k < acting.size(); k++) acting[k] += rigid.of().guess[k];
   rigid.act(acting.data());
   statistics[SECONDS] = platform::walltime() - begin;
 }

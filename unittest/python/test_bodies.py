@@ -266,7 +266,6 @@ def test_bodies_of_one_temperature(lammps, options):
     (("move rigid", "move yes body single"), "body requires move rigid"),
     (("pair_style sph/bulk ", "pair_style sph/bulk shear morris"), "shear morris or espanol"),
     (("pair_style sph/bulk ", "pair_style sph/bulk bulk volume"), "bulk volume"),
-    (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk viscous implicit"), "viscous rkl2 or implicit"),
     (("fix 1 fluid sph/bulk", "fix 1 all sph/bulk"), "is also moved by fix 1"),
     (("fix 2 body rigid single\n", ""), "must be moved by one fix for rigid bodies"),
     (("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk\nfix 4 body sph/wall move rigid"), "is also moved by fix 3 sph/wall"),
@@ -435,6 +434,120 @@ def test_dense_friction(lammps):
     np.testing.assert_allclose([np.trace(gamma), q @ gamma @ q], [147.453529679900, 166.933637359255], rtol=1e-12)
     np.testing.assert_allclose((-gamma @ q)[[0, 1, 22, 23, 24, 25, 26]], [13.2165988456283, 7.38176025623968, -2.73824880598193, 2.25322531915990,
                                                                         -15.5329482961025, -28.1252933530866, .0553027407775977], atol=1e-11)
+
+
+# ---- large viscosities ----------------------------------------------------------------------------------------------
+
+
+def acting_force(viscous, gamma, mass, v, dt, force):
+    """The force M (v+ - v-)/dt of a step of M dv/dt = force - Gamma v, from the pages."""
+    def solve(part, start, more):
+        return np.linalg.solve(np.diag(mass) + part * gamma, mass * start + part * force + more)
+
+    if "rkl2" in viscous:
+        s, slope = int(viscous.split()[-1]), lambda y: (force - gamma @ y) / mass
+        b = np.array([1 / 3, 1 / 3, 1 / 3] + [(j * j + j - 2) / (2 * j * (j + 1)) for j in range(3, s + 1)])
+        w = 4 / (s * s + s - 2)
+        before, y = v, v + w / 3 * dt * slope(v)
+        for j in range(2, s + 1):
+            mu, nu = (2 * j - 1) / j * b[j] / b[j - 1], -(j - 1) / j * b[j] / b[j - 2]
+            before, y = y, mu * y + nu * before + (1 - mu - nu) * v + w * mu * dt * (slope(y) - (1 - b[j - 1]) * slope(v))
+        return mass * (y - v) / dt
+    if "sdirk2" in viscous:
+        part = (1 - np.sqrt(0.5)) * dt
+        first = force - gamma @ solve(part, v, 0.0)
+        rest = (dt - part) * first
+        return rest / dt + part / dt * (force - gamma @ solve(part, v, rest))
+    return force - gamma @ solve(dt if "euler" in viscous else dt / 2, v, 0.0)
+
+
+def first_force(viscous, gamma, mass, v, dt, force):
+    """The same in the first half step of a run."""
+    tau = dt * (3.0 if "trapezoidal" in viscous else 1.5)
+    return 2 * acting_force(viscous, gamma, mass, v, tau / 2, force) - acting_force(viscous, gamma, mass, v, tau, force)
+
+
+LARGE = [f"implicit scheme {scheme} tolerance 1e-13" for scheme in ("trapezoidal", "sdirk2", "euler")] + ["rkl2 stages 15"]
+
+
+def in_rows(f, at):
+    """Forces on the twelve particles, force and torque on the body."""
+    r = at[12:] - at[12:].mean(axis=0)
+    return np.concatenate([f[:12, :2].ravel(), f[12:, :2].sum(axis=0), [np.sum(r[:, 0] * f[12:, 1] - r[:, 1] * f[12:, 0])]])
+
+
+@pytest.mark.parametrize("viscous", LARGE)
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_steps_of_the_dense_matrix(lammps, viscous, ranks):
+    """The first forces, and those of a step, in which another fix pulls: as from the dense matrix, with twelve times two unknowns of the
+    fluid and three of the body.  The largest rate of the matrix times the step is 9.8."""
+    dt, small_speed, pull = 1.0, 1e-3, np.array([3e-4, -2e-4])
+    text = small(lammps, "1.0 1e-9 0.7 1.8 2.5").replace("fix 1 fluid sph/bulk", f"fix 1 fluid sph/bulk viscous {viscous}")
+    v = small_speed * np.concatenate([np.ravel(SPEED), VELOCITY, [OMEGA]])
+    write(lammps.path("slow.data"), FLUID + BODY, list(small_speed * np.array(SPEED)) +
+          [small_speed * (VELOCITY + cross_of(at, OMEGA)) for at in BODY], [False] * 12 + [True] * 5)
+    text = text.replace("small.data", "slow.data").replace("fix 2 body", f"fix A body addforce {pull[0]} {pull[1]} 0\nfix 2 body")
+    text = text.replace("id x y z", "id xu yu zu")
+    lammps(text + f"timestep {dt}\nrun 1\n", ranks=ranks)
+    frames = lammps.frames("out.dump")
+    mass, others = np.array([1.0] * 24 + [5.0, 5.0, 4.0]), np.array([0.0] * 24 + [*(5 * pull), 0.0])
+    for step, frame in enumerate(frames):
+        at = frame["x"][:, :2]
+        gamma, _ = dense_friction(at, [False] * 12 + [True] * 5, 0.7, 0.4, 2.5)
+        assert step or 9.0 < dt * np.linalg.eigvals(gamma / mass[:, None]).real.max() < 12.0
+        want = (acting_force if step else first_force)(viscous, gamma, mass, v, dt, others if step else 0 * others)
+        want += 0 if step else others    # of this moment, which the first step does not have yet
+        np.testing.assert_allclose(in_rows(frame["f"], at), want, rtol=0, atol=1e-12 * np.abs(gamma @ v).max())
+        v = v + 0.5 * dt * want / mass
+
+
+def test_random_forces_in_the_dense_matrix(lammps):
+    """With thermal noise: the random forces, those at rest, act in the step as all others do, on the body too."""
+    dt, options = 0.7, "temp 0.3 5"
+    forces_of = {}
+    for name, viscous, more in (("noise", "explicit", "velocity all set 0.0 0.0 0.0\n"), ("all", "implicit tolerance 1e-13", "")):
+        text = small(lammps, "1.0 1e-9 0.7 1.8 2.5", options).replace("fix 1 fluid sph/bulk", f"fix 1 fluid sph/bulk viscous {viscous}")
+        lammps(text.replace("id x y z", "id xu yu zu") + more + f"timestep {dt}\nrun 0\n")
+        frame = lammps.frame("out.dump")
+        forces_of[name] = in_rows(frame["f"], frame["x"][:, :2])
+    gamma, _ = dense_friction(FLUID + BODY, [False] * 12 + [True] * 5, 0.7, 0.4, 2.5)
+    v, mass = np.concatenate([np.ravel(SPEED), VELOCITY, [OMEGA]]), np.array([1.0] * 24 + [5.0, 5.0, 4.0])
+    want = first_force("trapezoidal", gamma, mass, v, dt, forces_of["noise"])
+    assert np.abs(forces_of["noise"][24:]).min() > 0.1
+    np.testing.assert_allclose(forces_of["all"], want, rtol=0, atol=1e-10)
+
+
+def large(viscous, **keywords):
+    """The drop, with *viscous* of the integrator."""
+    return drop(**keywords).replace("fix 1 fluid sph/bulk", f"fix 1 fluid sph/bulk viscous {viscous}")
+
+
+BRICK = "block -1.6 2.6 -1.6 1.6 -0.6 0.6"
+
+
+@pytest.mark.parametrize("viscous, dim, options, rigid, ranks, newton, body", [
+    ("implicit tolerance 1e-2", 2, "", "rigid single", 1, "on", "sphere 0.3 0.2 0.0 2.3"),
+    ("implicit tolerance 1e-3", 2, "temp 0.02 7", "rigid/nve single", 4, "on", "sphere 0.3 0.2 0.0 2.3"),
+    ("rkl2", 2, "shear mg/fr", "rigid molecule", 2, "off", "sphere 0.3 0.2 0.0 2.3"),
+    ("implicit scheme sdirk2 tolerance 1e-2", 3, "", "rigid single", 2, "on", BRICK), ("rkl2", 3, "", "rigid/nve single", 4, "off", BRICK)])
+def test_momentum_with_large_viscosities(lammps, viscous, dim, options, rigid, ranks, newton, body):
+    """Exact for any tolerance, at thirty times the step of the friction."""
+    text = large(viscous, dim=dim, options=options, mass=2.0, newton=newton, rigid=rigid, coeff="1.0 10.0 30.0 70.0", body=body,
+                 step=0.02 if dim == 2 else 0.01)
+    table = lammps(text + "thermo 20\nrun 100\n", ranks=ranks).thermo()[-1]
+    for kind in "PL":
+        value = np.column_stack([table[f"c_{kind}[{k}]"] for k in (1, 2, 3)])
+        scale = np.abs(value).max()
+        assert scale > 1.0 and np.abs(value - value[0]).max() < 2e-13 * max(scale, 20.0), (kind, value[-1] - value[0])
+
+
+@pytest.mark.parametrize("viscous", ["implicit tolerance 1e-2", "implicit scheme sdirk2", "implicit scheme euler", "rkl2"])
+def test_energy_with_large_viscosities(lammps, viscous):
+    """Kinetic energy of fluid and bodies and all internal energies are constant to rounding errors, for any tolerance."""
+    table = lammps(large(viscous, coeff="1.0 10.0 10.0 20.0", mass=2.0) + "thermo 5\nrun 100\n").thermo()[-1]
+    drift = np.abs(table["c_E"] - table["c_E"][0]).max()
+    print(drift, table["KinEng"])
+    assert np.ptp(table["KinEng"]) > 1.0 and drift < 1e-12 * table["c_E"][0]
 
 
 def test_covariance_of_the_impulses(lammps):
