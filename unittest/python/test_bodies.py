@@ -3,6 +3,7 @@
 Values of forces are those of an independent program with dense matrices.
 """
 
+import itertools
 import re
 import subprocess
 import sys
@@ -152,12 +153,14 @@ def periodic(newton="on", rigid="rigid molecule", extra="", options="", **settin
         "set group all mass 1.0\nset region third image 1 NULL NULL\n").replace("set type 2 mass 1.0\n", "")
 
 
-def test_ranks_and_periodic_borders(lammps):
+@pytest.mark.parametrize("viscous", ["explicit", "implicit tolerance 1e-13"])
+def test_ranks_and_periodic_borders(lammps, viscous):
     """Two bodies that cross the borders of box and processors; momentum is that of the start."""
     dump = "dump D all custom 100 out.dump id xu yu zu vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\n"
     reference = None
     for ranks, newton in ((1, "on"), (2, "off"), (4, "on")):
         text = periodic(newton, extra=dump + "velocity body set 3.0 -2.0 0.0\n")
+        text = text.replace("fix 1 fluid sph/bulk", f"fix 1 fluid sph/bulk viscous {viscous}")
         table = lammps(text + "thermo 100\nrun 100\n", ranks=ranks).thermo()[-1]
         for k in (1, 2):
             assert np.abs(table[f"c_P[{k}]"] - table[f"c_P[{k}]"][0]).max() < 1e-12
@@ -167,11 +170,12 @@ def test_ranks_and_periodic_borders(lammps):
             assert np.abs(frame[name] - reference[name]).max() < 1e-11, (ranks, newton, name)
 
 
-@pytest.mark.parametrize("options, heat", [("", ""), ("temp 0.02 7", ""), ("", "heat temp v_heated")])
-def test_restart(lammps, options, heat):
+@pytest.mark.parametrize("options, heat, viscous", [("", "", "explicit"), ("temp 0.02 7", "", "explicit"), ("", "heat temp v_heated", "explicit"),
+                                                    ("", "", "rkl2"), ("temp 0.02 7", "", "implicit tolerance 1e-13")])
+def test_restart(lammps, options, heat, viscous):
     """A continued run, and one from a restart file, go on as a single run."""
     dump = "compute H all property/atom esph\ndump D all custom 40 {}.dump id xu yu zu vx vy vz fx fy fz c_H\ndump_modify D sort id format float %.17g\n"
-    text = periodic(options=options)
+    text = periodic(options=options).replace("fix 1 fluid sph/bulk", f"fix 1 fluid sph/bulk viscous {viscous}")
     if heat:
         text = HEATED + text.replace(" 2.6\n", " 2.6 cv 2.0 conductivity 0.5\n").replace("move rigid\n", f"move rigid {heat}\n")
     lammps(text + dump.format("single") + "run 80\n")
@@ -523,6 +527,7 @@ def large(viscous, **keywords):
 
 
 BRICK = "block -1.6 2.6 -1.6 1.6 -0.6 0.6"
+TUMBLES = "variable wx atom 0.6*y-0.9*z+0.1\nvariable wy atom 0.7*z-0.6*x\nvariable wz atom 0.9*x-0.7*y\nvelocity body set v_wx v_wy v_wz\n"
 
 
 @pytest.mark.parametrize("viscous, dim, options, rigid, ranks, newton, body", [
@@ -548,6 +553,64 @@ def test_energy_with_large_viscosities(lammps, viscous):
     drift = np.abs(table["c_E"] - table["c_E"][0]).max()
     print(drift, table["KinEng"])
     assert np.ptp(table["KinEng"]) > 1.0 and drift < 1e-12 * table["c_E"][0]
+
+
+@pytest.mark.parametrize("rigid", ["rigid single", "rigid/small molecule", "rigid/nve single"])
+def test_acting_velocity_of_a_brick(lammps, rigid):
+    """A brick that tumbles without forces: the velocity that the fluid has at the end of a step is that of the brick, to second order."""
+    off = []
+    for step in (0.02, 0.01):
+        text = drop(dim=3, body=BRICK, step=step, coeff="1.0 1e-9 1e-9 1e-9", rigid=rigid, extra=TUMBLES + "compute A all property/atom vestx vesty vestz\n"
+                    f"dump D body custom {round(0.2 / step)} out.dump id vx vy vz c_A[*]\ndump_modify D sort id format float %.17g\n")
+        text = text.replace("neighbor 0.5 bin", "neighbor 0.5 bin\ncomm_modify cutoff 9.0").replace("units lj", "units lj\natom_modify map yes")
+        lammps(text + f"run {round(0.2 / step)}\n")
+        values = np.loadtxt(lammps.path("out.dump").read_text().split("ITEM: ATOMS")[-1].split("\n")[1:])
+        off.append(np.abs(values[:, 4:] - values[:, 1:4]).max())
+    print(rigid, off)
+    assert 3.5 * off[1] < off[0] < 4e-3
+
+
+@pytest.mark.parametrize("rigid", ["rigid single", "rigid/nve single"])
+@pytest.mark.parametrize("viscous", ["explicit", "implicit tolerance 1e-12", "implicit scheme sdirk2 tolerance 1e-12", "rkl2"])
+def test_order(lammps, viscous, rigid):
+    """Second order in the step, for a brick that tumbles as well, with the explicit step as the limit."""
+    spin = (TUMBLES + "dump D all custom {n} out.dump id xu yu zu vx vy vz\ndump_modify D sort id format float %.17g\nrun {n}\n")
+    states = {}
+    for scheme, n in itertools.product({viscous, "explicit"}, (10, 20, 40)):
+        text = large(scheme, dim=3, mass=2.0, rigid=rigid, body=BRICK, step=0.25 / n, jitter=0.05, coeff="1.0 5.0 1.0 1.5", extra=spin.format(n=n))
+        lammps(text)
+        frame = lammps.frames("out.dump")[-1]
+        states[scheme, n] = np.concatenate([frame["x"], frame["v"]], axis=1)
+    def size(values):
+        return np.sqrt(np.mean(values**2))
+
+    change = [size(states[viscous, n] - states[viscous, 2 * n]) for n in (10, 20)]
+    off = [size(states[viscous, n] - states["explicit", n]) for n in (20, 40)]
+    print(viscous, rigid, change, off, change[0] / change[1], off[0] / max(off[1], 1e-99))
+    assert change[0] > 3.4 * change[1] and off[0] >= 3.7 * off[1]
+
+
+@pytest.mark.parametrize("viscous", ["implicit", "implicit scheme euler", "rkl2"])
+@pytest.mark.parametrize("mass", [0.1, 100.0])
+def test_stability_with_large_viscosities(lammps, viscous, mass):
+    """Light and heavy bodies at the time step of sound, more than fifty times that of the friction."""
+    text = large(viscous, boundary="p p p", mass=mass, coeff="1.0 10.0 100.0 200.0", step=1e-4, jitter=0.05)
+    log = lammps(text + "run 0\n").log
+    explicit, step = (float(re.search(words + r" (\S+?)[,;]?\s", log)[1]) for words in ("with viscous explicit", "with rkl2 or implicit"))
+    assert step > 50.0 * explicit
+    table = lammps(text.replace("timestep 0.0001", f"timestep {0.9 * step}") + "thermo 1\nrun 100\n").thermo()[-1]
+    print(step / explicit, table["KinEng"][[0, 1, 10, -1]])
+    assert table["KinEng"].max() < 1.001 * table["KinEng"][0] and table["KinEng"][-1] < (0.1 if mass < 1.0 else 0.7) * table["KinEng"][0]
+
+
+@pytest.mark.parametrize("viscous", LARGE)
+def test_rigid_motion_of_all(lammps, viscous):
+    """Fluid and body that travel and turn together have no friction."""
+    x = FLUID + BODY
+    text = small(lammps, "1.0 1e-9 0.7 1.8 2.5").replace("fix 1 fluid sph/bulk", f"fix 1 fluid sph/bulk viscous {viscous}")
+    write(lammps.path("together.data"), x, [VELOCITY + cross_of(at, OMEGA) for at in x], [False] * 12 + [True] * 5)
+    lammps(text.replace("small.data", "together.data") + "timestep 1.0\nrun 0\n")
+    assert np.abs(lammps.frame("out.dump")["f"]).max() < 1e-13
 
 
 def test_covariance_of_the_impulses(lammps):

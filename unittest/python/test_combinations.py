@@ -107,7 +107,7 @@ def body(fix):
 
 LARGE = "rkl2", "implicit"  # they start anew after a change of the time step or of a coefficient
 TARGET = "1.0-0.75*(x>3)*(x<6)+1.6*(x>10)*(x<13)"
-NOT_WITH_BODIES = {"rkl2": "viscous", "implicit": "viscous", "open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
+NOT_WITH_BODIES = {"open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
                    "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "not constant", "arrhenius": "not constant", "rerun": "rerun"}
 NOT_WITH_LAWS = {"warm": "drift", "limit": "limit", "interdrag": "not constant", "implicit": "implicit", "spin": "sph/bulk", "idle_spin": "sph/bulk"}
 
