@@ -603,6 +603,22 @@ def test_stability_with_large_viscosities(lammps, viscous, mass):
     assert table["KinEng"].max() < 1.001 * table["KinEng"][0] and table["KinEng"][-1] < (0.1 if mass < 1.0 else 0.7) * table["KinEng"][0]
 
 
+@pytest.mark.parametrize("viscous", ["implicit tolerance 1e-10", "rkl2"])
+def test_a_body_that_its_fix_holds(lammps, viscous):
+    """*force off* and *torque off* of fix rigid: the velocity that acts on the fluid comes to rest, and the flow is that of the explicit step."""
+    speed = {}
+    for scheme, step in (("explicit", 0.002), (viscous, 0.04)):
+        text = large(scheme, boundary="p p p", coeff="1.0 10.0 10.0 20.0", jitter=0.0, step=step, rigid="rigid single force * off off off torque * off off off",
+                     extra="velocity all set 0 0 0\ncompute A body property/atom vestx vesty\ncompute AM body reduce maxabs c_A[1] c_A[2]\n"
+                     "variable u equal vcm(fluid,x)\nthermo_style custom step v_u f_3[1] c_AM[*]\n" + FULL)
+        text = text.replace("fix 2 body", "fix A fluid addforce 0.1 0 0\nfix 2 body")
+        table = lammps(text + f"run {round(16.0 / step)}\n").thermo()[-1]
+        speed[scheme] = table["v_u"][-1]
+        assert max(table["c_AM[1]"][-1], table["c_AM[2]"][-1]) < 2e-3 * speed[scheme]
+    print(speed)
+    assert speed[viscous] == pytest.approx(speed["explicit"], rel=1e-3)
+
+
 @pytest.mark.parametrize("viscous", LARGE)
 def test_rigid_motion_of_all(lammps, viscous):
     """Fluid and body that travel and turn together have no friction."""
