@@ -79,6 +79,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   bool has_symmetric_friction() const override { return noise || bodies; }
   bool has_bodies() const override { return bodies != nullptr; }
   bool has_frozen_pressure() const override { return frozen; }
+  bool has_mean_pressure() const override { return bodies ? !frozen : !noise; }
   int number_bodies(int, double *) override;
   SPHDissipation::RigidMotions *rigid_motions() override;
   bool gives_heat() const override;

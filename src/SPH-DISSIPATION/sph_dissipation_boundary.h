@@ -89,6 +89,9 @@ namespace SPHDissipation {
 
     virtual bool has_frozen_pressure() const { return false; }
 
+    // The pressure of its particles is that of the fluid around them, bulk viscosity included: friction is not symmetric
+    virtual bool has_mean_pressure() const { return true; }
+
     // set the values of its particles in the conduction of heat: BoundaryStage::set_heat(); the
     // same for increments of the temperatures, which are zero at the surface; whether heat passes
     // the surface

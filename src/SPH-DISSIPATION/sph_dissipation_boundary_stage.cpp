@@ -57,12 +57,13 @@ void BoundaryStage::remove(Boundary *boundary)
 
 void BoundaryStage::find_bits()
 {
-  group_bits = symmetric_bits = body_bits = frozen_bits = 0;
+  group_bits = symmetric_bits = body_bits = frozen_bits = mean_bits = 0;
   for (const auto &one : boundaries) {
     group_bits |= one->boundary_bit();
     if (one->has_symmetric_friction()) symmetric_bits |= one->boundary_bit();
     if (one->has_bodies()) body_bits |= one->boundary_bit();
     if (one->has_frozen_pressure()) frozen_bits |= one->boundary_bit();
+    if (one->has_mean_pressure()) mean_bits |= one->boundary_bit();
   }
   if (boundaries.empty()) engine.forget_wall_energy();
   if (group_bits == symmetric_bits) engine.excess.clear();
@@ -208,7 +209,7 @@ void BoundaryStage::set_mean_pressure(int i, const BoundarySum &sum_of, const do
 
 void BoundaryStage::extend(bool increments)
 {
-  if (increments && all_symmetric()) return;
+  if (increments && !mean_bits) return;
   accumulate();
   BoundarySum *const first = sum.data();
   constexpr int NOT_OF_SPIN = offsetof(BoundarySum, wd3) / sizeof(double);
@@ -218,6 +219,20 @@ void BoundaryStage::extend(bool increments)
   for (auto boundary : boundaries)
     if (!(increments && boundary->has_symmetric_friction()))
       boundary->set_boundary(*this, surface.surface.data(), first);
+
+  // a mean pressure is not negative without tension: the increment is that of the pressure where there is one
+
+  pushes.resize(atom->nlocal);
+  engine.for_each(mean_bits ? atom->nlocal : 0, [&](int i) {
+    if (!(atom->mask[i] & mean_bits)) return;
+    double &g = engine.particle[i].g;
+    if (!increments)
+      pushes[i] = (g > 0.0 || engine.parameters().tension);
+    else if (sum[i].weight > 0.0)
+      g = pushes[i]
+          ? pressure_term(sum[i].pressure / sum[i].weight, atom->vfrac[i], engine.weight(i))
+          : 0.0;
+  });
 
   // pass 2 leaves the friction to add_friction(), but for the part that a noise with numbers of each partner needs
 

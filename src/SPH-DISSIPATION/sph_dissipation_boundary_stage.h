@@ -46,7 +46,7 @@ namespace SPHDissipation {
     bool is_body(int i) const;    // of one that the fluid moves
     bool has_bodies() const { return body_bits != 0; }
     int bits_of_bodies() const { return body_bits; }
-    bool all_symmetric() const { return symmetric_bits == group_bits; }
+    bool has_mean_pressure() const { return mean_bits != 0; }    // any of them
     bool conducts() const    // they take part in the conduction of heat
     {
       return !boundaries.empty() && engine.constants().conducts();
@@ -60,7 +60,7 @@ namespace SPHDissipation {
     void run(NeighList *);
 
     // the same again in this step, for other velocities and pressures of the fluid; increments: of velocities alone, after
-    // PressureStage::set_bulk_term(), where particles with symmetric friction have nothing but their velocity
+    // PressureStage::set_bulk_term(), linear in them, where particles with symmetric friction have the velocity that they have
     void extend(bool increments);
 
     // after run(): of the pairs of fluid and walls, what rates of shear are made of
@@ -149,9 +149,12 @@ namespace SPHDissipation {
     BoundaryPairs pairs;                      // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
-    int group_bits = 0, symmetric_bits = 0, body_bits = 0, frozen_bits = 0;
+    int group_bits = 0, symmetric_bits = 0, body_bits = 0, frozen_bits = 0, mean_bits = 0;
 
     int rows_bits = 0;    // that the rows of the pairs were found for
+
+    std::vector<char>
+        pushes;    // of owned particles with a mean pressure, whether they have one in the last run()
 
     // for BoundarySum::filled, of boundary atoms until the list is built anew
 

@@ -512,7 +512,7 @@ void Fluid::find_viscous_velocity(StepPlan &plan)
   if (neighbor->ago == 0 || viscous->has_old_rates())
     viscous->set_rate(coeff_table().fastest_rate());
   sum_forces(nullptr, plan);
-  const bool symmetric = boundary->all_symmetric() && model->choice.bulk != Bulk::VOLUME;
+  const bool symmetric = !boundary->has_mean_pressure() && model->choice.bulk != Bulk::VOLUME;
   viscous->run(neighbors(), bound(), symmetric);
 }
 

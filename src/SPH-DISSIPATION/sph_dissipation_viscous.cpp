@@ -143,7 +143,7 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
                     {omegaest && atom->nmax ? atom->torque[0] : nullptr, 3, omegaest ? 3 : 0}});
   gather();
   restore();
-  if (!boundary.all_symmetric()) find_rest();
+  if (boundary.has_mean_pressure()) find_rest();
 
   solve_step();
   add_velocities(x);
@@ -345,7 +345,7 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
 {
   set_velocities(in);
   set_bulk_term();
-  if (!boundary.all_symmetric()) {
+  if (boundary.has_mean_pressure()) {
     boundary.extend(true);
     for (const auto &one : rest) {
       Particle &p = engine.particle[one.i];

@@ -356,14 +356,32 @@ def after_start(extra, start=""):
 OUT = "dump D all custom {} {}.dump id xu yu zu vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\n"
 
 
-def test_boxes_float_where_archimedes_says(lammps):
+@pytest.mark.parametrize("viscous", ["explicit", "implicit", "rkl2"])
+def test_boxes_float_where_archimedes_says(lammps, viscous):
     """A light and a heavy one in one tank, within a fifth of a spacing."""
     text = floating("thermo_style custom step time c_X[3][2] c_X[4][2]\nthermo 25\n" + FULL)
+    text = text.replace("fix 1 water sph/bulk", f"fix 1 water sph/bulk viscous {viscous}")
     (table,) = lammps(text + "run 2000\n").thermo()
     for kind, ratio in RATIOS.items():
         height = table[f"c_X[{kind}][2]"] - (1.3 - 0.6 * ratio)
         print(kind, height.mean(), np.ptp(height))
         assert abs(height.mean()) < 0.02 and np.ptp(height) < 0.1
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_the_pressure_of_floating_boxes_in_the_implicit_step(lammps, ranks):
+    """The pressure of boxes and floor follows that of the fluid, with its bulk viscosity: the velocity that the forces have is the mean of those
+    before and after, that at the end of the step, within the tolerance."""
+    text = floating("compute A all property/atom vestx vesty\ndump D all custom 50 out.dump id type vx vy c_A[*]\ndump_modify D sort id format float %.17g\n", lift=1)
+    text = text.replace("0.001 0.3 0.4", "0.3 3.0 0.4").replace("fix 1 water sph/bulk", "fix 1 water sph/bulk viscous implicit tolerance 1e-12")
+    lammps(text + "run 250\n", ranks=ranks)
+    frames = lammps.path("out.dump").read_text().split("ITEM: ATOMS")[2:]
+    assert len(frames) == 5
+    for frame in frames:
+        values = np.loadtxt(frame.split("ITEM")[0].split("\n")[1:])
+        for kind in (1, 3, 4):
+            some = values[values[:, 1] == kind]
+            assert np.abs(some[:, 4:] - some[:, 2:4]).max() < 1e-9 * np.abs(values[:, 2:4]).max() and np.abs(some[:, 2:4]).max() > 1e-4
 
 
 def test_floating_boxes_on_ranks_and_after_a_restart(lammps):
