@@ -220,19 +220,12 @@ void BoundaryStage::extend(bool increments)
     if (!(increments && boundary->has_symmetric_friction()))
       boundary->set_boundary(*this, surface.surface.data(), first);
 
-  // a mean pressure is not negative without tension: the increment is that of the pressure where there is one
-
-  pushes.resize(atom->nlocal);
-  engine.for_each(mean_bits ? atom->nlocal : 0, [&](int i) {
-    if (!(atom->mask[i] & mean_bits)) return;
-    double &g = engine.particle[i].g;
-    if (!increments)
-      pushes[i] = (g > 0.0 || engine.parameters().tension);
-    else if (sum[i].weight > 0.0)
-      g = pushes[i]
-          ? pressure_term(sum[i].pressure / sum[i].weight, atom->vfrac[i], engine.weight(i))
-          : 0.0;
-  });
+  if (increments)
+    engine.for_each(atom->nlocal, [&](int i) {
+      if (!(atom->mask[i] & mean_bits) || !(sum[i].weight > 0.0)) return;
+      const double p = pushes[i] ? sum[i].pressure / sum[i].weight : 0.0;
+      engine.particle[i].g = pressure_term(p, atom->vfrac[i], engine.weight(i));
+    });
 
   // pass 2 leaves the friction to add_friction(), but for the part that a noise with numbers of each partner needs
 
@@ -246,6 +239,16 @@ void BoundaryStage::extend(bool increments)
   Particle *const particle = engine.particle;
   const Field state = field(particle, particle->u, 5);    // u, vol and g
   exchange.forward({state, {engine.zeta_term, 1, 1}, engine.spins()});
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BoundaryStage::note_pressures()
+{
+  pushes.resize(atom->nlocal);
+  engine.for_each(atom->nlocal, [&](int i) {
+    pushes[i] = (engine.particle[i].g > 0.0 || engine.parameters().tension);
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -801,5 +804,5 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 double BoundaryStage::memory_usage() const
 {
   return bytes(surface_pairs, sum, pairs, sums, heat_sums, flow_sums, repulsion_sums, surface,
-               heat_sum, repulsion, near, contact, number, body_of, own_numden);
+               heat_sum, repulsion, near, contact, number, body_of, own_numden, pushes);
 }

@@ -63,6 +63,9 @@ namespace SPHDissipation {
     // PressureStage::set_bulk_term(), linear in them, where particles with symmetric friction have the velocity that they have
     void extend(bool increments);
 
+    // after run() and before increments: without tension a mean pressure below zero is none
+    void note_pressures();
+
     // after run(): of the pairs of fluid and walls, what rates of shear are made of
     void set_squares();
 
@@ -153,8 +156,7 @@ namespace SPHDissipation {
 
     int rows_bits = 0;    // that the rows of the pairs were found for
 
-    std::vector<char>
-        pushes;    // of owned particles with a mean pressure, whether they have one in the last run()
+    std::vector<char> pushes;    // whether owned particles have a pressure that changes
 
     // for BoundarySum::filled, of boundary atoms until the list is built anew
 

@@ -143,7 +143,10 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
                     {omegaest && atom->nmax ? atom->torque[0] : nullptr, 3, omegaest ? 3 : 0}});
   gather();
   restore();
-  if (boundary.has_mean_pressure()) find_rest();
+  if (boundary.has_mean_pressure()) {
+    boundary.note_pressures();
+    find_rest();
+  }
 
   solve_step();
   add_velocities(x);

@@ -171,7 +171,7 @@ def test_ranks_and_periodic_borders(lammps, viscous):
 
 
 @pytest.mark.parametrize("options, heat, viscous", [("", "", "explicit"), ("temp 0.02 7", "", "explicit"), ("", "heat temp v_heated", "explicit"),
-                                                    ("", "", "rkl2"), ("temp 0.02 7", "", "implicit tolerance 1e-13")])
+                                                    ("", "", "rkl2"), ("", "", "implicit tolerance 1e-13")])
 def test_restart(lammps, options, heat, viscous):
     """A continued run, and one from a restart file, go on as a single run."""
     dump = "compute H all property/atom esph\ndump D all custom 40 {}.dump id xu yu zu vx vy vz fx fy fz c_H\ndump_modify D sort id format float %.17g\n"
