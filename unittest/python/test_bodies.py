@@ -608,6 +608,35 @@ def test_order(lammps, viscous, rigid):
     assert change[0] > 3.4 * change[1] and off[0] >= 3.7 * off[1]
 
 
+@pytest.mark.parametrize("rigid, ranks, bound", [("rigid/nve single", 1, 1e-9), ("rigid/nve single", 4, 1e-9), ("rigid single", 2, 1e-4)])
+def test_the_trapezoidal_step_of_a_brick(lammps, rigid, ranks, bound):
+    """In three dimensions the velocity and the angular velocity that act are those at the end of the step, within the tolerance of the solver;
+    with *fix rigid* but for an error of second order of its rotation."""
+    text = large("implicit tolerance 1e-12", dim=3, body=BRICK, mass=2.0, step=0.01, coeff="1.0 10.0 30.0 60.0", rigid=rigid, extra=TUMBLES +
+                 "compute A all property/atom vestx vesty vestz\ndump D all custom 2 out.dump id type vx vy vz c_A[*]\ndump_modify D sort id format float %.17g\n")
+    lammps(text + "run 2\n", ranks=ranks)
+    values = np.loadtxt(lammps.path("out.dump").read_text().split("ITEM: ATOMS")[-1].split("\n")[1:])
+    body = values[values[:, 1] == 2]
+    off = [np.abs(some[:, 5:] - some[:, 2:5]).max() / np.abs(some[:, 2:5]).max() for some in (values, body)]
+    print(rigid, off)
+    assert np.ptp(body[:, 2:5], axis=0).min() > 0.3 and max(off) < bound
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_bodies_of_two_fixes_with_large_viscosities(lammps, ranks):
+    """Two bodies of one fix, or one of each of two fixes: the same motion."""
+    dump = "dump D all custom 50 out.dump id xu yu zu vx vy vz\ndump_modify D sort id format float %.17g\n"
+    text = periodic(extra=dump).replace("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk viscous implicit tolerance 1e-13").replace(" 0.3 0.8 ", " 3.0 8.0 ")
+    frames = []
+    for lines in ("fix 3 body sph/wall move rigid\n", "variable second atom mol==2\ngroup second variable second\ngroup first subtract body second\n"
+                  "fix 4 second sph/wall move rigid body single\nfix 3 first sph/wall move rigid\n"):
+        lammps(text.replace("fix 3 body sph/wall move rigid\n", lines) + "run 50\n", ranks=ranks)
+        frames.append(lammps.frames("out.dump")[-1])
+    assert np.abs(frames[0]["v"]).max() > 0.1
+    for what in ("x", "v"):
+        assert np.abs(frames[0][what] - frames[1][what]).max() < 1e-10, what
+
+
 @pytest.mark.parametrize("viscous", ["implicit", "implicit scheme euler", "rkl2"])
 @pytest.mark.parametrize("mass", [0.1, 100.0])
 def test_stability_with_large_viscosities(lammps, viscous, mass):
