@@ -455,10 +455,11 @@ fix R fluid sph/refine 20 volume v_target split 1.6 merge 0.7
     ("sph/bulk", "limit yes temp 0.3 1", ""), ("sph/micropolar", "limit yes temp 0.3 1", ""),
     ("sph/bulk", "volume mass limit yes temp 0.07 1", SPLITTING)])
 def test_no_particle_enters_a_wall(lammps, style, options, extra):
-    """The surfaces are at -0.5 and 13.5: the repulsion lets a particle go 0.2 beyond, a quarter of its spacing if split there."""
+    """The surfaces are at -0.5 and 13.5: 0.25 beyond, the repulsion has 10 kT between two particles of the wall; a quarter of the spacing
+    beyond if particles split there."""
     text = channel(style, options=options, extra=extra + "thermo_style custom step c_low c_high\nthermo 25\n")
     thermo = lammps(text + "run 2500\n", timeout=300).thermo()[-1]
-    deepest = 0.2 if not extra else 0.5
+    deepest = 0.25 if not extra else 0.5
     assert thermo["c_low"].min() > -0.5 - deepest and thermo["c_high"].max() < 13.5 + deepest
     assert thermo["c_low"].min() < -0.4
 
