@@ -107,7 +107,7 @@ def plot(path, runs, published):
         axes = bottom.subplots()
         fluid = (frame["x"] > 0) & (frame["x"] < 10) & (frame["y"] > 0) & (frame["y"] < 5) & (frame["type"] == 1)
         speed = np.hypot(frame["vx"], frame["vy"])
-        picture = axes.scatter(frame["x"][fluid], frame["y"][fluid], c=speed[fluid], s=(110 / main.n)**2 / 5, lw=0, vmin=0, vmax=1.4,
+        picture = axes.scatter(frame["x"][fluid], frame["y"][fluid], c=speed[fluid], s=(110 / main.n)**2 / 1.8, lw=0, vmin=0, vmax=1.4,
                                cmap="viridis", rasterized=True)
         square = (frame["type"] == 2) & (frame["vx"] > 0.5)
         x, y = frame["x"][square].mean(), frame["y"][square].mean()
