@@ -256,8 +256,8 @@ def channel(kind, k, delta, ratio=1.0, c=1.0, hold=0.0, place=0.25 * np.pi, widt
     factors = factors[abs(n)]
     wave = 0.5 * 1j**n * (np.exp(1j * place) + (-1.0)**n * np.exp(-1j * place))
     others = np.zeros((len(n), len(n)), complex)
-    for one in range(-2, 3) if width else ():
-        for two in range(-2, 3):
+    for one in range(-3, 4) if width else ():
+        for two in range(-3, 4):
             i, j = orders.index(one), orders.index(two)
             if (one - two) % 2 == 0:
                 others[i, j] += row(one - two, k, width)

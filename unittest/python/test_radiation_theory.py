@@ -142,10 +142,10 @@ def test_momentum_of_the_plane_waves(kind, ratio, c):
     force, _ = channel(kind, k, 1e-6, ratio, c, place=place, width=width)
     factors, _ = scattering(kind, k, 1e-6, ratio, c)
     # the waves that the cylinders send out
-    n = np.arange(-2, 3)
+    n = np.arange(-3, 4)
     wave = 0.5 * 1j**n * (np.exp(1j * place) + (-1.0)**n * np.exp(-1j * place))
     others = np.array([[row(one - two, k, width) if (one - two) % 2 == 0 else 0 for two in n] for one in n])
-    out = factors[abs(n)] * np.linalg.solve(np.eye(5) - others * factors[abs(n)], wave)
+    out = factors[abs(n)] * np.linalg.solve(np.eye(7) - others * factors[abs(n)], wave)
     ahead, behind = (2 / (k * width) * (out * (sign * -1j)**n).sum() for sign in (1, -1))
     right = abs(0.5 * np.exp(1j * place) + 0.5 * ahead)**2 + abs(0.5 * np.exp(-1j * place) - 0.5 * behind)**2
     left = abs(0.5 * np.exp(1j * place) - 0.5 * ahead)**2 + abs(0.5 * np.exp(-1j * place) + 0.5 * behind)**2
