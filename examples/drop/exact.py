@@ -37,6 +37,25 @@ def bessel_k(n, z):
     return (f.sum() - 0.5 * f[0]) * (t[1] - t[0])
 
 
+def finite_range(reach, n=2):
+    """Tension by a pair energy of W = (1 - r^2/reach^2)^2 around a drop of radius 1, over that of a line: (1) in the Laplace
+    pressure; (2) in the restoring force of mode n.  An area that changes by f(phi) changes the energy between both fluids by
+    the sum over pairs of places of the circle, W [f(phi) - f(phi')]^2, less that of a shift, n = 1."""
+    angle = np.linspace(0.0, 2 * np.arcsin(min(reach / 2, 1.0)), 20001)
+    chord = 2 * np.sin(angle / 2)
+    weight = np.maximum(1 - (chord / reach)**2, 0.0)**2
+    r = np.linspace(0.0, reach, 20001)
+    flat = integral(r, r**2 * (1 - (r / reach)**2)**2)      # proportional to the tension of a line
+    force = integral(angle, weight * (np.cos(angle) - np.cos(n * angle))) / (n * n - 1) * 2 / flat
+    # pairs at the distance r: d/dR of the area of a disc of radius R without its overlap with itself, shifted by r
+    pressure = integral(r, r * (1 - (r / reach)**2)**2 * (np.pi - 2 * np.arccos(r / 2))) / flat
+    return pressure, force
+
+
+def integral(x, y):
+    return float(((y[1:] + y[:-1]) * np.diff(x)).sum() / 2)
+
+
 class Drop:
     """inside and outside: (density, viscosity); box: edge of a periodic one along whose edges the drop is stretched, for n = 2"""
 
@@ -114,6 +133,8 @@ def main():
     t = np.linspace(0.0, 5.0, 6)
     alone = Drop(1.0, (1.0, 1e-3), (1e-8, 1e-11))
     s = alone.rate()
+    for reach in 0.1, 0.25, 0.4167, 0.5:
+        print("range {:.2f} of the tension: Laplace pressure {:.4f}, force of mode 2 {:.4f}".format(reach, *finite_range(reach)))
     print("from rest, a drop alone:", alone.shape(t), "with the rate of the mode:", np.exp(s.real * t) * np.cos(s.imag * t))
 
 
