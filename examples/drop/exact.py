@@ -95,9 +95,10 @@ class Drop:
     def determinant(self, s):
         return np.linalg.det(self.conditions(s))
 
-    def shape(self, t, line=0.25, step=0.05, number=800):
+    def shape(self, t):
         """zeta(t)/zeta(0) of a drop that begins at rest, by the inverse of the Laplace transform along Re s = line"""
-        omega = step * (np.arange(number) + 0.5)
+        line, step = 3.0 / t[-1], 0.6 / t[-1]
+        omega = np.arange(0.5 * step, 60 * self.inviscid(), step)
         values = []
         for s in line + 1j * omega:
             push = self.sigma * (self.n**2 - 1) / self.radius**2 / s

@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from exact import Drop      # noqa: E402
+from exact import Drop, finite_range      # noqa: E402
 from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 SIGMA = 1.0                     # tension
@@ -21,6 +21,8 @@ DROPS = {"r1.333": {"radius": 1.33333333}, "r1": {}, "r0.667": {"radius": 0.6666
          "ratio1000": {"ratio": 1000, "muin": 5.0, "muout": 0.05}}
 SLOW = {"rest": 0, "end": 16}      # a drop that comes to rest by its viscosity alone
 TEN = {"ratio": 10, "muin": 0.5, "muout": 0.05, "eps": 0.1, "rest": 0, "box": 4, "end": 12}
+THOUSAND = {"ratio": 1000, "muin": 5.0, "muout": 0.05, "kappain": 10, "eps": 0.1, "rest": 0, "box": 4, "dx": 0.1, "pb": 80, "factor": 0.984,
+            "end": 60, "every": 0.5}
 SEEDS = {f"seed{seed}": {**TEN, "seed": seed} for seed in (1, 2, 3)}
 ANGLES = 60, 120, 90
 QUICK = {"end": 0.5, "dx": 0.125, "rest": 500}
@@ -43,8 +45,8 @@ class Probe:
 
 
 class Round(Probe):
-    def __init__(self, out, name):
-        super().__init__(out, name, ("radius", "pressure", "capillary", "xx", "yy"))
+    def __init__(self, out, name, every=0.1):
+        super().__init__(out, name, ("radius", "pressure", "capillary", "xx", "yy"), every)
         self.shape = (self.xx - self.yy) / (self.xx + self.yy)      # twice the amplitude of cos 2 phi over the radius
         self.laplace = self.pressure * self.radius / SIGMA
 
@@ -95,8 +97,8 @@ class Oscillation:
 
 def plot(path, out, drops, slow, oscillations, sessiles):
     plt = pyplot()
-    figure, ((picture, laplace), (rest, shape), (wall, none)) = plt.subplots(3, 2, figsize=(9.6, 11.0))
-    none.axis("off")
+    figure, axes = plt.subplots(3, 2, figsize=(9.6, 11.0))
+    picture, laplace, rest, wall, *shapes = axes.flat
     frame = list(frames(out / "r1.particles.txt").values())[-1]
     for kind, color in (1, "0.8"), (2, "C0"):
         mine = frame["type"] == kind
@@ -115,16 +117,16 @@ def plot(path, out, drops, slow, oscillations, sessiles):
     laplace.legend()
     rest.loglog(slow.t[1:], slow.capillary[1:], "C0-", lw=1.5, label="by viscosity")
     for name in "r1", "ratio1000":
-        color = marks.get(name, ("", "C2", ""))[1]
-        rest.loglog(drops[name].t[1:], drops[name].capillary[1:], "--", color=color, lw=1.5, label=f"after a minimization, {marks[name][2] if name in marks else 'density ratio 1'}")
+        _, color, label = marks.get(name, ("o", "C2", "density ratio 1"))
+        rest.loglog(drops[name].t[1:], drops[name].capillary[1:], "--", color=color, lw=1.5, label=f"after a minimization, {label}")
     rest.axhline(CAPILLARY, color="0.6", lw=1)
     rest.set(xlabel="time", ylabel="largest mu v/sigma of a particle", title="coming to rest")
     rest.legend()
-    for (label, one), color in zip(oscillations.items(), ("C0", "C3"), strict=False):
-        shape.plot(one.t, one.shape / one.shape[0], color=color, lw=1.5, label=label)
-        shape.plot(one.t, one.exact / one.shape[0], "k--", lw=1.5, label="linear theory")
-    shape.set(xlabel="time", ylabel="deformation over that at the beginning", title="oscillation")
-    shape.legend()
+    for (label, one), shape in zip(oscillations.items(), shapes, strict=True):
+        shape.plot(one.t, one.shape / one.shape[0], "C0-", lw=1.5, label="particles")
+        shape.plot(one.t, one.exact / one.exact[0], "k--", lw=1.5, label="linear theory")
+        shape.set(xlabel="time", ylabel="deformation over that at the beginning", title=label)
+        shape.legend()
     for k, (angle, drop) in enumerate(sorted(sessiles.items())):
         frame = list(frames(out / f"w{angle}.particles.txt").values())[-1]
         mine = frame["type"] == 2
@@ -144,34 +146,38 @@ def plot(path, out, drops, slow, oscillations, sessiles):
 def main():
     example = Example(HERE, "A drop in another fluid.")
     args = example.arguments()
-    jobs = {**SEEDS, **DROPS, "slow": SLOW}
+    jobs = {"thousand": THOUSAND, **SEEDS, "slow": SLOW, **DROPS}
     if args.quick:
-        jobs = {name: {**job, **QUICK, "rest": QUICK["rest"] * (job.get("rest") != 0)} for name, job in jobs.items()}
+        jobs = {name: {**DROPS[name], **QUICK} for name in DROPS}
     walls = {f"w{angle}": {"angle": angle, **({"noisy": 2.0, "end": 2.0, "dx": 0.125} if args.quick else {})} for angle in ANGLES}
     example.run({**jobs, **walls}, {name: HERE / "in.wetting" for name in walls})
     drops = {name: Round(example.out, name) for name in DROPS}
     sessiles = {angle: Sessile(example.out, f"w{angle}") for angle in ANGLES}
-    slow = Round(example.out, "slow")
     print("drop       radius  pressure  over sigma/radius  largest mu v/sigma of a particle")
     for name, drop in drops.items():
         print(f"{name:9s}  {drop.mean(drop.radius):.4f}  {drop.mean(drop.pressure):8.4f}  {drop.mean(drop.laplace):17.4f}  {drop.capillary[1:].max():32.1e}")
-    print("\nr1 without minimization\ntime  pressure over sigma/radius  largest mu v/sigma of a particle")
-    for k in (4, 8, 16) if not args.quick else ():
-        at = np.argmin(np.abs(slow.t - k))
-        print(f"{k:4d}  {slow.laplace[at]:26.4f}  {slow.capillary[at]:32.1e}")
     print("\nangle asked for  found  change in the run")
     for angle, drop in sessiles.items():
         print(f"{angle:15d}  {drop.mean(drop.angle):5.1f}  {drop.angle[-1] - drop.angle[0]:+17.1f}")
     if not args.quick:
+        slow = Round(example.out, "slow")
+        print("\nr1 without minimization\ntime  pressure over sigma/radius  largest mu v/sigma of a particle")
+        for k in 4, 8, 16:
+            at = np.argmin(np.abs(slow.t - k))
+            print(f"{k:4d}  {slow.laplace[at]:26.4f}  {slow.capillary[at]:32.1e}")
         runs = {name: Round(example.out, name) for name in SEEDS}
         ten = Oscillation(list(runs.values()), TEN)
-        print(f"\noscillation, density ratio 10, linear theory: frequency {ten.theory[0]:.4f}, decay {ten.theory[1]:.4f}")
-        print("run    frequency  over theory   decay  over theory  pressure over sigma/radius")
-        for name, one, drop in *((name, Oscillation([run], TEN), [run]) for name, run in runs.items()), ("mean", ten, list(runs.values())):
-            pressure = np.mean([run.mean(run.laplace) for run in drop])
-            print(f"{name:5s}  {one.frequency:9.4f}  {one.over[0]:11.3f}  {one.decay:.4f}  {one.over[1]:11.2f}  {pressure:26.3f}")
-        low = ten.t < 1.5 * np.pi / ten.theory[0]
-        print(f"lowest shape over the one at the beginning: theory {min(ten.exact[low]) / ten.exact[0]:.3f}, mean {min(ten.shape[low]) / ten.shape[0]:.3f}")
+        heavy = Round(example.out, "thousand", THOUSAND["every"])
+        thousand = Oscillation([heavy], THOUSAND)
+        print(f"\noscillation, linear theory, density ratio 10: frequency {ten.theory[0]:.4f}, decay {ten.theory[1]:.4f};"
+              f" 1000: {thousand.theory[0]:.5f}, {thousand.theory[1]:.5f}")
+        print("run        frequency  over theory    decay  over theory  pressure over sigma/radius")
+        for name, one, drop in (*((name, Oscillation([run], TEN), [run]) for name, run in runs.items()), ("mean", ten, list(runs.values())),
+                                ("ratio1000", thousand, [heavy])):
+            pressure = np.mean([run.laplace[len(run.t) // 2:].mean() for run in drop])
+            print(f"{name:9s}  {one.frequency:9.5f}  {one.over[0]:11.3f}  {one.decay:.5f}  {one.over[1]:11.2f}  {pressure:26.3f}")
+        for reach, one in (5 / 12, "density ratio 10"), (0.5, "1000"):
+            print("{}: factors by the range of the tension: frequency {:.4f}".format(one, np.sqrt(finite_range(reach)[1])))
     print()
     wide = 4.0 if args.quick else 1.0
     for name, drop in drops.items():
@@ -184,8 +190,10 @@ def main():
     example.merit("r1 without minimization: largest mu v/sigma of a particle", slow.capillary[-1], 0.0, CAPILLARY)
     example.merit("frequency over linear theory", ten.over[0], 1 - FREQUENCY, 1 + FREQUENCY)
     example.merit("decay over linear theory", ten.over[1], 1 - DECAY, 1 + DECAY)
+    example.merit("density ratio 1000: frequency over linear theory", thousand.over[0], 1 - FREQUENCY, 1 + FREQUENCY)
+    example.merit("density ratio 1000: decay over linear theory", thousand.over[1], 1 - DECAY, 1 + DECAY)
     picture = example.out / "drop.png"
-    plot(picture, example.out, drops, slow, {"density ratio 10, mean of 3": ten}, sessiles)
+    plot(picture, example.out, drops, slow, {"density ratio 10, mean of 3": ten, "density ratio 1000": thousand}, sessiles)
     return example.finish(picture)
 
 
