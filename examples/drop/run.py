@@ -19,14 +19,14 @@ from run_lammps import Example, frames, pyplot, save      # noqa: E402
 SIGMA = 1.0                     # tension
 DROPS = {"r1.333": {"radius": 1.33333333}, "r1": {}, "r0.667": {"radius": 0.66666667}, "ratio10": {"ratio": 10, "muin": 1.0},
          "ratio1000": {"ratio": 1000, "muin": 5.0, "muout": 0.05}}
-SLOW = {"rest": 0, "end": 16}      # a drop that comes to rest by its viscosity alone
+SLOW = {"rest": 0, "end": 32}      # a drop that comes to rest by its viscosity alone
 TEN = {"ratio": 10, "muin": 0.5, "muout": 0.05, "eps": 0.1, "rest": 0, "box": 4, "end": 12}
 THOUSAND = {"ratio": 1000, "muin": 5.0, "muout": 0.05, "kappain": 10, "eps": 0.1, "rest": 0, "box": 4, "dx": 0.1, "pb": 80, "factor": 0.984,
             "end": 60, "every": 0.5}
 SEEDS = {f"seed{seed}": {**TEN, "seed": seed} for seed in (1, 2, 3)}
 ANGLES = 60, 120, 90
 QUICK = {"end": 0.5, "dx": 0.125, "rest": 500}
-PRESSURE, ANGLE, FREQUENCY, DECAY = 0.03, 3.0, 0.03, 0.25      # bars: relative; degrees; relative
+PRESSURE, ANGLE, FREQUENCY, DECAY = 0.03, 3.0, 0.03, 0.4      # bars: relative; degrees; relative
 CAPILLARY = 1e-3
 
 
@@ -67,10 +67,10 @@ class Sessile(Probe):
 
 
 def fit(t, shape, s):
-    """Frequency and decay of A cos + B sin + C, nearest to the rate s."""
+    """Frequency and decay of A cos + B sin, nearest to the rate s."""
     def misfit(omega, decay):
         f = np.exp(-decay * t)
-        base = np.column_stack([f * np.cos(omega * t), f * np.sin(omega * t), np.ones_like(t)])
+        base = np.column_stack([f * np.cos(omega * t), f * np.sin(omega * t)])
         return ((shape - base @ np.linalg.lstsq(base, shape, rcond=None)[0])**2).sum()
 
     omega, decay, width = s.imag, -s.real, 1.0
@@ -93,6 +93,8 @@ class Oscillation:
         self.frequency, self.decay = fit(self.t, self.shape, rate)
         self.theory = fit(self.t, self.exact, rate)
         self.over = self.frequency / self.theory[0], self.decay / self.theory[1]
+        self.round = [np.interp(0.0, -shape[:k + 1], self.t[:k + 1]) for shape in (self.shape, self.exact) for k in [np.argmax(shape < 0)]]
+        self.lowest = [shape.min() / shape[0] for shape in (self.shape, self.exact)]
 
 
 def plot(path, out, drops, slow, oscillations, sessiles):
@@ -146,7 +148,7 @@ def plot(path, out, drops, slow, oscillations, sessiles):
 def main():
     example = Example(HERE, "A drop in another fluid.")
     args = example.arguments()
-    jobs = {"thousand": THOUSAND, **SEEDS, "slow": SLOW, **DROPS}
+    jobs = {"thousand": THOUSAND, "slow": SLOW, **SEEDS, **DROPS}
     if args.quick:
         jobs = {name: {**DROPS[name], **QUICK} for name in DROPS}
     walls = {f"w{angle}": {"angle": angle, **({"noisy": 2.0, "end": 2.0, "dx": 0.125} if args.quick else {})} for angle in ANGLES}
@@ -162,7 +164,7 @@ def main():
     if not args.quick:
         slow = Round(example.out, "slow")
         print("\nr1 without minimization\ntime  pressure over sigma/radius  largest mu v/sigma of a particle")
-        for k in 4, 8, 16:
+        for k in 4, 8, 16, 32:
             at = np.argmin(np.abs(slow.t - k))
             print(f"{k:4d}  {slow.laplace[at]:26.4f}  {slow.capillary[at]:32.1e}")
         runs = {name: Round(example.out, name) for name in SEEDS}
@@ -171,11 +173,12 @@ def main():
         thousand = Oscillation([heavy], THOUSAND)
         print(f"\noscillation, linear theory, density ratio 10: frequency {ten.theory[0]:.4f}, decay {ten.theory[1]:.4f};"
               f" 1000: {thousand.theory[0]:.5f}, {thousand.theory[1]:.5f}")
-        print("run        frequency  over theory    decay  over theory  pressure over sigma/radius")
+        print("run        frequency  over theory    decay  over theory  pressure over sigma/radius  round at  theory  lowest  theory")
         for name, one, drop in (*((name, Oscillation([run], TEN), [run]) for name, run in runs.items()), ("mean", ten, list(runs.values())),
                                 ("ratio1000", thousand, [heavy])):
             pressure = np.mean([run.laplace[len(run.t) // 2:].mean() for run in drop])
-            print(f"{name:9s}  {one.frequency:9.5f}  {one.over[0]:11.3f}  {one.decay:.5f}  {one.over[1]:11.2f}  {pressure:26.3f}")
+            print(f"{name:9s}  {one.frequency:9.5f}  {one.over[0]:11.3f}  {one.decay:.5f}  {one.over[1]:11.2f}  {pressure:26.3f}  {one.round[0]:8.2f}  {one.round[1]:6.2f}"
+                  f"  {one.lowest[0]:6.3f}  {one.lowest[1]:6.3f}")
         for reach, one in (5 / 12, "density ratio 10"), (0.5, "1000"):
             print("{}: factors by the range of the tension: frequency {:.4f}".format(one, np.sqrt(finite_range(reach)[1])))
     print()
