@@ -13,16 +13,21 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from exact import Drop      # noqa: E402
+from exact import Drop, finite_range      # noqa: E402
 from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
-SIGMA, MU = 1.0, 0.2             # tension, viscosity of the fluid outside
-DROPS = {"r1.333": {"radius": 1.33333333}, "heavy": {"ratio": 10, "muin": 1.0}, "r1": {}, "r0.667": {"radius": 0.66666667}}
-OSCILLATION = {"ratio": 10, "muin": 0.5, "muout": 0.05, "eps": 0.1, "pb": 60, "cout": 20, "noisy": 0.5, "end": 12}
-NOISY = {f"seed{seed}": {"kept": 0.001, "seed": seed} for seed in (1, 2, 3)}      # oscillations with noise; a last one has none
+SIGMA = 1.0                     # tension
+DROPS = {"r1.333": {"radius": 1.33333333}, "r1": {}, "r0.667": {"radius": 0.66666667}, "ratio10": {"ratio": 10, "muin": 1.0},
+         "ratio1000": {"ratio": 1000, "muin": 5.0, "muout": 0.05}}
+SLOW = {"rest": 0, "end": 32}      # a drop that comes to rest by its viscosity alone
+TEN = {"ratio": 10, "muin": 0.5, "muout": 0.05, "eps": 0.1, "rest": 0, "box": 4, "end": 12}
+THOUSAND = {"ratio": 1000, "muin": 5.0, "muout": 0.05, "kappain": 10, "eps": 0.1, "rest": 0, "box": 4, "dx": 0.1, "pb": 80, "factor": 0.984,
+            "end": 60, "every": 0.5}
+SEEDS = {f"seed{seed}": {**TEN, "seed": seed} for seed in (1, 2, 3)}
 ANGLES = 60, 120, 90
-QUICK = {"noisy": 2.0, "end": 2.0, "dx": 0.125}
-PRESSURE, ANGLE, FREQUENCY = 0.05, 3.0, 0.1      # bars: relative; degrees; relative, for the tension measured
+QUICK = {"end": 0.5, "dx": 0.125, "rest": 500}
+PRESSURE, ANGLE, FREQUENCY, DECAY = 0.03, 3.0, 0.03, 0.4      # bars: relative; degrees; relative
+CAPILLARY = 1e-3
 
 
 class Probe:
@@ -40,8 +45,8 @@ class Probe:
 
 
 class Round(Probe):
-    def __init__(self, out, name):
-        super().__init__(out, name, ("radius", "pressure", "fastest", "xx", "yy"))
+    def __init__(self, out, name, every=0.1):
+        super().__init__(out, name, ("radius", "pressure", "capillary", "xx", "yy"), every)
         self.shape = (self.xx - self.yy) / (self.xx + self.yy)      # twice the amplitude of cos 2 phi over the radius
         self.laplace = self.pressure * self.radius / SIGMA
 
@@ -62,10 +67,10 @@ class Sessile(Probe):
 
 
 def fit(t, shape, s):
-    """Frequency and decay of A cos + B sin + C, nearest to the rate s."""
+    """Frequency and decay of A cos + B sin, nearest to the rate s."""
     def misfit(omega, decay):
         f = np.exp(-decay * t)
-        base = np.column_stack([f * np.cos(omega * t), f * np.sin(omega * t), np.ones_like(t)])
+        base = np.column_stack([f * np.cos(omega * t), f * np.sin(omega * t)])
         return ((shape - base @ np.linalg.lstsq(base, shape, rcond=None)[0])**2).sum()
 
     omega, decay, width = s.imag, -s.real, 1.0
@@ -76,9 +81,26 @@ def fit(t, shape, s):
     return omega, decay
 
 
-def plot(path, out, drops, shapes, t, sessiles):
+class Oscillation:
+    """Of one drop, or of the mean of several: frequency and decay as the same fit finds them in the linear theory over the same time."""
+
+    def __init__(self, runs, given):
+        self.t = runs[0].t
+        self.shape = np.mean([run.shape for run in runs], axis=0)
+        theory = Drop(SIGMA, (given["ratio"], given["muin"]), (1.0, given["muout"]), np.mean([run.radius.mean() for run in runs]), box=given["box"])
+        rate = theory.rate()
+        self.exact = self.shape[0] * theory.shape(self.t)
+        self.frequency, self.decay = fit(self.t, self.shape, rate)
+        self.theory = fit(self.t, self.exact, rate)
+        self.over = self.frequency / self.theory[0], self.decay / self.theory[1]
+        self.round = [np.interp(0.0, -shape[:k + 1], self.t[:k + 1]) for shape in (self.shape, self.exact) for k in [np.argmax(shape < 0)]]
+        self.lowest = [shape.min() / shape[0] for shape in (self.shape, self.exact)]
+
+
+def plot(path, out, drops, slow, oscillations, sessiles):
     plt = pyplot()
-    figure, ((picture, laplace), (shape, wall)) = plt.subplots(2, 2, figsize=(9.6, 7.6))
+    figure, axes = plt.subplots(3, 2, figsize=(9.6, 11.0))
+    picture, laplace, rest, wall, *shapes = axes.flat
     frame = list(frames(out / "r1.particles.txt").values())[-1]
     for kind, color in (1, "0.8"), (2, "C0"):
         mine = frame["type"] == kind
@@ -88,17 +110,25 @@ def plot(path, out, drops, shapes, t, sessiles):
     radius = drops["r1"].mean(drops["r1"].radius)
     picture.plot(center[0] + radius * np.cos(phi), center[1] + radius * np.sin(phi), "k", lw=1)
     picture.set(aspect="equal", title="a drop at rest, circle of its area", xticks=[], yticks=[])
+    marks = {"ratio10": ("s", "C1", "density ratio 10"), "ratio1000": ("x", "C3", "density ratio 1000")}
     for name, drop in drops.items():
-        marker = "s" if name == "heavy" else "o"
-        laplace.plot(1 / drop.mean(drop.radius), drop.mean(drop.pressure), marker, mfc="none", color="C1" if name == "heavy" else "C0",
-                     label={"heavy": "density ratio 10", "r1": "density ratio 1"}.get(name))
+        marker, color, label = marks.get(name, ("o", "C0", "density ratio 1" if name == "r1" else None))
+        laplace.plot(1 / drop.mean(drop.radius), drop.mean(drop.pressure), marker, mfc="none", color=color, label=label)
     laplace.plot([0, 1.6], [0, 1.6 * SIGMA], "k", lw=1, label="Laplace")
     laplace.set(xlabel="1/radius", ylabel="pressure inside less that outside", xlim=(0, None), ylim=(0, None))
     laplace.legend()
-    for (name, values), line in zip(shapes.items(), ("C0-", "C3-", "k--"), strict=True):
-        shape.plot(t, values, line, lw=1.5, label=name)
-    shape.set(xlabel="time", ylabel="(xx - yy)/(xx + yy) of the gyration", title="oscillation, density ratio 10")
-    shape.legend()
+    rest.loglog(slow.t[1:], slow.capillary[1:], "C0-", lw=1.5, label="by viscosity")
+    for name in "r1", "ratio1000":
+        _, color, label = marks.get(name, ("o", "C2", "density ratio 1"))
+        rest.loglog(drops[name].t[1:], drops[name].capillary[1:], "--", color=color, lw=1.5, label=f"after a minimization, {label}")
+    rest.axhline(CAPILLARY, color="0.6", lw=1)
+    rest.set(xlabel="time", ylabel="largest mu v/sigma of a particle", title="coming to rest")
+    rest.legend()
+    for (label, one), shape in zip(oscillations.items(), shapes, strict=True):
+        shape.plot(one.t, one.shape / one.shape[0], "C0-", lw=1.5, label="particles")
+        shape.plot(one.t, one.exact / one.exact[0], "k--", lw=1.5, label="linear theory")
+        shape.set(xlabel="time", ylabel="deformation over that at the beginning", title=label)
+        shape.legend()
     for k, (angle, drop) in enumerate(sorted(sessiles.items())):
         frame = list(frames(out / f"w{angle}.particles.txt").values())[-1]
         mine = frame["type"] == 2
@@ -118,54 +148,55 @@ def plot(path, out, drops, shapes, t, sessiles):
 def main():
     example = Example(HERE, "A drop in another fluid.")
     args = example.arguments()
-    less = QUICK if args.quick else {}
-    jobs = {name: {**variables, **less} for name, variables in {**DROPS, **{f"w{angle}": {"angle": angle} for angle in ANGLES}}.items()}
-    less = {"dx": 0.125, "end": 2.0} if args.quick else {}
-    jobs = {**{name: {**OSCILLATION, **variables, **less} for name, variables in {**NOISY, "frozen": {}}.items()}, **jobs}
-    example.run(jobs, {f"w{angle}": HERE / "in.wetting" for angle in ANGLES})
+    jobs = {"thousand": THOUSAND, "slow": SLOW, **SEEDS, **DROPS}
+    if args.quick:
+        jobs = {name: {**DROPS[name], **QUICK} for name in DROPS}
+    walls = {f"w{angle}": {"angle": angle, **({"noisy": 2.0, "end": 2.0, "dx": 0.125} if args.quick else {})} for angle in ANGLES}
+    example.run({**jobs, **walls}, {name: HERE / "in.wetting" for name in walls})
     drops = {name: Round(example.out, name) for name in DROPS}
     sessiles = {angle: Sessile(example.out, f"w{angle}") for angle in ANGLES}
-    noisy = {name: Round(example.out, name) for name in NOISY}
-    frozen = Round(example.out, "frozen")
-    print("drop     radius  pressure  over sigma/radius  velocity of the fastest particle times mu/sigma")
+    print("drop       radius  pressure  over sigma/radius  largest mu v/sigma of a particle")
     for name, drop in drops.items():
-        print(f"{name:8s} {drop.mean(drop.radius):.4f}  {drop.mean(drop.pressure):8.4f}  {drop.mean(drop.laplace):17.4f}"
-              f"  {MU / SIGMA * drop.fastest[-1]:46.1e}")
+        print(f"{name:9s}  {drop.mean(drop.radius):.4f}  {drop.mean(drop.pressure):8.4f}  {drop.mean(drop.laplace):17.4f}  {drop.capillary[1:].max():32.1e}")
     print("\nangle asked for  found  change in the run")
     for angle, drop in sessiles.items():
         print(f"{angle:15d}  {drop.mean(drop.angle):5.1f}  {drop.angle[-1] - drop.angle[0]:+17.1f}")
-    given = OSCILLATION
-    t = frozen.t
-    mean = np.mean([drop.shape for drop in noisy.values()], axis=0)
-
-    def theory(drops, sigma=SIGMA):
-        return Drop(sigma, (given["ratio"], given["muin"]), (1.0, given["muout"]), np.mean([drop.radius.mean() for drop in drops]))
-
-    s = theory([frozen]).rate()
-    exact = mean[0] * np.exp(s.real * t) * (np.cos(s.imag * t) - s.real / s.imag * np.sin(s.imag * t))
-    print(f"\noscillation, linear theory: frequency {s.imag:.4f}, decay {-s.real:.4f}; without viscosity {theory([frozen]).inviscid():.4f}, 0")
-    print("run      frequency  over theory   decay  over theory  pressure over sigma/radius  frequency over theory with that tension")
-    for name, shape, runs in *((name, drop.shape, [drop]) for name, drop in noisy.items()), ("mean", mean, list(noisy.values())):
-        laplace = np.mean([drop.mean(drop.laplace) for drop in runs])
-        rate, own = theory(runs).rate(), theory(runs, laplace * SIGMA).rate()
-        omega, decay = fit(t, shape, rate)
-        found = omega / own.imag
-        print(f"{name:8s} {omega:9.4f}  {omega / rate.imag:11.3f}  {decay:.4f}  {-decay / rate.real:11.2f}  {laplace:26.3f}  {found:39.3f}")
-    low = t < 1.5 * np.pi / s.imag
-    print(f"lowest shape over the one at the beginning: theory {min(exact) / exact[0]:.3f}, mean {min(mean[low]) / mean[0]:.3f},"
-          f" without noise {min(frozen.shape[low]) / frozen.shape[0]:.3f}\n")
+    if not args.quick:
+        slow = Round(example.out, "slow")
+        print("\nr1 without minimization\ntime  pressure over sigma/radius  largest mu v/sigma of a particle")
+        for k in 4, 8, 16, 32:
+            at = np.argmin(np.abs(slow.t - k))
+            print(f"{k:4d}  {slow.laplace[at]:26.4f}  {slow.capillary[at]:32.1e}")
+        runs = {name: Round(example.out, name) for name in SEEDS}
+        ten = Oscillation(list(runs.values()), TEN)
+        heavy = Round(example.out, "thousand", THOUSAND["every"])
+        thousand = Oscillation([heavy], THOUSAND)
+        print(f"\noscillation, linear theory, density ratio 10: frequency {ten.theory[0]:.4f}, decay {ten.theory[1]:.4f};"
+              f" 1000: {thousand.theory[0]:.5f}, {thousand.theory[1]:.5f}")
+        print("run        frequency  over theory    decay  over theory  pressure over sigma/radius  round at  theory  lowest  theory")
+        for name, one, drop in (*((name, Oscillation([run], TEN), [run]) for name, run in runs.items()), ("mean", ten, list(runs.values())),
+                                ("ratio1000", thousand, [heavy])):
+            pressure = np.mean([run.laplace[len(run.t) // 2:].mean() for run in drop])
+            print(f"{name:9s}  {one.frequency:9.5f}  {one.over[0]:11.3f}  {one.decay:.5f}  {one.over[1]:11.2f}  {pressure:26.3f}  {one.round[0]:8.2f}  {one.round[1]:6.2f}"
+                  f"  {one.lowest[0]:6.3f}  {one.lowest[1]:6.3f}")
+        for reach, one in (5 / 12, "density ratio 10"), (0.5, "1000"):
+            print("{}: factors by the range of the tension: frequency {:.4f}".format(one, np.sqrt(finite_range(reach)[1])))
+    print()
     wide = 4.0 if args.quick else 1.0
     for name, drop in drops.items():
         example.merit(f"{name}: pressure over sigma/radius", drop.mean(drop.laplace), 1 - wide * PRESSURE, 1 + wide * PRESSURE)
+        example.merit(f"{name}: largest mu v/sigma of a particle", drop.capillary.max(), 0.0, CAPILLARY)
     for angle, drop in sessiles.items():
         example.merit(f"contact angle {angle}", drop.mean(drop.angle), angle - wide * ANGLE, angle + wide * ANGLE)
-    if not args.quick:
-        example.merit("frequency over linear theory with the tension measured", found, 1 - FREQUENCY, 1 + FREQUENCY)
     if args.quick:
         return example.finish()
+    example.merit("r1 without minimization: largest mu v/sigma of a particle", slow.capillary[-1], 0.0, CAPILLARY)
+    example.merit("frequency over linear theory", ten.over[0], 1 - FREQUENCY, 1 + FREQUENCY)
+    example.merit("decay over linear theory", ten.over[1], 1 - DECAY, 1 + DECAY)
+    example.merit("density ratio 1000: frequency over linear theory", thousand.over[0], 1 - FREQUENCY, 1 + FREQUENCY)
+    example.merit("density ratio 1000: decay over linear theory", thousand.over[1], 1 - DECAY, 1 + DECAY)
     picture = example.out / "drop.png"
-    shapes = {"noise, mean of 3": mean, "no noise": frozen.shape, "linear theory": exact}
-    plot(picture, example.out, drops, shapes, t, sessiles)
+    plot(picture, example.out, drops, slow, {"density ratio 10, mean of 3": ten, "density ratio 1000": thousand}, sessiles)
     return example.finish(picture)
 
 
