@@ -16,14 +16,13 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from run_lammps import Example, csv_rows, pyplot, save      # noqa: E402
 from sph_dissipation import each_frame                      # noqa: E402
-from theory import acceleration, friction                   # noqa: E402
+from theory import ADDED, ALONG, acceleration, friction     # noqa: E402
 
 JOBS = {"n20": {"n": 20}, "n10": {"n": 10}}
 QUICK = {"n10": {"n": 10, "end": 2.0}}
 EVERY, FRAME = 0.02, 0.1                # time between values of the force, and between dumps
 TURN = 1.3                              # time from which the step is longer
 PARTS = "total", "pressure", "viscous"
-ADDED, ALONG = 1.328, 0.77              # added mass, and velocity of the fluid along the sides, of the potential flow: theory.py
 BEGIN, WINDOW = 1.0, 0.2                # differences are of running means over WINDOW, from BEGIN on
 NARROW = 0.04                           # window of the largest drag
 START = 0.3                             # time of the comparison with theory
