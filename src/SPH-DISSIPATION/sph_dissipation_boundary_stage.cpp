@@ -359,6 +359,7 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
 
 void BoundaryStage::run_friction(FrictionPart part, const StepNoise *noise, bool linear)
 {
+  const double support = engine.constants().support;
   surface_pairs.resize(engine.team().size());
   engine.team().run([&](int k) {
     std::vector<SurfacePair> found;
@@ -370,8 +371,8 @@ void BoundaryStage::run_friction(FrictionPart part, const StepNoise *noise, bool
       for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
       if (!linear) cross_product(s.omega, r, turn);
       const double factor = (part == FrictionPart::BODY) ? 1.0
-          : (part == FrictionPart::ADDED)                ? surface_factor(s, r) - 1.0
-                                                         : surface_factor(s, r);
+          : (part == FrictionPart::ADDED)                ? surface_factor(s, r, support) - 1.0
+                                                         : surface_factor(s, r, support);
       SurfacePair one = {
           pair.fluid, pair.wall, factor * engine.slope(pair.fluid, pair.wall, pair.entry), {}, {}};
       for (int d = 0; d < 3; d++) {

@@ -119,13 +119,13 @@ namespace SPHDissipation {
   {
     switch (shear) {
       case Shear::MG:
-        return surface ? 33.0 : 21.0;
+        return surface ? 45.0 : 21.0;
       case Shear::MG_FR:
-        return surface ? 28.0 : 17.0;
+        return surface ? 38.0 : 17.0;
       case Shear::MORRIS:
-        return surface ? 14.0 : 8.0;
+        return surface ? 20.0 : 8.0;
       case Shear::ESPANOL:
-        return surface ? 17.0 : 10.0;
+        return surface ? 24.0 : 10.0;
       default:
         return 0.0;
     }

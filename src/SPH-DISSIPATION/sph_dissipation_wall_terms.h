@@ -36,10 +36,10 @@ namespace SPHDissipation {
   constexpr double CLOSEST = 0.25;
   constexpr double CLOSEST_MEAN = 0.45;
 
-  // Least distance d in surface_factor(), in spacings; in disorder a third of the first layer of the fluid is nearer than
-  // the first layer of a lattice, whose distance is taken where the surface is not known
+  // Least distance d in surface_factor(), in support radii: the rate of a particle next to the surface, in units of nu/h^2, then
+  // has the same bound with any spacing.  Where the surface is not known, that of the first layer of a lattice, in spacings.
 
-  constexpr double CLOSEST_PAIR = 0.2, FIRST_LAYER = 0.5;
+  constexpr double CLOSEST_PAIR = 0.05, FIRST_LAYER = 0.5;
 
   // q = level + slope d + bend d^2 next to the surface, d < 0 behind it
 
@@ -296,11 +296,11 @@ namespace SPHDissipation {
   // is the force of its continuation behind the surface, -h times its slope.  Where the surface is not known, d is that of
   // the first layer of a lattice.
 
-  SPH_FUNCTION double surface_factor(const Surface &s, const double *r)
+  SPH_FUNCTION double surface_factor(const Surface &s, const double *r, double support)
   {
     const bool known = inner_product(s.normal, s.normal) > 0.0;
     const double inside = -s.depth - inner_product(s.normal, r);
-    const double least = (known ? CLOSEST_PAIR : FIRST_LAYER) * s.spacing;
+    const double least = known ? CLOSEST_PAIR * support : FIRST_LAYER * s.spacing;
     const double d = (inside > least) ? inside : least;
     return (d + s.depth) / d;
   }
