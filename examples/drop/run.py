@@ -25,7 +25,7 @@ THOUSAND = {"ratio": 1000, "muin": 5.0, "muout": 0.05, "kappain": 10, "eps": 0.1
             "end": 60, "every": 0.5}
 SEEDS = {f"seed{seed}": {**TEN, "seed": seed} for seed in (1, 2, 3)}
 ANGLES = 60, 120, 90
-QUICK = {"end": 0.5, "dx": 0.125, "rest": 500}
+QUICK = {"end": 0.5, "dx": 0.1, "rest": 500}
 PRESSURE, ANGLE, FREQUENCY, DECAY = 0.03, 3.0, 0.03, 0.4      # bars: relative; degrees; relative
 CAPILLARY = 1e-3
 
@@ -185,7 +185,7 @@ def main():
     wide = 4.0 if args.quick else 1.0
     for name, drop in drops.items():
         example.merit(f"{name}: pressure over sigma/radius", drop.mean(drop.laplace), 1 - wide * PRESSURE, 1 + wide * PRESSURE)
-        example.merit(f"{name}: largest mu v/sigma of a particle", drop.capillary.max(), 0.0, CAPILLARY)
+        example.merit(f"{name}: largest mu v/sigma of a particle", drop.capillary.max(), 0.0, wide * CAPILLARY)
     for angle, drop in sessiles.items():
         example.merit(f"contact angle {angle}", drop.mean(drop.angle), angle - wide * ANGLE, angle + wide * ANGLE)
     if args.quick:
