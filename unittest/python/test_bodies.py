@@ -371,9 +371,9 @@ def test_boxes_float_where_archimedes_says(lammps, viscous):
 def test_the_pressure_of_floating_boxes_in_the_implicit_step(lammps, ranks):
     """The pressure of boxes and floor follows that of the fluid, with its bulk viscosity: the velocity that the forces have is the mean of those
     before and after, that at the end of the step, within the tolerance."""
-    text = floating("compute A all property/atom vestx vesty\ndump D all custom 50 out.dump id type vx vy c_A[*]\ndump_modify D sort id format float %.17g\n", lift=1)
+    text = floating("compute A all property/atom vestx vesty\ndump D all custom 25 out.dump id type vx vy c_A[*]\ndump_modify D sort id format float %.17g\n", lift=1)
     text = text.replace("0.001 0.3 0.4", "0.3 3.0 0.4").replace("fix 1 water sph/bulk", "fix 1 water sph/bulk viscous implicit tolerance 1e-12")
-    lammps(text + "run 250\n", ranks=ranks)
+    lammps(text + "run 125\n", ranks=ranks)
     frames = lammps.path("out.dump").read_text().split("ITEM: ATOMS")[2:]
     assert len(frames) == 5
     for frame in frames:
@@ -556,7 +556,7 @@ def test_momentum_with_large_viscosities(lammps, viscous, dim, options, rigid, r
     """Exact for any tolerance, at thirty times the step of the friction."""
     text = large(viscous, dim=dim, options=options, mass=2.0, newton=newton, rigid=rigid, coeff="1.0 10.0 30.0 70.0", body=body,
                  step=0.02 if dim == 2 else 0.01)
-    table = lammps(text + "thermo 20\nrun 100\n", ranks=ranks).thermo()[-1]
+    table = lammps(text + "thermo 10\nrun 40\n", ranks=ranks).thermo()[-1]
     for kind in "PL":
         value = np.column_stack([table[f"c_{kind}[{k}]"] for k in (1, 2, 3)])
         scale = np.abs(value).max()
@@ -634,12 +634,12 @@ def test_restart_with_large_viscosities(lammps, viscous):
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_bodies_of_two_fixes_with_large_viscosities(lammps, ranks):
     """Two bodies of one fix, or one of each of two fixes: the same motion."""
-    dump = "dump D all custom 50 out.dump id xu yu zu vx vy vz\ndump_modify D sort id format float %.17g\n"
+    dump = "dump D all custom 15 out.dump id xu yu zu vx vy vz\ndump_modify D sort id format float %.17g\n"
     text = periodic(extra=dump).replace("fix 1 fluid sph/bulk", "fix 1 fluid sph/bulk viscous implicit tolerance 1e-13").replace(" 0.3 0.8 ", " 3.0 8.0 ")
     frames = []
     for lines in ("fix 3 body sph/wall move rigid\n", "variable second atom mol==2\ngroup second variable second\ngroup first subtract body second\n"
                   "fix 4 second sph/wall move rigid body single\nfix 3 first sph/wall move rigid\n"):
-        lammps(text.replace("fix 3 body sph/wall move rigid\n", lines) + "run 50\n", ranks=ranks)
+        lammps(text.replace("fix 3 body sph/wall move rigid\n", lines) + "run 15\n", ranks=ranks)
         frames.append(lammps.frames("out.dump")[-1])
     assert np.abs(frames[0]["v"]).max() > 0.1
     for what in ("x", "v"):
