@@ -15,11 +15,11 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from run_lammps import Example, csv_rows, pyplot, save, thermo      # noqa: E402
 
-T, MU, DT, EVERY, PARTICLES = 0.001, 0.07, 0.04, 25, 100     # those of in.colloid
+T, MU, DT, EVERY, PARTICLES = 0.001, 0.07, 0.03125, 32, 100     # those of in.colloid
 KAPPA = {"zero": 0.0, "ten": 0.7}               # bulk viscosity: 0 and 10 mu
-SEEDS, STEPS, STARTS = range(1, 9), 750000, 15  # runs of each fluid, steps, and configurations of each in which the disc is pulled
-QUICK = (1,), 37500, 2
-PULL, PULLED = 0.002, 2500                      # force, and steps
+SEEDS, STEPS, STARTS = range(1, 9), 960000, 15  # runs of each fluid, steps, and configurations of each in which the disc is pulled
+QUICK = (1,), 48000, 2
+PULL, PULLED = 0.002, 3200                      # force, and steps
 SETTLE = 200                                    # outputs before the means
 LAGS = 30, 80                                   # outputs, of the slopes; the momentum spreads in 36
 PIECES = 10                                     # of each run, for the standard errors

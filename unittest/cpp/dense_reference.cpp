@@ -321,7 +321,7 @@ void System::find_factors()
     if (is_wall(p.i) == is_wall(p.j)) continue;
     const int wall = is_wall(p.i) ? p.i : p.j;
     const SmallVector to_fluid = is_wall(p.i) ? SmallVector(-p.r) : p.r;
-    const Real least = (normal[wall].norm() > 0.5L ? 0.2L : 0.5L) * spacing(wall);
+    const Real least = normal[wall].norm() > 0.5L ? 0.05L * model.support : 0.5L * spacing(wall);
     const Real d = std::max(normal[wall].dot(to_fluid) - depth(wall), least);
     p.factor = (d + depth(wall)) / d;
   }

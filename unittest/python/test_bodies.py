@@ -398,7 +398,7 @@ def test_floating_boxes_on_ranks_and_after_a_restart(lammps):
             assert np.abs(frame[what] - want[what]).max() < 1e-10, (name, what)
 
 
-def dense_friction(x, body, mu, zeta, support, least=0.2):
+def dense_friction(x, body, mu, zeta, support, least=0.05):
     """Matrix of the friction of fluid and body, of unknowns v of each fluid particle, V, Omega of the body, from the formulas of the
     pages: forces are minus this matrix times the velocities.  Also the matrix of the map from the unknowns to the particles."""
     x, body = np.array(x, dtype=float), np.array(body)
@@ -422,7 +422,7 @@ def dense_friction(x, body, mu, zeta, support, least=0.2):
     normal = np.where(depth[:, None] < 0.1, x - center, 0.0)
     beta = np.ones_like(distance)
     for w in np.flatnonzero(body):
-        d = np.maximum(r[:, w] @ normal[w] - depth[w], least if depth[w] < 0.1 else 0.5)
+        d = np.maximum(r[:, w] @ normal[w] - depth[w], least * support if depth[w] < 0.1 else 0.5)
         beta[:, w] = beta[w] = (d + depth[w]) / d
     gamma = np.zeros((n, n))
     for i in fluid:
@@ -449,7 +449,7 @@ def test_dense_friction(lammps):
     np.testing.assert_allclose(f[:12, :2].ravel(), want[:24], rtol=0, atol=1e-11)
     np.testing.assert_allclose(f[12:, :2].sum(axis=0), want[24:26], rtol=0, atol=1e-11)
     assert np.abs(np.linalg.eigvalsh(gamma)[:3]).max() < 1e-13
-    gamma, _ = dense_friction(x, body, 0.7, 0.4, 2.5, least=0.5)
+    gamma, _ = dense_friction(x, body, 0.7, 0.4, 2.5, least=0.5 / 2.5)
     rates, q = np.linalg.eigvalsh(gamma), np.concatenate([np.ravel(SPEED), VELOCITY, [OMEGA]])
     np.testing.assert_allclose(rates[[3, 4, -2, -1]], [.534561273038569, .641760096311664, 19.4015232260125, 22.4158441758033], rtol=1e-12)
     np.testing.assert_allclose([np.trace(gamma), q @ gamma @ q], [147.453529679900, 166.933637359255], rtol=1e-12)
