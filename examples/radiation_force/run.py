@@ -194,7 +194,7 @@ def main():
     print(f"\nwave alone: frequency {alone.omega * alone.given['length'] / np.pi:.4f} of that of walls at the surface, which act {offset:.2f} spacings behind it")
     for run in rigid:
         print(f"between rigid bodies with a modulus of {run.c**2:g} times that of the fluid: {run.offset():.2f} spacings behind it")
-    print("shear modulus of the lattice over pressure: " + ", ".join(f"{elasticity(support):.4f} at a support of {support:g}" for support in (3, 4, SUPPORT)) + "\n")
+    print("shear modulus of the lattice over pressure: " + ", ".join(f"{elasticity(support):.4f} at a support of {support:g}" for support in (3, 3.43, 4, SUPPORT)) + "\n")
     table = example.out / "radiation_force.csv"
     header = ["body", "ratio", "c", "delta", "particles", "support", "force", "theory", "steady", "size", "error", "error_of_first_order"]
     with csv_rows(table, header) as writerow:
@@ -210,6 +210,7 @@ def main():
     if light:
         print(f"a rigid body of {LIGHT:g} of the density goes to the node of the pressure for delta/a above")
         print(f"  {np.interp(0, [run.force for run in light], [run.delta for run in light]):.2f}  particles, between the runs")
+        print(f"  {np.interp(0, [run.theory for run in light], [run.delta for run in light]):.2f}  theory in full, between the runs")
         for hold, steady, words in ((HOLD, True, "theory of a small ka"), (0, True, "theory, without the spring"), (0, False, "theory, without spring and steady flow")):
             print(f"  {brentq(lambda delta: small('rigid', delta, LIGHT, hold, steady), 0.2, 3, xtol=1e-4):.2f}  {words}")
         print()
@@ -223,7 +224,7 @@ def main():
         finest = max(run.n for run in walls)
         error = {run.n: run.error for run in walls if run.delta == 0.6}
         example.merit(f"error of the force on a cylinder at rest, {finest} particles in the radius", error[finest], -FINEST, FINEST)
-        example.merit("error with 4 particles over that of the finest lattice", error[4] / error[finest], 1.5, 5)
+        example.merit("error with 4 particles over that of the finest lattice", error[4] / error[finest], 3, 8)
         example.merit("force on the light body, thinnest layer", light[0].force, -0.5, -0.3)
         example.merit("force on the light body, thickest layer", light[-1].force, 0.3, 0.5)
     return example.finish(plot(example.out / "radiation_force.png", runs), table)
