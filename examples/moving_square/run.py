@@ -18,7 +18,7 @@ from run_lammps import Example, csv_rows, pyplot, save      # noqa: E402
 from sph_dissipation import each_frame                      # noqa: E402
 from theory import ADDED, ALONG, acceleration, friction     # noqa: E402
 
-JOBS = {"n20": {"n": 20}, "n10": {"n": 10}}
+JOBS = {"n40": {"n": 40}, "n20": {"n": 20}}
 QUICK = {"n10": {"n": 10, "end": 2.0}}
 EVERY, FRAME = 0.02, 0.1                # time between values of the force, and between dumps
 TURN = 1.3                              # time from which the step is longer
@@ -28,7 +28,8 @@ NARROW = 0.04                           # window of the largest drag
 START = 0.3                             # time of the comparison with theory
 PICTURE = 5.0                           # time of the field
 # What is reached.  The aim is the scatter of the published curves, 0.04; README.md says why the viscous part is not within it.
-LIMITS = {20: {"total": 0.06, "pressure": 0.06, "viscous": 0.4, "peak": 0.13, "start": 0.05},
+LIMITS = {40: {"total": 0.08, "pressure": 0.08, "viscous": 0.2, "peak": 0.18, "start": 0.05},
+          20: {"total": 0.06, "pressure": 0.06, "viscous": 0.4, "peak": 0.13, "start": 0.05},
           10: {"total": 0.15, "peak": 0.2, "start": 0.1}}
 
 
