@@ -320,6 +320,7 @@ void FixSPHWall::setup(int vflag)
                    "from each other and from walls",
                    id, style);
   checked = true;
+  if (bodies && find_fluid(force)->viscous->active()) check_masses();
   if (bodies) note_forces();
   post_force(vflag);
 }

@@ -122,6 +122,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void read_bodies(const std::string &others);
   void check_bodies(const SPHDissipation::Fluid *) const;
   bool check_movers() const;
+  void check_masses() const;
   void set_acting();
   void note_forces();
   void add_rest_of_heat();

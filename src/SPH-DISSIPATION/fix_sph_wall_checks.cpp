@@ -23,6 +23,7 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_hybrid.h"
+#include "sph_dissipation_bodies.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_exchange.h"
@@ -201,6 +202,33 @@ bool FixSPHWall::check_movers() const
                "or rigid/small",
                id, style, wrong);
   return lagging;
+}
+
+/* ----------------------------------------------------------------------
+   The solver of large viscosities takes the mass of a body from its particles.  Check that the fix that moves it has not less:
+   with half of it, the error of the acting velocity grows from step to step.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::check_masses() const
+{
+  constexpr double LEAST = 0.99;
+  for (const auto &other : modify->get_fix_list()) {
+    int dim;
+    const auto *const body =
+        static_cast<int *>(other->rigid_flag ? other->extract("body", dim) : nullptr);
+    if (!over_all<int>(world, body != nullptr, MPI_MAX)) continue;
+    const auto *const mass = static_cast<double *>(other->extract("masstotal", dim));
+    const auto light = first_particle(lmp, [&](int i) {
+      return mass && (atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit) &&
+          body[i] >= 0 && mass[body[i]] < LEAST * (*bodies)[bodies->of(i)].mass;
+    });
+    if (!light.empty())
+      error->all(
+          FLERR,
+          "Fix {} {} move rigid: with viscous rkl2 and implicit, fix {} {} must not give the "
+          "body of {} less mass than its particles have",
+          id, style, other->id, other->style, light);
+  }
 }
 
 /* ----------------------------------------------------------------------

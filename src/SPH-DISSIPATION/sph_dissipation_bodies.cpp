@@ -188,16 +188,17 @@ static void rotation_by(const double *omega, double time, double rotation[3][3])
 
 void Bodies::velocity_at(int i, double *v) const
 {
-  velocity_of(bodies[of(i)], i, v);
+  const Body &body = bodies[of(i)];
+  velocity_of(i, body.v, body.omega, v);
 }
 
-void Bodies::velocity_of(const Body &body, int i, double *v) const
+void Bodies::velocity_of(int i, const double *center, const double *omega, double *v) const
 {
   double r[3];
   domain->unmap(atom->x[i], atom->image[i], r);
-  for (int d = 0; d < 3; d++) r[d] -= body.x[d];
-  cross_product(body.omega, r, v);
-  for (int d = 0; d < 3; d++) v[d] += body.v[d];
+  for (int d = 0; d < 3; d++) r[d] -= bodies[of(i)].x[d];
+  cross_product(omega, r, v);
+  for (int d = 0; d < 3; d++) v[d] += center[d];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -380,15 +381,12 @@ void Bodies::append(bool starts, RigidRows &rows) const
 void Bodies::velocities(const double *rows,
                         const std::function<void(int, const double *)> &function) const
 {
-  std::vector<Body> moving = bodies;
-  for (int k = 0; k < size(); k++) {
-    std::copy_n(rows + WIDTH * k, 3, moving[k].v);
-    from_axes(moving[k], rows + WIDTH * k + 3, moving[k].omega);
-  }
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    double v[3];
-    velocity_of(moving[of(i)], i, v);
+    const int k = of(i);
+    double omega[3], v[3];
+    from_axes(bodies[k], rows + WIDTH * k + 3, omega);
+    velocity_of(i, rows + WIDTH * k, omega, v);
     function(i, v);
   }
 }

@@ -95,7 +95,7 @@ namespace SPHDissipation {
     void sum(double **velocity);
     void check(double **velocity) const;
     void find_axes(Body &) const;
-    void velocity_of(const Body &, int i, double *v) const;
+    void velocity_of(int i, const double *center, const double *omega, double *v) const;
     void sum_forces(const std::function<const double *(int)> &, double *) const;
     double rest_between(const Body &, const double *v, const double *angular, const double *v_after,
                         const double *angular_after) const;

@@ -399,24 +399,17 @@ void StiffStage::sum(double *values, int n) const
   MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, world);
 }
 
-/* ---------------------------------------------------------------------- */
-
-int ViscousStage::component(int k) const
-{
-  const int first = static_cast<int>(first_of_bodies());
-  return (k < first) ? k % width : (k - first) % RigidMotions::WIDTH;
-}
-
 /* ----------------------------------------------------------------------
-   no iteration is needed if the residual moves particles by less than the rounding of positions
+   no iteration is needed if the residual moves particles by less than the rounding of positions; bodies, which
+   may be heavy, do not count: the accuracy is that of the velocities of the fluid
 ------------------------------------------------------------------------- */
 
 double ViscousStage::scale_sq() const
 {
   const double distance = DBL_EPSILON * engine.constants().support;
   const double rest = (update->dt > 0.0) ? distance / (update->dt * settings.tolerance) : 0.0;
-  return team().sum<double>(static_cast<int>(x.size()), [&](int k, double &total) {
-    const int d = component(k);
+  return team().sum<double>(static_cast<int>(first_of_bodies()), [&](int k, double &total) {
+    const int d = k % width;
     const double frame = (d < 3) ? mean[d] : 0.0;
     const double v0 = before[k] - frame, v = guess[k] + x[k] - frame;
     total += 0.5 * mass[k] * (v0 * v0 + v * v);

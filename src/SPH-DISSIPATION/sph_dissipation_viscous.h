@@ -237,7 +237,6 @@ namespace SPHDissipation {
     };
     std::vector<Rest> rest;
 
-    int component(int k) const;    // of a row: 0 to 2 of a velocity, 3 to 5 of a rotation
     void find_unknowns(const double *inertia);
     void set_guess();
     void gather();

@@ -659,6 +659,30 @@ def test_stability_with_large_viscosities(lammps, viscous, mass):
     assert table["KinEng"].max() < 1.001 * table["KinEng"][0] and table["KinEng"][-1] < (0.1 if mass < 1.0 else 0.7) * table["KinEng"][0]
 
 
+def test_the_tolerance_does_not_depend_on_the_mass_of_a_body(lammps):
+    """After ten steps, the error of the velocities is at most ten times the tolerance next to bodies of any weight."""
+    for mass in (1.0, 1e8):
+        v = []
+        for viscous in ("implicit", "implicit tolerance 1e-13"):
+            text = large(viscous, boundary="p p p", mass=mass, coeff="1.0 10.0 3.0 8.0")
+            lammps(text + "dump D all custom 10 out.dump id vx vy vz\ndump_modify D sort id format float %.17g\nrun 10\n")
+            v.append(lammps.frames("out.dump")[-1]["v"])
+        print(mass, np.abs(v[1] - v[0]).max())
+        assert np.abs(v[1] - v[0]).max() < 1e-5 * np.abs(v[1]).max()
+
+
+@pytest.mark.parametrize("rigid", ["rigid single", "rigid/small molecule"])
+def test_a_body_that_its_fix_makes_lighter(lammps, rigid):
+    """*infile* of fix rigid with a tenth of the mass of the particles: the solver does not know it, and would not be stable."""
+    lammps.path("light.txt").write_text("1\n1 1.7 0.0 0.0 0.0 20.0 20.0 4.0 0.0 0.0 0.0 0.3 -0.2 0.0 0.0 0.0 0.0 0 0 0\n")
+    for viscous in ("explicit", "rkl2", "implicit"):
+        text = large(viscous, rigid=rigid + " infile light.txt", step=0.002).replace("units lj", "units lj\natom_modify map yes")
+        result = lammps(text.replace("neighbor 0.5 bin", "neighbor 0.5 bin\ncomm_modify cutoff 9.0") + "run 1\n", check=False)
+        assert bool(result.code) == (viscous != "explicit")
+        if result.code:
+            assert "must not give the body of particle" in result.output and "less mass than its particles have" in result.output
+
+
 @pytest.mark.parametrize("viscous", ["implicit tolerance 1e-10", "rkl2"])
 def test_a_body_that_its_fix_holds(lammps, viscous):
     """*force off* and *torque off* of fix rigid: the velocity that acts on the fluid comes to rest, and the flow is that of the explicit step."""
