@@ -172,7 +172,8 @@ namespace SPHDissipation {
   };
 
   // Large viscosities.  Unknown are the velocities, with spins, of the particles of the fluid that the integrators
-  // move, and those of bodies that the fluid moves.  This stage sets v_b as the velocity that the forces see (vest, omegaest), on owned and ghost atoms.
+  // move, and those of bodies that the fluid moves.  This stage sets v_b as the velocity that the forces see (vest,
+  // omegaest), on owned and ghost atoms.
   // One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
   //
   // F contains the forces of other styles.  They come after those of the pair style, so F has those
