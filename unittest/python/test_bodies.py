@@ -457,6 +457,27 @@ def test_dense_friction(lammps):
                                                                         -15.5329482961025, -28.1252933530866, .0553027407775977], atol=1e-11)
 
 
+@pytest.mark.parametrize("support", [4.0, 6.0])
+def test_stable_step_next_to_surfaces(lammps, support):
+    """At the largest stable step of the log, particles of a sheared fluid stay within a twentieth of the support radius of the surfaces,
+    where their rate is largest; at 1.3 times this step they are thrown off."""
+    layers = int(support)
+    text = f"""units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nlattice sq 1.0 origin 0.5 0.5 0.0
+region box block 0 20 {-layers} {12 + layers} -0.5 0.5\ncreate_box 1 box\ncreate_atoms 1 box\nset group all mass 1.0
+region f block INF INF 0 12 INF INF\ngroup fluid region f\ngroup wall subtract all fluid
+region low block INF INF INF 0 INF INF\ngroup low region low\ngroup high subtract wall low
+displace_atoms fluid random 0.4 0.4 0.0 5\nvelocity fluid set 0.0 0.0 0.0
+pair_style sph/bulk shear mg\npair_coeff * * 1.0 10.0 25.0 50.0 {support} pb 20.0\nfix 1 fluid sph/bulk
+fix 2 low rigid single force 1 off off off torque 1 off off off\nfix 3 low sph/wall move rigid
+fix 4 high sph/wall velocity 1.0 0.0 0.0 move no
+variable v atom sqrt(vx*vx+vy*vy)\ncompute V fluid reduce max v_v\nvariable d atom ternary(y<6,y,12-y)\ncompute D fluid reduce min v_d
+thermo_style custom step c_V c_D\nthermo 100\n"""
+    (step,) = re.findall(r"with viscous explicit (\S+?),", lammps(text + "timestep 1e-9\nrun 0\n").log)
+    table = lammps(text + f"timestep {step}\nrun 3000\n").thermo()[-1]
+    print(step, table["c_V"][1:].max(), table["c_D"][-1])
+    assert table["c_V"][1:].max() < 1.01 and table["c_D"][-1] < support / 20
+
+
 # ---- large viscosities ----------------------------------------------------------------------------------------------
 
 
