@@ -786,10 +786,10 @@ def test_contact(lammps):
 # ---- equipartition --------------------------------------------------------------------------------------------------
 
 
-# diffusion over kT of the input of the page Howto_sph_bodies: mean of seeds 1001 to 1010 with 375,000 steps, of which one has the
-# standard deviation 0.06, and by the times 30 to 80 the mean 0.49; standard deviation of a run of 125,000 steps
+# diffusion over kT of the input of the page Howto_sph_bodies: mean of seeds 1001 to 1010 with 480,000 steps, of which one has the
+# standard deviation 0.04, and by the times 30 to 80 the mean 0.48; standard deviation of a run of 160,000 steps
 
-DIFFUSION, SCATTER = 0.562, 0.09
+DIFFUSION, SCATTER = 0.558, 0.08
 
 
 @pytest.mark.long
