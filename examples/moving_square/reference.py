@@ -1,0 +1,224 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-only
+"""Reference of the moving square: finite volumes, on a grid whose lines follow the square.
+
+    python3 reference.py            three grids and their limit, written to reference.csv
+    python3 reference.py --quick    a coarse grid; exits with 1 if it is not near reference.csv
+
+The upper half of the box, with symmetry at y = 2.5.  Velocities are at the faces of the cells, pressure in the cells.  The faces
+of the square are lines of the grid.  Cells are small at them, and smallest at the corners.  Columns above the square move with
+it, those behind and in front are stretched.  Differences are central.  A time step is trapezoidal in x and y in turn, with the
+convecting velocity extrapolated; the projection is exact: the modes of the columns in y, and the unknowns of the columns next
+to the square, which connect them.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.linalg import cho_factor, cho_solve, eigh
+from scipy.linalg.lapack import dgtsv
+from scipy.optimize import brentq
+from scipy.special import erf
+
+TABLE = Path(__file__).resolve().parent / "reference.csv"
+LENGTH, HALF, NU, END = 10.0, 2.5, 0.01, 7.95
+T0, WIDTH = 0.2 * np.sqrt(np.log(1000)), 0.2        # time of the largest acceleration, and its width
+NEAR = 0.6                                          # width of the fine grid around the square
+SINGULAR = 0.4555                                   # stress at a corner is r^-0.4555
+
+
+def speed(t):
+    return (erf((t - T0) / WIDTH) + erf(T0 / WIDTH)) / 2
+
+
+def rear(t):
+    """Position of the rear face: integral of the speed."""
+    z, z0 = (t - T0) / WIDTH, T0 / WIDTH
+    return 1 + (WIDTH * (z * erf(z) + np.exp(-z * z) / np.sqrt(np.pi) - z0 * erf(z0) - np.exp(-z0 * z0) / np.sqrt(np.pi)) + t * erf(z0)) / 2
+
+
+def spread(width, cells, first):
+    """Distances from a face of the square: the first cell is so small, the others grow."""
+    b = brentq(lambda b: b / np.sinh(b) * width - first * cells, 1e-3, 20)
+    return width * np.sinh(b * np.linspace(0, 1, cells + 1)) / np.sinh(b)
+
+
+def lines(low, high, rhs, many=1):
+    """Solve tridiagonal systems along the last axis: diagonal high[0], and low and high[1] beside it."""
+    diagonal, upper = high
+    lower, upper = low.copy(), upper.copy()
+    lower[:, 0] = upper[:, -1] = 0
+    return dgtsv(lower.ravel()[1:], diagonal.ravel(), upper.ravel()[:-1], rhs.reshape(rhs.size // many, many))[3].reshape(rhs.shape)
+
+
+class Flow:
+    def __init__(self, n, step):
+        """n: refinement"""
+        first, half, long, above = 0.002 / n, round(30 * n), round(80 * n), round(60 * n)
+        edge = spread(0.5, half, first)
+        self.near, self.far = spread(NEAR, long, first), np.linspace(0, 1, long + 1)**3
+        self.over = np.concatenate([edge, 1 - edge[-2::-1]])
+        top = spread(NEAR, above, first) + (HALF - 0.5 - NEAR) * np.linspace(0, 1, above + 1)**3
+        self.y = np.concatenate([0.5 - edge[:0:-1], 0.5 + top])
+        self.i, self.k, self.j = long, long + 2 * half, half         # cells of the square: i to k, 0 to j
+        self.hy = np.diff(self.y)
+        self.gy = np.concatenate([[self.hy[0]], (self.hy[1:] + self.hy[:-1]) / 2, [self.hy[-1] / 2]])
+        columns, rows = self.k + long, len(self.hy)
+        self.u, self.v, self.p = np.zeros((columns + 1, rows)), np.zeros((columns, rows + 1)), np.zeros((columns, rows))
+        self.wet = np.ones_like(self.p)
+        self.wet[self.i:self.k, :self.j] = 0
+        self.body = np.s_[self.i:self.k + 1, :self.j]
+        self.moves, self.rises = np.ones_like(self.u, bool), np.ones_like(self.v, bool)     # unknowns
+        self.moves[self.body] = self.moves[[0, -1]] = False
+        self.rises[self.i:self.k, :self.j + 1] = self.rises[:, [0, -1]] = False
+        self.u0, self.v0 = self.u, self.v
+        self.step, self.t, self.steps = step, 0.0, 0
+        self.full, self.part = self.modes(self.hy), self.modes(self.hy[self.j:])
+        cut = np.zeros((rows, rows - self.j))
+        cut[self.j:] = np.diag(self.hy[self.j:])
+        self.cross = self.full[1].T @ cut @ self.part[1]
+        self.link = self.cross @ self.cross.T
+        self.mass = [0.0]
+        self.out = []
+
+    def x(self, t):
+        r = rear(t)
+        behind = r - self.near - (r - NEAR) * self.far
+        front = r + 1 + self.near + (LENGTH - r - 1 - NEAR) * self.far
+        return np.concatenate([behind[::-1], r + self.over[1:-1], front])
+
+    @staticmethod
+    def modes(h):
+        """Eigenvalues and modes of -d2/dy2 on cells of the size h between walls."""
+        c = 2 / (h[1:] + h[:-1])
+        matrix = np.diag(np.append(c, 0) + np.append(0, c)) - np.diag(c, 1) - np.diag(c, -1)
+        return eigh(matrix, np.diag(h))
+
+    def advance(self):
+        dt, nu, hy, gy, i, j, k = self.step, NU, self.hy, self.gy, self.i, self.j, self.k
+        old, new = self.x(self.t), self.x(self.t + dt)
+        self.t += dt
+        middle, w = (old + new) / 2, (new - old) / dt
+        dx = np.diff(middle)
+        gx = np.concatenate([[dx[0] / 2], (dx[1:] + dx[:-1]) / 2, [dx[-1] / 2]])
+        a = 0.0 if self.steps == 0 else 0.5
+        u, v = (1 + a) * self.u - a * self.u0, (1 + a) * self.v - a * self.v0           # convecting, at the middle of the step
+        uc = (u[1:] + u[:-1]) / 2 - ((w[1:] + w[:-1]) / 2)[:, None]
+        vc = (v[:, 1:] + v[:, :-1]) / 2
+        uf = np.zeros((len(dx) + 1, len(hy) + 1))                                        # at the corners of cells, relative to the grid
+        uf[:, 1:-1] = (u[:, :-1] * hy[:-1] + u[:, 1:] * hy[1:]) / (2 * gy[1:-1]) - w[:, None]
+        vf = np.zeros_like(uf)
+        vf[1:-1] = (v[:-1] * dx[:-1, None] + v[1:] * dx[1:, None]) / (2 * gx[1:-1, None])
+        # coefficients of the neighbours of u
+        west, east, south, north = (np.zeros_like(u) for _ in range(4))
+        west[1:-1] = (nu / dx[:-1, None] + uc[:-1] / 2) / gx[1:-1, None]
+        east[1:-1] = (nu / dx[1:, None] - uc[1:] / 2) / gx[1:-1, None]
+        south[:, 1:] = (nu / gy[1:-1] + vf[:, 1:-1] / 2) / hy[1:]
+        north[:] = (nu / gy[1:] - vf[:, 1:] / 2) / hy
+        south[i + 1:k, j] = 2 * nu / hy[j]**2
+        du = self.change(self.u, (west, east, south, north), self.moves, np.diff(self.p, axis=0) / gx[1:-1, None], np.s_[1:-1], speed(self.t))
+        # of v
+        west, east, south, north = (np.zeros_like(v) for _ in range(4))
+        west[:, 1:-1] = (nu / gx[:-1, None] + uf[:-1, 1:-1] / 2) / dx[:, None]
+        east[:, 1:-1] = (nu / gx[1:, None] - uf[1:, 1:-1] / 2) / dx[:, None]
+        east[i - 1, 1:j] = nu * 2 / dx[i - 1]**2
+        west[k, 1:j] = nu * 2 / dx[k]**2
+        south[:, 1:-1] = (nu / hy[:-1] + vc[:, :-1] / 2) / gy[1:-1]
+        north[:, 1:-1] = (nu / hy[1:] - vc[:, 1:] / 2) / gy[1:-1]
+        dv = self.change(self.v, (west, east, south, north), self.rises, np.diff(self.p, axis=1) / gy[1:-1], np.s_[:, 1:-1], 0.0)
+        self.u0, self.v0 = self.u, self.v
+        self.u, self.v = self.u + du, self.v + dv
+        # projection
+        wide = np.diff(new)
+        source = self.wet * (np.diff(self.u, axis=0) * hy + np.diff(self.v, axis=1) * wide[:, None])
+        phi = self.poisson(gx, wide, -source / dt)
+        self.u[1:-1] -= dt * self.moves[1:-1] * np.diff(phi, axis=0) / gx[1:-1, None]
+        self.v[:, 1:-1] -= dt * self.rises[:, 1:-1] * np.diff(phi, axis=1) / gy[1:-1]
+        self.p += phi - nu / 2 * source / (hy * wide[:, None])
+        self.steps += 1
+        self.measure(dx, new)
+
+    def change(self, f, coefficients, free, gradient, inner, wall):
+        west, east, south, north = (one * free for one in coefficients)
+        rhs = np.zeros_like(f)
+        rhs[inner] = -gradient
+        rhs[1:] += west[1:] * (f[:-1] - f[1:])
+        rhs[:-1] += east[:-1] * (f[1:] - f[:-1])
+        rhs[0] -= west[0] * f[0]
+        rhs[-1] -= east[-1] * f[-1]
+        rhs[:, 1:] += south[:, 1:] * (f[:, :-1] - f[:, 1:])
+        rhs[:, :-1] += north[:, :-1] * (f[:, 1:] - f[:, :-1])
+        rhs[:, -1] -= north[:, -1] * f[:, -1]
+        rhs *= self.step * free
+        if wall:
+            rhs[self.body] = wall - f[self.body]
+        s = self.step / 2
+        rhs = lines(-s * west.T, (1 + s * (west + east).T, -s * east.T), np.ascontiguousarray(rhs.T)).T
+        return lines(-s * south, (1 + s * (south + north), -s * north), np.ascontiguousarray(rhs))
+
+    def poisson(self, gx, wide, source):
+        """Modes q of each column; columns i-1 and k, next to the square, connect the three parts."""
+        i, j, k = self.i, self.j, self.k
+        c = 1 / gx
+        c[0] = c[-1] = 0
+        qs = []
+        for part, (value, mode), at in ((np.s_[:i - 1], self.full, j * 0), (np.s_[i:k], self.part, j), (np.s_[k + 1:], self.full, 0)):
+            begin, end = part.start or 0, part.stop or len(wide)
+            rhs = np.zeros((len(value), end - begin, 3))
+            rhs[..., 0] = (source[part, at:] @ mode).T
+            rhs[:, 0, 1] = rhs[:, -1, 2] = 1
+            upper = np.broadcast_to(-c[begin + 1:end + 1], rhs.shape[:2])
+            lower = np.broadcast_to(-c[begin:end], rhs.shape[:2])
+            qs.append(lines(lower, (value[:, None] * wide[part] - lower - upper, upper), rhs, 3))
+        a, b, d = qs
+        rows, x = len(self.hy), self.cross
+        east, west = c[i], c[k]
+        matrix = np.empty((2 * rows, 2 * rows))
+        value = self.full[0]
+        matrix[:rows, :rows] = np.diag(c[i - 1] - c[i - 1]**2 * a[:, -1, 2] + value * wide[i - 1]) + east * self.link - east**2 * (x * b[:, 0, 1]) @ x.T
+        matrix[rows:, rows:] = np.diag(c[k + 1] - c[k + 1]**2 * d[:, 0, 1] + value * wide[k]) + west * self.link - west**2 * (x * b[:, -1, 2]) @ x.T
+        matrix[:rows, rows:] = -east * west * (x * b[:, 0, 2]) @ x.T
+        matrix[rows:, :rows] = matrix[:rows, rows:].T
+        matrix[0, 0] += 1                                                                # pressure has no level
+        rhs = np.concatenate([source[i - 1] @ self.full[1] + c[i - 1] * a[:, -1, 0] + east * x @ b[:, 0, 0],
+                              source[k] @ self.full[1] + c[k + 1] * d[:, 0, 0] + west * x @ b[:, -1, 0]])
+        one, two = np.split(cho_solve(cho_factor(matrix), rhs), 2)
+        phi = np.zeros_like(source)
+        phi[i - 1], phi[k] = self.full[1] @ one, self.full[1] @ two
+        phi[:i - 1] = (self.full[1] @ (a[..., 0] + c[i - 1] * a[..., 2] * one[:, None])).T
+        phi[k + 1:] = (self.full[1] @ (d[..., 0] + c[k + 1] * d[..., 1] * two[:, None])).T
+        phi[i:k, j:] = (self.part[1] @ (b[..., 0] + east * b[..., 1] * (x.T @ one)[:, None] + west * b[..., 2] * (x.T @ two)[:, None])).T
+        return phi
+
+    def measure(self, dx, x):
+        """Drag by pressure at the middle of the step and by viscous stress at its end, and what the balance of momentum needs."""
+        i, j, k, hy = self.i, self.j, self.k, self.hy
+
+        def wall(one, two):
+            """pressure at the face of two columns"""
+            return self.p[one] + (self.p[one] - self.p[two]) * dx[one] / (dx[one] + dx[two])
+
+        pressure = 4 * hy[:j] @ (wall(k, k + 1) - wall(i - 1, i - 2))[:j]
+        h1, h2 = hy[j] / 2, hy[j] + hy[j + 1] / 2
+        shear = NU * ((speed(self.t) - self.u[:, j]) * h2 / h1 - (speed(self.t) - self.u[:, j + 1]) * h1 / h2) / (h2 - h1)
+        shear, wide = shear[i + 1:k], np.diff(x[i:k + 1])
+        viscous = (shear[1:] + shear[:-1]) / 2 @ wide[1:-1] + (shear[0] * wide[0] + shear[-1] * wide[-1]) / (1 - SINGULAR)
+        self.mass.append(((self.u[1:] + self.u[:-1]) / 2 * self.wet * hy * np.diff(x)[:, None]).sum())
+        ends = hy @ (wall(0, 1) - wall(-1, -2))
+        h1, h2 = hy[-1] / 2, hy[-1] + hy[-2] / 2
+        lid = -NU * (self.u[:, -1] * h2 / h1 - self.u[:, -2] * h1 / h2) / (h2 - h1)
+        lid = (lid[1:] + lid[:-1]) / 2 @ np.diff(x)
+        self.out.append((self.t, pressure, 4 * viscous, (self.mass[-1] - self.mass[-2]) / self.step, ends, lid))
+
+    def run(self):
+        while self.t < END:
+            self.advance()
+        t, pressure, viscous, rate, ends, lid = np.array(self.out).T
+        half = np.append(0, t)[:-1] + self.step / 2
+        self.time = t
+        self.pressure, self.viscous = CubicSpline(half, pressure), CubicSpline(np.append(0, t), np.append(0, viscous))
+        self.balance = CubicSpline(half, 4 * (rate - ends)) , CubicSpline(t, -4 * lid)
+        return self
