@@ -26,6 +26,7 @@ from scipy.special import erf
 TABLE = Path(__file__).resolve().parent / "reference.csv"
 LENGTH, HALF, NU, END = 10.0, 2.5, 0.01, 7.95
 T0, WIDTH = 0.2 * np.sqrt(np.log(1000)), 0.2        # time of the largest acceleration, and its width
+EARLY, LATER = 1.5, 2                               # until when steps are short, and by how much they are longer then
 NEAR = 0.6                                          # width of the fine grid around the square
 SINGULAR = 0.4555                                   # stress at a corner is r^-0.4555
 
@@ -75,7 +76,8 @@ class Flow:
         self.moves[self.body] = self.moves[[0, -1]] = False
         self.rises[self.i:self.k, :self.j + 1] = self.rises[:, [0, -1]] = False
         self.u0, self.v0 = self.u, self.v
-        self.step, self.t, self.steps = step, 0.0, 0
+        self.step = self.last = step
+        self.t = 0.0
         self.full, self.part = self.modes(self.hy), self.modes(self.hy[self.j:])
         cut = np.zeros((rows, rows - self.j))
         cut[self.j:] = np.diag(self.hy[self.j:])
@@ -104,7 +106,7 @@ class Flow:
         middle, w = (old + new) / 2, (new - old) / dt
         dx = np.diff(middle)
         gx = np.concatenate([[dx[0] / 2], (dx[1:] + dx[:-1]) / 2, [dx[-1] / 2]])
-        a = 0.0 if self.steps == 0 else 0.5
+        a = dt / (2 * self.last) if self.out else 0.0
         u, v = (1 + a) * self.u - a * self.u0, (1 + a) * self.v - a * self.v0           # convecting, at the middle of the step
         uc = (u[1:] + u[:-1]) / 2 - ((w[1:] + w[:-1]) / 2)[:, None]
         vc = (v[:, 1:] + v[:, :-1]) / 2
@@ -131,6 +133,7 @@ class Flow:
         dv = self.change(self.v, (west, east, south, north), self.rises, np.diff(self.p, axis=1) / gy[1:-1], np.s_[:, 1:-1], 0.0)
         self.u0, self.v0 = self.u, self.v
         self.u, self.v = self.u + du, self.v + dv
+        smooth = self.u[:, self.j:self.j + 2].copy()                                           # projection leaves a slip at walls
         # projection
         wide = np.diff(new)
         source = self.wet * (np.diff(self.u, axis=0) * hy + np.diff(self.v, axis=1) * wide[:, None])
@@ -138,8 +141,8 @@ class Flow:
         self.u[1:-1] -= dt * self.moves[1:-1] * np.diff(phi, axis=0) / gx[1:-1, None]
         self.v[:, 1:-1] -= dt * self.rises[:, 1:-1] * np.diff(phi, axis=1) / gy[1:-1]
         self.p += phi - nu / 2 * source / (hy * wide[:, None])
-        self.steps += 1
-        self.measure(dx, new)
+        self.last = dt
+        self.measure(dx, new, smooth)
 
     def change(self, f, coefficients, free, gradient, inner, wall):
         west, east, south, north = (one * free for one in coefficients)
@@ -193,7 +196,7 @@ class Flow:
         phi[i:k, j:] = (self.part[1] @ (b[..., 0] + east * b[..., 1] * (x.T @ one)[:, None] + west * b[..., 2] * (x.T @ two)[:, None])).T
         return phi
 
-    def measure(self, dx, x):
+    def measure(self, dx, x, smooth):
         """Drag by pressure at the middle of the step and by viscous stress at its end, and what the balance of momentum needs."""
         i, j, k, hy = self.i, self.j, self.k, self.hy
 
@@ -203,7 +206,7 @@ class Flow:
 
         pressure = 4 * hy[:j] @ (wall(k, k + 1) - wall(i - 1, i - 2))[:j]
         h1, h2 = hy[j] / 2, hy[j] + hy[j + 1] / 2
-        shear = NU * ((speed(self.t) - self.u[:, j]) * h2 / h1 - (speed(self.t) - self.u[:, j + 1]) * h1 / h2) / (h2 - h1)
+        shear = NU * ((speed(self.t) - smooth[:, 0]) * h2 / h1 - (speed(self.t) - smooth[:, 1]) * h1 / h2) / (h2 - h1)
         shear, wide = shear[i + 1:k], np.diff(x[i:k + 1])
         viscous = (shear[1:] + shear[:-1]) / 2 @ wide[1:-1] + (shear[0] * wide[0] + shear[-1] * wide[-1]) / (1 - SINGULAR)
         self.mass.append(((self.u[1:] + self.u[:-1]) / 2 * self.wet * hy * np.diff(x)[:, None]).sum())
@@ -214,11 +217,12 @@ class Flow:
         self.out.append((self.t, pressure, 4 * viscous, (self.mass[-1] - self.mass[-2]) / self.step, ends, lid))
 
     def run(self):
+        start = self.step
         while self.t < END:
+            self.step = start if self.t < EARLY - start / 2 else LATER * start
             self.advance()
         t, pressure, viscous, rate, ends, lid = np.array(self.out).T
-        half = np.append(0, t)[:-1] + self.step / 2
-        self.time = t
+        half = (np.append(0, t)[:-1] + t) / 2
         self.pressure, self.viscous = CubicSpline(half, pressure), CubicSpline(np.append(0, t), np.append(0, viscous))
         self.balance = CubicSpline(half, 4 * (rate - ends)) , CubicSpline(t, -4 * lid)
         return self
