@@ -76,8 +76,7 @@ class Flow:
         self.moves[self.body] = self.moves[[0, -1]] = False
         self.rises[self.i:self.k, :self.j + 1] = self.rises[:, [0, -1]] = False
         self.u0, self.v0 = self.u, self.v
-        self.step = self.last = step
-        self.t = 0.0
+        self.step, self.last, self.t = step, np.inf, 0.0
         self.full, self.part = self.modes(self.hy), self.modes(self.hy[self.j:])
         cut = np.zeros((rows, rows - self.j))
         cut[self.j:] = np.diag(self.hy[self.j:])
@@ -101,13 +100,14 @@ class Flow:
 
     def advance(self):
         dt, nu, hy, gy, i, j, k = self.step, NU, self.hy, self.gy, self.i, self.j, self.k
-        old, new = self.x(self.t), self.x(self.t + dt)
-        self.t += dt
-        middle, w = (old + new) / 2, (new - old) / dt
-        dx = np.diff(middle)
+        r = dt / self.last                                                              # 0 in the first step, which is Euler's
+        e, tau = r * r / (1 + 2 * r), dt * (1 + r) / (1 + 2 * r)
+        before, old, x = (self.x(max(0.0, t)) for t in (self.t - self.last, self.t, self.t + dt))
+        self.t, self.last = self.t + dt, dt
+        w = (x - old - e * (old - before)) / tau
+        dx = np.diff(x)
         gx = np.concatenate([[dx[0] / 2], (dx[1:] + dx[:-1]) / 2, [dx[-1] / 2]])
-        a = dt / (2 * self.last) if self.out else 0.0
-        u, v = (1 + a) * self.u - a * self.u0, (1 + a) * self.v - a * self.v0           # convecting, at the middle of the step
+        u, v = self.u + r * (self.u - self.u0), self.v + r * (self.v - self.v0)         # convecting
         uc = (u[1:] + u[:-1]) / 2 - ((w[1:] + w[:-1]) / 2)[:, None]
         vc = (v[:, 1:] + v[:, :-1]) / 2
         uf = np.zeros((len(dx) + 1, len(hy) + 1))                                        # at the corners of cells, relative to the grid
@@ -121,7 +121,7 @@ class Flow:
         south[:, 1:] = (nu / gy[1:-1] + vf[:, 1:-1] / 2) / hy[1:]
         north[:] = (nu / gy[1:] - vf[:, 1:] / 2) / hy
         south[i + 1:k, j] = 2 * nu / hy[j]**2
-        du = self.change(self.u, (west, east, south, north), self.moves, np.diff(self.p, axis=0) / gx[1:-1, None], np.s_[1:-1], speed(self.t))
+        du = self.change(tau, self.u, e * (self.u - self.u0), (west, east, south, north), self.moves, np.diff(self.p, axis=0) / gx[1:-1, None], np.s_[1:-1], speed(self.t))
         # of v
         west, east, south, north = (np.zeros_like(v) for _ in range(4))
         west[:, 1:-1] = (nu / gx[:-1, None] + uf[:-1, 1:-1] / 2) / dx[:, None]
@@ -130,24 +130,22 @@ class Flow:
         west[k, 1:j] = nu * 2 / dx[k]**2
         south[:, 1:-1] = (nu / hy[:-1] + vc[:, :-1] / 2) / gy[1:-1]
         north[:, 1:-1] = (nu / hy[1:] - vc[:, 1:] / 2) / gy[1:-1]
-        dv = self.change(self.v, (west, east, south, north), self.rises, np.diff(self.p, axis=1) / gy[1:-1], np.s_[:, 1:-1], 0.0)
+        dv = self.change(tau, self.v, e * (self.v - self.v0), (west, east, south, north), self.rises, np.diff(self.p, axis=1) / gy[1:-1], np.s_[:, 1:-1], 0.0)
         self.u0, self.v0 = self.u, self.v
         self.u, self.v = self.u + du, self.v + dv
         smooth = self.u[:, self.j:self.j + 2].copy()                                           # projection leaves a slip at walls
         # projection
-        wide = np.diff(new)
-        source = self.wet * (np.diff(self.u, axis=0) * hy + np.diff(self.v, axis=1) * wide[:, None])
-        phi = self.poisson(gx, wide, -source / dt)
-        self.u[1:-1] -= dt * self.moves[1:-1] * np.diff(phi, axis=0) / gx[1:-1, None]
-        self.v[:, 1:-1] -= dt * self.rises[:, 1:-1] * np.diff(phi, axis=1) / gy[1:-1]
-        self.p += phi - nu / 2 * source / (hy * wide[:, None])
-        self.last = dt
-        self.measure(dx, new, smooth)
+        source = self.wet * (np.diff(self.u, axis=0) * hy + np.diff(self.v, axis=1) * dx[:, None])
+        phi = self.poisson(gx, dx, -source / tau)
+        self.u[1:-1] -= tau * self.moves[1:-1] * np.diff(phi, axis=0) / gx[1:-1, None]
+        self.v[:, 1:-1] -= tau * self.rises[:, 1:-1] * np.diff(phi, axis=1) / gy[1:-1]
+        self.p += phi - nu * source / (hy * dx[:, None])
+        self.measure(dx, smooth)
 
-    def change(self, f, coefficients, free, gradient, inner, wall):
+    def change(self, tau, f, rhs, coefficients, free, gradient, inner, wall):
         west, east, south, north = (one * free for one in coefficients)
-        rhs = np.zeros_like(f)
-        rhs[inner] = -gradient
+        west, east, south, north = (one * tau for one in (west, east, south, north))
+        rhs[inner] -= tau * gradient
         rhs[1:] += west[1:] * (f[:-1] - f[1:])
         rhs[:-1] += east[:-1] * (f[1:] - f[:-1])
         rhs[0] -= west[0] * f[0]
@@ -155,12 +153,11 @@ class Flow:
         rhs[:, 1:] += south[:, 1:] * (f[:, :-1] - f[:, 1:])
         rhs[:, :-1] += north[:, :-1] * (f[:, 1:] - f[:, :-1])
         rhs[:, -1] -= north[:, -1] * f[:, -1]
-        rhs *= self.step * free
+        rhs *= free
         if wall:
             rhs[self.body] = wall - f[self.body]
-        s = self.step / 2
-        rhs = lines(-s * west.T, (1 + s * (west + east).T, -s * east.T), np.ascontiguousarray(rhs.T)).T
-        return lines(-s * south, (1 + s * (south + north), -s * north), np.ascontiguousarray(rhs))
+        rhs = lines(-west.T, (1 + (west + east).T, -east.T), np.ascontiguousarray(rhs.T)).T
+        return lines(-south, (1 + south + north, -north), np.ascontiguousarray(rhs))
 
     def poisson(self, gx, wide, source):
         """Modes q of each column; columns i-1 and k, next to the square, connect the three parts."""
@@ -196,33 +193,32 @@ class Flow:
         phi[i:k, j:] = (self.part[1] @ (b[..., 0] + east * b[..., 1] * (x.T @ one)[:, None] + west * b[..., 2] * (x.T @ two)[:, None])).T
         return phi
 
-    def measure(self, dx, x, smooth):
-        """Drag by pressure at the middle of the step and by viscous stress at its end, and what the balance of momentum needs."""
+    def measure(self, dx, smooth):
+        """Drag by pressure and by viscous stress; momentum of the fluid, and force of the box on it."""
         i, j, k, hy = self.i, self.j, self.k, self.hy
 
         def wall(one, two):
             """pressure at the face of two columns"""
             return self.p[one] + (self.p[one] - self.p[two]) * dx[one] / (dx[one] + dx[two])
 
-        pressure = 4 * hy[:j] @ (wall(k, k + 1) - wall(i - 1, i - 2))[:j]
-        h1, h2 = hy[j] / 2, hy[j] + hy[j + 1] / 2
-        shear = NU * ((speed(self.t) - smooth[:, 0]) * h2 / h1 - (speed(self.t) - smooth[:, 1]) * h1 / h2) / (h2 - h1)
-        shear, wide = shear[i + 1:k], np.diff(x[i:k + 1])
-        viscous = (shear[1:] + shear[:-1]) / 2 @ wide[1:-1] + (shear[0] * wide[0] + shear[-1] * wide[-1]) / (1 - SINGULAR)
-        self.mass.append(((self.u[1:] + self.u[:-1]) / 2 * self.wet * hy * np.diff(x)[:, None]).sum())
-        ends = hy @ (wall(0, 1) - wall(-1, -2))
-        h1, h2 = hy[-1] / 2, hy[-1] + hy[-2] / 2
-        lid = -NU * (self.u[:, -1] * h2 / h1 - self.u[:, -2] * h1 / h2) / (h2 - h1)
-        lid = (lid[1:] + lid[:-1]) / 2 @ np.diff(x)
-        self.out.append((self.t, pressure, 4 * viscous, (self.mass[-1] - self.mass[-2]) / self.step, ends, lid))
+        def shear(u, h, over):
+            """at a wall, of the velocities in two rows over its own"""
+            near, far = h[0] / 2, h[0] + h[1] / 2
+            return NU * ((u[:, 0] - over) * far / near - (u[:, 1] - over) * near / far) / (far - near)
+
+        pressure = hy[:j] @ (wall(k, k + 1) - wall(i - 1, i - 2))[:j]
+        top, wide = -shear(smooth, hy[j:], speed(self.t))[i + 1:k], dx[i:k]
+        viscous = (top[1:] + top[:-1]) / 2 @ wide[1:-1] + (top[0] * wide[0] + top[-1] * wide[-1]) / (1 - SINGULAR)
+        momentum = ((self.u[1:] + self.u[:-1]) / 2 * self.wet * hy * dx[:, None]).sum()
+        lid = shear(self.u[:, :-3:-1], hy[::-1], 0.0)
+        box = hy @ (wall(0, 1) - wall(-1, -2)) - (lid[1:] + lid[:-1]) / 2 @ dx
+        self.out.append((self.t, 4 * pressure, 4 * viscous, 4 * momentum, 4 * box))
 
     def run(self):
+        """Drag over time: by pressure, by viscous stress, and all of it from the balance of momentum."""
         start = self.step
         while self.t < END:
             self.step = start if self.t < EARLY - start / 2 else LATER * start
             self.advance()
-        t, pressure, viscous, rate, ends, lid = np.array(self.out).T
-        half = (np.append(0, t)[:-1] + t) / 2
-        self.pressure, self.viscous = CubicSpline(half, pressure), CubicSpline(np.append(0, t), np.append(0, viscous))
-        self.balance = CubicSpline(half, 4 * (rate - ends)) , CubicSpline(t, -4 * lid)
-        return self
+        t, pressure, viscous, momentum, box = np.concatenate([np.zeros((1, 5)), self.out]).T
+        return tuple(CubicSpline(t, one) for one in (pressure, viscous, CubicSpline(t, momentum)(t, 1) - box))
