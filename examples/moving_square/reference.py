@@ -2,14 +2,20 @@
 # SPDX-License-Identifier: GPL-2.0-only
 """Reference of the moving square: finite volumes, on a grid whose lines follow the square.
 
-    python3 reference.py            three grids and their limit, written to reference.csv
+    python3 reference.py            three grids and two time steps, and their limit, written to reference.csv (about 15 minutes)
     python3 reference.py --quick    a coarse grid; exits with 1 if it is not near reference.csv
 
 The upper half of the box, with symmetry at y = 2.5.  Velocities are at the faces of the cells, pressure in the cells.  The faces
-of the square are lines of the grid.  Cells are small at them, and smallest at the corners.  Columns above the square move with
-it, those behind and in front are stretched.  Differences are central.  A time step is trapezoidal in x and y in turn, with the
-convecting velocity extrapolated; the projection is exact: the modes of the columns in y, and the unknowns of the columns next
-to the square, which connect them.
+of the square are lines of the grid, so that no-slip is exact.  Cells are small at them, and smallest at the corners.  Columns
+above the square move with it; those behind and in front of it are stretched.
+
+Differences are central in space, and backward of second order in time, implicit in x and y in turn with the convecting velocity
+extrapolated.  The projection is exact: each column is the sum of its modes in y, and the columns behind, above and in front of
+the square are connected by those two next to it.
+
+The stress at a corner is infinite, but not its integral.  Drag by pressure is that on the front and rear faces, drag by viscous
+stress that on top and bottom; the normal viscous stress is 0 at a wall without slip.  The balance of momentum gives the sum in
+another way.
 """
 
 import argparse
@@ -24,11 +30,14 @@ from scipy.optimize import brentq
 from scipy.special import erf
 
 TABLE = Path(__file__).resolve().parent / "reference.csv"
-LENGTH, HALF, NU, END = 10.0, 2.5, 0.01, 7.95
+LENGTH, HALF, NU = 10.0, 2.5, 0.01
+TIMES = np.arange(0.018, 7.97, 0.03)
+GRIDS, STEP, POWERS = (1, 2, 3), 0.0025, (1.089, 2)  # errors have these powers of the size of cells; the first is of corners
+QUICK = 0.02, 0.06
 T0, WIDTH = 0.2 * np.sqrt(np.log(1000)), 0.2        # time of the largest acceleration, and its width
-EARLY, LATER = 1.5, 2                               # until when steps are short, and by how much they are longer then
+EARLY, LATER = 1.5, 4                               # until when steps are short, and by how much they are longer then
 NEAR = 0.6                                          # width of the fine grid around the square
-SINGULAR = 0.4555                                   # stress at a corner is r^-0.4555
+SINGULAR, CORNER = 0.4555, 3                        # stress at a corner is r^-0.4555; in so many cells it is not taken from the grid
 
 
 def speed(t):
@@ -45,6 +54,15 @@ def spread(width, cells, first):
     """Distances from a face of the square: the first cell is so small, the others grow."""
     b = brentq(lambda b: b / np.sinh(b) * width - first * cells, 1e-3, 20)
     return width * np.sinh(b * np.linspace(0, 1, cells + 1)) / np.sinh(b)
+
+
+def integral(stress, size):
+    """Over cells from a corner on: in the first ones the stress is a r^-0.4555 + b, as farther away."""
+    r = np.cumsum(size) - size / 2
+    one, two = CORNER, 2 * CORNER
+    a = (stress[one] - stress[two]) / (r[one]**-SINGULAR - r[two]**-SINGULAR)
+    b, end = stress[one] - a * r[one]**-SINGULAR, r[one] - size[one] / 2
+    return stress[one:] @ size[one:] + a * end**(1 - SINGULAR) / (1 - SINGULAR) + b * end
 
 
 def lines(low, high, rhs, many=1):
@@ -206,19 +224,59 @@ class Flow:
             near, far = h[0] / 2, h[0] + h[1] / 2
             return NU * ((u[:, 0] - over) * far / near - (u[:, 1] - over) * near / far) / (far - near)
 
-        pressure = hy[:j] @ (wall(k, k + 1) - wall(i - 1, i - 2))[:j]
-        top, wide = -shear(smooth, hy[j:], speed(self.t))[i + 1:k], dx[i:k]
-        viscous = (top[1:] + top[:-1]) / 2 @ wide[1:-1] + (top[0] * wide[0] + top[-1] * wide[-1]) / (1 - SINGULAR)
+        pressure = integral((wall(k, k + 1) - wall(i - 1, i - 2))[j - 1::-1], hy[j - 1::-1])
+        top, middle = -shear(smooth, hy[j:], speed(self.t)), (i + k) // 2
+        top = (top[1:] + top[:-1]) / 2
+        viscous = integral(top[i:middle], dx[i:middle]) + integral(top[k - 1:middle - 1:-1], dx[k - 1:middle - 1:-1])
         momentum = ((self.u[1:] + self.u[:-1]) / 2 * self.wet * hy * dx[:, None]).sum()
         lid = shear(self.u[:, :-3:-1], hy[::-1], 0.0)
         box = hy @ (wall(0, 1) - wall(-1, -2)) - (lid[1:] + lid[:-1]) / 2 @ dx
         self.out.append((self.t, 4 * pressure, 4 * viscous, 4 * momentum, 4 * box))
 
     def run(self):
-        """Drag over time: by pressure, by viscous stress, and all of it from the balance of momentum."""
+        """Drag at TIMES: by pressure, by viscous stress, and all of it from the balance of momentum."""
         start = self.step
-        while self.t < END:
+        while self.t < TIMES[-1]:
             self.step = start if self.t < EARLY - start / 2 else LATER * start
             self.advance()
         t, pressure, viscous, momentum, box = np.concatenate([np.zeros((1, 5)), self.out]).T
-        return tuple(CubicSpline(t, one) for one in (pressure, viscous, CubicSpline(t, momentum)(t, 1) - box))
+        return np.array([CubicSpline(t, one)(TIMES) for one in (pressure, viscous, CubicSpline(t, momentum)(t, 1) - box)])
+
+
+def norm(difference, drag):
+    """Relative L2 difference"""
+    return np.sqrt(np.mean(difference**2) / np.mean(drag**2))
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Reference of the moving square.")
+    parser.add_argument("--quick", action="store_true", help="a coarse grid, compared with reference.csv")
+    if parser.parse_args().quick:
+        result = Flow(0.5, 0.01).run()[:2]
+        table = np.loadtxt(TABLE, delimiter=",", skiprows=1).T[1:]
+        fine = True
+        for name, one, other, limit in zip(("pressure", "viscous"), result, table, QUICK):
+            difference = norm(one - other, other)
+            print(f"{name}: relative L2 difference {difference:.4f}, limit {limit}")
+            fine = fine and difference < limit
+        return 0 if fine else 1
+    drags = []
+    for n in GRIDS:
+        drags.append(Flow(n, STEP).run())
+        print(f"grid {n}, step {STEP}: done", flush=True)
+    longer = Flow(GRIDS[0], 2 * STEP).run()
+    weights = np.linalg.inv([[1, *(n**-power for power in POWERS)] for n in GRIDS])[0]
+    limit = np.tensordot(weights, drags, 1) + (drags[0] - longer) / 3
+    for name, one in zip(("pressure", "viscous", "balance"), range(3)):
+        print(f"{name}, relative L2 differences to the limit: grids " + ", ".join(f"{norm(drag[one] - limit[one], limit[one]):.4f}" for drag in drags)
+              + f"; step {norm(drags[0][one] - longer[one], limit[one]):.4f}")
+    print(f"pressure + viscous from the balance of momentum: {norm(limit[0] + limit[1] - limit[2], limit[2]):.4f}")
+    with open(TABLE, "w", encoding="utf-8") as file:
+        file.write("time,pressure,viscous\n")
+        for row in zip(TIMES, *limit[:2]):
+            file.write("{:.3f},{:.4f},{:.4f}\n".format(*row))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
