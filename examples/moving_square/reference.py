@@ -65,17 +65,16 @@ def integral(stress, size):
     return stress[one:] @ size[one:] + a * end**(1 - SINGULAR) / (1 - SINGULAR) + b * end
 
 
-def lines(low, high, rhs, many=1):
-    """Solve tridiagonal systems along the last axis: diagonal high[0], and low and high[1] beside it."""
-    diagonal, upper = high
-    lower, upper = low.copy(), upper.copy()
+def lines(lower, diagonal, upper, rhs):
+    """Solve a tridiagonal system of each line of cells; a third index of rhs counts right sides."""
+    lower, upper = lower.copy(), upper.copy()
     lower[:, 0] = upper[:, -1] = 0
-    return dgtsv(lower.ravel()[1:], diagonal.ravel(), upper.ravel()[:-1], rhs.reshape(rhs.size // many, many))[3].reshape(rhs.shape)
+    return dgtsv(lower.ravel()[1:], diagonal.ravel(), upper.ravel()[:-1], rhs.reshape(diagonal.size, -1))[3].reshape(rhs.shape)
 
 
 class Flow:
     def __init__(self, n, step):
-        """n: refinement"""
+        """n: refinement of the grid; step: in time, at the start"""
         first, half, long, above = 0.002 / n, round(30 * n), round(80 * n), round(60 * n)
         edge = spread(0.5, half, first)
         self.near, self.far = spread(NEAR, long, first), np.linspace(0, 1, long + 1)**3
@@ -94,14 +93,12 @@ class Flow:
         self.moves[self.body] = self.moves[[0, -1]] = False
         self.rises[self.i:self.k, :self.j + 1] = self.rises[:, [0, -1]] = False
         self.u0, self.v0 = self.u, self.v
-        self.step, self.last, self.t = step, np.inf, 0.0
+        self.step, self.last, self.t, self.out = step, np.inf, 0.0, []
         self.full, self.part = self.modes(self.hy), self.modes(self.hy[self.j:])
         cut = np.zeros((rows, rows - self.j))
         cut[self.j:] = np.diag(self.hy[self.j:])
         self.cross = self.full[1].T @ cut @ self.part[1]
         self.link = self.cross @ self.cross.T
-        self.mass = [0.0]
-        self.out = []
 
     def x(self, t):
         r = rear(t)
@@ -174,40 +171,37 @@ class Flow:
         rhs *= free
         if wall:
             rhs[self.body] = wall - f[self.body]
-        rhs = lines(-west.T, (1 + (west + east).T, -east.T), np.ascontiguousarray(rhs.T)).T
-        return lines(-south, (1 + south + north, -north), np.ascontiguousarray(rhs))
+        rhs = lines(-west.T, 1 + (west + east).T, -east.T, np.ascontiguousarray(rhs.T)).T
+        return lines(-south, 1 + south + north, -north, np.ascontiguousarray(rhs))
 
     def poisson(self, gx, wide, source):
         """Modes q of each column; columns i-1 and k, next to the square, connect the three parts."""
         i, j, k = self.i, self.j, self.k
         c = 1 / gx
         c[0] = c[-1] = 0
-        qs = []
-        for part, (value, mode), at in ((np.s_[:i - 1], self.full, j * 0), (np.s_[i:k], self.part, j), (np.s_[k + 1:], self.full, 0)):
-            begin, end = part.start or 0, part.stop or len(wide)
+        parts = []
+        for begin, end, bottom, (value, mode) in ((0, i - 1, 0, self.full), (i, k, j, self.part), (k + 1, len(wide), 0, self.full)):
             rhs = np.zeros((len(value), end - begin, 3))
-            rhs[..., 0] = (source[part, at:] @ mode).T
-            rhs[:, 0, 1] = rhs[:, -1, 2] = 1
-            upper = np.broadcast_to(-c[begin + 1:end + 1], rhs.shape[:2])
-            lower = np.broadcast_to(-c[begin:end], rhs.shape[:2])
-            qs.append(lines(lower, (value[:, None] * wide[part] - lower - upper, upper), rhs, 3))
-        a, b, d = qs
-        rows, x = len(self.hy), self.cross
+            rhs[..., 0] = (source[begin:end, bottom:] @ mode).T
+            rhs[:, 0, 1] = rhs[:, -1, 2] = 1                                             # for the columns next to it
+            lower, upper = (np.broadcast_to(-c[at:at + end - begin], rhs.shape[:2]) for at in (begin, begin + 1))
+            parts.append(lines(lower, value[:, None] * wide[begin:end] - lower - upper, upper, rhs))
+        a, b, d = parts
+        (value, mode), rows, x = self.full, len(self.hy), self.cross
         east, west = c[i], c[k]
         matrix = np.empty((2 * rows, 2 * rows))
-        value = self.full[0]
         matrix[:rows, :rows] = np.diag(c[i - 1] - c[i - 1]**2 * a[:, -1, 2] + value * wide[i - 1]) + east * self.link - east**2 * (x * b[:, 0, 1]) @ x.T
         matrix[rows:, rows:] = np.diag(c[k + 1] - c[k + 1]**2 * d[:, 0, 1] + value * wide[k]) + west * self.link - west**2 * (x * b[:, -1, 2]) @ x.T
         matrix[:rows, rows:] = -east * west * (x * b[:, 0, 2]) @ x.T
         matrix[rows:, :rows] = matrix[:rows, rows:].T
         matrix[0, 0] += 1                                                                # pressure has no level
-        rhs = np.concatenate([source[i - 1] @ self.full[1] + c[i - 1] * a[:, -1, 0] + east * x @ b[:, 0, 0],
-                              source[k] @ self.full[1] + c[k + 1] * d[:, 0, 0] + west * x @ b[:, -1, 0]])
+        rhs = np.concatenate([source[i - 1] @ mode + c[i - 1] * a[:, -1, 0] + east * x @ b[:, 0, 0],
+                              source[k] @ mode + c[k + 1] * d[:, 0, 0] + west * x @ b[:, -1, 0]])
         one, two = np.split(cho_solve(cho_factor(matrix), rhs), 2)
         phi = np.zeros_like(source)
-        phi[i - 1], phi[k] = self.full[1] @ one, self.full[1] @ two
-        phi[:i - 1] = (self.full[1] @ (a[..., 0] + c[i - 1] * a[..., 2] * one[:, None])).T
-        phi[k + 1:] = (self.full[1] @ (d[..., 0] + c[k + 1] * d[..., 1] * two[:, None])).T
+        phi[i - 1], phi[k] = mode @ one, mode @ two
+        phi[:i - 1] = (mode @ (a[..., 0] + c[i - 1] * a[..., 2] * one[:, None])).T
+        phi[k + 1:] = (mode @ (d[..., 0] + c[k + 1] * d[..., 1] * two[:, None])).T
         phi[i:k, j:] = (self.part[1] @ (b[..., 0] + east * b[..., 1] * (x.T @ one)[:, None] + west * b[..., 2] * (x.T @ two)[:, None])).T
         return phi
 
