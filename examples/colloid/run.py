@@ -17,7 +17,7 @@ from run_lammps import Example, csv_rows, pyplot, save, thermo      # noqa: E402
 
 T, MU, DT, EVERY, PARTICLES = 0.001, 0.07, 0.03125, 32, 100     # those of in.colloid
 KAPPA = {"zero": 0.0, "ten": 0.7}               # bulk viscosity: 0 and 10 mu
-SEEDS, STEPS, STARTS = range(1, 9), 960000, 15  # runs of each fluid, steps, and configurations of each in which the disc is pulled
+SEEDS, STEPS, STARTS = range(1, 17), 960000, 15  # runs of each fluid, steps, and configurations of each in which the disc is pulled
 QUICK = (1,), 48000, 2
 PULL, PULLED = 0.002, 3200                      # force, and steps
 SETTLE = 200                                    # outputs before the means

@@ -165,7 +165,7 @@ bool FixSPHWall::check_movers() const
   if (group->count(igroup) == 0)
     error->all(FLERR, "Fix {} group {} has no particles", style, group->names[igroup]);
   std::vector<int> movers(atom->nlocal, 0);
-  bool lagging = false;
+  int kinds[2] = {0, 0};    // of movers: rigid/nve and its like, all others
   for (const auto &other : modify->get_fix_list()) {
     if (other == this || !(other->time_integrate || dynamic_cast<FixSPHWall *>(other))) continue;
     if (other->rigid_flag) {
@@ -182,8 +182,8 @@ bool FixSPHWall::check_movers() const
           movers[i]++;
           is_mover = true;
         }
-      if (!utils::strmatch(other->style, "^rigid/n"))
-        lagging = lagging || over_all<int>(world, is_mover, MPI_MAX);
+      if (over_all<int>(world, is_mover, MPI_MAX))
+        kinds[!utils::strmatch(other->style, "^rigid/n")]++;
       continue;
     }
     const auto shared = first_particle(lmp, [&](int i) {
@@ -201,7 +201,13 @@ bool FixSPHWall::check_movers() const
                "Fix {} {} move rigid: {} must be moved by one fix for rigid bodies, as fix rigid "
                "or rigid/small",
                id, style, wrong);
-  return lagging;
+  if (kinds[0] && kinds[1])
+    error->all(
+        FLERR,
+        "Fix {} {} move rigid: bodies of fix rigid/nve and bodies of fix rigid need a fix {} "
+        "each",
+        id, style, style);
+  return kinds[1] > 0;
 }
 
 /* ----------------------------------------------------------------------

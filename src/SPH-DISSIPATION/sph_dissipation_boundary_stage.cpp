@@ -27,7 +27,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <numeric>
 
 using namespace LAMMPS_NS;
@@ -65,6 +64,7 @@ void BoundaryStage::find_bits()
     if (one->has_frozen_pressure()) frozen_bits |= one->boundary_bit();
     if (one->has_mean_pressure()) mean_bits |= one->boundary_bit();
   }
+  sum_bits = group_bits & ~frozen_bits;
   if (boundaries.empty()) engine.forget_wall_energy();
   if (group_bits == symmetric_bits) engine.excess.clear();
 }
@@ -122,10 +122,10 @@ void BoundaryStage::run(NeighList *list)
 
 void BoundaryStage::begin(NeighList *list)
 {
-  sum.resize(atom->nmax);
   const bool found = (neighbor->ago == 0 || group_bits != rows_bits);
-  if (found) find_rows(list);
+  if (found) find_candidates(list);
   find_pairs();
+  check();
   surface.has_flux = conducts();
   if (found) {
     find_bodies();
@@ -211,14 +211,9 @@ void BoundaryStage::extend(bool increments)
 {
   if (increments && !mean_bits) return;
   accumulate();
-  BoundarySum *const first = sum.data();
-  constexpr int NOT_OF_SPIN = offsetof(BoundarySum, wd3) / sizeof(double);
-  exchange.reverse({field(first, &first->weight, NOT_OF_SPIN),
-                    field(first, first->wd3, engine.has_spin() ? 6 : 0)});
-  check();
   for (auto boundary : boundaries)
     if (!(increments && boundary->has_symmetric_friction()))
-      boundary->set_boundary(*this, surface.surface.data(), first);
+      boundary->set_boundary(*this, surface.surface.data(), sum.data());
 
   if (increments)
     engine.for_each(atom->nlocal, [&](int i) {
@@ -234,11 +229,9 @@ void BoundaryStage::extend(bool increments)
       if (atom->mask[i] & symmetric_bits) engine.particle[i].vol = 0.0;
     });
 
-  // ghost atoms of the fluid get what they have already
-
   Particle *const particle = engine.particle;
   const Field state = field(particle, particle->u, 5);    // u, vol and g
-  exchange.forward({state, {engine.zeta_term, 1, 1}, engine.spins()});
+  exchange.forward({state, {engine.zeta_term, 1, 1}, engine.spins()}, group_bits);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -269,9 +262,12 @@ void BoundaryStage::set_excess()
 
 void BoundaryStage::set_squares()
 {
+  const int *const mask = atom->mask;
   engine.team().run([&](int k) {
-    for (const auto &pair : pairs.of_thread[k])
-      engine.set_square(pair.fluid, pair.wall, pair.entry);
+    for (const int ii : pairs.rows[k])
+      engine.visit_pairs(ii, [&](int i, int j, bigint entry) {
+        if (are_across(mask[i], mask[j])) engine.set_square(i, j, entry);
+      });
   });
 }
 
@@ -285,11 +281,11 @@ void BoundaryStage::extend_temperatures(bool increments)
   else {
     accumulate_heat();
     BoundaryHeatSum *const heat = heat_sum.data();
-    exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))});
+    exchange.reverse({field(heat, &heat->weight, sizeof(*heat) / sizeof(double))}, group_bits);
   }
   for (auto boundary : boundaries) boundary->set_heat(*this, surface.surface.data(), increments);
   FlowRow *const heat = engine.heat().data();
-  exchange.forward({field(heat, &heat->vol, 4)});
+  exchange.forward({field(heat, &heat->vol, 4)}, group_bits);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -314,9 +310,7 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow)
       const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-      const double heat =
-          surface_heat(flux, f.vol, r, engine.slope(pair.fluid, pair.wall, pair.entry),
-                       surface.surface[pair.wall]);
+      const double heat = surface_heat(flux, f.vol, r, pair.slope, surface.surface[pair.wall]);
       sum[pair.fluid] += heat;
       sum[pair.wall] -= heat;
     }
@@ -346,8 +340,7 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
     force.approach -= force.r[d] * (f.u[d] - w.u[d]);
   }
   if (engine.parameters().thermal && !is_body(pair.wall))
-    force.pressing = engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g *
-        engine.slope(pair.fluid, pair.wall, pair.entry);
+    force.pressing = engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * pair.slope;
   force.repulsion = repulsion_of(stiffness(pair.fluid), over(pair.fluid), contact[pair.wall],
                                  sqrt(inner_product(force.r, force.r)));
   return force;
@@ -360,9 +353,11 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
 void BoundaryStage::run_friction(FrictionPart part, const StepNoise *noise, bool linear)
 {
   const double support = engine.constants().support;
+  const bool spins = engine.has_spin();
   surface_pairs.resize(engine.team().size());
   engine.team().run([&](int k) {
-    std::vector<SurfacePair> found;
+    SurfacePairs &own = surface_pairs[k];
+    own.begin(spins);
     for (const auto &pair : pairs.of_thread[k]) {
       if (!(atom->mask[pair.wall] & symmetric_bits)) continue;
       const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
@@ -373,17 +368,24 @@ void BoundaryStage::run_friction(FrictionPart part, const StepNoise *noise, bool
       const double factor = (part == FrictionPart::BODY) ? 1.0
           : (part == FrictionPart::ADDED)                ? surface_factor(s, r, support) - 1.0
                                                          : surface_factor(s, r, support);
-      SurfacePair one = {
-          pair.fluid, pair.wall, factor * engine.slope(pair.fluid, pair.wall, pair.entry), {}, {}};
+      Particle one = f;    // relative to the rigid body of the boundary there, without pressure
+      one.g = 0.0;
+      Spin spin;
       for (int d = 0; d < 3; d++) {
-        one.u[d] = f.u[d] - w.u[d] + turn[d];
-        if (engine.has_spin())
-          one.w[d] = engine.spin[pair.fluid].w[d] - engine.spin[pair.wall].w[d];
+        one.u[d] += turn[d] - w.u[d];
+        if (spins) spin.w[d] = engine.spin[pair.fluid].w[d] - engine.spin[pair.wall].w[d];
       }
-      found.push_back(one);
+      if (own.starts(pair.wall)) {
+        Particle at_rest = w;
+        at_rest.vol = atom->vfrac[pair.wall];    // pass 2 has none of it
+        at_rest.g = 0.0;
+        for (double &u : at_rest.u) u = 0.0;
+        own.start(pair.wall, at_rest, spins);
+      }
+      own.add(pair.fluid, one, spins ? &spin : nullptr, factor * pair.slope);
     }
-    surface_pairs[k].set(found, number, nboundary);
-    engine.accumulate_friction(surface_pairs[k], noise, k);
+    own.end();
+    engine.accumulate_friction(own, noise, k);
   });
 }
 
@@ -409,21 +411,21 @@ void BoundaryStage::add_friction(PairTally *tally, const StepNoise &noise)
 
   run_friction(directed ? FrictionPart::ADDED : FrictionPart::ALL, &noise, false);
   for (const auto &own : surface_pairs) {
-    own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
+    own.visit([&](int fluid, int wall, std::size_t k) {
       const double *const f = own.force[k].f;
       for (int d = 0; d < 3; d++) {
-        engine.force[pair.fluid].f[d] += f[d];
-        engine.force[pair.wall].f[d] -= f[d];
+        engine.force[fluid].f[d] += f[d];
+        engine.force[wall].f[d] -= f[d];
       }
-      add_row(pair.fluid, own, k, share);
+      add_row(fluid, own, k, share);
       if (!tally) return;
       double r[3];
-      for (int d = 0; d < 3; d++)
-        r[d] = engine.particle[pair.fluid].x[d] - engine.particle[pair.wall].x[d];
-      tally->tally(pair.fluid, pair.wall, f, r);
+      for (int d = 0; d < 3; d++) r[d] = engine.particle[fluid].x[d] - engine.particle[wall].x[d];
+      tally->tally(fluid, wall, f, r);
     });
-    for (std::size_t row = 0; row < own.rows(); row++)
-      add_row(own.wall(row), own, row, shared ? 0.0 : 1.0);
+    own.visit_walls([&](int wall, std::size_t row) {
+      add_row(wall, own, row, shared ? 0.0 : 1.0);
+    });
   }
   if (!directed) return;
 
@@ -431,10 +433,9 @@ void BoundaryStage::add_friction(PairTally *tally, const StepNoise &noise)
 
   run_friction(FrictionPart::BODY, nullptr, false);
   for (const auto &own : surface_pairs)
-    own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
-      engine.force[pair.fluid].heat += own.force[k].heat;
-      for (int c = first_heat; c < side.width; c++)
-        side.torque(pair.fluid)[c] += own.side.torque(k)[c];
+    own.visit([&](int fluid, int, std::size_t k) {
+      engine.force[fluid].heat += own.force[k].heat;
+      for (int c = first_heat; c < side.width; c++) side.torque(fluid)[c] += own.side.torque(k)[c];
     });
 }
 
@@ -446,11 +447,11 @@ void BoundaryStage::add_linear_friction()
   run_friction(engine.parameters().directed_noise() ? FrictionPart::ADDED : FrictionPart::ALL,
                nullptr, true);
   for (const auto &own : surface_pairs)
-    own.visit([&](const SurfacePair &pair, std::size_t k, std::size_t) {
+    own.visit([&](int fluid, int wall, std::size_t k) {
       for (int d = 0; d < 3; d++) {
-        engine.force[pair.fluid].f[d] += own.force[k].f[d];
-        engine.force[pair.wall].f[d] -= own.force[k].f[d];
-        if (engine.has_spin()) engine.side.torque(pair.fluid)[d] += own.side.torque(k)[d];
+        engine.force[fluid].f[d] += own.force[k].f[d];
+        engine.force[wall].f[d] -= own.force[k].f[d];
+        if (engine.has_spin()) engine.side.torque(fluid)[d] += own.side.torque(k)[d];
       }
     });
 }
@@ -462,7 +463,7 @@ void BoundaryStage::add_linear_friction()
 void BoundaryStage::repel(PairTally *tally)
 {
   if (!has_energy()) return;
-  exchange.forward({field(sum.data(), &sum.data()->occupied, 1)});
+  exchange.forward({field(filled.data(), &filled.data()->contact, 1)});
   const int nall = atom->nlocal + atom->nghost, n = nforce();
 
   auto add_force = [&](int i, const double *f) {
@@ -522,7 +523,7 @@ void BoundaryStage::find_energies(double missing)
 {
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   std::vector<double> each(nall, 0.0), work(nall, 0.0);
-  exchange.forward({field(sum.data(), &sum.data()->occupied, 1)});
+  exchange.forward({field(filled.data(), &filled.data()->contact, 1)});
   add_energies(nall, [&](int i, double energy) {
     each[i] += energy;
   });
@@ -589,73 +590,70 @@ void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &
 
 /* ---------------------------------------------------------------------- */
 
-void BoundaryStage::find_rows(NeighList *list)
+void BoundaryStage::find_candidates(NeighList *list)
 {
   Threads &threads = engine.team();
-  const int parts = threads.size();
+  const int parts = threads.size(), nall = atom->nlocal + atom->nghost;
   const int *const mask = atom->mask;
   rows_bits = group_bits;
   set_near();
-  nboundary = 0;
-  number.assign(symmetric_bits ? atom->nlocal + atom->nghost : 0, -1);
-  for (std::size_t i = 0; i < number.size(); i++)
-    if (mask[i] & symmetric_bits) number[i] = nboundary++;
-  auto is_pair = [&](int i, int j) {
-    return static_cast<bool>(mask[j & NEIGHMASK] & group_bits) !=
-        static_cast<bool>(mask[i] & group_bits);
-  };
 
-  // by thread: rows, and how many such pairs each has, for several threads to share
+  // by thread, in the order of the list
 
-  std::vector<std::vector<int>> found(parts), count(parts);
+  std::vector<std::vector<BoundaryPair>> found(parts);
+  pairs.rows.assign(parts, {});
   threads.in_parts(list->inum, [&](int k, int from, int to) {
     for (int ii = from; ii < to; ii++) {
       const int i = list->ilist[ii];
-      int n = 0;
-      for (int jj = 0; jj < list->numneigh[i]; jj++)
-        if (is_pair(i, list->firstneigh[i][jj])) {
-          n++;
-          if (parts == 1) break;
-        }
-      if (n == 0) continue;
-      found[k].push_back(ii);
-      count[k].push_back(n);
+      const std::size_t before = found[k].size();
+      for (int jj = 0; jj < list->numneigh[i]; jj++) {
+        const int j = list->firstneigh[i][jj] & NEIGHMASK;
+        if (!are_across(mask[i], mask[j])) continue;
+        found[k].push_back((mask[i] & group_bits) ? BoundaryPair{j, i, 0.0}
+                                                  : BoundaryPair{i, j, 0.0});
+      }
+      if (found[k].size() > before) pairs.rows[k].push_back(ii);
     }
   });
 
   engine.excess.clear();
   if (group_bits != symmetric_bits) {
-    engine.excess.resize(atom->nlocal + atom->nghost + BLOCK);
-    for (const auto &part : found)
+    engine.excess.resize(nall + BLOCK);
+    for (const auto &part : pairs.rows)
       for (const int ii : part) engine.excess[list->ilist[ii]].crosses = 1.0;
   }
 
-  pairs.rows.assign(parts, {});
+  // in the order of the boundary particles, of which each thread gets whole ones
+
+  std::vector<bigint> next(nall + 1, 0);
+  for (const auto &part : found)
+    for (const auto &pair : part) next[pair.wall + 1]++;
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  const bigint total = next[nall];
+  std::vector<BoundaryPair> ordered(total);
+  for (const auto &part : found)
+    for (const auto &pair : part) ordered[next[pair.wall]++] = pair;
+  pairs.candidates.resize(parts);
+  for (bigint k = 0, begin = 0; k < parts; k++) {
+    bigint end = total * (k + 1) / parts;
+    while (end > begin && end < total && ordered[end].wall == ordered[end - 1].wall) end++;
+    end = std::max(end, begin);
+    pairs.candidates[k].assign(ordered.begin() + begin, ordered.begin() + end);
+    begin = end;
+  }
+
   pairs.touched.resize(parts);
   pairs.of_thread.resize(parts);
-  bigint total = 0, before = 0;
-  for (const auto &part : count) total = std::accumulate(part.begin(), part.end(), total);
-  for (int k = 0; k < parts; k++)
-    for (std::size_t m = 0; m < found[k].size(); m++) {
-      pairs.rows[before * parts / total].push_back(found[k][m]);
-      before += count[k][m];
-    }
-
   threads.run([&](int k) {
     if (k == 0) return;
-    std::vector<bool> known(atom->nlocal + atom->nghost);
+    std::vector<bool> known(nall);
     auto &touched = pairs.touched[k];
     touched.clear();
-    auto touch = [&](int i) {
-      if (!known[i]) touched.push_back(i);
-      known[i] = true;
-    };
-    for (const int ii : pairs.rows[k]) {
-      const int i = list->ilist[ii];
-      touch(i);
-      for (int jj = 0; jj < list->numneigh[i]; jj++)
-        if (is_pair(i, list->firstneigh[i][jj])) touch(list->firstneigh[i][jj] & NEIGHMASK);
-    }
+    for (const auto &pair : pairs.candidates[k])
+      for (const int i : {pair.fluid, pair.wall}) {
+        if (!known[i]) touched.push_back(i);
+        known[i] = true;
+      }
   });
 }
 
@@ -677,42 +675,63 @@ void BoundaryStage::set_near()
   });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   those inside the support; the filled parts of owned atoms
+------------------------------------------------------------------------- */
 
 void BoundaryStage::find_pairs()
 {
-  const int *const mask = atom->mask;
-  engine.team().run([&](int k) {
-    auto &own = pairs.of_thread[k];
-    own.clear();
-    for (const int ii : pairs.rows[k])
-      engine.visit_pairs(ii, [&](int i, int j, bigint entry) {
-        const bool wall = mask[i] & group_bits;
-        if (static_cast<bool>(mask[j] & group_bits) == wall) return;
-        own.push_back({wall ? j : i, wall ? i : j, entry});
-      });
+  const Parameters &par = engine.parameters();
+  const int nall = atom->nlocal + atom->nghost;
+  const double support_sq = par.support * par.support, support_inv = 1.0 / par.support;
+  const double slope_norm = par.slope_norm;
+  const Particle *const particle = engine.particle;
+  const NearKernel *const near_wall = near.data();
+  const bool repulsive = has_energy();
+  filled.assign(nall, FilledPart());
+  with_kernel(par.kernel, [&](auto kernel) {
+    using Kernel = decltype(kernel);
+    filled_sums.run(engine.team(), filled.data(), nall, pairs.touched, [&](int k, FilledPart *sum) {
+      const std::vector<BoundaryPair> &all = pairs.candidates[k];
+      auto &own = pairs.of_thread[k];
+      own.resize(all.size());
+      BoundaryPair *next = own.data();
+      for (const auto &pair : all) {
+        const double rsq = MathExtra::distsq3(particle[pair.fluid].x, particle[pair.wall].x);
+        if (!(rsq < support_sq)) continue;
+        const double distance = sqrt(rsq);
+        *next++ = {pair.fluid, pair.wall, slope_norm * Kernel::slope(distance * support_inv)};
+        sum[pair.fluid].near += near_wall[pair.wall].template at<Kernel>(distance);
+        if (repulsive) sum[pair.fluid].contact += contact[pair.wall].at<ContactKernel>(distance);
+      }
+      own.resize(next - own.data());
+    });
+    return 0;
   });
+  exchange.reverse({field(filled.data(), &filled.data()->near, repulsive ? 2 : 1)});
 }
 
 /* ----------------------------------------------------------------------
-   sums of owned atoms and the contributions to ghost atoms
+   of owned atoms
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::accumulate()
 {
+  sum.resize(sum_bits ? atom->nmax : 0);
+  if (!sum_bits) return;
   const int nall = atom->nlocal + atom->nghost;
-  engine.team().in_parts(nall, [&](int, int from, int to) {
-    memset(sum.data() + from, 0, (to - from) * sizeof(BoundarySum));
+  engine.for_each(nall, [&](int i) {
+    if (atom->mask[i] & sum_bits) sum[i] = BoundarySum();
   });
   const double *const rho = atom->rho;
   const bool has_spin = engine.has_spin();
   const Parameters &par = engine.parameters();
-  const bool repulsive = has_energy();
 
   with_kernel(engine.parameters().kernel, [&](auto kernel) {
     using Kernel = decltype(kernel);
     sums.run(engine.team(), sum.data(), nall, pairs.touched, [&](int k, BoundarySum *own) {
       for (const auto &pair : pairs.of_thread[k]) {
+        if (!(atom->mask[pair.wall] & sum_bits)) continue;
         const Particle &f = engine.particle[pair.fluid];
         const Particle &w = engine.particle[pair.wall];
         const Surface &s = surface.surface[pair.wall];
@@ -726,12 +745,16 @@ void BoundaryStage::accumulate()
                       engine.zeta_term[pair.fluid], total);
         if (has_spin)
           add_fluid_spin(engine.spin[pair.fluid].w, f.vol * kernel_weight, height, s, total);
-        own[pair.fluid].filled += near[pair.wall].at<Kernel>(distance);
-        if (repulsive) own[pair.fluid].occupied += contact[pair.wall].at<ContactKernel>(distance);
       }
     });
     return 0;
   });
+
+  BoundarySum *const first = sum.data();
+  constexpr int NOT_OF_SPIN = offsetof(BoundarySum, wd3) / sizeof(double);
+  exchange.reverse(
+      {field(first, &first->weight, NOT_OF_SPIN), field(first, first->wd3, has_spin ? 6 : 0)},
+      sum_bits);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -769,7 +792,7 @@ void BoundaryStage::accumulate_heat()
 void BoundaryStage::check() const
 {
   auto is_inside = [&](int i) {
-    return sum[i].filled > INSIDE_WALL && !(atom->mask[i] & group_bits);
+    return filled[i].near > INSIDE_WALL && !(atom->mask[i] & group_bits);
   };
   const int inside = engine.team().sum<int>(atom->nlocal, [&](int i, int &count) {
     if (is_inside(i)) count++;
@@ -804,6 +827,7 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 
 double BoundaryStage::memory_usage() const
 {
-  return bytes(surface_pairs, sum, pairs, sums, heat_sums, flow_sums, repulsion_sums, surface,
-               heat_sum, repulsion, near, contact, number, body_of, own_numden, pushes);
+  return bytes(surface_pairs, sum, filled, pairs, sums, filled_sums, heat_sums, flow_sums,
+               repulsion_sums, surface, heat_sum, repulsion, near, contact, body_of, own_numden,
+               pushes);
 }

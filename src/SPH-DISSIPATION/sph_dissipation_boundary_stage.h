@@ -147,23 +147,25 @@ namespace SPHDissipation {
     double memory_usage() const override;
 
    private:
-    std::vector<BoundarySum> sum;             // of owned and ghost atoms
+    std::vector<BoundarySum> sum;    // of owned and ghost atoms; empty if no boundary needs them
     std::vector<BoundaryHeatSum> heat_sum;    // the same; empty if nothing conducts
+    std::vector<FilledPart> filled;           // of owned and ghost atoms
     BoundaryPairs pairs;                      // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
     int group_bits = 0, symmetric_bits = 0, body_bits = 0, frozen_bits = 0, mean_bits = 0;
+    int sum_bits = 0;    // of those that need sums over the fluid
 
     int rows_bits = 0;    // that the rows of the pairs were found for
 
     std::vector<char> pushes;    // whether owned particles have a pressure that changes
 
-    // for BoundarySum::filled, of boundary atoms until the list is built anew
+    // for the filled parts, of boundary atoms until the list is built anew
 
-    std::vector<NearKernel> near;
-    std::vector<NearKernel> contact;    // for BoundarySum::occupied
+    std::vector<NearKernel> near, contact;
 
     ThreadSums<BoundarySum> sums;
+    ThreadSums<FilledPart> filled_sums;
     ThreadSums<BoundaryHeatSum> heat_sums;
     ThreadSums<double> flow_sums;
     std::vector<ForceSum> repulsion;    // of several threads
@@ -171,11 +173,9 @@ namespace SPHDissipation {
     SurfaceStage surface;
     bigint surface_step = -1;    // that the normals of the surface are for
 
-    // pairs with symmetric friction, of each thread; numbers of boundary particles, owned and ghost
+    // pairs with symmetric friction, of each thread
 
     std::vector<SurfacePairs> surface_pairs;
-    std::vector<int> number;
-    int nboundary = 0;
 
     // numbers of the bodies of owned and ghost atoms, 0: none; sums over the other particles of the same body, of owned
     // atoms; empty without bodies
@@ -192,7 +192,7 @@ namespace SPHDissipation {
       return engine.constants().thermal || engine.constants().continuity;
     }
     double conductivity(int i) const;
-    double over(int i) const { return beyond_surface(sum[i].occupied); }
+    double over(int i) const { return beyond_surface(filled[i].contact); }
     double stiffness(int i) const;
     void find_bits();
     void begin(NeighList *);
@@ -206,7 +206,11 @@ namespace SPHDissipation {
     WallForce force_of(const BoundaryPair &) const;
     void add_energies(int n, const std::function<void(int, double)> &add) const;
     void set_near();
-    void find_rows(NeighList *);
+    bool are_across(int mask, int other) const    // one of the fluid, and one of a boundary
+    {
+      return static_cast<bool>(mask & group_bits) != static_cast<bool>(other & group_bits);
+    }
+    void find_candidates(NeighList *);
     void find_pairs();
     void set_excess();
     void accumulate();

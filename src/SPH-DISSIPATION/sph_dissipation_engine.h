@@ -183,6 +183,8 @@ namespace SPHDissipation {
   // Some of the pairs that pass 1 has found, in the form that pass 2 works off: begin(); for each
   // row add_row(), add() its pairs, end_row()
 
+  class SurfacePairs;
+
   class PairSubset {
    public:
     void begin();
@@ -200,12 +202,11 @@ namespace SPHDissipation {
 
    private:
     friend class Engine;
+    friend class SurfacePairs;
     std::vector<int> rows, count, neighbor;
     std::vector<bigint> first;
     std::vector<double> slope;
   };
-
-  class SurfacePairs;
 
   // of one step: what the loops add to forces besides what the parameters say
   struct StepPlan {

@@ -22,31 +22,31 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Pair of a particle of the fluid and one of a boundary
-
-  struct SurfacePair {
-    int fluid, wall;
-    double slope;    // F times the factor of its friction
-    double u[3];     // velocity of the fluid relative to the rigid body of the boundary there
-    double w[3];     // the same of the spin (micropolar)
-  };
-
-  // Such pairs, whose friction and noise the loops of pass 2 work off apart from all others: each with a slope of its own,
-  // and with the rigid body at rest.  Engine::accumulate_friction() has the sums
+  // Pairs of the fluid and boundary particles, whose friction and noise the loops of pass 2 work off apart from all others: each
+  // with a slope of its own, and with the rigid body at rest.  Engine::accumulate_friction() has the sums.
+  // What the loops read are the spare particles, and each boundary particle with those of the fluid after it, one for each pair
 
   class SurfacePairs {
    public:
-    // in the order of the boundary particles, whose numbers are below n
-    void set(const std::vector<SurfacePair> &, const std::vector<int> &number, int n);
+    void begin(bool spins);
+    bool starts(int wall) const    // it is not the last one
+    {
+      return subset.rows.empty() || index.back().wall != wall;
+    }
+    void start(int wall, const Particle &, bool spins);
+    void add(int fluid, const Particle &, const Spin *, double slope);
+    void end();    // after the last pair
 
-    // function(pair, k, row): k, row = the fluid's and the boundary particle's place in the sums
+    // function(fluid, wall, k) for each pair, and function(wall, k) for each boundary particle; k: place in the sums
     template <class Function> void visit(Function &&function) const
     {
-      for (std::size_t row = 0; row < walls.size(); row++)
-        for (int k = begin[row]; k < begin[row + 1]; k++) function(pairs[k], walls.size() + k, row);
+      for (std::size_t k = BLOCK; k < index.size(); k++)
+        if (index[k].fluid >= 0) function(index[k].fluid, index[k].wall, k);
     }
-    std::size_t rows() const { return walls.size(); }
-    int wall(std::size_t row) const { return walls[row]; }
+    template <class Function> void visit_walls(Function &&function) const
+    {
+      for (const int row : subset.rows) function(index[row].wall, row);
+    }
 
     std::vector<ForceSum> force;
     ChannelSums side;
@@ -55,11 +55,10 @@ namespace SPHDissipation {
 
    private:
     friend class Engine;
-    std::vector<SurfacePair> pairs;
-    std::vector<int> walls, begin;    // begin[row]: its first pair
-
-    // what the loops read: first the boundary particles, then those of the fluid, one for each pair
-
+    struct Index {
+      int fluid, wall;    // fluid = -1: the boundary particle itself
+    };
+    std::vector<Index> index;
     std::vector<Particle> particle;
     std::vector<Spin> spin;
     std::vector<int> type;
@@ -67,8 +66,7 @@ namespace SPHDissipation {
     std::vector<double> weight, tag, mobility;
     std::vector<NoiseRow> row;
 
-    std::size_t size() const { return walls.size() + pairs.size(); }
-    template <class T, class Value> void fill(std::vector<T> &, Value &&);
+    template <class T, class Value> void fill(std::vector<T> &, const T &spare, Value &&);
   };
 
 }    // namespace SPHDissipation

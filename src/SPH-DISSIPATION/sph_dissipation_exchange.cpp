@@ -13,6 +13,7 @@
 
 #include "sph_dissipation_exchange.h"
 
+#include "atom.h"
 #include "comm.h"
 #include "force.h"
 
@@ -46,8 +47,9 @@ template <class Send> void Exchange::in_parts(const std::vector<Field> &next, co
 
 /* ---------------------------------------------------------------------- */
 
-void Exchange::forward(const std::vector<Field> &next)
+void Exchange::forward(const std::vector<Field> &next, int bits)
 {
+  chosen = bits;
   in_parts(next, [this](int nvalues) {
     comm->forward_comm(pair, nvalues);
   });
@@ -55,9 +57,10 @@ void Exchange::forward(const std::vector<Field> &next)
 
 /* ---------------------------------------------------------------------- */
 
-void Exchange::reverse(const std::vector<Field> &next)
+void Exchange::reverse(const std::vector<Field> &next, int bits)
 {
   if (!force->newton_pair) return;
+  chosen = bits;
   in_parts(next, [this](int nvalues) {
     comm->reverse_comm(pair, nvalues);
   });
@@ -78,17 +81,27 @@ const std::vector<int> &Exchange::ghosts_from_above()
 }
 
 /* ----------------------------------------------------------------------
-   copy(field, k, its values in the message) for each field and k < n; returns the length of the message
+   copy(values, their place in the message, their number) for each field and the chosen ones of the atoms index(k), k < n; returns
+   the length of the message.  Groups are the same for an atom and its ghosts.
 ------------------------------------------------------------------------- */
 
-template <class Copy> int Exchange::for_each(int n, const Copy &copy) const
+template <class Index, class Copy>
+int Exchange::for_each(int n, const Index &index, const Copy &copy) const
 {
   int begin = 0;
   for (const auto &one : fields) {
-    threads->for_each(n, [&](int k) {
-      copy(one, k, begin + k * one.width);
-    });
-    begin += n * one.width;
+    if (!chosen) {
+      threads->for_each(n, [&](int k) {
+        copy(one.first + index(k) * one.stride, begin + k * one.width, one.width);
+      });
+      begin += n * one.width;
+    } else
+      for (int k = 0; k < n; k++) {
+        const int i = index(k);
+        if (!(atom->mask[i] & chosen)) continue;
+        copy(one.first + i * one.stride, begin, one.width);
+        begin += one.width;
+      }
   }
   return begin;
 }
@@ -97,10 +110,14 @@ template <class Copy> int Exchange::for_each(int n, const Copy &copy) const
 
 int Exchange::pack_forward(int n, const int *list, double *buf) const
 {
-  return for_each(n, [=](const Field &one, int k, int at) {
-    const double *const value = one.first + list[k] * one.stride;
-    for (int d = 0; d < one.width; d++) buf[at + d] = value[d];
-  });
+  return for_each(
+      n,
+      [=](int k) {
+        return list[k];
+      },
+      [=](const double *value, int at, int width) {
+        for (int d = 0; d < width; d++) buf[at + d] = value[d];
+      });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -112,20 +129,28 @@ void Exchange::unpack_forward(int n, int nfirst, const double *buf)
       for (int k = 0; k < n; k++) from_above.push_back(nfirst + k);
     return;
   }
-  for_each(n, [=](const Field &one, int k, int at) {
-    double *const value = one.first + (nfirst + k) * one.stride;
-    for (int d = 0; d < one.width; d++) value[d] = buf[at + d];
-  });
+  for_each(
+      n,
+      [=](int k) {
+        return nfirst + k;
+      },
+      [=](double *value, int at, int width) {
+        for (int d = 0; d < width; d++) value[d] = buf[at + d];
+      });
 }
 
 /* ---------------------------------------------------------------------- */
 
 int Exchange::pack_reverse(int n, int nfirst, double *buf) const
 {
-  return for_each(n, [=](const Field &one, int k, int at) {
-    const double *const value = one.first + (nfirst + k) * one.stride;
-    for (int d = 0; d < one.width; d++) buf[at + d] = value[d];
-  });
+  return for_each(
+      n,
+      [=](int k) {
+        return nfirst + k;
+      },
+      [=](const double *value, int at, int width) {
+        for (int d = 0; d < width; d++) buf[at + d] = value[d];
+      });
 }
 
 /* ----------------------------------------------------------------------
@@ -134,8 +159,12 @@ int Exchange::pack_reverse(int n, int nfirst, double *buf) const
 
 void Exchange::unpack_reverse(int n, const int *list, const double *buf) const
 {
-  for_each(n, [=](const Field &one, int k, int at) {
-    double *const value = one.first + list[k] * one.stride;
-    for (int d = 0; d < one.width; d++) value[d] += buf[at + d];
-  });
+  for_each(
+      n,
+      [=](int k) {
+        return list[k];
+      },
+      [=](double *value, int at, int width) {
+        for (int d = 0; d < width; d++) value[d] += buf[at + d];
+      });
 }

@@ -85,8 +85,9 @@ namespace SPHDissipation {
     static constexpr int ROOM =
         24;    // values per atom of a message, for which the pair style asks LAMMPS
 
-    void forward(const std::vector<Field> &);    // owned atoms to their ghosts
-    void reverse(const std::vector<Field> &);    // ghosts, summed, to their owners; newton on
+    // owned atoms to their ghosts; ghosts, summed, to their owners (newton on); of groups with these bits alone, 0: of all
+    void forward(const std::vector<Field> &, int bits = 0);
+    void reverse(const std::vector<Field> &, int bits = 0);
 
     // With communication by bricks a ghost comes along x, then y, then z; returns the ghosts whose last step was downwards.
     // A particle next to one of them is, on the processor of the other, a ghost whose last step was upwards.  By messages
@@ -101,12 +102,14 @@ namespace SPHDissipation {
    private:
     Pair *pair;
     std::vector<Field> fields;
+    int chosen = 0;    // bits of the groups whose atoms are in the messages, 0: of all
     std::vector<int> from_above;
     int nreceived = -1;    // messages so far, while somebody asks for ghosts_from_above(); else -1
     mutable Threads one_thread;
     Threads *threads = &one_thread;
 
-    template <class Copy> int for_each(int n, const Copy &copy) const;
+    template <class Index, class Copy>
+    int for_each(int n, const Index &index, const Copy &copy) const;
 
     template <class Send> void in_parts(const std::vector<Field> &, const Send &);
   };

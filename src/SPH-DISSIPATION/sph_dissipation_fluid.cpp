@@ -373,9 +373,8 @@ void Fluid::sum_density()
 {
   const bool minimize = (update->whichflag == 2);
   const Constants &par = model->constants();
-  const bool slopes_read = viscous->active() || !boundary->empty() || !open->empty() ||
-      shift->wanted || par.limit != Limit::NO || par.thermal || par.loops_of_flows ||
-      par.delta > 0.0;
+  const bool slopes_read = viscous->active() || !open->empty() || shift->wanted ||
+      par.limit != Limit::NO || par.thermal || par.loops_of_flows || par.delta > 0.0;
   density->run(neighbors(), minimize ? nullptr : atom->vest,
                minimize ? nullptr : extrapolated_spin(), at_rest(), missing_time(), not_fluid(),
                slopes_read);

@@ -133,8 +133,7 @@ void SurfaceStage::find_sides(const BoundaryPairs &pairs)
              for (const auto &pair : pairs.of_thread[k]) {
                const double *const f = engine.particle[pair.fluid].x;
                const double *const w = engine.particle[pair.wall].x;
-               const double slope = engine.slope(pair.fluid, pair.wall, pair.entry);
-               for (int d = 0; d < 3; d++) sum[pair.wall].normal[d] += slope * (f[d] - w[d]);
+               for (int d = 0; d < 3; d++) sum[pair.wall].normal[d] += pair.slope * (f[d] - w[d]);
              }
            });
   exchange.reverse({field(surface.data(), surface.data()->normal, 3)});

@@ -28,14 +28,15 @@ namespace SPHDissipation {
 
   struct BoundaryPair {
     int fluid, wall;
-    bigint entry;    // index of the pair in the engine
+    double slope;    // F
   };
 
-  // those of each thread; until the neighbor list is built anew, the rows of the list that may hold them, and of the
-  // threads but the first the particles in them, each once
+  // Those of each thread, one boundary particle after another.  Until the neighbor list is built anew: of each thread all pairs
+  // that may come into the support, in the same order; the rows of the list that hold them; of the threads but the first
+  // the particles in them, each once
 
   struct BoundaryPairs {
-    std::vector<std::vector<BoundaryPair>> of_thread;
+    std::vector<std::vector<BoundaryPair>> of_thread, candidates;
     std::vector<std::vector<int>> rows, touched;
 
     template <class Function> void visit(Function &&function) const
@@ -43,7 +44,7 @@ namespace SPHDissipation {
       for (const auto &pairs : of_thread)
         for (const auto &pair : pairs) function(pair);
     }
-    double memory_usage() const { return bytes(of_thread, rows, touched); }
+    double memory_usage() const { return bytes(of_thread, candidates, rows, touched); }
   };
 
   // Where the surface of the boundary is, seen from each of its particles: from the arrangement of

@@ -107,19 +107,15 @@ namespace SPHDissipation {
 
   // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
   // particles f of V_f W(r_wf) times the quantity, S. Adami et al., J. Comput. Phys. 231, 7057 (2012)
-  // of a fluid particle: filled is the part of a support of a few particle spacings, or of its own if
-  // that is smaller, that boundary particles fill
   // relative: to the velocity that the rigid body of w has at f; d: distance of f from the surface
 
   struct BoundarySum {
-    double weight;       // 1
-    double r[3];         // x_w - x_f
-    double rho;          // density
-    double pressure;     // p + zeta cdot/c (bulk density), p (otherwise)
-    double zeta_term;    // zeta cdot/c
-    double filled;       // fluid particles only
-    double occupied;    // the same of a smaller support, where surfaces repel; fluid particles only
-    double d, d3;       // d, d^3
+    double weight;        // 1
+    double r[3];          // x_w - x_f
+    double rho;           // density
+    double pressure;      // p + zeta cdot/c (bulk density), p (otherwise)
+    double zeta_term;     // zeta cdot/c
+    double d, d3;         // d, d^3
     double d4, d5, d6;    // d^4, d^5, d^6
     double u[3];          // relative velocity
     double ud3[3];        // relative velocity times d^3
@@ -128,7 +124,14 @@ namespace SPHDissipation {
     double wd4[3];        // relative spin times d^4 (micropolar)
   };
 
-  // the same of the fluid that conducts heat alone
+  // What of the surroundings of a particle of the fluid boundary particles fill: of a support of a few particle spacings, or of
+  // its own if that is smaller; of a smaller one, where surfaces repel
+
+  struct FilledPart {
+    double near, contact;
+  };
+
+  // the sums of BoundarySum of the fluid that conducts heat alone
 
   struct BoundaryHeatSum {
     double weight;               // 1

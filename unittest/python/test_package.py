@@ -93,7 +93,7 @@ NOTEBOOKS = {
     "sound": (("--particles 64", "--particles 32"), 2, r"^(?P<name>frequency|damping) +(?P<found>\d+) \S+ +theory (?P<theory>\d+) ", 0.02, 0.08),
     "dam_break": (("n, end = 30, 4.0", "n, end = 15, 3.2"), 2, r"^(?P<name>arrival at the wall) (?P<found>\S+), experiment (?P<theory>\S+)$", 0.03, 0.05),
     "streaming": (("n, ratios = 80", "n, ratios = 40"), 1, r"^(?P<name>kappa/mu given) +(?P<theory>\d+), from the flow (?P<found>\S+)$", 0.05, 0.2),
-    "colloid": (("places = 200000, (6, 10, 14, 18)", "places = 40000, (18,)"), 1, r"(?P<name>[IM] \S+/kT) (?P<found>[\d.]+),(?=.* theory (?P<theory>1)$)", 0.05, 0.6)}
+    "colloid": (("places = 960000, range(4, 20)", "places = 48000, (18,)"), 1, r"(?P<name>[IM] \S+/kT) (?P<found>[\d.]+),(?=.* theory (?P<theory>1)$)", 0.05, 0.6)}
 
 
 @pytest.mark.parametrize("name", ["sound", "dam_break", *(pytest.param(name, marks=pytest.mark.long) for name in ("streaming", "colloid"))])
