@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
@@ -64,6 +65,9 @@ class Known(Drag):
         self.t, self.pressure, self.viscous = np.loadtxt(rows, delimiter=",").T
         self.total = self.pressure + self.viscous
         self.peak = self.total.max()
+
+    def at(self, time, part):
+        return CubicSpline(self.t, getattr(self, part))(time)
 
 
 class Run(Drag):
