@@ -202,11 +202,10 @@ bool FixSPHWall::check_movers() const
                "or rigid/small",
                id, style, wrong);
   if (kinds[0] && kinds[1])
-    error->all(
-        FLERR,
-        "Fix {} {} move rigid: bodies of fix rigid/nve and bodies of fix rigid need a fix {} "
-        "each",
-        id, style, style);
+    error->all(FLERR,
+               "Fix {} {} move rigid has bodies of fix rigid/nve and of fix rigid, which move in "
+               "different ways; give each kind a fix {} of its own",
+               id, style, style);
   return kinds[1] > 0;
 }
 
