@@ -341,8 +341,8 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
   }
   if (engine.parameters().thermal && !is_body(pair.wall))
     force.pressing = engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * pair.slope;
-  force.repulsion = repulsion_of(stiffness(pair.fluid), over(pair.fluid), contact[pair.wall],
-                                 sqrt(inner_product(force.r, force.r)));
+  force.repulsion =
+      repulsion_of(stiffness(pair.fluid), over(pair.fluid), contact[pair.wall], pair.distance);
   return force;
 }
 
@@ -575,12 +575,9 @@ void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &
   with_kernel(engine.parameters().kernel, [&](auto k) {
     pairs.visit([&](const BoundaryPair &pair) {
       if (pair.fluid >= n || !par.thermal || is_body(pair.wall)) return;
-      const Particle &w = engine.particle[pair.wall];
-      double r[3];
-      for (int d = 0; d < 3; d++) r[d] = engine.particle[pair.fluid].x[d] - w.x[d];
-      const double kernel_weight =
-          par.weight_norm * k.shape(sqrt(inner_product(r, r)) / par.support);
-      add(pair.fluid, engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * kernel_weight);
+      const double pressing =
+          engine.weight(pair.fluid) * engine.weight(pair.wall) * engine.particle[pair.wall].g;
+      add(pair.fluid, pressing * par.weight_norm * k.shape(pair.distance / par.support));
     });
     return 0;
   });
@@ -600,7 +597,8 @@ void BoundaryStage::find_candidates(NeighList *list)
 
   // by thread, in the order of the list
 
-  std::vector<std::vector<BoundaryPair>> found(parts);
+  using Candidate = BoundaryPairs::Candidate;
+  std::vector<std::vector<Candidate>> found(parts);
   pairs.rows.assign(parts, {});
   threads.in_parts(list->inum, [&](int k, int from, int to) {
     for (int ii = from; ii < to; ii++) {
@@ -609,8 +607,7 @@ void BoundaryStage::find_candidates(NeighList *list)
       for (int jj = 0; jj < list->numneigh[i]; jj++) {
         const int j = list->firstneigh[i][jj] & NEIGHMASK;
         if (!are_across(mask[i], mask[j])) continue;
-        found[k].push_back((mask[i] & group_bits) ? BoundaryPair{j, i, 0.0}
-                                                  : BoundaryPair{i, j, 0.0});
+        found[k].push_back((mask[i] & group_bits) ? Candidate{j, i} : Candidate{i, j});
       }
       if (found[k].size() > before) pairs.rows[k].push_back(ii);
     }
@@ -630,7 +627,7 @@ void BoundaryStage::find_candidates(NeighList *list)
     for (const auto &pair : part) next[pair.wall + 1]++;
   std::partial_sum(next.begin(), next.end(), next.begin());
   const bigint total = next[nall];
-  std::vector<BoundaryPair> ordered(total);
+  std::vector<Candidate> ordered(total);
   for (const auto &part : found)
     for (const auto &pair : part) ordered[next[pair.wall]++] = pair;
   pairs.candidates.resize(parts);
@@ -692,7 +689,7 @@ void BoundaryStage::find_pairs()
   with_kernel(par.kernel, [&](auto kernel) {
     using Kernel = decltype(kernel);
     filled_sums.run(engine.team(), filled.data(), nall, pairs.touched, [&](int k, FilledPart *sum) {
-      const std::vector<BoundaryPair> &all = pairs.candidates[k];
+      const auto &all = pairs.candidates[k];
       auto &own = pairs.of_thread[k];
       own.resize(all.size());
       BoundaryPair *next = own.data();
@@ -700,7 +697,8 @@ void BoundaryStage::find_pairs()
         const double rsq = MathExtra::distsq3(particle[pair.fluid].x, particle[pair.wall].x);
         if (!(rsq < support_sq)) continue;
         const double distance = sqrt(rsq);
-        *next++ = {pair.fluid, pair.wall, slope_norm * Kernel::slope(distance * support_inv)};
+        *next++ = {pair.fluid, pair.wall, distance,
+                   slope_norm * Kernel::slope(distance * support_inv)};
         sum[pair.fluid].near += near_wall[pair.wall].template at<Kernel>(distance);
         if (repulsive) sum[pair.fluid].contact += contact[pair.wall].at<ContactKernel>(distance);
       }
@@ -726,6 +724,7 @@ void BoundaryStage::accumulate()
   const double *const rho = atom->rho;
   const bool has_spin = engine.has_spin();
   const Parameters &par = engine.parameters();
+  const double support_inv = 1.0 / par.support;
 
   with_kernel(engine.parameters().kernel, [&](auto kernel) {
     using Kernel = decltype(kernel);
@@ -737,8 +736,7 @@ void BoundaryStage::accumulate()
         const Surface &s = surface.surface[pair.wall];
         double r[3];
         for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-        const double distance = sqrt(inner_product(r, r));
-        const double kernel_weight = par.weight_norm * Kernel::shape(distance / par.support);
+        const double kernel_weight = par.weight_norm * Kernel::shape(pair.distance * support_inv);
         BoundarySum &total = own[pair.wall];
         const double height =
             add_fluid(f, w, r, kernel_weight, s, rho[pair.fluid], engine.weight(pair.fluid),
@@ -776,7 +774,7 @@ void BoundaryStage::accumulate_heat()
             const Particle &w = engine.particle[pair.wall];
             double r[3];
             for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-            const double q = sqrt(inner_product(r, r)) / par.support;
+            const double q = pair.distance / par.support;
             add_fluid_heat(engine.heat()[pair.fluid], f.vol * par.weight_norm * Kernel::shape(q),
                            par.slope_norm * Kernel::slope(q),
                            height_above(surface.surface[pair.wall], r), conductivity(pair.wall),

@@ -28,7 +28,7 @@ namespace SPHDissipation {
 
   struct BoundaryPair {
     int fluid, wall;
-    double slope;    // F
+    double distance, slope;    // r, F
   };
 
   // Those of each thread, one boundary particle after another.  Until the neighbor list is built anew: of each thread all pairs
@@ -36,7 +36,11 @@ namespace SPHDissipation {
   // the particles in them, each once
 
   struct BoundaryPairs {
-    std::vector<std::vector<BoundaryPair>> of_thread, candidates;
+    struct Candidate {
+      int fluid, wall;
+    };
+    std::vector<std::vector<BoundaryPair>> of_thread;
+    std::vector<std::vector<Candidate>> candidates;
     std::vector<std::vector<int>> rows, touched;
 
     template <class Function> void visit(Function &&function) const
