@@ -129,14 +129,13 @@ def main():
     runs = {name: Run(example.out, name, **variables) for name, variables in jobs.items()}
     reference, published = Known("reference.csv"), Known("published.csv")
     table = example.out / "moving_square.csv"
-    with csv_rows(table, ["n", "part", "L2 difference", "mean over reference", f"at t = {START}", "reference", "largest", "reference"]) as writerow:
+    with csv_rows(table, ["n", "part", "L2 difference", "mean over reference", f"at t = {START}", "reference"]) as writerow:
         print("\n  n        part      L2 difference  mean over reference  at t = 0.3  reference")
         for drag in (*runs.values(), published):
             name = drag.n if drag is not published else drag.name
             for part, (difference, ratio) in drag.errors(reference).items():
                 values = difference, ratio, drag.at(START, part), reference.at(START, part)
-                largest = (drag.peak, reference.peak) if part == "total" else ()
-                writerow([name, part, *(f"{value:.4f}" for value in (*values, *largest))])
+                writerow([name, part, *(f"{value:.4f}" for value in values)])
                 print("{:>9}  {:8s}  {:13.4f}  {:19.4f}  {:10.4f}  {:9.4f}".format(name, part, *values))
     print()
     for drag in (*runs.values(), published):

@@ -540,12 +540,11 @@ void FixSPHWall::post_force(int /*vflag*/)
   std::fill(total, total + 6, 0.0);
   total_summed = false;
   const WallVelocity now = motion->velocity();
-  if (neighbor->ago == 0 && atom->nlocal > 0)    // of all other particles
+  if (neighbor->ago == 0 && atom->nlocal > 0)    // those of other particles stay zero
     std::fill_n(array_atom[0], 6 * static_cast<std::size_t>(atom->nlocal), 0.0);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     double *const one = array_atom[i];
-    std::fill(one, one + 6, 0.0);
     double r[3], moment[3];
     from_point(i, now, r);
     cross_product(r, f[i], moment);

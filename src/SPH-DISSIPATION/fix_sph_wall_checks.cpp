@@ -165,7 +165,7 @@ bool FixSPHWall::check_movers() const
   if (group->count(igroup) == 0)
     error->all(FLERR, "Fix {} group {} has no particles", style, group->names[igroup]);
   std::vector<int> movers(atom->nlocal, 0);
-  int kinds[2] = {0, 0};    // of movers: rigid/nve and its like, all others
+  bool lagging = false, on_step = false;    // some of them
   for (const auto &other : modify->get_fix_list()) {
     if (other == this || !(other->time_integrate || dynamic_cast<FixSPHWall *>(other))) continue;
     if (other->rigid_flag) {
@@ -183,7 +183,7 @@ bool FixSPHWall::check_movers() const
           is_mover = true;
         }
       if (over_all<int>(world, is_mover, MPI_MAX))
-        kinds[!utils::strmatch(other->style, "^rigid/n")]++;
+        (utils::strmatch(other->style, "^rigid/n") ? on_step : lagging) = true;
       continue;
     }
     const auto shared = first_particle(lmp, [&](int i) {
@@ -201,12 +201,12 @@ bool FixSPHWall::check_movers() const
                "Fix {} {} move rigid: {} must be moved by one fix for rigid bodies, as fix rigid "
                "or rigid/small",
                id, style, wrong);
-  if (kinds[0] && kinds[1])
+  if (on_step && lagging)
     error->all(FLERR,
                "Fix {} {} move rigid has bodies of fix rigid/nve and of fix rigid, which move in "
                "different ways; give each kind a fix {} of its own",
                id, style, style);
-  return kinds[1] > 0;
+  return lagging;
 }
 
 /* ----------------------------------------------------------------------

@@ -370,7 +370,7 @@ void BoundaryStage::run_friction(FrictionPart part, const StepNoise *noise, bool
                                                          : surface_factor(s, r, support);
       Particle one = f;    // relative to the rigid body of the boundary there, without pressure
       one.g = 0.0;
-      Spin spin;
+      Spin spin = {};
       for (int d = 0; d < 3; d++) {
         one.u[d] += turn[d] - w.u[d];
         if (spins) spin.w[d] = engine.spin[pair.fluid].w[d] - engine.spin[pair.wall].w[d];
@@ -380,9 +380,9 @@ void BoundaryStage::run_friction(FrictionPart part, const StepNoise *noise, bool
         at_rest.vol = atom->vfrac[pair.wall];    // pass 2 has none of it
         at_rest.g = 0.0;
         for (double &u : at_rest.u) u = 0.0;
-        own.start(pair.wall, at_rest, spins);
+        own.start(pair.wall, at_rest);
       }
-      own.add(pair.fluid, one, spins ? &spin : nullptr, factor * pair.slope);
+      own.add(pair.fluid, one, spin, factor * pair.slope);
     }
     own.end();
     engine.accumulate_friction(own, noise, k);

@@ -35,21 +35,21 @@ void SurfacePairs::end()
   if (!subset.rows.empty()) subset.end_row(0);
 }
 
-void SurfacePairs::start(int wall, const Particle &one, bool spins)
+void SurfacePairs::start(int wall, const Particle &one)
 {
   end();
   subset.add_row(static_cast<int>(index.size()));
   index.push_back({-1, wall});
   particle.push_back(one);
-  if (spins) spin.push_back(Spin());
+  if (!spin.empty()) spin.push_back(Spin());
 }
 
-void SurfacePairs::add(int fluid, const Particle &one, const Spin *spin_of, double slope)
+void SurfacePairs::add(int fluid, const Particle &one, const Spin &spin_of, double slope)
 {
   subset.add(static_cast<int>(index.size()), slope);
   index.push_back({fluid, index.back().wall});
   particle.push_back(one);
-  if (spin_of) spin.push_back(*spin_of);
+  if (!spin.empty()) spin.push_back(spin_of);
 }
 
 /* ----------------------------------------------------------------------

@@ -33,8 +33,8 @@ namespace SPHDissipation {
     {
       return subset.rows.empty() || index.back().wall != wall;
     }
-    void start(int wall, const Particle &, bool spins);
-    void add(int fluid, const Particle &, const Spin *, double slope);
+    void start(int wall, const Particle &);
+    void add(int fluid, const Particle &, const Spin &, double slope);
     void end();    // after the last pair
 
     // function(fluid, wall, k) for each pair, and function(wall, k) for each boundary particle; k: place in the sums
@@ -60,7 +60,7 @@ namespace SPHDissipation {
     };
     std::vector<Index> index;
     std::vector<Particle> particle;
-    std::vector<Spin> spin;
+    std::vector<Spin> spin;    // empty without spins
     std::vector<int> type;
     PairSubset subset;
     std::vector<double> weight, tag, mobility;
