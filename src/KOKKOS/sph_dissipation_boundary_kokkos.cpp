@@ -267,8 +267,8 @@ void BoundaryStageKokkos<DeviceType>::check(const LoopDataKokkos<DeviceType> &da
           const int wall = walls.number(j);
           if (wall < 0) return;
           const double distance = Kokkos::sqrt(rsq);
-          filled += walls.near(wall).template at<K>(distance);
-          if (repels) touched += walls.contact(wall).template at<ContactKernel>(distance);
+          filled += part_filled<K>(walls.near(wall), distance);
+          if (repels) touched += part_filled<ContactKernel>(walls.contact(wall), distance);
         });
         if (repels) walls.occupied(i) = touched;
         if (filled > INSIDE_WALL && i < smallest) smallest = i;

@@ -21,6 +21,7 @@
 #include "sph_dissipation_parameters.h"
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_rows.h"
+#include "sph_dissipation_wall_terms.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -35,7 +36,16 @@ namespace SPHDissipation {
   {
     return (a > 0.0) ? value : 0.0;
   }
+  SPH_INLINE double smaller(double a, double b)
+  {
+    return (a < b) ? a : b;
+  }
+  SPH_INLINE double larger(double a, double b)
+  {
+    return (a < b) ? b : a;
+  }
 
+#include "sph_dissipation_boundary_terms.h"
 #include "sph_dissipation_pair_terms.h"
 
   // Input, output and scratch space of the loops, as class LoopData of the CPU styles

@@ -123,12 +123,15 @@ void BoundaryStage::run(NeighList *list)
 void BoundaryStage::begin(NeighList *list)
 {
   const bool found = (neighbor->ago == 0 || group_bits != rows_bits);
-  if (found) find_candidates(list);
+  if (found) {
+    find_candidates(list);
+    find_bodies();
+    find_surface_pairs();
+  }
   find_pairs();
-  check();
   surface.has_flux = conducts();
   if (found) {
-    find_bodies();
+    check();
     surface.run(group_bits, pairs, body_of);
     sum_bodies();
   }
@@ -304,16 +307,16 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow)
 {
   if (heat_sum.empty()) return;
   flow_sums.run(engine.team(), flow.data(), flow.size(), pairs.touched, [&](int k, double *sum) {
-    for (const auto &pair : pairs.of_thread[k]) {
+    pairs.of_thread[k].visit([&](const BoundaryPair &pair) {
       const double flux = engine.heat()[pair.wall].flux;
-      if (flux == 0.0 || !(engine.heat()[pair.fluid].coefficient > 0.0)) continue;
+      if (flux == 0.0 || !(engine.heat()[pair.fluid].coefficient > 0.0)) return;
       const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
       double r[3];
       for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
       const double heat = surface_heat(flux, f.vol, r, pair.slope, surface.surface[pair.wall]);
       sum[pair.fluid] += heat;
       sum[pair.wall] -= heat;
-    }
+    });
   });
 }
 
@@ -347,46 +350,62 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
 }
 
 /* ----------------------------------------------------------------------
-   sums of surface_pairs
+   the boundary particles of one boundary, or of one body, are rigid together
 ------------------------------------------------------------------------- */
 
-void BoundaryStage::run_friction(FrictionPart part, const StepNoise *noise, bool linear)
+void BoundaryStage::find_surface_pairs()
 {
-  const double support = engine.constants().support;
-  const bool spins = engine.has_spin();
-  surface_pairs.resize(engine.team().size());
+  surface_pairs.resize(symmetric_bits ? pairs.of_thread.size() : 0);
+  if (!symmetric_bits) return;
+  const int nall = atom->nlocal + atom->nghost, nbodies = static_cast<int>(boundaries.size());
+  auto body_number = [&](int i) {
+    if (is_body(i)) return nbodies + body(i);
+    for (int k = 0; k < nbodies; k++)
+      if (atom->mask[i] & symmetric_bits & boundaries[k]->boundary_bit()) return k;
+    return -1;
+  };
   engine.team().run([&](int k) {
-    SurfacePairs &own = surface_pairs[k];
-    own.begin(spins);
-    for (const auto &pair : pairs.of_thread[k]) {
-      if (!(atom->mask[pair.wall] & symmetric_bits)) continue;
-      const Particle &f = engine.particle[pair.fluid], &w = engine.particle[pair.wall];
-      const Surface &s = surface.surface[pair.wall];
-      double r[3], turn[3] = {0.0, 0.0, 0.0};
-      for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-      if (!linear) cross_product(s.omega, r, turn);
-      const double factor = (part == FrictionPart::BODY) ? 1.0
-          : (part == FrictionPart::ADDED)                ? surface_factor(s, r, support) - 1.0
-                                                         : surface_factor(s, r, support);
-      Particle one = f;    // relative to the rigid body of the boundary there, without pressure
-      one.g = 0.0;
-      Spin spin = {};
-      for (int d = 0; d < 3; d++) {
-        one.u[d] += turn[d] - w.u[d];
-        if (spins) spin.w[d] = engine.spin[pair.fluid].w[d] - engine.spin[pair.wall].w[d];
-      }
-      if (own.starts(pair.wall)) {
-        Particle at_rest = w;
-        at_rest.vol = atom->vfrac[pair.wall];    // pass 2 has none of it
-        at_rest.g = 0.0;
-        for (double &u : at_rest.u) u = 0.0;
-        own.start(pair.wall, at_rest);
-      }
-      own.add(pair.fluid, one, spin, factor * pair.slope);
-    }
-    own.end();
-    engine.accumulate_friction(own, noise, k);
+    surface_pairs[k].find(pairs.of_thread[k], nall, body_number);
   });
+}
+
+/* ----------------------------------------------------------------------
+   Sums of surface_pairs.  Copies have no pressure, and boundary particles their volume, which pass 2 has not.  With the
+   velocity u - omega x r and the spin relative to the body, differences of copies are those in its frame.
+------------------------------------------------------------------------- */
+
+void BoundaryStage::run_friction(FrictionPart part, PairTally *tally, const StepNoise *noise,
+                                 bool linear)
+{
+  const bool spins = engine.has_spin();
+  auto copy = [&](int i, int wall, Particle &particle, Spin &spin) {
+    particle = engine.particle[i];
+    particle.g = 0.0;
+    if (i == wall) particle.vol = atom->vfrac[i];
+    if (!linear) {
+      double turn[3];
+      cross_product(surface.surface[wall].omega, particle.x, turn);
+      for (int d = 0; d < 3; d++) particle.u[d] -= turn[d];
+    }
+    for (int d = 0; d < 3 && spins; d++)
+      spin.w[d] = engine.spin[i].w[d] - engine.spin[wall].w[d];
+  };
+  auto run = [&](int k) {
+    SurfacePairs &own = surface_pairs[k];
+    BoundaryRows &rows = pairs.of_thread[k];
+    own.begin(rows, spins, copy);
+    if (part == FrictionPart::BODY)
+      std::copy(rows.slope.begin(), rows.slope.end(), own.slope());
+    else
+      engine.loop_set().surface_slopes(engine.pairs(), rows, atom->mask, symmetric_bits,
+                                       surface.surface.data(),
+                                       (part == FrictionPart::ADDED) ? 1.0 : 0.0, own.slope());
+    engine.accumulate_friction(own, rows, tally, noise, k);
+  };
+  if (tally)
+    for (int k = 0; k < engine.team().size(); k++) run(k);
+  else
+    engine.team().run(run);
 }
 
 /* ----------------------------------------------------------------------
@@ -399,43 +418,29 @@ void BoundaryStage::add_friction(PairTally *tally, const StepNoise &noise)
   if (!symmetric_bits) return;
   const bool directed = engine.parameters().directed_noise();
   const bool shared = !engine.parameters().own_temperatures;
-  const double share = shared ? 2.0 : 1.0;
   ChannelSums &side = engine.side;
   const int first_heat = side.columns.spins ? 3 : 0;
 
-  auto add_row = [&](int to, const SurfacePairs &own, std::size_t from, double part) {
-    for (int c = 0; c < side.width; c++)
-      side.torque(to)[c] += ((c < first_heat) ? 1.0 : part) * own.side.torque(from)[c];
-    engine.force[to].heat += part * own.force[from].heat;
-  };
-
-  run_friction(directed ? FrictionPart::ADDED : FrictionPart::ALL, &noise, false);
-  for (const auto &own : surface_pairs) {
-    own.visit([&](int fluid, int wall, std::size_t k) {
-      const double *const f = own.force[k].f;
-      for (int d = 0; d < 3; d++) {
-        engine.force[fluid].f[d] += f[d];
-        engine.force[wall].f[d] -= f[d];
-      }
-      add_row(fluid, own, k, share);
-      if (!tally) return;
-      double r[3];
-      for (int d = 0; d < 3; d++) r[d] = engine.particle[fluid].x[d] - engine.particle[wall].x[d];
-      tally->tally(fluid, wall, f, r);
+  run_friction(directed ? FrictionPart::ADDED : FrictionPart::ALL, tally, &noise, false);
+  for (const auto &own : surface_pairs)
+    own.visit([&](int i, bool is_boundary, std::size_t k) {
+      const double part = !shared ? 1.0 : is_boundary ? 0.0 : 2.0;
+      const double *const row = own.side.torque(k);
+      for (int d = 0; d < 3; d++) engine.force[i].f[d] += own.force[k].f[d];
+      engine.force[i].heat += part * own.force[k].heat;
+      for (int c = 0; c < side.width; c++)
+        side.torque(i)[c] += ((c < first_heat) ? 1.0 : part) * row[c];
     });
-    own.visit_walls([&](int wall, std::size_t row) {
-      add_row(wall, own, row, shared ? 0.0 : 1.0);
-    });
-  }
   if (!directed) return;
 
   // the half of the heat that pass 2 gave the wall
 
-  run_friction(FrictionPart::BODY, nullptr, false);
+  run_friction(FrictionPart::BODY, nullptr, nullptr, false);
   for (const auto &own : surface_pairs)
-    own.visit([&](int fluid, int, std::size_t k) {
-      engine.force[fluid].heat += own.force[k].heat;
-      for (int c = first_heat; c < side.width; c++) side.torque(fluid)[c] += own.side.torque(k)[c];
+    own.visit([&](int i, bool is_boundary, std::size_t k) {
+      if (is_boundary) return;
+      engine.force[i].heat += own.force[k].heat;
+      for (int c = first_heat; c < side.width; c++) side.torque(i)[c] += own.side.torque(k)[c];
     });
 }
 
@@ -445,13 +450,13 @@ void BoundaryStage::add_linear_friction()
 {
   if (!symmetric_bits) return;
   run_friction(engine.parameters().directed_noise() ? FrictionPart::ADDED : FrictionPart::ALL,
-               nullptr, true);
+               nullptr, nullptr, true);
   for (const auto &own : surface_pairs)
-    own.visit([&](int fluid, int wall, std::size_t k) {
+    own.visit([&](int i, bool is_boundary, std::size_t k) {
       for (int d = 0; d < 3; d++) {
-        engine.force[fluid].f[d] += own.force[k].f[d];
-        engine.force[wall].f[d] -= own.force[k].f[d];
-        if (engine.has_spin()) engine.side.torque(fluid)[d] += own.side.torque(k)[d];
+        engine.force[i].f[d] += own.force[k].f[d];
+        if (engine.has_spin() && !is_boundary)
+          engine.side.torque(i)[d] += own.side.torque(k)[d];
       }
     });
 }
@@ -463,7 +468,7 @@ void BoundaryStage::add_linear_friction()
 void BoundaryStage::repel(PairTally *tally)
 {
   if (!has_energy()) return;
-  exchange.forward({field(filled.data(), &filled.data()->contact, 1)});
+  exchange.forward({{filled.data(), 1, 1}});
   const int nall = atom->nlocal + atom->nghost, n = nforce();
 
   auto add_force = [&](int i, const double *f) {
@@ -475,12 +480,11 @@ void BoundaryStage::repel(PairTally *tally)
   auto add_heat = [&](int i, double heat) {
     if (i < n) atom->desph[i] += heat;
   };
-  auto visit = [&](const std::vector<BoundaryPair> &some, const auto &force_on,
-                   const auto &heat_of) {
-    for (const auto &pair : some) {
+  auto visit = [&](const BoundaryRows &some, const auto &force_on, const auto &heat_of) {
+    some.visit([&](const BoundaryPair &pair) {
       const WallForce force = force_of(pair);
       heat_of(pair.fluid, (force.pressing + force.repulsion) * force.approach);
-      if (force.repulsion == 0.0) continue;
+      if (force.repulsion == 0.0) return;
       double push[3], minus[3];
       for (int d = 0; d < 3; d++) {
         push[d] = force.repulsion * force.r[d];
@@ -489,7 +493,7 @@ void BoundaryStage::repel(PairTally *tally)
       force_on(pair.fluid, push);
       force_on(pair.wall, minus);
       if (tally) tally->tally(pair.fluid, pair.wall, push, force.r);
-    }
+    });
   };
 
   if (tally || engine.team().size() == 1) {
@@ -523,7 +527,7 @@ void BoundaryStage::find_energies(double missing)
 {
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   std::vector<double> each(nall, 0.0), work(nall, 0.0);
-  exchange.forward({field(filled.data(), &filled.data()->contact, 1)});
+  exchange.forward({{filled.data(), 1, 1}});
   add_energies(nall, [&](int i, double energy) {
     each[i] += energy;
   });
@@ -592,12 +596,18 @@ void BoundaryStage::find_candidates(NeighList *list)
   Threads &threads = engine.team();
   const int parts = threads.size(), nall = atom->nlocal + atom->nghost;
   const int *const mask = atom->mask;
+  const Parameters &par = engine.parameters();
   rows_bits = group_bits;
-  set_near();
+  contact.clear();
+  if (has_energy()) contact = of_boundaries([&](double volume) {
+    return contact_kernel(par.dim, par.support, ContactKernel::norm(par.dim), volume);
+  });
 
   // by thread, in the order of the list
 
-  using Candidate = BoundaryPairs::Candidate;
+  struct Candidate {
+    int fluid, wall;
+  };
   std::vector<std::vector<Candidate>> found(parts);
   pairs.rows.assign(parts, {});
   threads.in_parts(list->inum, [&](int k, int from, int to) {
@@ -626,50 +636,61 @@ void BoundaryStage::find_candidates(NeighList *list)
   for (const auto &part : found)
     for (const auto &pair : part) next[pair.wall + 1]++;
   std::partial_sum(next.begin(), next.end(), next.begin());
-  const bigint total = next[nall];
-  std::vector<Candidate> ordered(total);
+  const std::vector<bigint> first = next;
+  const bigint total = first[nall];
+  std::vector<int> ordered(total);
   for (const auto &part : found)
-    for (const auto &pair : part) ordered[next[pair.wall]++] = pair;
-  pairs.candidates.resize(parts);
-  for (bigint k = 0, begin = 0; k < parts; k++) {
-    bigint end = total * (k + 1) / parts;
-    while (end > begin && end < total && ordered[end].wall == ordered[end - 1].wall) end++;
-    end = std::max(end, begin);
-    pairs.candidates[k].assign(ordered.begin() + begin, ordered.begin() + end);
-    begin = end;
+    for (const auto &pair : part) ordered[next[pair.wall]++] = pair.fluid;
+  pairs.of_thread.resize(parts);
+  for (int k = 0, i = 0; k < parts; k++) {
+    BoundaryRows &rows = pairs.of_thread[k];
+    rows.begin();
+    for (; i < nall && first[i] < total * (k + 1) / parts; i++)
+      if (first[i + 1] > first[i])
+        rows.add(i, &ordered[first[i]], static_cast<int>(first[i + 1] - first[i]), nall);
+    rows.end();
   }
 
   pairs.touched.resize(parts);
-  pairs.of_thread.resize(parts);
   threads.run([&](int k) {
     if (k == 0) return;
-    std::vector<bool> known(nall);
+    std::vector<bool> known(nall + BLOCK);
     auto &touched = pairs.touched[k];
     touched.clear();
-    for (const auto &pair : pairs.candidates[k])
-      for (const int i : {pair.fluid, pair.wall}) {
-        if (!known[i]) touched.push_back(i);
-        known[i] = true;
-      }
+    auto touch = [&](int i) {
+      if (i < nall && !known[i]) touched.push_back(i);
+      known[i] = true;
+    };
+    for (const int i : pairs.of_thread[k].wall) touch(i);
+    for (const int i : pairs.of_thread[k].candidate) touch(i);
   });
 }
 
 /* ---------------------------------------------------------------------- */
 
-void BoundaryStage::set_near()
+std::vector<NearKernel>
+BoundaryStage::of_boundaries(const std::function<NearKernel(double)> &of_volume) const
 {
-  const Parameters &par = engine.parameters();
-  const int nall = atom->nlocal + atom->nghost;
-  const int dim = engine.parameters().dim;
-  near.resize(nall);
-  contact.resize(has_energy() ? nall : 0);
-  engine.for_each(nall, [&](int i) {
-    if (!(atom->mask[i] & group_bits)) return;
-    const double volume = atom->vfrac[i];
-    near[i] = near_kernel(dim, par.support, par.weight_norm, volume);
-    if (!has_energy()) return;
-    contact[i] = contact_kernel(dim, par.support, ContactKernel::norm(dim), volume);
+  std::vector<NearKernel> all(atom->nlocal + atom->nghost);
+  engine.for_each(static_cast<int>(all.size()), [&](int i) {
+    if (atom->mask[i] & group_bits) all[i] = of_volume(atom->vfrac[i]);
   });
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   what boundary particles fill of the supports of owned atoms
+------------------------------------------------------------------------- */
+
+void BoundaryStage::find_filled(Kernel kernel, const std::vector<NearKernel> &near,
+                                std::vector<double> &part)
+{
+  const auto loop = engine.loop_set().boundary(kernel, false).filled;
+  part.assign(near.size(), 0.0);
+  filled_sums.run(engine.team(), part.data(), part.size(), pairs.touched, [&](int k, double *sum) {
+    loop(pairs.of_thread[k], near.data(), sum);
+  });
+  exchange.reverse({{part.data(), 1, 1}});
 }
 
 /* ----------------------------------------------------------------------
@@ -678,35 +699,11 @@ void BoundaryStage::set_near()
 
 void BoundaryStage::find_pairs()
 {
-  const Parameters &par = engine.parameters();
-  const int nall = atom->nlocal + atom->nghost;
-  const double support_sq = par.support * par.support, support_inv = 1.0 / par.support;
-  const double slope_norm = par.slope_norm;
-  const Particle *const particle = engine.particle;
-  const NearKernel *const near_wall = near.data();
-  const bool repulsive = has_energy();
-  filled.assign(nall, FilledPart());
-  with_kernel(par.kernel, [&](auto kernel) {
-    using Kernel = decltype(kernel);
-    filled_sums.run(engine.team(), filled.data(), nall, pairs.touched, [&](int k, FilledPart *sum) {
-      const auto &all = pairs.candidates[k];
-      auto &own = pairs.of_thread[k];
-      own.resize(all.size());
-      BoundaryPair *next = own.data();
-      for (const auto &pair : all) {
-        const double rsq = MathExtra::distsq3(particle[pair.fluid].x, particle[pair.wall].x);
-        if (!(rsq < support_sq)) continue;
-        const double distance = sqrt(rsq);
-        *next++ = {pair.fluid, pair.wall, distance,
-                   slope_norm * Kernel::slope(distance * support_inv)};
-        sum[pair.fluid].near += near_wall[pair.wall].template at<Kernel>(distance);
-        if (repulsive) sum[pair.fluid].contact += contact[pair.wall].at<ContactKernel>(distance);
-      }
-      own.resize(next - own.data());
-    });
-    return 0;
+  const auto loop = engine.loop_set().boundary(engine.parameters().kernel, false).pairs;
+  engine.team().run([&](int k) {
+    loop(engine.pairs(), pairs.of_thread[k]);
   });
-  exchange.reverse({field(filled.data(), &filled.data()->near, repulsive ? 2 : 1)});
+  if (has_energy()) find_filled(CONTACT_KERNEL, contact, filled);
 }
 
 /* ----------------------------------------------------------------------
@@ -721,31 +718,11 @@ void BoundaryStage::accumulate()
   engine.for_each(nall, [&](int i) {
     if (atom->mask[i] & sum_bits) sum[i] = BoundarySum();
   });
-  const double *const rho = atom->rho;
   const bool has_spin = engine.has_spin();
-  const Parameters &par = engine.parameters();
-  const double support_inv = 1.0 / par.support;
-
-  with_kernel(engine.parameters().kernel, [&](auto kernel) {
-    using Kernel = decltype(kernel);
-    sums.run(engine.team(), sum.data(), nall, pairs.touched, [&](int k, BoundarySum *own) {
-      for (const auto &pair : pairs.of_thread[k]) {
-        if (!(atom->mask[pair.wall] & sum_bits)) continue;
-        const Particle &f = engine.particle[pair.fluid];
-        const Particle &w = engine.particle[pair.wall];
-        const Surface &s = surface.surface[pair.wall];
-        double r[3];
-        for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-        const double kernel_weight = par.weight_norm * Kernel::shape(pair.distance * support_inv);
-        BoundarySum &total = own[pair.wall];
-        const double height =
-            add_fluid(f, w, r, kernel_weight, s, rho[pair.fluid], engine.weight(pair.fluid),
-                      engine.zeta_term[pair.fluid], total);
-        if (has_spin)
-          add_fluid_spin(engine.spin[pair.fluid].w, f.vol * kernel_weight, height, s, total);
-      }
-    });
-    return 0;
+  const auto loop = engine.loop_set().boundary(engine.parameters().kernel, has_spin).sums;
+  const BoundarySumData data = {atom->mask, sum_bits, surface.surface.data(), atom->rho, sum.data()};
+  engine.team().run([&](int k) {
+    loop(engine.pairs(), pairs.of_thread[k], data);
   });
 
   BoundarySum *const first = sum.data();
@@ -764,39 +741,28 @@ void BoundaryStage::accumulate_heat()
   engine.for_each(nall, [&](int i) {
     heat_sum[i] = BoundaryHeatSum();
   });
-  const Parameters &par = engine.parameters();
-  with_kernel(par.kernel, [&](auto kernel) {
-    using Kernel = decltype(kernel);
-    heat_sums.run(
-        engine.team(), heat_sum.data(), nall, pairs.touched, [&](int k, BoundaryHeatSum *own) {
-          for (const auto &pair : pairs.of_thread[k]) {
-            const Particle &f = engine.particle[pair.fluid];
-            const Particle &w = engine.particle[pair.wall];
-            double r[3];
-            for (int d = 0; d < 3; d++) r[d] = w.x[d] - f.x[d];
-            const double q = pair.distance / par.support;
-            add_fluid_heat(engine.heat()[pair.fluid], f.vol * par.weight_norm * Kernel::shape(q),
-                           par.slope_norm * Kernel::slope(q),
-                           height_above(surface.surface[pair.wall], r), conductivity(pair.wall),
-                           own[pair.wall]);
-          }
-        });
-    return 0;
+  const auto loop = engine.loop_set().boundary(engine.parameters().kernel, false).heat_sums;
+  const BoundaryHeatData data = {atom->type, surface.surface.data(), engine.heat().data(),
+                                 heat_sum.data()};
+  engine.team().run([&](int k) {
+    loop(engine.pairs(), pairs.of_thread[k], data);
   });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   when the neighbor list is new: nothing gets far into a wall before
+------------------------------------------------------------------------- */
 
-void BoundaryStage::check() const
+void BoundaryStage::check()
 {
-  auto is_inside = [&](int i) {
-    return filled[i].near > INSIDE_WALL && !(atom->mask[i] & group_bits);
-  };
-  const int inside = engine.team().sum<int>(atom->nlocal, [&](int i, int &count) {
-    if (is_inside(i)) count++;
+  const Parameters &par = engine.parameters();
+  const auto near = of_boundaries([&](double volume) {
+    return near_kernel(par.dim, par.support, par.weight_norm, volume);
   });
-  for (int i = 0; i < atom->nlocal && inside; i++)
-    if (is_inside(i)) stop_for(i);
+  std::vector<double> part;
+  find_filled(par.kernel, near, part);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (part[i] > INSIDE_WALL && !(atom->mask[i] & group_bits)) stop_for(i);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -825,7 +791,6 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 
 double BoundaryStage::memory_usage() const
 {
-  return bytes(surface_pairs, sum, filled, pairs, sums, filled_sums, heat_sums, flow_sums,
-               repulsion_sums, surface, heat_sum, repulsion, near, contact, body_of, own_numden,
-               pushes);
+  return bytes(surface_pairs, sum, filled, pairs, filled_sums, flow_sums, repulsion_sums, surface,
+               heat_sum, repulsion, contact, body_of, own_numden, pushes);
 }

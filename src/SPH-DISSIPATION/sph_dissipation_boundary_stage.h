@@ -149,7 +149,6 @@ namespace SPHDissipation {
    private:
     std::vector<BoundarySum> sum;    // of owned and ghost atoms; empty if no boundary needs them
     std::vector<BoundaryHeatSum> heat_sum;    // the same; empty if nothing conducts
-    std::vector<FilledPart> filled;           // of owned and ghost atoms
     BoundaryPairs pairs;                      // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;
@@ -160,22 +159,19 @@ namespace SPHDissipation {
 
     std::vector<char> pushes;    // whether owned particles have a pressure that changes
 
-    // for the filled parts, of boundary atoms until the list is built anew
+    // Of boundary atoms until the list is built anew, and the part of the supports of owned and ghost atoms that they fill;
+    // empty where nothing repels
 
-    std::vector<NearKernel> near, contact;
+    std::vector<NearKernel> contact;
+    std::vector<double> filled;
 
-    ThreadSums<BoundarySum> sums;
-    ThreadSums<FilledPart> filled_sums;
-    ThreadSums<BoundaryHeatSum> heat_sums;
-    ThreadSums<double> flow_sums;
+    ThreadSums<double> filled_sums, flow_sums;
     std::vector<ForceSum> repulsion;    // of several threads
     ThreadSums<ForceSum> repulsion_sums;
     SurfaceStage surface;
     bigint surface_step = -1;    // that the normals of the surface are for
 
-    // pairs with symmetric friction, of each thread
-
-    std::vector<SurfacePairs> surface_pairs;
+    std::vector<SurfacePairs> surface_pairs;    // with symmetric friction, of each thread
 
     // numbers of the bodies of owned and ghost atoms, 0: none; sums over the other particles of the same body, of owned
     // atoms; empty without bodies
@@ -185,14 +181,15 @@ namespace SPHDissipation {
     void find_bodies();
     void sum_bodies();
     enum class FrictionPart { ALL, ADDED, BODY };    // factor of surface_factor(), less 1, 1
-    void run_friction(FrictionPart, const StepNoise *, bool linear);
+    void find_surface_pairs();
+    void run_friction(FrictionPart, PairTally *, const StepNoise *, bool linear);
 
     bool has_energy() const    // with thermal noise, or free surfaces
     {
       return engine.constants().thermal || engine.constants().continuity;
     }
     double conductivity(int i) const;
-    double over(int i) const { return beyond_surface(filled[i].contact); }
+    double over(int i) const { return beyond_surface(filled[i]); }
     double stiffness(int i) const;
     void find_bits();
     void begin(NeighList *);
@@ -205,7 +202,8 @@ namespace SPHDissipation {
     };
     WallForce force_of(const BoundaryPair &) const;
     void add_energies(int n, const std::function<void(int, double)> &add) const;
-    void set_near();
+    std::vector<NearKernel> of_boundaries(const std::function<NearKernel(double)> &of_volume) const;
+    void find_filled(Kernel, const std::vector<NearKernel> &, std::vector<double> &sum);
     bool are_across(int mask, int other) const    // one of the fluid, and one of a boundary
     {
       return static_cast<bool>(mask & group_bits) != static_cast<bool>(other & group_bits);
@@ -215,7 +213,7 @@ namespace SPHDissipation {
     void set_excess();
     void accumulate();
     void accumulate_heat();
-    void check() const;
+    void check();
   };
 
 }    // namespace SPHDissipation

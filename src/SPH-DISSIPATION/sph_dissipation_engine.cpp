@@ -352,6 +352,8 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     data.type = types.data();
   }
   data.particle = particle;
+  data.spin = spin;
+  data.zeta_term = zeta_term;
   data.spare = nall;
   data.density = density;
   if (par->by_rate) square.resize(pair_max);
@@ -522,9 +524,7 @@ void Engine::run_forces(NeighList *list, const StepPlan &plan, bool linear)
   const int nall = atom->nlocal + atom->nghost;
   const std::size_t nrow = (std::size_t) nall + BLOCK;
   data.inum = list->inum;
-  data.zeta_term = zeta_term;
   data.viscosity = viscosity.data();
-  data.spin = spin;
   data.excess = (linear || excess.empty()) ? nullptr : excess.data();
   data.random = nullptr;
   data.noise = noise.pairs.data;

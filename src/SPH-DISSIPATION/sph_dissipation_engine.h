@@ -119,6 +119,21 @@ namespace SPHDissipation {
     int n;
   };
 
+  // loops over the pairs of one thread of the fluid and boundary particles: which are inside the support; what of the supports
+  // of NearKernel they fill; the sums of the fluid, to which they add
+
+  struct BoundaryRows;
+  struct BoundarySumData;
+  struct BoundaryHeatData;
+  struct NearKernel;
+  struct Surface;
+  struct BoundaryLoops {
+    void (*pairs)(const LoopData &, BoundaryRows &);
+    void (*filled)(const BoundaryRows &, const NearKernel *, double *filled);
+    void (*sums)(const LoopData &, const BoundaryRows &, const BoundarySumData &);
+    void (*heat_sums)(const LoopData &, const BoundaryRows &, const BoundaryHeatData &);
+  };
+
   // the loops compiled for one instruction set
 
   struct LoopSet {
@@ -137,6 +152,10 @@ namespace SPHDissipation {
                              double *numbers);
     FlowLoop (*flow)(bool alike);    // the same coefficient of all particles with a volume
     DiffusionLoop (*diffusion)(DiffusionPart, int dim, bool alike);    // of impedance
+    BoundaryLoops (*boundary)(Kernel, bool spins);
+    // F (surface_factor() - less) of pairs with boundary particles that have these bits in their mask
+    void (*surface_slopes)(const LoopData &, const BoundaryRows &, const int *mask, int bits,
+                           const Surface *, double less, double *slope);
     // take (x - corner) * scale
     void (*take_candidates)(const PlaceColumns &, int from, int to, const double *corner,
                             double scale, CandidateColumns &);
@@ -260,8 +279,9 @@ namespace SPHDissipation {
     // the same as accumulate_forces() without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *, int not_fluid);
 
-    // friction of those pairs alone, with the noise of surfaces, or nullptr, by this thread; after pass 2
-    void accumulate_friction(SurfacePairs &, const StepNoise *, int thread);
+    // friction of those pairs of these rows alone, with the noise of surfaces, or nullptr, by this thread; after pass 2
+    void accumulate_friction(SurfacePairs &, BoundaryRows &, PairTally *, const StepNoise *,
+                             int thread);
 
     // sum_j V_j F (e.u)^2 of owned and ghost atoms, of the volumes in particle[] and the squares of pass 1; room for the
     // spare ones.  Set the square of a pair for other velocities in particle[]

@@ -11,6 +11,7 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+#include "sph_dissipation_boundary_pairs.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_noise_data.h"
 #include "sph_dissipation_parameters.h"

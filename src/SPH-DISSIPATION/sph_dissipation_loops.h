@@ -767,6 +767,7 @@ namespace SPHDissipation {
       return (volume == Volume::MASS) ? rate_loop<true> : rate_loop<false>;
     }
 
+#include "sph_dissipation_boundary_loops.h"
 #include "sph_dissipation_neighbor_loops.h"
 
     // The loops of the bulk form volume, of the full forms, of viscosities that are not constant, and of the noise have
@@ -867,6 +868,8 @@ namespace SPHDissipation {
                              LOOPS::particle_numbers,
                              LOOPS::choose_flow_loop,
                              LOOPS::choose_diffusion_loop,
+                             LOOPS::choose_boundary_loops,
+                             LOOPS::surface_slope_loop,
                              LOOPS::take_candidates,
                              LOOPS::near};
 

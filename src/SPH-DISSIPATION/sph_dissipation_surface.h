@@ -14,8 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_SURFACE_H
 #define LMP_SPH_DISSIPATION_SURFACE_H
 
+#include "sph_dissipation_boundary_pairs.h"
 #include "sph_dissipation_stages.h"
-#include "sph_dissipation_wall_terms.h"
 
 #include <vector>
 
@@ -23,33 +23,6 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   class Cells;
-
-  // a pair of a fluid and a boundary particle inside the support
-
-  struct BoundaryPair {
-    int fluid, wall;
-    double distance, slope;    // r, F
-  };
-
-  // Those of each thread, one boundary particle after another.  Until the neighbor list is built anew: of each thread all pairs
-  // that may come into the support, in the same order; the rows of the list that hold them; of the threads but the first
-  // the particles in them, each once
-
-  struct BoundaryPairs {
-    struct Candidate {
-      int fluid, wall;
-    };
-    std::vector<std::vector<BoundaryPair>> of_thread;
-    std::vector<std::vector<Candidate>> candidates;
-    std::vector<std::vector<int>> rows, touched;
-
-    template <class Function> void visit(Function &&function) const
-    {
-      for (const auto &pairs : of_thread)
-        for (const auto &pair : pairs) function(pair);
-    }
-    double memory_usage() const { return bytes(of_thread, candidates, rows, touched); }
-  };
 
   // Where the surface of the boundary is, seen from each of its particles: from the arrangement of
   // the boundary particles alone, on those sides where there is fluid

@@ -105,42 +105,47 @@ namespace SPHDissipation {
     double omega[3];       // angular velocity of the rigid body that w belongs to
   };
 
+  // type of the sums below: a number, or in the loops a vector of them
+
+  struct OneNumber {
+    typedef double type;
+  };
+
   // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
   // particles f of V_f W(r_wf) times the quantity, S. Adami et al., J. Comput. Phys. 231, 7057 (2012)
   // relative: to the velocity that the rigid body of w has at f; d: distance of f from the surface
 
-  struct BoundarySum {
-    double weight;        // 1
-    double r[3];          // x_w - x_f
-    double rho;           // density
-    double pressure;      // p + zeta cdot/c (bulk density), p (otherwise)
-    double zeta_term;     // zeta cdot/c
-    double d, d3;         // d, d^3
-    double d4, d5, d6;    // d^4, d^5, d^6
-    double u[3];          // relative velocity
-    double ud3[3];        // relative velocity times d^3
-    double ud4[3];        // relative velocity times d^4
-    double wd3[3];        // relative spin times d^3 (micropolar)
-    double wd4[3];        // relative spin times d^4 (micropolar)
+  template <class Number> struct BoundarySums {
+    typedef typename Number::type Real;
+    Real weight;        // 1
+    Real r[3];          // x_w - x_f
+    Real rho;           // density
+    Real pressure;      // p + zeta cdot/c (bulk density), p (otherwise)
+    Real zeta_term;     // zeta cdot/c
+    Real d, d3;         // d, d^3
+    Real d4, d5, d6;    // d^4, d^5, d^6
+    Real u[3];          // relative velocity
+    Real ud3[3];        // relative velocity times d^3
+    Real ud4[3];        // relative velocity times d^4
+    Real wd3[3];        // relative spin times d^3 (micropolar)
+    Real wd4[3];        // relative spin times d^4 (micropolar)
   };
 
-  // What of the surroundings of a particle of the fluid boundary particles fill: of a support of a few particle spacings, or of
-  // its own if that is smaller; of a smaller one, where surfaces repel
-
-  struct FilledPart {
-    double near, contact;
-  };
+  struct BoundarySum : BoundarySums<OneNumber> {};
 
   // the sums of BoundarySum of the fluid that conducts heat alone
 
-  struct BoundaryHeatSum {
-    double weight;               // 1
-    double d, d3, d4, d5, d6;    // d to the powers
-    double td3, td4;             // temperature times d^3, d^4
-    double conductivity;
-    double flow,
+  template <class Number> struct BoundaryHeatSums {
+    typedef typename Number::type Real;
+    Real weight;               // 1
+    Real d, d3, d4, d5, d6;    // d to the powers
+    Real td3, td4;             // temperature times d^3, d^4
+    Real conductivity;
+    Real flow,
         tflow;    // heat that flows to the boundary particle, per its volume and temperature; times temperature
   };
+
+  struct BoundaryHeatSum : BoundaryHeatSums<OneNumber> {};
 
   SPH_FUNCTION double inner_product(const double *a, const double *b)
   {
@@ -225,13 +230,6 @@ namespace SPHDissipation {
 
   struct NearKernel {
     double norm, scale;    // V W = norm * shape(scale * r)
-
-    // V W at a distance r
-    template <class K> SPH_FUNCTION double at(double r) const
-    {
-      const double q = r * scale;
-      return (q < 1.0) ? norm * K::shape(q) : 0.0;
-    }
   };
 
   // of a boundary particle with the volume vol, for a fluid whose kernel has W = weight_norm * shape
@@ -250,6 +248,7 @@ namespace SPHDissipation {
 
   constexpr double CONTACT = 1.7;
   typedef WendlandC2 ContactKernel;
+  constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;
   constexpr double HARDNESS_OF_SURFACE = 0.05;    // k/2 of free surfaces: of m c0^2
 
   // norm = that of ContactKernel
@@ -284,96 +283,6 @@ namespace SPHDissipation {
     const double q = distance * wall.scale;
     if (!(s > 0.0 && q < 1.0)) return 0.0;
     return stiffness * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
-  }
-
-  // distance of the particle f of the fluid from the surface, r = x_w - x_f
-
-  SPH_FUNCTION double height_above(const Surface &s, const double *r)
-  {
-    const double inside = -s.depth - inner_product(s.normal, r);
-    return (inside > CLOSEST * s.spacing) ? inside : CLOSEST * s.spacing;
-  }
-
-  // Symmetric friction across a surface: the pair of f with w has that of the velocity of the body itself, times (d + h)/d
-  // with the distances d of f and h of w from the surface.  Of a velocity that is zero at the surface and linear in d, this
-  // is the force of its continuation behind the surface, -h times its slope.  Where the surface is not known, d is that of
-  // the first layer of a lattice.
-
-  SPH_FUNCTION double surface_factor(const Surface &s, const double *r, double support)
-  {
-    const bool known = inner_product(s.normal, s.normal) > 0.0;
-    const double inside = -s.depth - inner_product(s.normal, r);
-    const double least = known ? CLOSEST_PAIR * support : FIRST_LAYER * s.spacing;
-    const double d = (inside > least) ? inside : least;
-    return (d + s.depth) / d;
-  }
-
-  // Contribution of the particle f of the fluid to the sums of the boundary particle w, r = x_w - x_f,
-  // kernel_weight = W(r), w_f = reference volume of f.  Returns the distance of f from the surface.
-
-  template <class P>
-  SPH_FUNCTION double add_fluid(const P &f, const P &w, const double *r, double kernel_weight,
-                                const Surface &s, double rho, double w_f, double zeta_term,
-                                BoundarySum &total)
-  {
-    const double weight = f.vol * kernel_weight;
-    const double height = height_above(s, r);
-    const double weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
-    double turn[3];
-    cross_product(s.omega, r, turn);
-
-    total.weight += weight;
-    total.d += weight * height;
-    total.d3 += weight_d3;
-    total.d4 += weight_d4;
-    total.d5 += weight_d4 * height;
-    total.d6 += weight_d4 * height * height;
-    for (int d = 0; d < 3; d++) {
-      const double relative = f.u[d] - w.u[d] + turn[d];
-      total.r[d] += weight * r[d];
-      total.u[d] += weight * relative;
-      total.ud3[d] += weight_d3 * relative;
-      total.ud4[d] += weight_d4 * relative;
-    }
-    total.rho += weight * rho;
-    total.pressure += kernel_weight * w_f * w_f * f.g / f.vol;
-    total.zeta_term += weight * zeta_term;
-    return height;
-  }
-
-  // the same for its spin
-
-  SPH_FUNCTION void add_fluid_spin(const double *spin, double weight, double height,
-                                   const Surface &s, BoundarySum &total)
-  {
-    for (int d = 0; d < 3; d++) {
-      const double weighted = weight * height * height * height * (spin[d] - s.omega[d]);
-      total.wd3[d] += weighted;
-      total.wd4[d] += weighted * height;
-    }
-  }
-
-  // the same for its temperature, weight = V_f W, slope = F, height from add_fluid(); conductivity of the boundary particle
-
-  SPH_FUNCTION void add_fluid_heat(const FlowRow &f, double weight, double slope, double height,
-                                   double conductivity, BoundaryHeatSum &total)
-  {
-    if (!(f.coefficient > 0.0)) return;
-    const double weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
-    total.weight += weight;
-    total.d += weight * height;
-    total.d3 += weight_d3;
-    total.d4 += weight_d4;
-    total.d5 += weight_d4 * height;
-    total.d6 += weight_d4 * height * height;
-    total.td3 += weight_d3 * f.value;
-    total.td4 += weight_d4 * f.value;
-    total.conductivity += weight * f.coefficient;
-    if (!(conductivity > 0.0)) return;
-    const double flow =
-        f.vol * slope * f.coefficient * conductivity / (f.coefficient + conductivity);
-    total.flow += flow;
-    total.tflow += flow * f.value;
   }
 
   // pressure at a wall particle of this acceleration, sum.weight > 0

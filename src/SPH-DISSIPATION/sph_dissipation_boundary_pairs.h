@@ -1,0 +1,122 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_BOUNDARY_PAIRS_H
+#define LMP_SPH_DISSIPATION_BOUNDARY_PAIRS_H
+
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_wall_terms.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // a pair of a fluid and a boundary particle inside the support
+
+  struct BoundaryPair {
+    int fluid, wall;
+    double distance, slope;    // r, F
+  };
+
+  // Pairs of the fluid and boundary particles of one thread, in rows of one boundary particle each.  Those of row m have the
+  // places first[m], first[m] + 1, ... in the arrays of pairs.
+
+  struct BoundaryRows {
+    std::vector<int> wall;        // of each row
+    std::vector<bigint> first;    // of each row, and the end
+
+    // until the neighbor list is built anew, all pairs that may come into the support: particles of the fluid, and their
+    // copies in SurfacePairs (no copies: no numbers); a row is filled up with spare particles
+
+    std::vector<int> candidate, candidate_copy;
+
+    // of each step, those inside the support: how many in each row; the same, r, and F; a block is filled up with the first
+    // particle and a spare copy at the distance of the support radius, where F is 0
+
+    std::vector<int> count, fluid, copy;
+    std::vector<double> distance, slope;
+
+    // begin(), add() each row of n candidates, end()
+    void begin()
+    {
+      wall.clear();
+      candidate.clear();
+      first.assign(1, 0);
+    }
+    void add(int wall_in, const int *fluid_in, int n, int spare)
+    {
+      wall.push_back(wall_in);
+      candidate.insert(candidate.end(), fluid_in, fluid_in + n);
+      for (int l = 0; candidate.size() % BLOCK; l++) candidate.push_back(spare + l);
+      first.push_back(static_cast<bigint>(candidate.size()));
+    }
+    void end()
+    {
+      constexpr int ROOM = 3 * BLOCK;    // loops write whole blocks and look ahead
+      candidate_copy.clear();
+      count.assign(wall.size(), 0);
+      fluid.assign(candidate.size() + ROOM, 0);
+      distance.assign(fluid.size(), 0.0);
+      slope.assign(fluid.size(), 0.0);
+    }
+    int size() const { return static_cast<int>(wall.size()); }
+    template <class Function> void visit(Function &&function) const
+    {
+      for (int m = 0; m < size(); m++)
+        for (bigint k = first[m]; k < first[m] + count[m]; k++)
+          function(BoundaryPair{fluid[k], wall[m], distance[k], slope[k]});
+    }
+    double memory_usage() const
+    {
+      return bytes(wall, first, candidate, candidate_copy, count, fluid, copy, distance, slope);
+    }
+  };
+
+  // Those of each thread; the rows of the neighbor list that hold them; of the threads but the first the particles in them, each
+  // once
+
+  struct BoundaryPairs {
+    std::vector<BoundaryRows> of_thread;
+    std::vector<std::vector<int>> rows, touched;
+
+    template <class Function> void visit(Function &&function) const
+    {
+      for (const auto &some : of_thread) some.visit(function);
+    }
+    double memory_usage() const { return bytes(of_thread, rows, touched); }
+  };
+
+  // what the fluid around boundary particles adds up to, of rows of those with these bits in their mask
+
+  struct BoundarySumData {
+    const int *mask;
+    int bits;
+    const Surface *surface;
+    const double *rho;
+    BoundarySum *sum;    // to which is added
+  };
+
+  // the same of the fluid that conducts heat
+
+  struct BoundaryHeatData {
+    const int *type;
+    const Surface *surface;
+    const FlowRow *flow;
+    BoundaryHeatSum *sum;
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,119 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+// The pairs of a particle f of the fluid and a particle w of a boundary, in vectors of f on the CPU, one by one on a device.
+// Included in more than one namespace, as sph_dissipation_pair_terms.h: see there; it must have larger(a, b) and smaller(a, b), too.
+//
+// r = x_w - x_f; S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012)
+
+template <class Real> SPH_INLINE Real along(const double *a, const Real *b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// V W of a boundary particle at a distance r from it
+
+template <class K, class Real> SPH_INLINE Real part_filled(const NearKernel &wall, Real r)
+{
+  return wall.norm * K::shape(smaller(r * wall.scale, Real() + 1.0));
+}
+
+// distance of f from the surface
+
+template <class Real> SPH_INLINE Real height_above(const Surface &s, const Real *r)
+{
+  return larger(-s.depth - along(s.normal, r), Real() + CLOSEST * s.spacing);
+}
+
+// Symmetric friction across a surface: the pair of f with w has that of the velocity of the body itself, times (d + h)/d
+// with the distances d of f and h of w from the surface.  Of a velocity that is zero at the surface and linear in d, this
+// is the force of its continuation behind the surface, -h times its slope.  Where the surface is not known, d is that of
+// the first layer of a lattice.
+
+template <class Real> SPH_INLINE Real surface_factor(const Surface &s, const Real *r, double support)
+{
+  const bool known = along(s.normal, s.normal) > 0.0;
+  const double least = known ? CLOSEST_PAIR * support : FIRST_LAYER * s.spacing;
+  const Real d = larger(-s.depth - along(s.normal, r), Real() + least);
+  return (d + s.depth) / d;
+}
+
+// Contribution of f to the sums of w, kernel_weight = W(r), w_f = reference volume of f.  Returns the distance of f from the
+// surface.  F: members x, u, vol, g as those of a Particle
+
+template <class Real, class F, class Number>
+SPH_INLINE Real add_fluid(const F &f, const Particle &w, const Real *r, Real kernel_weight,
+                          const Surface &s, Real rho, Real w_f, Real zeta_term,
+                          BoundarySums<Number> &total)
+{
+  const Real weight = f.vol * kernel_weight;
+  const Real height = height_above(s, r);
+  const Real weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
+  const Real turn[3] = {s.omega[1] * r[2] - s.omega[2] * r[1],
+                        s.omega[2] * r[0] - s.omega[0] * r[2],
+                        s.omega[0] * r[1] - s.omega[1] * r[0]};
+
+  total.weight += weight;
+  total.d += weight * height;
+  total.d3 += weight_d3;
+  total.d4 += weight_d4;
+  total.d5 += weight_d4 * height;
+  total.d6 += weight_d4 * height * height;
+  for (int d = 0; d < 3; d++) {
+    const Real relative = f.u[d] - w.u[d] + turn[d];
+    total.r[d] += weight * r[d];
+    total.u[d] += weight * relative;
+    total.ud3[d] += weight_d3 * relative;
+    total.ud4[d] += weight_d4 * relative;
+  }
+  total.rho += weight * rho;
+  total.pressure += kernel_weight * w_f * w_f * f.g / f.vol;
+  total.zeta_term += weight * zeta_term;
+  return height;
+}
+
+// the same for its spin, weight = V_f W, height from add_fluid()
+
+template <class Real, class Number>
+SPH_INLINE void add_fluid_spin(const Real *spin, Real weight, Real height, const Surface &s,
+                               BoundarySums<Number> &total)
+{
+  for (int d = 0; d < 3; d++) {
+    const Real weighted = weight * height * height * height * (spin[d] - s.omega[d]);
+    total.wd3[d] += weighted;
+    total.wd4[d] += weighted * height;
+  }
+}
+
+// the same for its temperature, slope = F; members vol, value, coefficient as those of a FlowRow; conductivity of w
+
+template <class Real, class F, class Number>
+SPH_INLINE void add_fluid_heat(const F &f, Real all_weight, Real slope, Real height,
+                               double conductivity, BoundaryHeatSums<Number> &total)
+{
+  const Real weight = if_positive(f.coefficient, all_weight);
+  const Real weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
+  total.weight += weight;
+  total.d += weight * height;
+  total.d3 += weight_d3;
+  total.d4 += weight_d4;
+  total.d5 += weight_d4 * height;
+  total.d6 += weight_d4 * height * height;
+  total.td3 += weight_d3 * f.value;
+  total.td4 += weight_d4 * f.value;
+  total.conductivity += weight * f.coefficient;
+  if (!(conductivity > 0.0)) return;
+  const Real flow = f.vol * slope * f.coefficient * conductivity / (f.coefficient + conductivity);
+  total.flow += flow;
+  total.tflow += flow * f.value;
+}
