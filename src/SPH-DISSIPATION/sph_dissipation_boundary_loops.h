@@ -196,6 +196,7 @@ inline BoundaryLoops choose_boundary_loops(Kernel kernel, bool spins)
   return LOOPS::with_kernel(kernel, [=](auto k) -> BoundaryLoops {
     using K = decltype(k);
     return {boundary_pairs_loop<K>, filled_loop<K>,
-            spins ? boundary_sum_loop<K, true> : boundary_sum_loop<K, false>, boundary_heat_loop<K>};
+            spins ? boundary_sum_loop<K, true> : boundary_sum_loop<K, false>,
+            boundary_heat_loop<K>};
   });
 }

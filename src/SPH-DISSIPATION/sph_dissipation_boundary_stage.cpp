@@ -387,8 +387,7 @@ void BoundaryStage::run_friction(FrictionPart part, PairTally *tally, const Step
       cross_product(surface.surface[wall].omega, particle.x, turn);
       for (int d = 0; d < 3; d++) particle.u[d] -= turn[d];
     }
-    for (int d = 0; d < 3 && spins; d++)
-      spin.w[d] = engine.spin[i].w[d] - engine.spin[wall].w[d];
+    for (int d = 0; d < 3 && spins; d++) spin.w[d] = engine.spin[i].w[d] - engine.spin[wall].w[d];
   };
   auto run = [&](int k) {
     SurfacePairs &own = surface_pairs[k];
@@ -455,8 +454,7 @@ void BoundaryStage::add_linear_friction()
     own.visit([&](int i, bool is_boundary, std::size_t k) {
       for (int d = 0; d < 3; d++) {
         engine.force[i].f[d] += own.force[k].f[d];
-        if (engine.has_spin() && !is_boundary)
-          engine.side.torque(i)[d] += own.side.torque(k)[d];
+        if (engine.has_spin() && !is_boundary) engine.side.torque(i)[d] += own.side.torque(k)[d];
       }
     });
 }
@@ -599,9 +597,10 @@ void BoundaryStage::find_candidates(NeighList *list)
   const Parameters &par = engine.parameters();
   rows_bits = group_bits;
   contact.clear();
-  if (has_energy()) contact = of_boundaries([&](double volume) {
-    return contact_kernel(par.dim, par.support, ContactKernel::norm(par.dim), volume);
-  });
+  if (has_energy())
+    contact = of_boundaries([&](double volume) {
+      return contact_kernel(par.dim, par.support, ContactKernel::norm(par.dim), volume);
+    });
 
   // by thread, in the order of the list
 
@@ -720,7 +719,8 @@ void BoundaryStage::accumulate()
   });
   const bool has_spin = engine.has_spin();
   const auto loop = engine.loop_set().boundary(engine.parameters().kernel, has_spin).sums;
-  const BoundarySumData data = {atom->mask, sum_bits, surface.surface.data(), atom->rho, sum.data()};
+  const BoundarySumData data = {atom->mask, sum_bits, surface.surface.data(), atom->rho,
+                                sum.data()};
   engine.team().run([&](int k) {
     loop(engine.pairs(), pairs.of_thread[k], data);
   });

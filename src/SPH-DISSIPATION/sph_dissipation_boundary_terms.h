@@ -40,7 +40,8 @@ template <class Real> SPH_INLINE Real height_above(const Surface &s, const Real 
 // is the force of its continuation behind the surface, -h times its slope.  Where the surface is not known, d is that of
 // the first layer of a lattice.
 
-template <class Real> SPH_INLINE Real surface_factor(const Surface &s, const Real *r, double support)
+template <class Real>
+SPH_INLINE Real surface_factor(const Surface &s, const Real *r, double support)
 {
   const bool known = along(s.normal, s.normal) > 0.0;
   const double least = known ? CLOSEST_PAIR * support : FIRST_LAYER * s.spacing;

@@ -91,8 +91,7 @@ namespace {
 
 class TallyOfCopies : public PairTally {
  public:
-  TallyOfCopies(PairTally *all, const std::function<int(int)> &atom_of) :
-      all(all), atom_of(atom_of)
+  TallyOfCopies(PairTally *all, const std::function<int(int)> &atom_of) : all(all), atom_of(atom_of)
   {
   }
   void tally(int i, int j, const double *force_on_i, const double *rij) override

@@ -57,7 +57,8 @@ namespace SPHDissipation {
    private:
     friend class Engine;
     struct Index {
-      int particle, wall;    // wall: a particle of the body, that one itself if it is of the boundary
+      int particle,
+          wall;    // wall: a particle of the body, that one itself if it is of the boundary
     };
     std::vector<Index> index;
     std::vector<int> row;    // of BoundaryRows, of each row here

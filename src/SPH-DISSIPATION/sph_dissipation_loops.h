@@ -77,7 +77,7 @@ namespace SPHDissipation {
           const int *const j = neighbor + jj;
           Vec pj[8];
           load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
-          load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
+          load_2_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
           const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
           const Vec ux = pj[3] - pi.u[0], uy = pj[4] - pi.u[1], uz = pj[5] - pi.u[2];
           const Vec rsq = dx * dx + dy * dy + dz * dz;
