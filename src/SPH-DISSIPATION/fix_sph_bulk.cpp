@@ -534,7 +534,7 @@ FixSPHBulk::Motion FixSPHBulk::find_motion() const
 
 /* ---------------------------------------------------------------------- */
 
-FixSPHBulk::Motion FixSPHBulk::sum_of(const Motion &mine, MPI_Comm world)
+FixSPHBulk::Motion FixSPHBulk::sum_of(Motion mine, MPI_Comm world)
 {
   constexpr bigint EXACT = (bigint(1) << 52) - 1;    // as a number of a restart file
   Motion all = mine;

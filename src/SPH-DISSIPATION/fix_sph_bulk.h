@@ -127,7 +127,7 @@ class FixSPHBulk : public Fix {
   Motion last = {};                 // at the end of the last step, of this processor
   Motion restart_motion() const;    // on all processors; of the particles as they are written
   Motion find_motion() const;
-  static Motion sum_of(const Motion &, MPI_Comm);
+  static Motion sum_of(Motion, MPI_Comm);
   bool is_continued() const;
   void check_integrated_once();
   void warn_of_jump() const;

@@ -48,7 +48,8 @@ void Balance::count(int first, double factor, const Lump &one)
 
 void Balance::total(double *all) const
 {
-  MPI_Allreduce(sum.data(), all, static_cast<int>(sum.size()), MPI_DOUBLE, MPI_SUM, world);
+  std::copy(sum.begin(), sum.end(), all);
+  MPI_Allreduce(MPI_IN_PLACE, all, static_cast<int>(sum.size()), MPI_DOUBLE, MPI_SUM, world);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -126,7 +127,7 @@ void RefineBalance::count(double factor, const Lump &one)
 void RefineBalance::total(double *all) const
 {
   Balance::total(all);
-  MPI_Allreduce(&sum[COLDEST], all + COLDEST, 1, MPI_DOUBLE, MPI_MIN, world);
+  all[COLDEST] = over_all(world, sum[COLDEST], MPI_MIN);
   if (all[COLDEST] == NONE) all[COLDEST] = 0.0;
 }
 

@@ -150,7 +150,7 @@ void boundary_heat_loop(const LoopData &data, const BoundaryRows &rows, const Bo
     const int i = rows.wall[m];
     const Particle wall = data.particle[i];
     const Surface surface = to.surface[i];
-    const double conductivity = data.par->type[to.type[i]].flow[HEAT_FLOW];
+    const double conductivity = to.conductivity[to.type[i]];
     const bigint first = rows.first[m];
     BoundaryHeatSums<Vector> total;
     clear_sums(total);

@@ -742,8 +742,10 @@ void BoundaryStage::accumulate_heat()
     heat_sum[i] = BoundaryHeatSum();
   });
   const auto loop = engine.loop_set().boundary(engine.parameters().kernel, false).heat_sums;
-  const BoundaryHeatData data = {atom->type, surface.surface.data(), engine.heat().data(),
-                                 heat_sum.data()};
+  std::vector<double> conductivity;
+  for (const auto &type : engine.parameters().type) conductivity.push_back(type.flow[HEAT_FLOW]);
+  const BoundaryHeatData data = {atom->type, conductivity.data(), surface.surface.data(),
+                                 engine.heat().data(), heat_sum.data()};
   engine.team().run([&](int k) {
     loop(engine.pairs(), pairs.of_thread[k], data);
   });

@@ -46,7 +46,7 @@ namespace SPHDissipation {
   // Gather what all processors have, in their order.
 
   template <class T>
-  std::vector<T> gather_all(MPI_Comm world, const std::vector<T> &mine, MPI_Datatype type)
+  std::vector<T> gather_all(MPI_Comm world, std::vector<T> mine, MPI_Datatype type)
   {
     int nprocs, n = static_cast<int>(mine.size()), total = 0;
     MPI_Comm_size(world, &nprocs);

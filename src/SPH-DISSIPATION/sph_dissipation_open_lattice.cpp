@@ -271,7 +271,7 @@ void ZoneLattice::renew(const Refresh &refresh)
 
   // since the last time, no row can have come farther from the end than this
 
-  const double mine[2] = {moved, my_largest_spacing()};
+  double mine[2] = {moved, my_largest_spacing()};
   double all[2];
   MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
   const double moved_all = all[0], largest = all[1];
@@ -338,7 +338,7 @@ bool ZoneLattice::fill(std::vector<int> &last, const OpenBand &band, const Refre
                             }),
              last.end());
   const int n = static_cast<int>(last.size());
-  const bigint mine[2] = {n, removed};
+  bigint mine[2] = {n, removed};
   bigint all[2];
   MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   removed = 0;

@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -153,6 +154,21 @@ def test_each_patch_links(series):
         defined = set().union(*(table[name][0] for name in there))
         missing = set().union(*(table[name][1] for name in there)) & everywhere - defined
         assert not missing
+
+
+@pytest.mark.long
+def test_without_mpi():
+    """The stand-in for MPI that LAMMPS has is stricter than MPI: what its collective functions read is not const."""
+    compiler = shutil.which("c++")
+    if not compiler or not (LAMMPS / "src" / "STUBS").is_dir():
+        pytest.skip("no compiler, or no LAMMPS/src/STUBS")
+    folder = ROOT / "src" / "SPH-DISSIPATION"
+    call = re.compile(r"MPI_(All)?(Reduce|reduce|Gather|gather|Scan)|gather_all")
+    command = [compiler, "-fsyntax-only", "-std=c++17", "-w", *(f"-I{place}" for place in (LAMMPS / "src" / "STUBS", LAMMPS / "src", folder))]
+    with ThreadPoolExecutor(2) as team:
+        done = team.map(lambda path: subprocess.run([*command, str(path)], stderr=subprocess.PIPE, text=True),
+                        [path for path in sorted(folder.glob("*.cpp")) if call.search(path.read_text())])
+    assert not "".join(one.stderr for one in done if one.returncode)
 
 
 # -- the rules ---------------------------------------------------------------------------------------------------
