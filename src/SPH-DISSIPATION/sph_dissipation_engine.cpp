@@ -23,9 +23,15 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <utility>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -96,6 +102,25 @@ void Engine::setup(const Parameters &parameters)
   data.par = par;
 }
 
+/* ----------------------------------------------------------------------
+   Large pages, which Linux has to be asked for in many installations: the pairs read and add to rows all over the arrays, and with
+   fewer pages fewer addresses have to be translated.
+------------------------------------------------------------------------- */
+
+template <class T> static void renew(Memory *memory, T *&array, bigint n, const char *name)
+{
+  memory->sfree(array);
+  const auto length = static_cast<std::size_t>(n) * sizeof(T);
+  array = (T *) memory->smalloc(length, name);
+#ifdef MADV_HUGEPAGE
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(array);
+  const std::uintptr_t first = (begin + page - 1) / page * page,
+                       end = (begin + length) / page * page;
+  if (end > first) madvise(reinterpret_cast<void *>(first), end - first, MADV_HUGEPAGE);
+#endif
+}
+
 /* ---------------------------------------------------------------------- */
 
 void Engine::grow_atoms()
@@ -103,22 +128,13 @@ void Engine::grow_atoms()
   if (nmax >= atom->nmax) return;
   nmax = atom->nmax;
   const bigint nrow = (bigint) nmax + BLOCK;    // with the spare ones
-  memory->sfree(particle);
-  memory->sfree(density);
-  memory->sfree(force);
-  particle = (Particle *) memory->smalloc(nrow * sizeof(Particle), "sph:particle");
-  density = (DensitySum *) memory->smalloc(nrow * sizeof(DensitySum), "sph:density");
-  force = (ForceSum *) memory->smalloc(nrow * sizeof(ForceSum), "sph:force");
-  if (has_spin()) {
-    memory->sfree(spin);
-    spin = (Spin *) memory->smalloc(nrow * sizeof(Spin), "sph:spin");
-  }
-  memory->sfree(state_pressure);
-  state_pressure = (double *) memory->smalloc(nrow * sizeof(double), "sph:state_pressure");
-  memory->sfree(zeta_term);
-  zeta_term = (double *) memory->smalloc(nrow * sizeof(double), "sph:zeta_term");
-  memory->sfree(divergence);
-  divergence = (double *) memory->smalloc(nrow * sizeof(double), "sph:divergence");
+  renew(memory, particle, nrow, "sph:particle");
+  renew(memory, density, nrow, "sph:density");
+  renew(memory, force, nrow, "sph:force");
+  if (has_spin()) renew(memory, spin, nrow, "sph:spin");
+  renew(memory, state_pressure, nrow, "sph:state_pressure");
+  renew(memory, zeta_term, nrow, "sph:zeta_term");
+  renew(memory, divergence, nrow, "sph:divergence");
 }
 
 /* ----------------------------------------------------------------------
@@ -132,10 +148,8 @@ void Engine::grow_pairs(NeighList *list, bool leaves_slopes)
   constexpr int PARTS = 256;    // of the rows of a thread: it gets whole ones
   if (list->inum > imax) {
     imax = list->inum;
-    memory->sfree(data.first);
-    memory->sfree(data.count);
-    data.first = (bigint *) memory->smalloc(imax * sizeof(bigint), "sph:first");
-    data.count = (int *) memory->smalloc(imax * sizeof(int), "sph:count");
+    renew(memory, data.first, imax, "sph:first");
+    renew(memory, data.count, imax, "sph:count");
   }
 
   auto room = [=](int ii) {
@@ -165,13 +179,11 @@ void Engine::grow_pairs(NeighList *list, bool leaves_slopes)
   npair += nthread * 3 * BLOCK;
   if (npair > pair_max) {
     pair_max = npair + npair / 16;
-    memory->sfree(data.neighbor);
-    data.neighbor = (int *) memory->smalloc(pair_max * sizeof(int), "sph:neighbor");
+    renew(memory, data.neighbor, pair_max, "sph:neighbor");
   }
   if (leaves_slopes && slope_max < pair_max) {
     slope_max = pair_max;
-    memory->sfree(slopes);
-    slopes = (double *) memory->smalloc(slope_max * sizeof(double), "sph:slope");
+    renew(memory, slopes, slope_max, "sph:slope");
   }
   data.slope = leaves_slopes ? slopes : nullptr;
 }

@@ -161,6 +161,8 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
   const int dim = engine.constants().dim;
   for_each(owned, [&](int i) {
     Surface &s = surface[i];
+    const bool of_body = body && body[i] > 0.0;
+    if (!of_body && MathExtra::lensq3(s.normal) == 0.0) return;    // out of reach of the fluid
     const double width = WIDTH * s.spacing;
     const double norm = pow(width * sqrt(MathConst::MY_2PI), -dim);
     const double radius = std::min(support, CUTOFF * s.spacing);
@@ -173,7 +175,7 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
       for (int d = 0; d < 3; d++) inward[d] += part * r[d];
     });
     const double length = MathExtra::len3(inward);
-    const bool faces = (body && body[i] > 0.0) ||
+    const bool faces = of_body ||
         MathExtra::dot3(inward, s.normal) <
             -RESIDUAL * RESIDUAL * length * MathExtra::len3(s.normal);
     const bool outer = filled < OUTER && length > RESIDUAL * RESIDUAL * width && faces;
