@@ -74,7 +74,7 @@ void filled_loop(const BoundaryRows &rows, const NearKernel *near, double *fille
 
 // the sums of BoundarySum
 
-struct Vector {
+struct OneVector {
   typedef Vec type;
 };
 
@@ -90,12 +90,6 @@ SPH_INLINE FluidColumns load_fluid(const Particle *particle, const int *j)
   return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, p[6], p[7]};
 }
 
-template <class Sums> SPH_INLINE void clear_sums(Sums &total)
-{
-  for (std::size_t c = 0; c < sizeof(total) / sizeof(Vec); c++)
-    reinterpret_cast<Vec *>(&total)[c] = all(0.0);
-}
-
 template <class Sums> SPH_INLINE void add_sums(const Sums &total, double *to, int n)
 {
   for (int c = 0; c < n; c++) to[c] += sum(reinterpret_cast<const Vec *>(&total)[c]);
@@ -105,7 +99,6 @@ template <class K, bool SPINS>
 void boundary_sum_loop(const LoopData &data, const BoundaryRows &rows, const BoundarySumData &to)
 {
   const double weight_norm = data.par->weight_norm, support_inv = 1.0 / data.par->support;
-  constexpr int OF_SPIN = 6;
 
   for (int m = 0; m < rows.size(); m++) {
     const int i = rows.wall[m];
@@ -113,8 +106,7 @@ void boundary_sum_loop(const LoopData &data, const BoundaryRows &rows, const Bou
     const Particle wall = data.particle[i];
     const Surface surface = to.surface[i];
     const bigint first = rows.first[m];
-    BoundarySums<Vector> total;
-    clear_sums(total);
+    BoundarySums<OneVector> total = {};
 
     for (bigint k = first; k < first + rows.count[m]; k += LANES) {
       const int *const j = &rows.fluid[k];
@@ -131,7 +123,7 @@ void boundary_sum_loop(const LoopData &data, const BoundaryRows &rows, const Bou
         add_fluid_spin(spin, fluid.vol * kernel_weight, height, surface, total);
       }
     }
-    add_sums(total, &to.sum[i].weight, WIDTH<BoundarySum> - (SPINS ? 0 : OF_SPIN));
+    add_sums(total, numbers(&to.sum[i]), WIDTH<BoundarySum> - (SPINS ? 0 : BoundarySum::OF_SPIN));
   }
 }
 
@@ -152,8 +144,7 @@ void boundary_heat_loop(const LoopData &data, const BoundaryRows &rows, const Bo
     const Surface surface = to.surface[i];
     const double conductivity = to.conductivity[to.type[i]];
     const bigint first = rows.first[m];
-    BoundaryHeatSums<Vector> total;
-    clear_sums(total);
+    BoundaryHeatSums<OneVector> total = {};
 
     for (bigint k = first; k < first + rows.count[m]; k += LANES) {
       const int *const j = &rows.fluid[k];
@@ -166,20 +157,19 @@ void boundary_heat_loop(const LoopData &data, const BoundaryRows &rows, const Bo
                      Vec(fluid.vol * weight_norm * K::shape(q)), load(&rows.slope[k]),
                      height_above(surface, r), conductivity, total);
     }
-    add_sums(total, &to.sum[i].weight, WIDTH<BoundaryHeatSum>);
+    add_sums(total, numbers(&to.sum[i]), WIDTH<BoundaryHeatSum>);
   }
 }
 
-// F times surface_factor() less a number, of the rows of boundary particles with these bits in their mask
+// F times surface_factor() less a number, of some of the rows
 
-inline void surface_slope_loop(const LoopData &data, const BoundaryRows &rows, const int *mask,
-                               int bits, const Surface *surfaces, double less, double *slope)
+inline void surface_slope_loop(const LoopData &data, const BoundaryRows &rows,
+                               const std::vector<int> &some, const Surface *surfaces, double less,
+                               double *slope)
 {
-  for (int m = 0; m < rows.size(); m++) {
-    const int i = rows.wall[m];
-    if (!(mask[i] & bits)) continue;
-    const Particle &wall = data.particle[i];
-    const Surface surface = surfaces[i];
+  for (const int m : some) {
+    const Particle &wall = data.particle[rows.wall[m]];
+    const Surface surface = surfaces[rows.wall[m]];
     const bigint first = rows.first[m];
     for (bigint k = first; k < first + rows.count[m]; k += LANES) {
       Vec r[4];
@@ -191,12 +181,13 @@ inline void surface_slope_loop(const LoopData &data, const BoundaryRows &rows, c
   }
 }
 
-inline BoundaryLoops choose_boundary_loops(Kernel kernel, bool spins)
+inline BoundaryLoops choose_boundary_loops(Kernel kernel)
 {
-  return LOOPS::with_kernel(kernel, [=](auto k) -> BoundaryLoops {
+  return LOOPS::with_kernel(kernel, [](auto k) -> BoundaryLoops {
     using K = decltype(k);
-    return {boundary_pairs_loop<K>, filled_loop<K>,
-            spins ? boundary_sum_loop<K, true> : boundary_sum_loop<K, false>,
+    return {boundary_pairs_loop<K>,
+            filled_loop<K>,
+            {boundary_sum_loop<K, false>, boundary_sum_loop<K, true>},
             boundary_heat_loop<K>};
   });
 }

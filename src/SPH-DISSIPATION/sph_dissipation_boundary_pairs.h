@@ -83,12 +83,12 @@ namespace SPHDissipation {
     }
   };
 
-  // Those of each thread; the rows of the neighbor list that hold them; of the threads but the first the particles in them, each
-  // once
-
   struct BoundaryPairs {
     std::vector<BoundaryRows> of_thread;
-    std::vector<std::vector<int>> rows, touched;
+    std::vector<std::vector<int>>
+        rows;    // of the neighbor list that hold pairs, of each of its threads
+    std::vector<std::vector<int>>
+        touched;    // particles in the pairs of each thread but the first, each once
 
     template <class Function> void visit(Function &&function) const
     {

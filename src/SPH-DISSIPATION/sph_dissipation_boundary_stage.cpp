@@ -26,7 +26,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numeric>
 
 using namespace LAMMPS_NS;
@@ -130,8 +129,8 @@ void BoundaryStage::begin(NeighList *list)
   }
   find_pairs();
   surface.has_flux = conducts();
+  check(found);
   if (found) {
-    check();
     surface.run(group_bits, pairs, body_of);
     sum_bodies();
   }
@@ -357,11 +356,12 @@ void BoundaryStage::find_surface_pairs()
 {
   surface_pairs.resize(symmetric_bits ? pairs.of_thread.size() : 0);
   if (!symmetric_bits) return;
-  const int nall = atom->nlocal + atom->nghost, nbodies = static_cast<int>(boundaries.size());
+  const int nall = atom->nlocal + atom->nghost, nboundary = static_cast<int>(boundaries.size());
   auto body_number = [&](int i) {
-    if (is_body(i)) return nbodies + body(i);
-    for (int k = 0; k < nbodies; k++)
-      if (atom->mask[i] & symmetric_bits & boundaries[k]->boundary_bit()) return k;
+    const int bits = atom->mask[i] & symmetric_bits;
+    if (bits & body_bits) return nboundary + body(i);
+    for (int k = 0; k < nboundary; k++)
+      if (bits & boundaries[k]->boundary_bit()) return k;
     return -1;
   };
   engine.team().run([&](int k) {
@@ -377,8 +377,7 @@ void BoundaryStage::find_surface_pairs()
 void BoundaryStage::run_friction(FrictionPart part, PairTally *tally, const StepNoise *noise,
                                  bool linear)
 {
-  const bool spins = engine.has_spin();
-  auto copy = [&](int i, int wall, Particle &particle, Spin &spin) {
+  auto copy = [&](int i, int wall, Particle &particle, Spin *spin) {
     particle = engine.particle[i];
     particle.g = 0.0;
     if (i == wall) particle.vol = atom->vfrac[i];
@@ -387,19 +386,18 @@ void BoundaryStage::run_friction(FrictionPart part, PairTally *tally, const Step
       cross_product(surface.surface[wall].omega, particle.x, turn);
       for (int d = 0; d < 3; d++) particle.u[d] -= turn[d];
     }
-    for (int d = 0; d < 3 && spins; d++) spin.w[d] = engine.spin[i].w[d] - engine.spin[wall].w[d];
+    for (int d = 0; spin && d < 3; d++) spin->w[d] = engine.spin[i].w[d] - engine.spin[wall].w[d];
   };
   auto run = [&](int k) {
     SurfacePairs &own = surface_pairs[k];
     BoundaryRows &rows = pairs.of_thread[k];
-    own.begin(rows, spins, copy);
-    if (part == FrictionPart::BODY)
-      std::copy(rows.slope.begin(), rows.slope.end(), own.slope());
-    else
-      engine.loop_set().surface_slopes(engine.pairs(), rows, atom->mask, symmetric_bits,
-                                       surface.surface.data(),
-                                       (part == FrictionPart::ADDED) ? 1.0 : 0.0, own.slope());
-    engine.accumulate_friction(own, rows, tally, noise, k);
+    own.begin(rows, engine.has_spin(), copy);
+    const bool added = (part == FrictionPart::ADDED);
+    if (part != FrictionPart::BODY)
+      engine.loop_set().surface_slopes(engine.pairs(), rows, own.places(), surface.surface.data(),
+                                       added ? 1.0 : 0.0, own.slope.data());
+    double *const slope = (part == FrictionPart::BODY) ? rows.slope.data() : own.slope.data();
+    engine.accumulate_friction(own, rows, slope, tally, noise, k);
   };
   if (tally)
     for (int k = 0; k < engine.team().size(); k++) run(k);
@@ -681,13 +679,13 @@ BoundaryStage::of_boundaries(const std::function<NearKernel(double)> &of_volume)
    what boundary particles fill of the supports of owned atoms
 ------------------------------------------------------------------------- */
 
-void BoundaryStage::find_filled(Kernel kernel, const std::vector<NearKernel> &near,
+void BoundaryStage::find_filled(Kernel kernel, const std::vector<NearKernel> &kernels,
                                 std::vector<double> &part)
 {
-  const auto loop = engine.loop_set().boundary(kernel, false).filled;
-  part.assign(near.size(), 0.0);
-  filled_sums.run(engine.team(), part.data(), part.size(), pairs.touched, [&](int k, double *sum) {
-    loop(pairs.of_thread[k], near.data(), sum);
+  const auto loop = engine.loop_set().boundary(kernel).filled;
+  part.assign(kernels.size(), 0.0);
+  filled_sums.run(engine.team(), part.data(), part.size(), pairs.touched, [&](int k, double *own) {
+    loop(pairs.of_thread[k], kernels.data(), own);
   });
   exchange.reverse({{part.data(), 1, 1}});
 }
@@ -698,7 +696,7 @@ void BoundaryStage::find_filled(Kernel kernel, const std::vector<NearKernel> &ne
 
 void BoundaryStage::find_pairs()
 {
-  const auto loop = engine.loop_set().boundary(engine.parameters().kernel, false).pairs;
+  const auto loop = engine.loop_set().boundary(engine.parameters().kernel).pairs;
   engine.team().run([&](int k) {
     loop(engine.pairs(), pairs.of_thread[k]);
   });
@@ -718,7 +716,7 @@ void BoundaryStage::accumulate()
     if (atom->mask[i] & sum_bits) sum[i] = BoundarySum();
   });
   const bool has_spin = engine.has_spin();
-  const auto loop = engine.loop_set().boundary(engine.parameters().kernel, has_spin).sums;
+  const auto loop = engine.loop_set().boundary(engine.parameters().kernel).sums[has_spin];
   const BoundarySumData data = {atom->mask, sum_bits, surface.surface.data(), atom->rho,
                                 sum.data()};
   engine.team().run([&](int k) {
@@ -726,10 +724,10 @@ void BoundaryStage::accumulate()
   });
 
   BoundarySum *const first = sum.data();
-  constexpr int NOT_OF_SPIN = offsetof(BoundarySum, wd3) / sizeof(double);
-  exchange.reverse(
-      {field(first, &first->weight, NOT_OF_SPIN), field(first, first->wd3, has_spin ? 6 : 0)},
-      sum_bits);
+  constexpr int OF_SPIN = BoundarySum::OF_SPIN, ALL = sizeof(BoundarySum) / sizeof(double);
+  exchange.reverse({field(first, &first->weight, ALL - OF_SPIN),
+                    field(first, first->wd3, has_spin ? OF_SPIN : 0)},
+                   sum_bits);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -741,7 +739,7 @@ void BoundaryStage::accumulate_heat()
   engine.for_each(nall, [&](int i) {
     heat_sum[i] = BoundaryHeatSum();
   });
-  const auto loop = engine.loop_set().boundary(engine.parameters().kernel, false).heat_sums;
+  const auto loop = engine.loop_set().boundary(engine.parameters().kernel).heat_sums;
   std::vector<double> conductivity;
   for (const auto &type : engine.parameters().type) conductivity.push_back(type.flow[HEAT_FLOW]);
   const BoundaryHeatData data = {atom->type, conductivity.data(), surface.surface.data(),
@@ -752,15 +750,19 @@ void BoundaryStage::accumulate_heat()
 }
 
 /* ----------------------------------------------------------------------
-   when the neighbor list is new: nothing gets far into a wall before
+   When the neighbor list is new: in between nothing gets farther than half the skin, if LAMMPS looks for that in each step
 ------------------------------------------------------------------------- */
 
-void BoundaryStage::check()
+void BoundaryStage::check(bool found)
 {
+  const bool follows =
+      neighbor->dist_check && neighbor->every == 1 && neighbor->delay == 0 && !neighbor->build_once;
+  if (!found && follows) return;
   const Parameters &par = engine.parameters();
-  const auto near = of_boundaries([&](double volume) {
-    return near_kernel(par.dim, par.support, par.weight_norm, volume);
-  });
+  if (found)
+    near = of_boundaries([&](double volume) {
+      return near_kernel(par.dim, par.support, par.weight_norm, volume);
+    });
   std::vector<double> part;
   find_filled(par.kernel, near, part);
   for (int i = 0; i < atom->nlocal; i++)
@@ -794,5 +796,5 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 double BoundaryStage::memory_usage() const
 {
   return bytes(surface_pairs, sum, filled, pairs, filled_sums, flow_sums, repulsion_sums, surface,
-               heat_sum, repulsion, contact, body_of, own_numden, pushes);
+               heat_sum, repulsion, near, contact, body_of, own_numden, pushes);
 }

@@ -159,11 +159,9 @@ namespace SPHDissipation {
 
     std::vector<char> pushes;    // whether owned particles have a pressure that changes
 
-    // Of boundary atoms until the list is built anew, and the part of the supports of owned and ghost atoms that they fill;
-    // empty where nothing repels
-
-    std::vector<NearKernel> contact;
-    std::vector<double> filled;
+    std::vector<NearKernel> near, contact;    // of boundary atoms until the list is built anew
+    std::vector<double>
+        filled;    // of the supports of contact around owned and ghost atoms; not set where nothing repels
 
     ThreadSums<double> filled_sums, flow_sums;
     std::vector<ForceSum> repulsion;    // of several threads
@@ -203,7 +201,7 @@ namespace SPHDissipation {
     WallForce force_of(const BoundaryPair &) const;
     void add_energies(int n, const std::function<void(int, double)> &add) const;
     std::vector<NearKernel> of_boundaries(const std::function<NearKernel(double)> &of_volume) const;
-    void find_filled(Kernel, const std::vector<NearKernel> &, std::vector<double> &sum);
+    void find_filled(Kernel, const std::vector<NearKernel> &, std::vector<double> &part);
     bool are_across(int mask, int other) const    // one of the fluid, and one of a boundary
     {
       return static_cast<bool>(mask & group_bits) != static_cast<bool>(other & group_bits);
@@ -213,7 +211,7 @@ namespace SPHDissipation {
     void set_excess();
     void accumulate();
     void accumulate_heat();
-    void check();
+    void check(bool found);    // particles inside of a wall; found: the neighbor list is new
   };
 
 }    // namespace SPHDissipation

@@ -12,7 +12,8 @@
 ------------------------------------------------------------------------- */
 
 // The pairs of a particle f of the fluid and a particle w of a boundary, in vectors of f on the CPU, one by one on a device.
-// Included in more than one namespace, as sph_dissipation_pair_terms.h: see there; it must have larger(a, b) and smaller(a, b), too.
+// Included in more than one namespace, as sph_dissipation_pair_terms.h: see there.  The namespace must also have larger(a, b) and
+// smaller(a, b).
 //
 // r = x_w - x_f; S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012)
 
@@ -49,8 +50,20 @@ SPH_INLINE Real surface_factor(const Surface &s, const Real *r, double support)
   return (d + s.depth) / d;
 }
 
+template <class Real, class Sums>
+SPH_INLINE void add_distances(Real weight, Real height, Sums &total)
+{
+  const Real weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
+  total.weight += weight;
+  total.d += weight * height;
+  total.d3 += weight_d3;
+  total.d4 += weight_d4;
+  total.d5 += weight_d4 * height;
+  total.d6 += weight_d4 * height * height;
+}
+
 // Contribution of f to the sums of w, kernel_weight = W(r), w_f = reference volume of f.  Returns the distance of f from the
-// surface.  F: members x, u, vol, g as those of a Particle
+// surface.  F: members u, vol, g as those of a Particle
 
 template <class Real, class F, class Number>
 SPH_INLINE Real add_fluid(const F &f, const Particle &w, const Real *r, Real kernel_weight,
@@ -64,12 +77,7 @@ SPH_INLINE Real add_fluid(const F &f, const Particle &w, const Real *r, Real ker
                         s.omega[2] * r[0] - s.omega[0] * r[2],
                         s.omega[0] * r[1] - s.omega[1] * r[0]};
 
-  total.weight += weight;
-  total.d += weight * height;
-  total.d3 += weight_d3;
-  total.d4 += weight_d4;
-  total.d5 += weight_d4 * height;
-  total.d6 += weight_d4 * height * height;
+  add_distances(weight, height, total);
   for (int d = 0; d < 3; d++) {
     const Real relative = f.u[d] - w.u[d] + turn[d];
     total.r[d] += weight * r[d];
@@ -96,20 +104,16 @@ SPH_INLINE void add_fluid_spin(const Real *spin, Real weight, Real height, const
   }
 }
 
-// the same for its temperature, slope = F; members vol, value, coefficient as those of a FlowRow; conductivity of w
+// the same for its temperature if it conducts heat, weight_f = V_f W, slope = F; F: members vol, value, coefficient as those of a
+// FlowRow; conductivity of w
 
 template <class Real, class F, class Number>
-SPH_INLINE void add_fluid_heat(const F &f, Real all_weight, Real slope, Real height,
+SPH_INLINE void add_fluid_heat(const F &f, Real weight_f, Real slope, Real height,
                                double conductivity, BoundaryHeatSums<Number> &total)
 {
-  const Real weight = if_positive(f.coefficient, all_weight);
+  const Real weight = if_positive(f.coefficient, weight_f);
   const Real weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
-  total.weight += weight;
-  total.d += weight * height;
-  total.d3 += weight_d3;
-  total.d4 += weight_d4;
-  total.d5 += weight_d4 * height;
-  total.d6 += weight_d4 * height * height;
+  add_distances(weight, height, total);
   total.td3 += weight_d3 * f.value;
   total.td4 += weight_d4 * f.value;
   total.conductivity += weight * f.coefficient;

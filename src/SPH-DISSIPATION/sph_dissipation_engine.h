@@ -119,8 +119,7 @@ namespace SPHDissipation {
     int n;
   };
 
-  // loops over the pairs of one thread of the fluid and boundary particles: which are inside the support; what of the supports
-  // of NearKernel they fill; the sums of the fluid, to which they add
+  // loops over the pairs of one thread of the fluid and boundary particles
 
   struct BoundaryRows;
   struct BoundarySumData;
@@ -128,9 +127,11 @@ namespace SPHDissipation {
   struct NearKernel;
   struct Surface;
   struct BoundaryLoops {
-    void (*pairs)(const LoopData &, BoundaryRows &);
+    void (*pairs)(const LoopData &, BoundaryRows &);    // those inside the support
+    // add what they fill of the supports of NearKernel
     void (*filled)(const BoundaryRows &, const NearKernel *, double *filled);
-    void (*sums)(const LoopData &, const BoundaryRows &, const BoundarySumData &);
+    // add the sums over the fluid, without and with spins
+    void (*sums[2])(const LoopData &, const BoundaryRows &, const BoundarySumData &);
     void (*heat_sums)(const LoopData &, const BoundaryRows &, const BoundaryHeatData &);
   };
 
@@ -152,9 +153,9 @@ namespace SPHDissipation {
                              double *numbers);
     FlowLoop (*flow)(bool alike);    // the same coefficient of all particles with a volume
     DiffusionLoop (*diffusion)(DiffusionPart, int dim, bool alike);    // of impedance
-    BoundaryLoops (*boundary)(Kernel, bool spins);
-    // F (surface_factor() - less) of pairs with boundary particles that have these bits in their mask
-    void (*surface_slopes)(const LoopData &, const BoundaryRows &, const int *mask, int bits,
+    BoundaryLoops (*boundary)(Kernel);
+    // F (surface_factor() - less) of the pairs in some of the rows
+    void (*surface_slopes)(const LoopData &, const BoundaryRows &, const std::vector<int> &some,
                            const Surface *, double less, double *slope);
     // take (x - corner) * scale
     void (*take_candidates)(const PlaceColumns &, int from, int to, const double *corner,
@@ -221,7 +222,6 @@ namespace SPHDissipation {
 
    private:
     friend class Engine;
-    friend class SurfacePairs;
     std::vector<int> rows, count, neighbor;
     std::vector<bigint> first;
     std::vector<double> slope;
@@ -279,9 +279,10 @@ namespace SPHDissipation {
     // the same as accumulate_forces() without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *, int not_fluid);
 
-    // friction of those pairs of these rows alone, with the noise of surfaces, or nullptr, by this thread; after pass 2
-    void accumulate_friction(SurfacePairs &, BoundaryRows &, PairTally *, const StepNoise *,
-                             int thread);
+    // friction of those pairs of these rows alone, with these slopes and the noise of surfaces, or nullptr, by this thread; after
+    // pass 2
+    void accumulate_friction(SurfacePairs &, BoundaryRows &, double *slope, PairTally *,
+                             const StepNoise *, int thread);
 
     // sum_j V_j F (e.u)^2 of owned and ghost atoms, of the volumes in particle[] and the squares of pass 1; room for the
     // spare ones.  Set the square of a pair for other velocities in particle[]
@@ -409,7 +410,7 @@ namespace SPHDissipation {
     void set_weights();
     void grow_pairs(NeighList *, bool leaves_slopes);
     LoopData part(int thread) const;
-    LoopData part(PairSubset &, int spare) const;
+    LoopData part(PairSubset &) const;
     double *room_for_numbers(int thread, const LoopData &);
     void run_density(Loop);
     void run_noise(NoiseLoop, const NoiseData &);

@@ -22,53 +22,43 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-void SurfacePairs::find(BoundaryRows &rows, int nall, const std::function<int(int)> &body)
+void SurfacePairs::find(BoundaryRows &all, int nall, const std::function<int(int)> &body)
 {
+  place.clear();
+  rows.clear();
+  first.clear();
+  index.assign(BLOCK, {-1, -1});
+  std::vector<int> number(all.size());
+  for (int m = 0; m < all.size(); m++) {
+    number[m] = body(all.wall[m]);
+    if (number[m] >= 0) place.push_back(m);
+  }
+  std::stable_sort(place.begin(), place.end(), [&](int m, int n) {
+    return number[m] < number[n];
+  });
+
   struct Copy {
     int place, body;
   };
   std::vector<Copy> last(nall, {-1, -1});    // of each particle of the fluid
-  index.assign(BLOCK, {-1, -1});
-  row.clear();
-  subset.begin();
-  rows.candidate_copy.assign(rows.candidate.size(), 0);
-  for (int m = 0; m < rows.size(); m++) {
-    const int wall = rows.wall[m], number = body(wall);
-    if (number < 0) continue;
-    row.push_back(m);
-    subset.rows.push_back(static_cast<int>(index.size()));
-    subset.first.push_back(rows.first[m]);
-    index.push_back({wall, wall});
-    for (bigint k = rows.first[m]; k < rows.first[m + 1]; k++) {
-      const int i = rows.candidate[k];
+  all.candidate_copy.assign(place.empty() ? 0 : all.candidate.size(), 0);
+  all.copy.assign(place.empty() ? 0 : all.fluid.size(), 0);
+  for (const int m : place) {
+    rows.push_back(static_cast<int>(index.size()));
+    first.push_back(all.first[m]);
+    index.push_back({all.wall[m], all.wall[m]});
+    for (bigint k = all.first[m]; k < all.first[m + 1]; k++) {
+      const int i = all.candidate[k];
       if (i >= nall) break;    // a spare one
-      if (last[i].body != number) {
-        last[i] = {static_cast<int>(index.size()), number};
-        index.push_back({i, wall});
+      if (last[i].body != number[m]) {
+        last[i] = {static_cast<int>(index.size()), number[m]};
+        index.push_back({i, all.wall[m]});
       }
-      rows.candidate_copy[k] = last[i].place;
+      all.candidate_copy[k] = last[i].place;
     }
   }
-  subset.count.resize(row.size());
-  subset.slope.resize(rows.slope.size());
-  if (row.empty()) rows.candidate_copy.clear();
-  rows.copy.assign(row.empty() ? 0 : rows.fluid.size(), 0);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void SurfacePairs::begin(const BoundaryRows &rows, bool spins,
-                         const std::function<void(int, int, Particle &, Spin &)> &copy)
-{
-  const std::size_t n = index.size();
-  particle.resize(n);
-  spin.resize(spins ? n : 0);
-  std::fill_n(particle.begin(), BLOCK, Particle());
-  std::fill_n(spin.begin(), spins ? BLOCK : 0, Spin());
-  Spin none;
-  for (std::size_t k = BLOCK; k < n; k++)
-    copy(index[k].particle, index[k].wall, particle[k], spins ? spin[k] : none);
-  for (std::size_t m = 0; m < row.size(); m++) subset.count[m] = rows.count[row[m]];
+  count.assign(place.size(), 0);
+  slope.assign(all.slope.size(), 0.0);
 }
 
 /* ----------------------------------------------------------------------
@@ -85,38 +75,29 @@ void SurfacePairs::fill(std::vector<T> &values, const T &spare, Value &&value)
 
 /* ---------------------------------------------------------------------- */
 
-namespace {
-
-// of copies, to that of the atoms
-
-class TallyOfCopies : public PairTally {
- public:
-  TallyOfCopies(PairTally *all, const std::function<int(int)> &atom_of) : all(all), atom_of(atom_of)
-  {
-  }
-  void tally(int i, int j, const double *force_on_i, const double *rij) override
-  {
-    all->tally(atom_of(i), atom_of(j), force_on_i, rij);
-  }
-
- private:
-  PairTally *all;
-  std::function<int(int)> atom_of;
-};
-
-}    // namespace
-
-/* ---------------------------------------------------------------------- */
-
-void Engine::accumulate_friction(SurfacePairs &some, BoundaryRows &rows, PairTally *tally,
-                                 const StepNoise *of_step, int thread)
+void Engine::accumulate_friction(SurfacePairs &some, BoundaryRows &rows, double *slope,
+                                 PairTally *tally, const StepNoise *of_step, int thread)
 {
+  struct TallyOfCopies : PairTally {
+    PairTally *all;
+    const std::vector<SurfacePairs::Index> &index;
+
+    TallyOfCopies(PairTally *all, const std::vector<SurfacePairs::Index> &index) :
+        all(all), index(index)
+    {
+    }
+    void tally(int i, int j, const double *force_on_i, const double *rij) override
+    {
+      all->tally(index[i].particle, index[j].particle, force_on_i, rij);
+    }
+  } of_copies(tally, some.index);
+
   const std::size_t n = some.index.size();
   some.force.assign(n, ForceSum());
   some.side.set(side.columns);
   some.side.resize(n);
   std::fill(some.side.rows.begin(), some.side.rows.end(), 0.0);
-  if (some.empty()) return;
+  if (some.rows.empty()) return;
 
   some.fill(some.type, 1, [&](int i) {
     return atom->type[i];
@@ -124,12 +105,12 @@ void Engine::accumulate_friction(SurfacePairs &some, BoundaryRows &rows, PairTal
   some.weight.resize(n, 1.0);
 
   LoopData part = data;
-  part.inum = static_cast<int>(some.subset.rows.size());
-  part.ilist = some.subset.rows.data();
-  part.first = some.subset.first.data();
-  part.count = some.subset.count.data();
+  part.inum = static_cast<int>(some.rows.size());
+  part.ilist = some.rows.data();
+  part.first = some.first.data();
+  part.count = some.count.data();
   part.neighbor = rows.copy.data();
-  part.slope = some.subset.slope.data();
+  part.slope = slope;
   part.particle = some.particle.data();
   part.spin = some.spin.data();
   part.spare = 0;
@@ -138,9 +119,6 @@ void Engine::accumulate_friction(SurfacePairs &some, BoundaryRows &rows, PairTal
   part.weight = some.weight.data();
   part.force = some.force.data();
   part.side = some.side.rows.data();
-  TallyOfCopies of_copies(tally, [&](int k) {
-    return some.index[k].particle;
-  });
   part.tally = tally ? &of_copies : nullptr;
   if (!of_step || !of_step->surfaces.data) return force_loop(part);
 
@@ -169,5 +147,6 @@ void Engine::accumulate_friction(SurfacePairs &some, BoundaryRows &rows, PairTal
 
 double SurfacePairs::memory_usage() const
 {
-  return bytes(side, index, row, force, particle, spin, weight, type, subset, tag, mobility, noise);
+  return bytes(slope, side, index, place, rows, count, first, force, particle, spin, weight, type,
+               tag, mobility, noise);
 }

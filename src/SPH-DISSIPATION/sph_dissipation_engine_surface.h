@@ -18,6 +18,7 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_noise_data.h"
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -34,13 +35,21 @@ namespace SPHDissipation {
     // when the neighbor list is new: those of the rows with a body(i), number from 0 on, of boundary particle i; sets
     // BoundaryRows::candidate_copy
     void find(BoundaryRows &, int nall, const std::function<int(int)> &body);
-    bool empty() const { return subset.rows.empty(); }
+    const std::vector<int> &places() const { return place; }    // of these rows in BoundaryRows
 
     // the pairs of this step; copy(i, wall, particle, spin) sets those of particle i in the frame of the body of this boundary
-    // particle
-    void begin(const BoundaryRows &, bool spins,
-               const std::function<void(int, int, Particle &, Spin &)> &copy);
-    double *slope() { return subset.slope.data(); }    // of the pairs of BoundaryRows, to be set
+    // particle; spin: nullptr without spins
+    template <class Copy> void begin(const BoundaryRows &rows, bool spins, Copy &&copy)
+    {
+      const std::size_t n = index.size();
+      particle.resize(n);
+      spin.resize(spins ? n : 0);
+      std::fill_n(particle.begin(), BLOCK, Particle());
+      std::fill_n(spin.begin(), spins ? BLOCK : 0, Spin());
+      for (std::size_t k = BLOCK; k < n; k++)
+        copy(index[k].particle, index[k].wall, particle[k], spins ? &spin[k] : nullptr);
+      for (std::size_t m = 0; m < place.size(); m++) count[m] = rows.count[place[m]];
+    }
 
     // function(i, is_boundary, k) for each copy of a particle i; k: its place in the sums
     template <class Function> void visit(Function &&function) const
@@ -49,6 +58,7 @@ namespace SPHDissipation {
         function(index[k].particle, index[k].particle == index[k].wall, k);
     }
 
+    std::vector<double> slope;    // of the pairs of BoundaryRows
     std::vector<ForceSum> force;
     ChannelSums side;
 
@@ -57,15 +67,16 @@ namespace SPHDissipation {
    private:
     friend class Engine;
     struct Index {
-      int particle,
-          wall;    // wall: a particle of the body, that one itself if it is of the boundary
+      int particle;
+      int wall;    // one of the body, itself for a boundary particle
     };
     std::vector<Index> index;
-    std::vector<int> row;    // of BoundaryRows, of each row here
+    std::vector<int> place, rows,
+        count;    // of each row: in BoundaryRows; the boundary particle's copy; pairs
+    std::vector<bigint> first;
     std::vector<Particle> particle;
     std::vector<Spin> spin;    // empty without spins
     std::vector<int> type;
-    PairSubset subset;
     std::vector<double> weight, tag, mobility;
     std::vector<NoiseRow> noise;
 

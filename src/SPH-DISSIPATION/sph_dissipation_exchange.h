@@ -43,7 +43,7 @@ namespace SPHDissipation {
     return {member, sizeof(T) / sizeof(double), width};
   }
 
-  // Gather what all processors have, in their order.
+  // Gather what all processors have, in their order.  (Not const: LAMMPS's stand-in for MPI reads no constants.)
 
   template <class T>
   std::vector<T> gather_all(MPI_Comm world, std::vector<T> mine, MPI_Datatype type)

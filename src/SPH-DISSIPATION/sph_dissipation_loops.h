@@ -75,7 +75,7 @@ namespace SPHDissipation {
 
         for (int jj = 0; jj < jnum; jj += LANES) {
           const int *const j = neighbor + jj;
-          Vec pj[8];
+          Vec pj[6];
           load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
           load_2_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
           const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
@@ -134,9 +134,9 @@ namespace SPHDissipation {
 
         for (int k = 0; k < data.count[ii]; k += LANES) {
           const int *const j = neighbor + k;
-          Vec pj[8];
+          Vec pj[6];
           load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
-          load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
+          load_2_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
           for (int l = 0; l < LANES; l++) prefetch(particle + j[l + AHEAD]);
           const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
           const Vec ux = pi.u[0] - pj[3], uy = pi.u[1] - pj[4], uz = pi.u[2] - pj[5];

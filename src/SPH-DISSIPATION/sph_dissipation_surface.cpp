@@ -128,14 +128,13 @@ void SurfaceStage::find(int bits)
 
 void SurfaceStage::find_sides(const BoundaryPairs &pairs)
 {
-  sums.run(engine.team(), surface.data(), atom->nlocal + atom->nghost, pairs.touched,
-           [&](int k, Surface *sum) {
-             pairs.of_thread[k].visit([&](const BoundaryPair &pair) {
-               const double *const f = engine.particle[pair.fluid].x;
-               const double *const w = engine.particle[pair.wall].x;
-               for (int d = 0; d < 3; d++) sum[pair.wall].normal[d] += pair.slope * (f[d] - w[d]);
-             });
-           });
+  engine.team().run([&](int k) {
+    pairs.of_thread[k].visit([&](const BoundaryPair &pair) {
+      const double *const f = engine.particle[pair.fluid].x;
+      const double *const w = engine.particle[pair.wall].x;
+      for (int d = 0; d < 3; d++) surface[pair.wall].normal[d] += pair.slope * (f[d] - w[d]);
+    });
+  });
   exchange.reverse({field(surface.data(), surface.data()->normal, 3)});
 }
 

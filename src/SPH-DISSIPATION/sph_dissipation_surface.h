@@ -40,13 +40,12 @@ namespace SPHDissipation {
     // Do the same with known vectors toward the fluid, those of the owned particles in their order.
     void run(int bits, const std::vector<double> &sides);
 
-    double memory_usage() const override { return bytes(surface, sums); }
+    double memory_usage() const override { return bytes(surface); }
 
     std::vector<Surface> surface;    // by owned and ghost atom
     bool has_flux = false;           // walls have a flux of heat, which needs curvatures
 
    private:
-    ThreadSums<Surface> sums;
     const double *body = nullptr;
 
     bool together(int i, int j) const { return !body || body[i] == body[j]; }

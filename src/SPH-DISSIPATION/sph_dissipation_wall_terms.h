@@ -105,7 +105,7 @@ namespace SPHDissipation {
     double omega[3];       // angular velocity of the rigid body that w belongs to
   };
 
-  // type of the sums below: a number, or in the loops a vector of them
+  // Type of the sums below: a number, or in the loops a vector of them, of which compilers warn as an argument of a template
 
   struct OneNumber {
     typedef double type;
@@ -129,6 +129,8 @@ namespace SPHDissipation {
     Real ud4[3];        // relative velocity times d^4
     Real wd3[3];        // relative spin times d^3 (micropolar)
     Real wd4[3];        // relative spin times d^4 (micropolar)
+
+    static constexpr int OF_SPIN = 6;    // the last numbers
   };
 
   struct BoundarySum : BoundarySums<OneNumber> {};
@@ -248,8 +250,8 @@ namespace SPHDissipation {
 
   constexpr double CONTACT = 1.7;
   typedef WendlandC2 ContactKernel;
-  constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;
-  constexpr double HARDNESS_OF_SURFACE = 0.05;    // k/2 of free surfaces: of m c0^2
+  constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;    // the same
+  constexpr double HARDNESS_OF_SURFACE = 0.05;              // k/2 of free surfaces: of m c0^2
 
   // norm = that of ContactKernel
 

@@ -163,7 +163,7 @@ def test_without_mpi():
     if not compiler or not (LAMMPS / "src" / "STUBS").is_dir():
         pytest.skip("no compiler, or no LAMMPS/src/STUBS")
     folder = ROOT / "src" / "SPH-DISSIPATION"
-    call = re.compile(r"MPI_(All)?(Reduce|reduce|Gather|gather|Scan)|gather_all")
+    call = re.compile(r"MPI_|over_all|gather_all")
     command = [compiler, "-fsyntax-only", "-std=c++17", "-w", *(f"-I{place}" for place in (LAMMPS / "src" / "STUBS", LAMMPS / "src", folder))]
     with ThreadPoolExecutor(2) as team:
         done = team.map(lambda path: subprocess.run([*command, str(path)], stderr=subprocess.PIPE, text=True),

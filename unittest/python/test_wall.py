@@ -778,13 +778,15 @@ def test_piston(lammps, dim):
 # particles in the wall, thin walls
 
 
-@pytest.mark.parametrize("ranks, newton", [(1, "on"), (1, "off"), (2, "on"), (4, "off")])
-def test_particle_shot_into_a_wall(lammps, ranks, newton):
+@pytest.mark.parametrize("ranks, newton, lists", [(1, "on", "check yes"), (1, "off", "check yes"), (2, "on", "check yes"), (4, "off", "check yes"),
+                                                  (1, "on", "every 8 check no")])
+def test_particle_shot_into_a_wall(lammps, ranks, newton, lists):
+    """Also where the neighbor list does not follow the particles."""
     particles, owner = channel(2)
     shot = np.flatnonzero((owner < 0) & (np.abs(particles.x[:, 1] - 5.5) < 0.4))[3]
     particles.v[shot] = [0, -300.0, 0]
-    result = run_vessel(lammps, particles, owner, one_fluid(2), [{}, {}], "timestep 0.002\nrun 100\n", ranks, newton,
-                        check=False, timeout=60)
+    result = run_vessel(lammps, particles, owner, one_fluid(2), [{}, {}], f"timestep 0.002\nneigh_modify {lists}\nrun 40\n", ranks,
+                        newton, check=False, timeout=60)
     assert result.code == 1, result.output[-2000:]
     assert re.search(rf"Particle {shot + 1} of the fluid .*inside a wall in step [1-9]\d*, at \S+ \S+ \S+ with the speed [1-9]\S*", result.error), result.error
 
