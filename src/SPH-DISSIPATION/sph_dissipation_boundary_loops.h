@@ -142,7 +142,7 @@ void boundary_heat_loop(const LoopData &data, const BoundaryRows &rows, const Bo
     const int i = rows.wall[m];
     const Particle wall = data.particle[i];
     const Surface surface = to.surface[i];
-    const double conductivity = to.conductivity[to.type[i]];
+    const double coefficient = to.coefficient[to.type[i]];
     const bigint first = rows.first[m];
     BoundaryHeatSums<OneVector> total = {};
 
@@ -155,7 +155,7 @@ void boundary_heat_loop(const LoopData &data, const BoundaryRows &rows, const Bo
       load_4_columns<WIDTH<FlowRow>>(numbers(to.flow), j, flow);
       add_fluid_heat(FlowColumns{flow[0], flow[1], flow[2]},
                      Vec(fluid.vol * weight_norm * K::shape(q)), load(&rows.slope[k]),
-                     height_above(surface, r), conductivity, total);
+                     height_above(surface, r), coefficient, total);
     }
     add_sums(total, numbers(&to.sum[i]), WIDTH<BoundaryHeatSum>);
   }

@@ -111,7 +111,7 @@ namespace SPHDissipation {
 
   struct BoundaryHeatData {
     const int *type;
-    const double *conductivity;    // by type
+    const double *coefficient;    // by type
     const Surface *surface;
     const FlowRow *flow;
     BoundaryHeatSum *sum;

@@ -105,20 +105,20 @@ SPH_INLINE void add_fluid_spin(const Real *spin, Real weight, Real height, const
 }
 
 // the same for its temperature if it conducts heat, weight_f = V_f W, slope = F; F: members vol, value, coefficient as those of a
-// FlowRow; conductivity of w
+// FlowRow; coefficient of w
 
 template <class Real, class F, class Number>
 SPH_INLINE void add_fluid_heat(const F &f, Real weight_f, Real slope, Real height,
-                               double conductivity, BoundaryHeatSums<Number> &total)
+                               double coefficient, BoundaryHeatSums<Number> &total)
 {
   const Real weight = if_positive(f.coefficient, weight_f);
   const Real weight_d3 = weight * height * height * height, weight_d4 = weight_d3 * height;
   add_distances(weight, height, total);
   total.td3 += weight_d3 * f.value;
   total.td4 += weight_d4 * f.value;
-  total.conductivity += weight * f.coefficient;
-  if (!(conductivity > 0.0)) return;
-  const Real flow = f.vol * slope * f.coefficient * conductivity / (f.coefficient + conductivity);
+  total.coefficient += weight * f.coefficient;
+  if (!(coefficient > 0.0)) return;
+  const Real flow = f.vol * slope * f.coefficient * coefficient / (f.coefficient + coefficient);
   total.flow += flow;
   total.tflow += flow * f.value;
 }

@@ -142,7 +142,7 @@ namespace SPHDissipation {
     Real weight;               // 1
     Real d, d3, d4, d5, d6;    // d to the powers
     Real td3, td4;             // temperature times d^3, d^4
-    Real conductivity;
+    Real coefficient;
     Real flow,
         tflow;    // heat that flows to the boundary particle, per its volume and temperature; times temperature
   };
@@ -398,7 +398,7 @@ namespace SPHDissipation {
     const Extension beyond = norms.mean.stuck(sum.td3 * norms.d3 - value * norms.mean.d3,
                                               sum.td4 * norms.d4 - value * norms.mean.d4,
                                               surface.depth, DistanceMeans::ALIKE);
-    return {vol, value + beyond.behind(surface.depth), sum.conductivity / sum.weight, 0.0};
+    return {vol, value + beyond.behind(surface.depth), sum.coefficient / sum.weight, 0.0};
   }
 
   // Heat per time that the particle f of the fluid gets from the surface, by a wall particle w, r = x_w - x_f.  The sum of
