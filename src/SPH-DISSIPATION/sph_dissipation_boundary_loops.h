@@ -16,6 +16,21 @@
 
 #include "sph_dissipation_boundary_terms.h"
 
+// r = x_w - x_f of a block of pairs
+
+SPH_INLINE void load_r(const Particle &wall, const Particle *particle, const int *j, Vec *r)
+{
+  load_4_columns<WIDTH<Particle>>(numbers(particle), j, r);
+  for (int d = 0; d < 3; d++) r[d] = wall.x[d] - r[d];
+}
+
+// W of one
+
+template <class K> SPH_INLINE Vec load_weight(const Parameters &par, const double *distance)
+{
+  return par.weight_norm * K::shape(smaller(load(distance) * (1.0 / par.support), all(1.0)));
+}
+
 // of all candidates the pairs inside the support
 
 template <class K> void boundary_pairs_loop(const LoopData &data, BoundaryRows &rows)
@@ -33,8 +48,7 @@ template <class K> void boundary_pairs_loop(const LoopData &data, BoundaryRows &
     for (bigint k = first; k < rows.first[m + 1]; k += LANES) {
       const int *const j = &rows.candidate[k];
       Vec r[4];
-      load_4_columns<WIDTH<Particle>>(numbers(data.particle), j, r);
-      for (int d = 0; d < 3; d++) r[d] = wall.x[d] - r[d];
+      load_r(wall, data.particle, j, r);
       const Vec rsq = dot(r, r), distance = square_root(rsq);
       const int inside = bits_below(rsq, support_sq);
       if (!inside) continue;
@@ -79,16 +93,8 @@ struct OneVector {
 };
 
 struct FluidColumns {
-  Vec x[3], u[3], vol, g;
+  Vec u[3], vol, g;
 };
-
-SPH_INLINE FluidColumns load_fluid(const Particle *particle, const int *j)
-{
-  Vec p[8];
-  load_4_columns<WIDTH<Particle>>(numbers(particle), j, p);
-  load_4_columns<WIDTH<Particle>>(numbers(particle) + 4, j, p + 4);
-  return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, p[6], p[7]};
-}
 
 template <class Sums> SPH_INLINE void add_sums(const Sums &total, double *to, int n)
 {
@@ -98,8 +104,6 @@ template <class Sums> SPH_INLINE void add_sums(const Sums &total, double *to, in
 template <class K, bool SPINS>
 void boundary_sum_loop(const LoopData &data, const BoundaryRows &rows, const BoundarySumData &to)
 {
-  const double weight_norm = data.par->weight_norm, support_inv = 1.0 / data.par->support;
-
   for (int m = 0; m < rows.size(); m++) {
     const int i = rows.wall[m];
     if (!(to.mask[i] & to.bits)) continue;
@@ -110,10 +114,11 @@ void boundary_sum_loop(const LoopData &data, const BoundaryRows &rows, const Bou
 
     for (bigint k = first; k < first + rows.count[m]; k += LANES) {
       const int *const j = &rows.fluid[k];
-      const FluidColumns fluid = load_fluid(data.particle, j);
-      const Vec r[3] = {wall.x[0] - fluid.x[0], wall.x[1] - fluid.x[1], wall.x[2] - fluid.x[2]};
-      const Vec q = smaller(load(&rows.distance[k]) * support_inv, all(1.0));
-      const Vec kernel_weight = weight_norm * K::shape(q);
+      Vec r[4], other[4];
+      load_r(wall, data.particle, j, r);
+      load_4_columns<WIDTH<Particle>>(numbers(data.particle) + 4, j, other);
+      const FluidColumns fluid = {{r[3], other[0], other[1]}, other[2], other[3]};
+      const Vec kernel_weight = load_weight<K>(*data.par, &rows.distance[k]);
       const Vec w = data.weight ? gather(data.weight, j) : all(1.0);
       const Vec height = add_fluid(fluid, wall, r, kernel_weight, surface, gather(to.rho, j), w,
                                    gather(data.zeta_term, j), total);
@@ -136,8 +141,6 @@ struct FlowColumns {
 template <class K>
 void boundary_heat_loop(const LoopData &data, const BoundaryRows &rows, const BoundaryHeatData &to)
 {
-  const double weight_norm = data.par->weight_norm, support_inv = 1.0 / data.par->support;
-
   for (int m = 0; m < rows.size(); m++) {
     const int i = rows.wall[m];
     const Particle wall = data.particle[i];
@@ -148,13 +151,12 @@ void boundary_heat_loop(const LoopData &data, const BoundaryRows &rows, const Bo
 
     for (bigint k = first; k < first + rows.count[m]; k += LANES) {
       const int *const j = &rows.fluid[k];
-      const FluidColumns fluid = load_fluid(data.particle, j);
-      const Vec r[3] = {wall.x[0] - fluid.x[0], wall.x[1] - fluid.x[1], wall.x[2] - fluid.x[2]};
-      const Vec q = smaller(load(&rows.distance[k]) * support_inv, all(1.0));
-      Vec flow[4];
+      Vec r[4], state[2], flow[4];
+      load_r(wall, data.particle, j, r);
+      load_2_columns<WIDTH<Particle>>(numbers(data.particle) + 6, j, state);    // volume and g
       load_4_columns<WIDTH<FlowRow>>(numbers(to.flow), j, flow);
-      add_fluid_heat(FlowColumns{flow[0], flow[1], flow[2]},
-                     Vec(fluid.vol * weight_norm * K::shape(q)), load(&rows.slope[k]),
+      const Vec weight = state[0] * load_weight<K>(*data.par, &rows.distance[k]);
+      add_fluid_heat(FlowColumns{flow[0], flow[1], flow[2]}, weight, load(&rows.slope[k]),
                      height_above(surface, r), coefficient, total);
     }
     add_sums(total, numbers(&to.sum[i]), WIDTH<BoundaryHeatSum>);
@@ -173,8 +175,7 @@ inline void surface_slope_loop(const LoopData &data, const BoundaryRows &rows,
     const bigint first = rows.first[m];
     for (bigint k = first; k < first + rows.count[m]; k += LANES) {
       Vec r[4];
-      load_4_columns<WIDTH<Particle>>(numbers(data.particle), &rows.fluid[k], r);
-      for (int d = 0; d < 3; d++) r[d] = wall.x[d] - r[d];
+      load_r(wall, data.particle, &rows.fluid[k], r);
       const Vec factor = surface_factor(surface, r, data.par->support);
       store(slope + k, load(&rows.slope[k]) * (factor - less));
     }

@@ -85,10 +85,8 @@ namespace SPHDissipation {
 
   struct BoundaryPairs {
     std::vector<BoundaryRows> of_thread;
-    std::vector<std::vector<int>>
-        rows;    // of the neighbor list that hold pairs, of each of its threads
-    std::vector<std::vector<int>>
-        touched;    // particles in the pairs of each thread but the first, each once
+    // rows of the neighbor list that hold pairs, of each thread; particles in the pairs of each thread but the first, once
+    std::vector<std::vector<int>> rows, touched;
 
     template <class Function> void visit(Function &&function) const
     {

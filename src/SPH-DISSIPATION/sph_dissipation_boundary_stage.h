@@ -160,8 +160,8 @@ namespace SPHDissipation {
     std::vector<char> pushes;    // whether owned particles have a pressure that changes
 
     std::vector<NearKernel> near, contact;    // of boundary atoms until the list is built anew
-    std::vector<double>
-        filled;    // of the supports of contact around owned and ghost atoms; not set where nothing repels
+    // part of the supports of contact around owned and ghost atoms that they fill; not set where nothing repels
+    std::vector<double> filled;
 
     ThreadSums<double> filled_sums, flow_sums;
     std::vector<ForceSum> repulsion;    // of several threads
