@@ -119,6 +119,18 @@ namespace SPHDissipation {
     int n;
   };
 
+  // Candidates around a place by the squares of their distances: below close, and from there on below bound; those below safe
+  // are within the reach for certain
+
+  struct Reach {
+    float close, safe, bound;
+  };
+  struct Found {
+    int *close, *far;    // their indices, to be written to
+    int nclose, nfar;
+    bool doubt;    // a far one is not safe
+  };
+
   // loops over the pairs of one thread of the fluid and boundary particles
 
   struct BoundaryRows;
@@ -160,10 +172,8 @@ namespace SPHDissipation {
     // take (x - corner) * scale
     void (*take_candidates)(const PlaceColumns &, int from, int to, const double *corner,
                             double scale, CandidateColumns &);
-    // Write the indices of candidates nearer to a place than the root of bound, return how many.  doubt: one is not nearer
-    // than the root of safe
-    int (*near)(const CandidateColumns &, const float *place, float bound, float safe, int *found,
-                bool &doubt);
+    // find the candidates around a place
+    void (*near)(const CandidateColumns &, const float *place, const Reach &, Found &);
   };
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;

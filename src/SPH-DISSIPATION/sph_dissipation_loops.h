@@ -77,14 +77,14 @@ namespace SPHDissipation {
           const int *const j = neighbor + jj;
           Vec pj[6];
           load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
-          load_2_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
           const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
-          const Vec ux = pj[3] - pi.u[0], uy = pj[4] - pi.u[1], uz = pj[5] - pi.u[2];
           const Vec rsq = dx * dx + dy * dy + dz * dz;
-          const Vec approach = dx * ux + dy * uy + dz * uz;
           const int inside = bits_below(rsq, support_sq);
-          if (LANES == 1 && !inside) continue;
+          if (!inside) continue;
 
+          load_2_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
+          const Vec ux = pj[3] - pi.u[0], uy = pj[4] - pi.u[1], uz = pj[5] - pi.u[2];
+          const Vec approach = dx * ux + dy * uy + dz * uz;
           const Vec q = smaller(square_root(rsq) * support_inv, one);
           const Vec f = slope_norm * K::slope(q);
           Vec sums[2] = {weight_norm * K::shape(q), f * approach};

@@ -26,23 +26,28 @@ SPH_INLINE void take_candidates(const PlaceColumns &from, int begin, int end, co
   to.n += end - begin;
 }
 
-SPH_INLINE int near(const CandidateColumns &from, const float *place, float bound, float safe,
-                    int *found, bool &doubt)
+SPH_INLINE void near(const CandidateColumns &from, const float *place, const Reach &reach,
+                     Found &found)
 {
   const Floats x = all_floats(place[0]), y = all_floats(place[1]), z = all_floats(place[2]);
-  const Floats farthest = all_floats(bound), surely = all_floats(safe);
-  int n = 0, doubtful = 0;
+  const Floats close = all_floats(reach.close), safe = all_floats(reach.safe);
+  const Floats bound = all_floats(reach.bound);
+  int nclose = 0, nfar = 0, doubt = 0;
   for (int k = 0; k < from.n; k += FLOATS) {
     const Floats dx = x - load_floats(from.x[0] + k);
     const Floats dy = y - load_floats(from.x[1] + k);
     const Floats dz = z - load_floats(from.x[2] + k);
     const Floats rsq = dx * dx + dy * dy + dz * dz;
-    int inside = bits_below(rsq, farthest);
+    int inside = bits_below(rsq, bound);
     if (from.n - k < FLOATS) inside &= (1 << (from.n - k)) - 1;
-    doubtful |= inside & ~bits_below(rsq, surely);
-    pack_indices(found + n, from.index + k, inside);
-    n += count_bits(inside);
+    const int is_close = inside & bits_below(rsq, close), is_far = inside & ~is_close;
+    doubt |= is_far & ~bits_below(rsq, safe);
+    pack_indices(found.close + nclose, from.index + k, is_close);
+    pack_indices(found.far + nfar, from.index + k, is_far);
+    nclose += count_bits(is_close);
+    nfar += count_bits(is_far);
   }
-  doubt = doubtful;
-  return n;
+  found.nclose = nclose;
+  found.nfar = nfar;
+  found.doubt = doubt;
 }

@@ -46,10 +46,11 @@ std::string NeighborSearch::left_to_lammps() const
 
 /* ---------------------------------------------------------------------- */
 
-void NeighborSearch::init(const LoopSet *loops_in, Threads *threads_in, double support)
+void NeighborSearch::init(const LoopSet *loops_in, Threads *threads_in, double support_in)
 {
   loops = loops_in;
   threads = threads_in;
+  support = support_in;
   cutoff = support + neighbor->skin;
   ncalls = lastcall = -1;
 }
@@ -108,15 +109,17 @@ void NeighborSearch::build(NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   neighbors of the owned particles in some of the cells
+   neighbors of the owned particles in some of the cells.  Those within the support come first, and those that only the skin
+   adds last: until the next list most vectors of the pair loops are full, or have no pair inside the support
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::search(int from, int to, NeighList *list, Part &part) const
 {
   const double longest = *std::max_element(size, size + 3);
   const double error = FLOAT_ROUND_OFF * (2.0 + 2.0 * longest / cutoff);
-  const auto bound = static_cast<float>(1.0 + error);
-  const auto safe = static_cast<float>(1.0 - error);
+  const double ratio = support / cutoff;
+  const Reach reach = {static_cast<float>(std::min(ratio * ratio, 1.0 - error)),
+                       static_cast<float>(1.0 - error), static_cast<float>(1.0 + error)};
   part.rows.clear();
   part.offset.clear();
   bigint end = 0;
@@ -135,6 +138,7 @@ void NeighborSearch::search(int from, int to, NeighList *list, Part &part) const
       const int i = owned.index[p];
       if (static_cast<bigint>(part.neighbors.size()) < end + most)
         part.neighbors.resize(end + end / 8 + std::max(most, 1024));
+      if (static_cast<int>(part.far.size()) < most) part.far.resize(most);
       int *const found = part.neighbors.data() + end;
       float at[3];
       for (int d = 0; d < 3; d++) at[d] = static_cast<float>((owned.x[d][p] - corner[d]) / cutoff);
@@ -143,17 +147,23 @@ void NeighborSearch::search(int from, int to, NeighList *list, Part &part) const
       std::copy_n(owned.index.begin() + p + 1, n, found);
       n = check(i, found, n);
 
+      int nfar = 0;
       for (const Candidates *candidates : {&part.owned, &part.ghosts}) {
-        int *const to = found + n;
-        bool doubt = false;
-        int nfound = loops->near(candidates->columns, at, bound, safe, to, doubt);
-        if (doubt) nfound = check(i, to, nfound);
-        if (by_id && candidates == &part.ghosts)
-          nfound = filter(to, nfound, [&](int j) {
+        Found some = {found + n, part.far.data() + nfar, 0, 0, false};
+        loops->near(candidates->columns, at, reach, some);
+        if (some.doubt) some.nfar = check(i, some.far, some.nfar);
+        if (by_id && candidates == &part.ghosts) {
+          auto keep = [&](int j) {
             return has_pair(i, j);
-          });
-        n += nfound;
+          };
+          some.nclose = filter(some.close, some.nclose, keep);
+          some.nfar = filter(some.far, some.nfar, keep);
+        }
+        n += some.nclose;
+        nfar += some.nfar;
       }
+      std::copy_n(part.far.data(), nfar, found + n);
+      n += nfar;
       if (skips || has_exclusions(i))
         n = filter(found, n, [&](int j) {
           return is_wanted(list, i, j);
@@ -382,7 +392,7 @@ double NeighborSearch::memory_usage() const
     bytes += some->start.capacity() * sizeof(int) +
         some->index.capacity() * (3 * sizeof(double) + sizeof(int));
   for (const auto &part : parts)
-    bytes += (part.neighbors.capacity() + part.rows.capacity()) * sizeof(int) +
+    bytes += (part.neighbors.capacity() + part.far.capacity() + part.rows.capacity()) * sizeof(int) +
         part.offset.capacity() * sizeof(bigint) +
         (part.owned.index.capacity() + part.ghosts.index.capacity()) *
             (3 * sizeof(float) + sizeof(int));

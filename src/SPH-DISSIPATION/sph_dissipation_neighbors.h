@@ -74,6 +74,7 @@ namespace SPHDissipation {
     struct Part {
       Candidates owned, ghosts;      // of one cell
       std::vector<int> neighbors;    // of all of its rows of the list
+      std::vector<int> far;          // of one row: those beyond the support
       std::vector<int> rows;         // their particles
       std::vector<bigint> offset;    // of their neighbors
     };
@@ -81,7 +82,7 @@ namespace SPHDissipation {
     Exchange &exchange;
     const LoopSet *loops = nullptr;
     Threads *threads = nullptr;
-    double cutoff = 0.0;
+    double support = 0.0, cutoff = 0.0;
     bigint ncalls = -1, lastcall = -1;    // of class Neighbor, when the list was built
     bool skips = false;    // pair_style hybrid gives pairs of types of the fluid to others
     bool by_id = false;    // has_pair() tells which pairs with ghosts are wanted
