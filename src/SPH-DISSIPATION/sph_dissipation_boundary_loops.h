@@ -64,7 +64,7 @@ template <class K> void boundary_pairs_loop(const LoopData &data, BoundaryRows &
     store(&rows.slope[next], all(0.0));
     for (int l = 0; l < LANES; l++) {
       rows.fluid[next + l] = rows.candidate[first];
-      if (copies) rows.copy[next + l] = l;
+      if (copies) rows.copy[next + l] = offset_of(l);
     }
   }
 }

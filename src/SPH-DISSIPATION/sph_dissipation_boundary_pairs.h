@@ -39,12 +39,14 @@ namespace SPHDissipation {
     // until the neighbor list is built anew, all pairs that may come into the support: particles of the fluid, and their
     // copies in SurfacePairs (no copies: no numbers); a row is filled up with spare particles
 
-    std::vector<int> candidate, candidate_copy;
+    std::vector<int> candidate;
+    std::vector<Offset> candidate_copy;
 
     // of each step, those inside the support: how many in each row; the same, r, and F; a block is filled up with the first
     // particle and a spare copy at the distance of the support radius, where F is 0
 
-    std::vector<int> count, fluid, copy;
+    std::vector<int> count, fluid;
+    std::vector<Offset> copy;
     std::vector<double> distance, slope;
 
     // begin(), add() each row of n candidates, end()

@@ -587,7 +587,7 @@ void Engine::add_drag(int i, int not_fluid, bool linear, double *force_of, doubl
 LoopData Engine::part(PairSubset &some) const
 {
   const std::size_t end = some.neighbor.size();
-  some.neighbor.resize(end + 3 * BLOCK, data.spare);    // pass 2 looks ahead
+  some.neighbor.resize(end + 3 * BLOCK, offset_of(data.spare));    // pass 2 looks ahead
   LoopData part = data;
   part.inum = static_cast<int>(some.rows.size());
   part.ilist = some.rows.data();
@@ -640,7 +640,7 @@ void PairSubset::add_row(int i)
 
 void PairSubset::add(int j, double slope_ij)
 {
-  neighbor.push_back(j);
+  neighbor.push_back(offset_of(j));
   slope.push_back(slope_ij);
 }
 

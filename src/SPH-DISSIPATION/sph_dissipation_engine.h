@@ -60,6 +60,21 @@ namespace SPHDissipation {
 
   constexpr int BLOCK = 8;
 
+  // Index of a particle in the lists of the loops, times 8: the distance in bytes of the number with this index in an array of
+  // doubles.  The address of a row is found from it without a shift
+
+  typedef unsigned int Offset;
+  static_assert(NEIGHMASK < (1u << 29), "offsets of all neighbors have 32 bits");
+
+  SPH_INLINE Offset offset_of(int i)
+  {
+    return sizeof(double) * static_cast<Offset>(i);
+  }
+  SPH_INLINE int index_of(Offset offset)
+  {
+    return offset / sizeof(double);
+  }
+
   // Input, output and scratch space of the two loops.  Both run over a half neighbor list; pass 1
   // leaves the pairs inside the support, and F of each, for pass 2.
 
@@ -89,7 +104,7 @@ namespace SPHDissipation {
     bigint begin;
     bigint *first;
     int *count;
-    int *neighbor;
+    Offset *neighbor;
     double *slope;     // F, or nullptr: pass 2 computes it again
     double *square;    // F (e.u)^2, if mu is not constant
 
@@ -227,12 +242,13 @@ namespace SPHDissipation {
     template <class Function> void visit(Function &&function) const
     {
       for (const int i : rows) function(i);
-      for (const int j : neighbor) function(j);
+      for (const Offset j : neighbor) function(index_of(j));
     }
 
    private:
     friend class Engine;
-    std::vector<int> rows, count, neighbor;
+    std::vector<int> rows, count;
+    std::vector<Offset> neighbor;
     std::vector<bigint> first;
     std::vector<double> slope;
   };
@@ -332,7 +348,7 @@ namespace SPHDissipation {
       const int i = data.ilist[ii];
       const bigint end = data.first[ii] + data.count[ii];
       for (bigint entry = data.first[ii]; entry < end; entry++)
-        function(i, data.neighbor[entry], entry);
+        function(i, index_of(data.neighbor[entry]), entry);
     }
 
     // the same on all threads, each with its rows of the neighbor list: function(i, j, entry, sum) adds to sum[0] ...

@@ -54,7 +54,7 @@ void SurfacePairs::find(BoundaryRows &all, int nall, const std::function<int(int
         last[i] = {static_cast<int>(index.size()), number[m]};
         index.push_back({i, all.wall[m]});
       }
-      all.candidate_copy[k] = last[i].place;
+      all.candidate_copy[k] = offset_of(last[i].place);
     }
   }
   count.assign(place.size(), 0);

@@ -31,6 +31,11 @@ namespace SPHDissipation {
 
     constexpr int AHEAD = 2 * LANES;
 
+    template <int N> SPH_INLINE void fetch_ahead(const double *row, const Offset *j)
+    {
+      for (int l = 0; l < LANES; l++) prefetch(at<N>(row, j[l + AHEAD]));
+    }
+
     // particles and sums as rows of numbers
 
     template <class Row> constexpr int WIDTH = sizeof(Row) / sizeof(double);
@@ -65,7 +70,7 @@ namespace SPHDissipation {
         const int *const jlist = data.firstneigh[i];
         const int jnum = data.numneigh[i];
         const Particle pi = particle[i];
-        int *const neighbor = data.neighbor + next;
+        Offset *const neighbor = data.neighbor + next;
         double *const slope = SLOPES ? data.slope + next : nullptr;
         double *const square = SQUARES ? data.square + next : nullptr;
         int n = 0;
@@ -74,7 +79,7 @@ namespace SPHDissipation {
         copy_neighbors(neighbor, jlist, jnum, data.spare);
 
         for (int jj = 0; jj < jnum; jj += LANES) {
-          const int *const j = neighbor + jj;
+          const Offset *const j = neighbor + jj;
           Vec pj[6];
           load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
           const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
@@ -110,12 +115,12 @@ namespace SPHDissipation {
 
         if constexpr (SLOPES) store(slope + n, all(0.0));
         if constexpr (SQUARES) store(square + n, all(0.0));
-        for (int l = 0; l < LANES; l++) neighbor[n + l] = data.spare + l;
+        for (int l = 0; l < LANES; l++) neighbor[n + l] = offset_of(data.spare + l);
         data.count[ii] = n;
         data.first[ii] = next;
         next += (n + LANES - 1) / LANES * LANES;
       }
-      for (int k = 0; k < AHEAD; k++) data.neighbor[next + k] = data.spare;
+      for (int k = 0; k < AHEAD; k++) data.neighbor[next + k] = offset_of(data.spare);
     }
 
     // cdot of pass 1 alone, by the pairs that it has left
@@ -128,16 +133,16 @@ namespace SPHDissipation {
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         const Particle pi = particle[i];
-        const int *const neighbor = data.neighbor + data.first[ii];
+        const Offset *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
         Vec total = all(0.0);
 
         for (int k = 0; k < data.count[ii]; k += LANES) {
-          const int *const j = neighbor + k;
+          const Offset *const j = neighbor + k;
           Vec pj[6];
           load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
           load_2_columns<WIDTH<Particle>>(numbers(particle) + 4, j, pj + 4);
-          for (int l = 0; l < LANES; l++) prefetch(particle + j[l + AHEAD]);
+          fetch_ahead<WIDTH<Particle>>(numbers(particle), j);
           const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
           const Vec ux = pi.u[0] - pj[3], uy = pi.u[1] - pj[4], uz = pi.u[2] - pj[5];
           const Vec flux = load(slope_of + k) * (dx * ux + dy * uy + dz * uz);
@@ -159,12 +164,12 @@ namespace SPHDissipation {
     {
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
-        const int *const neighbor = data.neighbor + data.first[ii];
+        const Offset *const neighbor = data.neighbor + data.first[ii];
         const double *const square_of = data.square + data.first[ii];
         Vec total = all(0.0);
 
         for (int k = 0; k < data.count[ii]; k += LANES) {
-          const int *const j = neighbor + k;
+          const Offset *const j = neighbor + k;
           const Vec square = load(square_of + k);
           total += gather(vol, j) * square;
           add_column<1>(rate, j, vol[i] * square);
@@ -203,7 +208,7 @@ namespace SPHDissipation {
       {
         for (int k = 0; k < N; k++) a[k] = all(numbers(table.row + table.ntypes_1 + 1)[k]);
       }
-      SPH_INLINE void load(const CoeffTable<Row> &table, int i, const int *j)
+      SPH_INLINE void load(const CoeffTable<Row> &table, int i, const Offset *j)
       {
         if (table.few) {
           const Indices types = indices_of(table.type, j);
@@ -213,14 +218,14 @@ namespace SPHDissipation {
           return;
         }
         int pair[LANES];
-        for (int l = 0; l < LANES; l++) pair[l] = N * table.type[j[l]];
+        for (int l = 0; l < LANES; l++) pair[l] = N * table.type[index_of(j[l])];
         const double *const of_type = numbers(table.row + table.type[i] * table.ntypes_1);
         for (int k = 0; k < N; k++)
           if (Used::uses(k)) a[k] = gather(of_type + k, pair);
       }
     };
 
-    inline void tally_block(PairTally *tally, int i, const int *j, int n, const Vec *f,
+    inline void tally_block(PairTally *tally, int i, const Offset *j, int n, const Vec *f,
                             const Vec *r)
     {
       double f_lane[3][LANES], r_lane[3][LANES];
@@ -231,7 +236,7 @@ namespace SPHDissipation {
       for (int l = 0; l < LANES && l < n; l++) {
         const double force_on_i[3] = {f_lane[0][l], f_lane[1][l], f_lane[2][l]};
         const double rij[3] = {r_lane[0][l], r_lane[1][l], r_lane[2][l]};
-        tally->tally(i, j[l], force_on_i, rij);
+        tally->tally(i, index_of(j[l]), force_on_i, rij);
       }
     }
 
@@ -264,7 +269,7 @@ namespace SPHDissipation {
 
     template <class Form, class Slope>
     SPH_INLINE Vec load_pair(PairState &pair, const Particle &pi, const Particle *particle,
-                             const int *j, Slope &&slope_of, Vec &vol, Vec &g)
+                             const Offset *j, Slope &&slope_of, Vec &vol, Vec &g)
     {
       Vec pj[8];
       load_4_columns<WIDTH<Particle>>(numbers(particle), j, pj);
@@ -291,7 +296,8 @@ namespace SPHDissipation {
     // pairs of all rows in memory
 
     template <class Form>
-    SPH_NOINLINE void give_boundary_heat(PairState &pair, const Excess *excess, int i, const int *j)
+    SPH_NOINLINE void give_boundary_heat(PairState &pair, const Excess *excess, int i,
+                                         const Offset *j)
     {
       constexpr int N = WIDTH<Excess>;
       const Excess &own = excess[i];
@@ -320,7 +326,7 @@ namespace SPHDissipation {
       {
         for (int k = 0; k < N; k++) total[k] = all(0.0);
       }
-      SPH_INLINE void add(double *row, const int *j, const PairState &pair)
+      SPH_INLINE void add(double *row, const Offset *j, const PairState &pair)
       {
         Vec on_j[N + 1];
         if constexpr (Form::SPINS)
@@ -343,15 +349,13 @@ namespace SPHDissipation {
       }
     };
 
-    template <class Form> SPH_INLINE void fetch_ahead(const LoopData &data, const int *j)
+    template <class Form> SPH_INLINE void fetch_ahead(const LoopData &data, const Offset *j)
     {
-      for (int l = 0; l < LANES; l++) {
-        prefetch(data.particle + j[l + AHEAD]);
-        if constexpr (Form::SPINS) {    // without, the force is in the cache anyway
-          prefetch(data.spin + j[l + AHEAD]);
-          prefetch(data.force + j[l + AHEAD]);
-          prefetch(data.side + SideSums<Form>::N * j[l + AHEAD]);
-        }
+      fetch_ahead<WIDTH<Particle>>(numbers(data.particle), j);
+      if constexpr (Form::SPINS) {    // without, the force is in the cache anyway
+        fetch_ahead<WIDTH<Spin>>(numbers(data.spin), j);
+        fetch_ahead<WIDTH<ForceSum>>(numbers(data.force), j);
+        fetch_ahead<SideSums<Form>::N>(data.side, j);
       }
     }
 
@@ -385,14 +389,14 @@ namespace SPHDissipation {
         const double mu_i = Form::BY_RATE ? data.viscosity[i] : 0.0;
         const int n = data.count[ii];
         const bool crosses = CONTINUED && data.excess && data.excess[i].crosses != 0.0;
-        const int *const neighbor = data.neighbor + data.first[ii];
+        const Offset *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = again ? nullptr : data.slope + data.first[ii];
         Vec total_f[4] = {all(0.0), all(0.0), all(0.0), all(0.0)};
         Vec total_flux = all(0.0);
         SideSums<Form> side;
 
         for (int k = 0; k < n; k += LANES) {
-          const int *const j = neighbor + k;
+          const Offset *const j = neighbor + k;
           PairState pair;
           pair.coeff = coeffs.a;
           Vec vol, g;
@@ -532,12 +536,12 @@ namespace SPHDissipation {
         const Acceleration &mine = noise.acceleration[i];
         const Vec a_i[3] = {all(mine.v[0]), all(mine.v[1]), all(mine.v[2])};
         const int n = data.count[ii];
-        const int *const neighbor = data.neighbor + data.first[ii];
+        const Offset *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
         Vec total = all(0.0);
 
         for (int k = 0; k < n; k += LANES) {
-          const int *const j = neighbor + k;
+          const Offset *const j = neighbor + k;
           PairState pair;
           pair.coeff = coeffs.a;
           Vec vol, g, a_j[4], other[4];
@@ -549,11 +553,9 @@ namespace SPHDissipation {
               vol, g);
           load_4_columns<WIDTH<Acceleration>>(numbers(noise.acceleration), j, a_j);
           load_4_columns<WIDTH<NoiseRow>>(numbers(noise.row), j, other);
-          for (int l = 0; l < LANES; l++) {
-            prefetch(particle + j[l + AHEAD]);
-            prefetch(noise.acceleration + j[l + AHEAD]);
-            prefetch(noise.row + j[l + AHEAD]);
-          }
+          fetch_ahead<WIDTH<Particle>>(numbers(particle), j);
+          fetch_ahead<WIDTH<Acceleration>>(numbers(noise.acceleration), j);
+          fetch_ahead<WIDTH<NoiseRow>>(numbers(noise.row), j);
           if (!data.par->uniform) coeffs.load(table, i, j);
           const OwnTemperatures both(all(own.temperature),
                                      larger(other[NoiseRow::TEMPERATURE], all(0.0)));
@@ -604,12 +606,12 @@ namespace SPHDissipation {
         const double minus = -own.vol;    // what the other particle gets is added to it
         const Vec own_mean = all(minus * own.coefficient);
         const int n = data.count[ii];
-        const int *const neighbor = data.neighbor + data.first[ii];
+        const Offset *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
         Vec total = all(0.0);
 
         for (int k = 0; k < n; k += LANES) {
-          const int *const j = neighbor + k;
+          const Offset *const j = neighbor + k;
           Vec other[4], mean = own_mean;
           if constexpr (ALIKE)
             load_2_columns<WIDTH<FlowRow>>(numbers(row), j, other);
@@ -634,7 +636,8 @@ namespace SPHDissipation {
     // same for all pairs.  ALIKE: all particles have the same impedance
 
     template <bool ALIKE>
-    SPH_INLINE Vec diffusion_slope(const DiffusionData &data, double own, const int *j, Vec slope)
+    SPH_INLINE Vec diffusion_slope(const DiffusionData &data, double own, const Offset *j,
+                                   Vec slope)
     {
       if constexpr (ALIKE)
         return slope;
@@ -655,19 +658,17 @@ namespace SPHDissipation {
         if (own[At::VOL] == 0.0) continue;
         const double impedance = ALIKE ? 0.0 : diffusion.impedance[i];
         const int n = data.count[ii];
-        const int *const neighbor = data.neighbor + data.first[ii];
+        const Offset *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
         Vec total[N], on_j[N], other[8], r[DIM];
         for (int k = 0; k < N; k++) total[k] = all(0.0);
 
         for (int k = 0; k < n; k += LANES) {
-          const int *const j = neighbor + k;
+          const Offset *const j = neighbor + k;
           load_4_columns<8>(diffusion.row[0].a, j, other);
           if constexpr (DIM == 3) load_4_columns<8>(diffusion.row[0].a + 4, j, other + 4);
-          for (int l = 0; l < LANES; l++) {
-            prefetch(diffusion.row + j[l + AHEAD]);
-            prefetch(sums + WIDTH * j[l + AHEAD]);
-          }
+          fetch_ahead<8>(diffusion.row[0].a, j);
+          fetch_ahead<WIDTH>(sums, j);
           for (int d = 0; d < DIM; d++) r[d] = own[d] - other[d];
           const Vec slope = diffusion_slope<ALIKE>(diffusion, impedance, j, load(slope_of + k));
           const Vec difference = own[At::P] - other[At::P];
@@ -695,21 +696,19 @@ namespace SPHDissipation {
         if (own[At::VOL] == 0.0) continue;
         const double impedance = ALIKE ? 0.0 : diffusion.impedance[i];
         const int n = data.count[ii];
-        const int *const neighbor = data.neighbor + data.first[ii];
+        const Offset *const neighbor = data.neighbor + data.first[ii];
         const double *const slope_of = data.slope + data.first[ii];
         Vec total[2] = {all(0.0), all(0.0)}, on_j[2], other[8], r[DIM];
 
         for (int k = 0; k < n; k += LANES) {
-          const int *const j = neighbor + k;
+          const Offset *const j = neighbor + k;
           load_4_columns<8>(diffusion.row[0].a, j, other);
           if constexpr (DIM == 3)
             load_4_columns<8>(diffusion.row[0].a + 4, j, other + 4);
           else
             load_2_columns<8>(diffusion.row[0].a + 4, j, other + 4);
-          for (int l = 0; l < LANES; l++) {
-            prefetch(diffusion.row + j[l + AHEAD]);
-            prefetch(flow + 2 * j[l + AHEAD]);
-          }
+          fetch_ahead<8>(diffusion.row[0].a, j);
+          fetch_ahead<2>(flow, j);
           const Vec slope = diffusion_slope<ALIKE>(diffusion, impedance, j, load(slope_of + k));
           for (int d = 0; d < DIM; d++) r[d] = own[d] - other[d];
           const Vec difference = own[At::P] - other[At::P];

@@ -392,7 +392,8 @@ double NeighborSearch::memory_usage() const
     bytes += some->start.capacity() * sizeof(int) +
         some->index.capacity() * (3 * sizeof(double) + sizeof(int));
   for (const auto &part : parts)
-    bytes += (part.neighbors.capacity() + part.far.capacity() + part.rows.capacity()) * sizeof(int) +
+    bytes +=
+        (part.neighbors.capacity() + part.far.capacity() + part.rows.capacity()) * sizeof(int) +
         part.offset.capacity() * sizeof(bigint) +
         (part.owned.index.capacity() + part.ghosts.index.capacity()) *
             (3 * sizeof(float) + sizeof(int));

@@ -171,11 +171,11 @@ void eta_loop(const LoopData &pairs, const NoiseData &data)
     const int i = pairs.ilist[ii];
     const Particle &pi = pairs.particle[i];
     const int n = pairs.count[ii];
-    const int *const neighbor = pairs.neighbor + pairs.first[ii];
+    const Offset *const neighbor = pairs.neighbor + pairs.first[ii];
     const double *const slope_of = pairs.slope + pairs.first[ii];
     Vec total = all(0.0);
     for (int k = 0; k < n; k += LANES) {
-      const int *const j = neighbor + k;
+      const Offset *const j = neighbor + k;
       Vec pj[4];
       load_4_columns<WIDTH<Particle>>(numbers(pairs.particle), j, pj);
       const Vec dx = pi.x[0] - pj[0], dy = pi.x[1] - pj[1], dz = pi.x[2] - pj[2];
@@ -239,7 +239,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
   {
     i = pairs.ilist[ii];
     const int n = pairs.count[ii];
-    const int *const neighbor = pairs.neighbor + pairs.first[ii];
+    const Offset *const neighbor = pairs.neighbor + pairs.first[ii];
     next = pairs.random;
     int k = 0;
     for (; k + LANES < n; k += 2 * LANES) keep_numbers<2>(neighbor + k);
@@ -254,7 +254,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
 
   // d = r_ij, by_metric = vv/metric, inverse = 1/r^2 if VECTOR
 
-  SPH_INLINE void draw(const int *j, Vec dx, Vec dy, Vec dz, Vec slope, Vec vv, Vec metric,
+  SPH_INLINE void draw(const Offset *j, Vec dx, Vec dy, Vec dz, Vec slope, Vec vv, Vec metric,
                        Vec by_metric, Vec inverse)
   {
     if (!pairs.par->uniform) coeff.load(table, i, j);
@@ -399,7 +399,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
 
   // random numbers of N blocks
 
-  template <int N> SPH_INLINE void keep_numbers(const int *j)
+  template <int N> SPH_INLINE void keep_numbers(const Offset *j)
   {
     Words word[N][4];
     Vec sign[N];
@@ -418,7 +418,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
 
   // Friction with a wall has the temperature and the heat of the particle of the fluid alone.
 
-  SPH_INLINE void keep_temperatures(const int *j)
+  SPH_INLINE void keep_temperatures(const Offset *j)
   {
     Vec other[WIDTH<NoiseRow>];
     load_4_columns<WIDTH<NoiseRow>>(numbers(data.row), j, other);

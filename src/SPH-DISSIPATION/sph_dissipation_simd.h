@@ -23,8 +23,8 @@
 //   count_bits(bits)    how many are set
 //   pack(to, a, bits)   write the lanes whose bits are set one after another; what follows them in
 //                       the next LANES entries is undefined
-//   copy_neighbors()    copy n indices, without the bits that LAMMPS puts into them, and fill up the
-//                       last block by numbers of fill, fill + 1, ...
+//   copy_neighbors()    the offsets of n indices, without the bits that LAMMPS puts into them, and in the rest of the last
+//                       block those of fill, fill + 1, ...
 //   gather(from, i)     from[i[0]] to from[i[LANES-1]]
 //   indices_of(from, i) the whole numbers from[i[0]] to from[i[LANES-1]], for pick()
 //   pick(from, indices) numbers of from, at the indices modulo LANES
@@ -45,11 +45,16 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   namespace LOOPS {
 
-    // row number i of N doubles
+    // row number i of N doubles; the same where the index is an offset
 
     template <int N, class Number> SPH_INLINE Number *at(Number *row, int i)
     {
       return row + N * static_cast<bigint>(i);
+    }
+    template <int N, class Number> SPH_INLINE Number *at(Number *row, Offset offset)
+    {
+      return reinterpret_cast<Number *>(reinterpret_cast<std::uintptr_t>(row) +
+                                        N * static_cast<std::uintptr_t>(offset));
     }
 
 #if defined(LOOPS_AVX512) || defined(LOOPS_AVX2)
@@ -86,17 +91,19 @@ namespace SPHDissipation {
     {
       _mm512_storeu_pd(to, a);
     }
-    SPH_INLINE Vec gather(const double *from, const int *i)
+    template <class Index> SPH_INLINE Vec gather(const double *from, const Index *i)
     {
-      return _mm512_setr_pd(from[i[0]], from[i[1]], from[i[2]], from[i[3]], from[i[4]], from[i[5]],
-                            from[i[6]], from[i[7]]);
+      return _mm512_setr_pd(*at<1>(from, i[0]), *at<1>(from, i[1]), *at<1>(from, i[2]),
+                            *at<1>(from, i[3]), *at<1>(from, i[4]), *at<1>(from, i[5]),
+                            *at<1>(from, i[6]), *at<1>(from, i[7]));
     }
     typedef __m512i Indices;
-    SPH_INLINE Indices indices_of(const int *from, const int *i)
+    SPH_INLINE Indices indices_of(const int *from, const Offset *i)
     {
-      return _mm512_cvtepi32_epi64(_mm256_setr_epi32(from[i[0]], from[i[1]], from[i[2]], from[i[3]],
-                                                     from[i[4]], from[i[5]], from[i[6]],
-                                                     from[i[7]]));
+      int a[LANES];
+      for (int l = 0; l < LANES; l++) a[l] = from[index_of(i[l])];
+      return _mm512_cvtepi32_epi64(
+          _mm256_setr_epi32(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]));
     }
     SPH_INLINE Vec pick(const double *from, Indices indices)
     {
@@ -126,21 +133,22 @@ namespace SPHDissipation {
     {
       _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(bits), a));
     }
-    SPH_INLINE void pack(int *to, const int *from, int bits)
+    template <class Index> SPH_INLINE void pack(Index *to, const Index *from, int bits)
     {
       const __m256i a = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from));
       _mm256_storeu_si256(reinterpret_cast<__m256i *>(to),
                           _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), a));
     }
-    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int fill)
+    SPH_INLINE void copy_neighbors(Offset *to, const int *from, int n, int fill)
     {
       const __m256i fills =
           _mm256_add_epi32(_mm256_set1_epi32(fill), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
       for (int k = 0; k < n; k += LANES) {
         const __mmask8 there = (n - k < LANES) ? (1 << (n - k)) - 1 : 0xff;
         const __m256i j = _mm256_maskz_loadu_epi32(there, from + k);
-        _mm256_storeu_si256(reinterpret_cast<__m256i *>(to + k),
-                            _mm256_mask_and_epi32(fills, there, j, _mm256_set1_epi32(NEIGHMASK)));
+        const __m256i indices =
+            _mm256_mask_and_epi32(fills, there, j, _mm256_set1_epi32(NEIGHMASK));
+        _mm256_storeu_si256(reinterpret_cast<__m256i *>(to + k), _mm256_slli_epi32(indices, 3));
       }
     }
     SPH_INLINE double sum(Vec a)
@@ -185,7 +193,8 @@ namespace SPHDissipation {
                                 _mm256_loadu_pd(upper), 1);
     }
 
-    template <int N> SPH_INLINE void load_4_columns(const double *row, const int *i, Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void load_4_columns(const double *row, const Index *i, Vec *column)
     {
       const Vec a = load_halves(at<N>(row, i[0]), at<N>(row, i[2]));
       const Vec b = load_halves(at<N>(row, i[1]), at<N>(row, i[3]));
@@ -207,7 +216,8 @@ namespace SPHDissipation {
       return _mm512_insertf64x2(r, _mm_loadu_pd(d), 3);
     }
 
-    template <int N> SPH_INLINE void load_2_columns(const double *row, const int *i, Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void load_2_columns(const double *row, const Index *i, Vec *column)
     {
       const Vec even =
           load_4_of_128(at<N>(row, i[0]), at<N>(row, i[2]), at<N>(row, i[4]), at<N>(row, i[6]));
@@ -222,7 +232,8 @@ namespace SPHDissipation {
       _mm256_storeu_pd(to, _mm256_loadu_pd(to) + a);
     }
 
-    template <int N> SPH_INLINE void add_4_columns(double *row, const int *i, const Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void add_4_columns(double *row, const Index *i, const Vec *column)
     {
       const Vec even01 = _mm512_unpacklo_pd(column[0], column[1]);
       const Vec even23 = _mm512_unpacklo_pd(column[2], column[3]);
@@ -244,7 +255,8 @@ namespace SPHDissipation {
       add_256(at<N>(row, i[7]), _mm512_extractf64x4_pd(rows57, 1));
     }
 
-    template <int N> SPH_INLINE void add_2_columns(double *row, const int *i, const Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void add_2_columns(double *row, const Index *i, const Vec *column)
     {
       const Vec even = _mm512_unpacklo_pd(column[0], column[1]);
       const Vec odd = _mm512_unpackhi_pd(column[0], column[1]);
@@ -275,15 +287,17 @@ namespace SPHDissipation {
     {
       _mm256_storeu_pd(to, a);
     }
-    SPH_INLINE Vec gather(const double *from, const int *i)
+    template <class Index> SPH_INLINE Vec gather(const double *from, const Index *i)
     {
-      return _mm256_setr_pd(from[i[0]], from[i[1]], from[i[2]], from[i[3]]);
+      return _mm256_setr_pd(*at<1>(from, i[0]), *at<1>(from, i[1]), *at<1>(from, i[2]),
+                            *at<1>(from, i[3]));
     }
     typedef __m256i Indices;    // each lane as a pair of 32-bit halves
-    SPH_INLINE Indices indices_of(const int *from, const int *i)
+    SPH_INLINE Indices indices_of(const int *from, const Offset *i)
     {
-      const __m256i two = _mm256_cvtepu32_epi64(
-          _mm_setr_epi32(2 * from[i[0]], 2 * from[i[1]], 2 * from[i[2]], 2 * from[i[3]]));
+      int a[LANES];
+      for (int l = 0; l < LANES; l++) a[l] = 2 * from[index_of(i[l])];
+      const __m256i two = _mm256_cvtepu32_epi64(_mm_setr_epi32(a[0], a[1], a[2], a[3]));
       return _mm256_or_si256(two,
                              _mm256_slli_epi64(_mm256_add_epi64(two, _mm256_set1_epi64x(1)), 32));
     }
@@ -345,25 +359,31 @@ namespace SPHDissipation {
     };
     constexpr PackBytes PACK_BYTES;
 
-    SPH_INLINE void pack(int *to, const int *from, int bits)
+    SPH_INLINE void pack_4(void *to, const void *from, int bits)
     {
       const __m128i order =
           _mm_load_si128(reinterpret_cast<const __m128i *>(PACK_BYTES.order[bits]));
-      const __m128i a = _mm_loadu_si128(reinterpret_cast<const __m128i *>(from));
-      _mm_storeu_si128(reinterpret_cast<__m128i *>(to), _mm_shuffle_epi8(a, order));
+      const __m128i a = _mm_loadu_si128(static_cast<const __m128i *>(from));
+      _mm_storeu_si128(static_cast<__m128i *>(to), _mm_shuffle_epi8(a, order));
     }
-    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int fill)
+    template <class Index> SPH_INLINE void pack(Index *to, const Index *from, int bits)
+    {
+      pack_4(to, from, bits);
+    }
+    SPH_INLINE void copy_neighbors(Offset *to, const int *from, int n, int fill)
     {
       const __m128i lanes = _mm_setr_epi32(0, 1, 2, 3), bits = _mm_set1_epi32(NEIGHMASK);
       int k = 0;
       for (; k + LANES <= n; k += LANES) {
         const __m128i j = _mm_loadu_si128(reinterpret_cast<const __m128i *>(from + k));
-        _mm_storeu_si128(reinterpret_cast<__m128i *>(to + k), _mm_and_si128(j, bits));
+        _mm_storeu_si128(reinterpret_cast<__m128i *>(to + k),
+                         _mm_slli_epi32(_mm_and_si128(j, bits), 3));
       }
       const __m128i there = _mm_cmpgt_epi32(_mm_set1_epi32(n - k), lanes);
       const __m128i j = _mm_and_si128(_mm_maskload_epi32(from + k, there), bits);
       const __m128i fills = _mm_add_epi32(_mm_set1_epi32(fill), lanes);
-      _mm_storeu_si128(reinterpret_cast<__m128i *>(to + k), _mm_blendv_epi8(fills, j, there));
+      _mm_storeu_si128(reinterpret_cast<__m128i *>(to + k),
+                       _mm_slli_epi32(_mm_blendv_epi8(fills, j, there), 3));
     }
     SPH_INLINE double sum(Vec a)
     {
@@ -400,8 +420,8 @@ namespace SPHDissipation {
 
     SPH_INLINE void pack_indices(int *to, const int *from, int bits)
     {
-      pack(to, from, bits & 15);
-      pack(to + __builtin_popcount(bits & 15), from + 4, bits >> 4);
+      pack_4(to, from, bits & 15);
+      pack_4(to + __builtin_popcount(bits & 15), from + 4, bits >> 4);
     }
 
     SPH_INLINE void transpose(Vec &a, Vec &b, Vec &c, Vec &d)
@@ -414,13 +434,15 @@ namespace SPHDissipation {
       d = _mm256_permute2f128_pd(ab_odd, cd_odd, 0x31);
     }
 
-    template <int N> SPH_INLINE void load_4_columns(const double *row, const int *i, Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void load_4_columns(const double *row, const Index *i, Vec *column)
     {
       for (int l = 0; l < LANES; l++) column[l] = load(at<N>(row, i[l]));
       transpose(column[0], column[1], column[2], column[3]);
     }
 
-    template <int N> SPH_INLINE void load_2_columns(const double *row, const int *i, Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void load_2_columns(const double *row, const Index *i, Vec *column)
     {
       const Vec even =
           _mm256_set_m128d(_mm_loadu_pd(at<N>(row, i[2])), _mm_loadu_pd(at<N>(row, i[0])));
@@ -430,7 +452,8 @@ namespace SPHDissipation {
       column[1] = _mm256_unpackhi_pd(even, odd);
     }
 
-    template <int N> SPH_INLINE void add_4_columns(double *row, const int *i, const Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void add_4_columns(double *row, const Index *i, const Vec *column)
     {
       Vec r[4] = {column[0], column[1], column[2], column[3]};
       transpose(r[0], r[1], r[2], r[3]);
@@ -440,7 +463,8 @@ namespace SPHDissipation {
       }
     }
 
-    template <int N> SPH_INLINE void add_2_columns(double *row, const int *i, const Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void add_2_columns(double *row, const Index *i, const Vec *column)
     {
       const Vec even = _mm256_unpacklo_pd(column[0], column[1]);
       const Vec odd = _mm256_unpackhi_pd(column[0], column[1]);
@@ -467,12 +491,12 @@ namespace SPHDissipation {
     {
       *to = a;
     }
-    SPH_INLINE Vec gather(const double *from, const int *i)
+    template <class Index> SPH_INLINE Vec gather(const double *from, const Index *i)
     {
-      return from[*i];
+      return *at<1>(from, *i);
     }
     typedef int Indices;
-    SPH_INLINE Indices indices_of(const int *, const int *)
+    SPH_INLINE Indices indices_of(const int *, const Offset *)
     {
       return 0;
     }
@@ -504,13 +528,13 @@ namespace SPHDissipation {
     {
       *to = a;
     }
-    SPH_INLINE void pack(int *to, const int *from, int)
+    template <class Index> SPH_INLINE void pack(Index *to, const Index *from, int)
     {
       *to = *from;
     }
-    SPH_INLINE void copy_neighbors(int *to, const int *from, int n, int)
+    SPH_INLINE void copy_neighbors(Offset *to, const int *from, int n, int)
     {
-      for (int k = 0; k < n; k++) to[k] = from[k] & NEIGHMASK;
+      for (int k = 0; k < n; k++) to[k] = offset_of(from[k] & NEIGHMASK);
     }
     SPH_INLINE int count_bits(int bits)
     {
@@ -550,19 +574,23 @@ namespace SPHDissipation {
       *to = *from;
     }
 
-    template <int N> SPH_INLINE void load_4_columns(const double *row, const int *i, Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void load_4_columns(const double *row, const Index *i, Vec *column)
     {
       for (int c = 0; c < 4; c++) column[c] = at<N>(row, *i)[c];
     }
-    template <int N> SPH_INLINE void load_2_columns(const double *row, const int *i, Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void load_2_columns(const double *row, const Index *i, Vec *column)
     {
       for (int c = 0; c < 2; c++) column[c] = at<N>(row, *i)[c];
     }
-    template <int N> SPH_INLINE void add_4_columns(double *row, const int *i, const Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void add_4_columns(double *row, const Index *i, const Vec *column)
     {
       for (int c = 0; c < 4; c++) at<N>(row, *i)[c] += column[c];
     }
-    template <int N> SPH_INLINE void add_2_columns(double *row, const int *i, const Vec *column)
+    template <int N, class Index>
+    SPH_INLINE void add_2_columns(double *row, const Index *i, const Vec *column)
     {
       for (int c = 0; c < 2; c++) at<N>(row, *i)[c] += column[c];
     }
@@ -571,7 +599,8 @@ namespace SPHDissipation {
 
     // the same for all instruction sets
 
-    template <int N> SPH_INLINE void add_column(double *row, const int *i, Vec column)
+    template <int N, class Index>
+    SPH_INLINE void add_column(double *row, const Index *i, Vec column)
     {
       double lane[LANES];
       store(lane, column);
