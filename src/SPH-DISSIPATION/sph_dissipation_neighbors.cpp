@@ -29,6 +29,7 @@ using namespace SPHDissipation;
 
 static constexpr int ROOM = 16;    // entries that the widest vector may write behind the last one
 static constexpr double SPARSE = 16.0;    // most cells per particle
+static constexpr int COLUMN = 6;          // cells in y and z of one column
 static constexpr double ROUND_OFF = 1.0e-9;
 static constexpr double FLOAT_ROUND_OFF =
     1.0e-6;    // of the square of a distance, in units of the cutoff
@@ -91,16 +92,18 @@ void NeighborSearch::build(NeighList *list)
       for (int j = 1; j <= atom->ntypes; j++)
         if (!list->iskip[i] && !list->iskip[j] && list->ijskip[i][j]) skips = true;
 
-  const int total = ncell[0] * ncell[1] * ncell[2];
+  order_cells();
   const int nthread = threads->size();
   parts.resize(nthread);
+  std::vector<std::size_t> begin(nthread + 1, 0);    // about as many particles for each thread
+  bigint n = 0;
+  for (int k = 0; k < nthread; k++) {
+    std::size_t &end = begin[k + 1] = begin[k];
+    for (; n * nthread < static_cast<bigint>(nowned) * (k + 1); end++)
+      n += owned.start[order[end] + 1] - owned.start[order[end]];
+  }
   threads->run([&](int k) {
-    auto first_cell = [&](int thread) {    // about as many particles for each
-      const auto &start = owned.start;
-      const auto entry = static_cast<int>(static_cast<bigint>(start[total]) * thread / nthread);
-      return static_cast<int>(std::lower_bound(start.begin(), start.end(), entry) - start.begin());
-    };
-    search(first_cell(k), (k + 1 < nthread) ? first_cell(k + 1) : total, list, parts[k]);
+    search(begin[k], begin[k + 1], list, parts[k]);
   });
   for (const auto &part : parts) {
     std::copy(part.rows.begin(), part.rows.end(), list->ilist + list->inum);
@@ -113,7 +116,7 @@ void NeighborSearch::build(NeighList *list)
    adds last: until the next list most vectors of the pair loops are full, or have no pair inside the support
 ------------------------------------------------------------------------- */
 
-void NeighborSearch::search(int from, int to, NeighList *list, Part &part) const
+void NeighborSearch::search(std::size_t from, std::size_t to, NeighList *list, Part &part) const
 {
   const double longest = *std::max_element(size, size + 3);
   const double error = FLOAT_ROUND_OFF * (2.0 + 2.0 * longest / cutoff);
@@ -124,9 +127,8 @@ void NeighborSearch::search(int from, int to, NeighList *list, Part &part) const
   part.offset.clear();
   bigint end = 0;
 
-  for (int c = from; c < to; c++) {
-    const int first = owned.start[c], last = owned.start[c + 1];
-    if (first == last) continue;
+  for (std::size_t m = from; m < to; m++) {
+    const int c = order[m], first = owned.start[c], last = owned.start[c + 1];
     const int place[3] = {c % ncell[0], c / ncell[0] % ncell[1], c / ncell[0] / ncell[1]};
     double corner[3];
     for (int d = 0; d < 3; d++) corner[d] = lo[d] + place[d] * size[d];
@@ -298,6 +300,24 @@ void NeighborSearch::sort(Sorted &sorted, int from, int to)
 }
 
 /* ----------------------------------------------------------------------
+   Cells with owned particles, in the order of the rows of the list: one square column of cells along x after the other, so
+   that the neighbors of successive rows are in the second-level cache
+------------------------------------------------------------------------- */
+
+void NeighborSearch::order_cells()
+{
+  order.clear();
+  for (int z = 0; z < ncell[2]; z += COLUMN)
+    for (int y = 0; y < ncell[1]; y += COLUMN)
+      for (int x = 0; x < ncell[0]; x++)
+        for (int k = z; k < std::min(z + COLUMN, ncell[2]); k++)
+          for (int j = y; j < std::min(y + COLUMN, ncell[1]); j++) {
+            const int c = (k * ncell[1] + j) * ncell[0] + x;
+            if (owned.start[c] < owned.start[c + 1]) order.push_back(c);
+          }
+}
+
+/* ----------------------------------------------------------------------
    of one cell: the particles in some rows of cells around it, relative to its corner, in units of the cutoff
 ------------------------------------------------------------------------- */
 
@@ -387,7 +407,7 @@ bool NeighborSearch::has_pair(int i, int j) const
 
 double NeighborSearch::memory_usage() const
 {
-  std::size_t bytes = (cell.capacity() + members.capacity()) * sizeof(int);
+  std::size_t bytes = (cell.capacity() + order.capacity() + members.capacity()) * sizeof(int);
   for (const Sorted *some : {&owned, &ghosts})
     bytes += some->start.capacity() * sizeof(int) +
         some->index.capacity() * (3 * sizeof(double) + sizeof(int));

@@ -91,7 +91,8 @@ namespace SPHDissipation {
     std::vector<CellRow> all_rows, upper_rows;
     std::vector<int> members;    // nowned owned particles of the fluid, then ghosts
     int nowned = 0;
-    std::vector<int> cell;    // of each of those that are being sorted
+    std::vector<int> cell;     // of each of those that are being sorted
+    std::vector<int> order;    // cells with owned particles, in that of the rows
     Sorted owned, ghosts;
     std::vector<Part> parts;
 
@@ -99,7 +100,9 @@ namespace SPHDissipation {
     void choose_cells();
     void find_rows();
     void sort(Sorted &, int from, int to);    // of the members
-    void search(int from, int to, NeighList *, Part &) const;
+    void order_cells();
+    void search(std::size_t from, std::size_t to, NeighList *,
+                Part &) const;    // of cells in their order
     void find_candidates(const Sorted &, const std::vector<CellRow> &, const int *place,
                          const double *corner, Candidates &) const;
     int check(int i, int *found, int n) const;
