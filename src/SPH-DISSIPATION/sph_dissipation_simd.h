@@ -359,16 +359,12 @@ namespace SPHDissipation {
     };
     constexpr PackBytes PACK_BYTES;
 
-    SPH_INLINE void pack_4(void *to, const void *from, int bits)
+    template <class Index> SPH_INLINE void pack(Index *to, const Index *from, int bits)
     {
       const __m128i order =
           _mm_load_si128(reinterpret_cast<const __m128i *>(PACK_BYTES.order[bits]));
-      const __m128i a = _mm_loadu_si128(static_cast<const __m128i *>(from));
-      _mm_storeu_si128(static_cast<__m128i *>(to), _mm_shuffle_epi8(a, order));
-    }
-    template <class Index> SPH_INLINE void pack(Index *to, const Index *from, int bits)
-    {
-      pack_4(to, from, bits);
+      const __m128i a = _mm_loadu_si128(reinterpret_cast<const __m128i *>(from));
+      _mm_storeu_si128(reinterpret_cast<__m128i *>(to), _mm_shuffle_epi8(a, order));
     }
     SPH_INLINE void copy_neighbors(Offset *to, const int *from, int n, int fill)
     {
@@ -418,10 +414,25 @@ namespace SPHDissipation {
                             _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from + k)));
     }
 
+    // PACK_8[bits]: the 32-bit lanes of 256 bits whose bits are set first
+
+    struct Pack8 {
+      alignas(8) unsigned char lane[256][8];
+      constexpr Pack8() : lane()
+      {
+        for (int bits = 0; bits < 256; bits++)
+          for (int l = 0, n = 0; l < 8; l++)
+            if ((bits >> l) & 1) lane[bits][n++] = static_cast<unsigned char>(l);
+      }
+    };
+    constexpr Pack8 PACK_8;
+
     SPH_INLINE void pack_indices(int *to, const int *from, int bits)
     {
-      pack_4(to, from, bits & 15);
-      pack_4(to + __builtin_popcount(bits & 15), from + 4, bits >> 4);
+      const __m128i lanes = _mm_loadl_epi64(reinterpret_cast<const __m128i *>(PACK_8.lane[bits]));
+      const __m256i a = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from));
+      _mm256_storeu_si256(reinterpret_cast<__m256i *>(to),
+                          _mm256_permutevar8x32_epi32(a, _mm256_cvtepu8_epi32(lanes)));
     }
 
     SPH_INLINE void transpose(Vec &a, Vec &b, Vec &c, Vec &d)
