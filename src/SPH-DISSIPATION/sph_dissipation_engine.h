@@ -60,20 +60,7 @@ namespace SPHDissipation {
 
   constexpr int BLOCK = 8;
 
-  // Index of a particle in the lists of the loops, times 8: the distance in bytes of the number with this index in an array of
-  // doubles.  The address of a row is found from it without a shift
-
-  typedef unsigned int Offset;
   static_assert(NEIGHMASK < (1u << 29), "offsets of all neighbors have 32 bits");
-
-  SPH_INLINE Offset offset_of(int i)
-  {
-    return sizeof(double) * static_cast<Offset>(i);
-  }
-  SPH_INLINE int index_of(Offset offset)
-  {
-    return offset / sizeof(double);
-  }
 
   // Input, output and scratch space of the two loops.  Both run over a half neighbor list; pass 1
   // leaves the pairs inside the support, and F of each, for pass 2.

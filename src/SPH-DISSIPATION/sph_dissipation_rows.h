@@ -24,6 +24,20 @@ namespace SPHDissipation {
   // The loops read and write these structures as rows of doubles; 16 bytes are what a GPU loads at
   // once.
 
+  // Index of a particle in the lists of the loops, times 8: the distance in bytes of the number with this index in an array
+  // of doubles.  The address of a row is found from it without a shift
+
+  typedef unsigned int Offset;
+
+  SPH_INLINE Offset offset_of(int i)
+  {
+    return sizeof(double) * static_cast<Offset>(i);
+  }
+  SPH_INLINE int index_of(Offset offset)
+  {
+    return offset / sizeof(double);
+  }
+
   // what the pair loops read of a particle: one cache line
 
   struct alignas(16) Particle {

@@ -23,6 +23,7 @@
 #define LOOPS one_number
 #define NEIGHMASK 0x1FFFFFFF
 typedef std::int64_t bigint;
+#include "sph_dissipation_rows.h"
 #include "sph_dissipation_simd.h"
 #include "sph_dissipation_words.h"
 namespace LAMMPS_NS {
