@@ -112,8 +112,9 @@ void NeighborSearch::build(NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   neighbors of the owned particles in some of the cells.  Those within the support come first, and those that only the skin
-   adds last: until the next list most vectors of the pair loops are full, or have no pair inside the support
+   neighbors of the owned particles in some of the cells.  Behind those of the same cell, those within the support come first,
+   and those that only the skin adds last: until the next list most vectors of the pair loops are full, or have no pair
+   inside the support
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::search(std::size_t from, std::size_t to, NeighList *list, Part &part) const
