@@ -137,11 +137,11 @@ void NeighborSearch::search(std::size_t from, std::size_t to, NeighList *list, P
     find_candidates(ghosts, all_rows, place, corner, part.ghosts);
 
     const int most = part.owned.columns.n + part.ghosts.columns.n + last - first + 2 * ROOM;
+    if (static_cast<int>(part.far.size()) < most) part.far.resize(most);
     for (int p = first; p < last; p++) {
       const int i = owned.index[p];
       if (static_cast<bigint>(part.neighbors.size()) < end + most)
         part.neighbors.resize(end + end / 8 + std::max(most, 1024));
-      if (static_cast<int>(part.far.size()) < most) part.far.resize(most);
       int *const found = part.neighbors.data() + end;
       float at[3];
       for (int d = 0; d < 3; d++) at[d] = static_cast<float>((owned.x[d][p] - corner[d]) / cutoff);

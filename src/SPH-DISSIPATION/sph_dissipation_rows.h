@@ -21,9 +21,6 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // The loops read and write these structures as rows of doubles; 16 bytes are what a GPU loads at
-  // once.
-
   // Index of a particle in the lists of the loops, times 8: the distance in bytes of the number with this index in an array
   // of doubles.  The address of a row is found from it without a shift
 
@@ -37,6 +34,9 @@ namespace SPHDissipation {
   {
     return offset / sizeof(double);
   }
+
+  // The loops read and write these structures as rows of doubles; 16 bytes are what a GPU loads at
+  // once.
 
   // what the pair loops read of a particle: one cache line
 

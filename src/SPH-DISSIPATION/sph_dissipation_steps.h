@@ -89,7 +89,7 @@ namespace SPHDissipation {
   // the skin.  A rebuild takes as long as REBUILD steps; LISTED is the part of a step that goes through the whole
   // list, whose length is proportional to (support + skin)^dim.  Both are measured: bench/README.md.
 
-  constexpr double REBUILD = 0.6, LISTED = 0.15;
+  constexpr double REBUILD = 0.75, LISTED = 0.15;
 
   inline double time_with_skin(double skin, double motion_per_step, double support, int dim)
   {

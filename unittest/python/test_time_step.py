@@ -253,8 +253,8 @@ def test_life_of_a_neighbor_list(lammps, skin, steps):
     assert lasts == steps and percent >= 10
     assert int(re.findall(r"^Neighbor list builds = (\d+)", log, re.MULTILINE)[-1]) == 100 // steps
     assert best_skin(lammps(stream(best)).log) is None
-    # the sum of a term proportional to the skin and one inverse to it, 0.3 skin/rc + 1.2 u dt/skin, has its minimum there
-    assert best == pytest.approx(np.sqrt(1.2 * 0.02 * 3.0 / 0.3), rel=0.05)
+    # the sum of a term proportional to the skin and one inverse to it, 0.3 skin/rc + 1.5 u dt/skin, has its minimum there
+    assert best == pytest.approx(np.sqrt(1.5 * 0.02 * 3.0 / 0.3), rel=0.05)
 
 
 @pytest.mark.parametrize("case", [{"speed": 0.0}, {"options": "temp 1e-3 1"}, {"lists": "every 5 delay 0 check no"}])
