@@ -18,7 +18,7 @@
 
 // r = x_w - x_f of a block of pairs
 
-SPH_INLINE void load_r(const Particle &wall, const Particle *particle, const int *j, Vec *r)
+SPH_INLINE void load_r(const Particle &wall, const Particle *particle, const Offset *j, Vec *r)
 {
   load_4_columns<WIDTH<Particle>>(numbers(particle), j, r);
   for (int d = 0; d < 3; d++) r[d] = wall.x[d] - r[d];
@@ -46,7 +46,7 @@ template <class K> void boundary_pairs_loop(const LoopData &data, BoundaryRows &
     bigint next = first;
 
     for (bigint k = first; k < rows.first[m + 1]; k += LANES) {
-      const int *const j = &rows.candidate[k];
+      const Offset *const j = &rows.candidate[k];
       Vec r[4];
       load_r(wall, data.particle, j, r);
       const Vec rsq = dot(r, r), distance = square_root(rsq);
@@ -81,7 +81,7 @@ void filled_loop(const BoundaryRows &rows, const NearKernel *near, double *fille
       double part[LANES];
       store(part, part_filled<K>(wall, load(&rows.distance[k])));
       for (int l = 0; l < LANES && k + l < first + rows.count[m]; l++)
-        filled[rows.fluid[k + l]] += part[l];
+        filled[index_of(rows.fluid[k + l])] += part[l];
     }
   }
 }
@@ -113,7 +113,7 @@ void boundary_sum_loop(const LoopData &data, const BoundaryRows &rows, const Bou
     BoundarySums<OneVector> total = {};
 
     for (bigint k = first; k < first + rows.count[m]; k += LANES) {
-      const int *const j = &rows.fluid[k];
+      const Offset *const j = &rows.fluid[k];
       Vec r[4], other[4];
       load_r(wall, data.particle, j, r);
       load_4_columns<WIDTH<Particle>>(numbers(data.particle) + 4, j, other);
@@ -150,7 +150,7 @@ void boundary_heat_loop(const LoopData &data, const BoundaryRows &rows, const Bo
     BoundaryHeatSums<OneVector> total = {};
 
     for (bigint k = first; k < first + rows.count[m]; k += LANES) {
-      const int *const j = &rows.fluid[k];
+      const Offset *const j = &rows.fluid[k];
       Vec r[4], state[2], flow[4];
       load_r(wall, data.particle, j, r);
       load_2_columns<WIDTH<Particle>>(numbers(data.particle) + 6, j, state);    // volume and g

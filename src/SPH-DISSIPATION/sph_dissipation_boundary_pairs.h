@@ -39,14 +39,13 @@ namespace SPHDissipation {
     // until the neighbor list is built anew, all pairs that may come into the support: particles of the fluid, and their
     // copies in SurfacePairs (no copies: no numbers); a row is filled up with spare particles
 
-    std::vector<int> candidate;
-    std::vector<Offset> candidate_copy;
+    std::vector<Offset> candidate, candidate_copy;
 
     // of each step, those inside the support: how many in each row; the same, r, and F; a block is filled up with the first
     // particle and a spare copy at the distance of the support radius, where F is 0
 
-    std::vector<int> count, fluid;
-    std::vector<Offset> copy;
+    std::vector<int> count;
+    std::vector<Offset> fluid, copy;
     std::vector<double> distance, slope;
 
     // begin(), add() each row of n candidates, end()
@@ -59,8 +58,8 @@ namespace SPHDissipation {
     void add(int wall_in, const int *fluid_in, int n, int spare)
     {
       wall.push_back(wall_in);
-      candidate.insert(candidate.end(), fluid_in, fluid_in + n);
-      for (int l = 0; candidate.size() % BLOCK; l++) candidate.push_back(spare + l);
+      for (int k = 0; k < n; k++) candidate.push_back(offset_of(fluid_in[k]));
+      for (int l = 0; candidate.size() % BLOCK; l++) candidate.push_back(offset_of(spare + l));
       first.push_back(static_cast<bigint>(candidate.size()));
     }
     void end()
@@ -77,7 +76,7 @@ namespace SPHDissipation {
     {
       for (int m = 0; m < size(); m++)
         for (bigint k = first[m]; k < first[m] + count[m]; k++)
-          function(BoundaryPair{fluid[k], wall[m], distance[k], slope[k]});
+          function(BoundaryPair{index_of(fluid[k]), wall[m], distance[k], slope[k]});
     }
     double memory_usage() const
     {

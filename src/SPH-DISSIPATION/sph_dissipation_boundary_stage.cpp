@@ -659,7 +659,7 @@ void BoundaryStage::find_candidates(NeighList *list)
       known[i] = true;
     };
     for (const int i : pairs.of_thread[k].wall) touch(i);
-    for (const int i : pairs.of_thread[k].candidate) touch(i);
+    for (const Offset i : pairs.of_thread[k].candidate) touch(index_of(i));
   });
 }
 

@@ -48,7 +48,7 @@ void SurfacePairs::find(BoundaryRows &all, int nall, const std::function<int(int
     first.push_back(all.first[m]);
     index.push_back({all.wall[m], all.wall[m]});
     for (bigint k = all.first[m]; k < all.first[m + 1]; k++) {
-      const int i = all.candidate[k];
+      const int i = index_of(all.candidate[k]);
       if (i >= nall) break;    // a spare one
       if (last[i].body != number[m]) {
         last[i] = {static_cast<int>(index.size()), number[m]};

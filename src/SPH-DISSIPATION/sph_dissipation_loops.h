@@ -217,8 +217,8 @@ namespace SPHDissipation {
             if (Used::uses(k)) a[k] = pick(of_type[k], types);
           return;
         }
-        int pair[LANES];
-        for (int l = 0; l < LANES; l++) pair[l] = N * table.type[index_of(j[l])];
+        Offset pair[LANES];
+        for (int l = 0; l < LANES; l++) pair[l] = offset_of(N * table.type[index_of(j[l])]);
         const double *const of_type = numbers(table.row + table.type[i] * table.ntypes_1);
         for (int k = 0; k < N; k++)
           if (Used::uses(k)) a[k] = gather(of_type + k, pair);

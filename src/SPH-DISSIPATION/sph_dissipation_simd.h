@@ -45,12 +45,8 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   namespace LOOPS {
 
-    // row number i of N doubles; the same where the index is an offset
+    // row of N doubles
 
-    template <int N, class Number> SPH_INLINE Number *at(Number *row, int i)
-    {
-      return row + N * static_cast<bigint>(i);
-    }
     template <int N, class Number> SPH_INLINE Number *at(Number *row, Offset offset)
     {
       return reinterpret_cast<Number *>(reinterpret_cast<std::uintptr_t>(row) +
@@ -91,7 +87,7 @@ namespace SPHDissipation {
     {
       _mm512_storeu_pd(to, a);
     }
-    template <class Index> SPH_INLINE Vec gather(const double *from, const Index *i)
+    SPH_INLINE Vec gather(const double *from, const Offset *i)
     {
       return _mm512_setr_pd(*at<1>(from, i[0]), *at<1>(from, i[1]), *at<1>(from, i[2]),
                             *at<1>(from, i[3]), *at<1>(from, i[4]), *at<1>(from, i[5]),
@@ -133,7 +129,7 @@ namespace SPHDissipation {
     {
       _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(bits), a));
     }
-    template <class Index> SPH_INLINE void pack(Index *to, const Index *from, int bits)
+    SPH_INLINE void pack(Offset *to, const Offset *from, int bits)
     {
       const __m256i a = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from));
       _mm256_storeu_si256(reinterpret_cast<__m256i *>(to),
@@ -193,8 +189,7 @@ namespace SPHDissipation {
                                 _mm256_loadu_pd(upper), 1);
     }
 
-    template <int N, class Index>
-    SPH_INLINE void load_4_columns(const double *row, const Index *i, Vec *column)
+    template <int N> SPH_INLINE void load_4_columns(const double *row, const Offset *i, Vec *column)
     {
       const Vec a = load_halves(at<N>(row, i[0]), at<N>(row, i[2]));
       const Vec b = load_halves(at<N>(row, i[1]), at<N>(row, i[3]));
@@ -216,8 +211,7 @@ namespace SPHDissipation {
       return _mm512_insertf64x2(r, _mm_loadu_pd(d), 3);
     }
 
-    template <int N, class Index>
-    SPH_INLINE void load_2_columns(const double *row, const Index *i, Vec *column)
+    template <int N> SPH_INLINE void load_2_columns(const double *row, const Offset *i, Vec *column)
     {
       const Vec even =
           load_4_of_128(at<N>(row, i[0]), at<N>(row, i[2]), at<N>(row, i[4]), at<N>(row, i[6]));
@@ -232,8 +226,7 @@ namespace SPHDissipation {
       _mm256_storeu_pd(to, _mm256_loadu_pd(to) + a);
     }
 
-    template <int N, class Index>
-    SPH_INLINE void add_4_columns(double *row, const Index *i, const Vec *column)
+    template <int N> SPH_INLINE void add_4_columns(double *row, const Offset *i, const Vec *column)
     {
       const Vec even01 = _mm512_unpacklo_pd(column[0], column[1]);
       const Vec even23 = _mm512_unpacklo_pd(column[2], column[3]);
@@ -255,8 +248,7 @@ namespace SPHDissipation {
       add_256(at<N>(row, i[7]), _mm512_extractf64x4_pd(rows57, 1));
     }
 
-    template <int N, class Index>
-    SPH_INLINE void add_2_columns(double *row, const Index *i, const Vec *column)
+    template <int N> SPH_INLINE void add_2_columns(double *row, const Offset *i, const Vec *column)
     {
       const Vec even = _mm512_unpacklo_pd(column[0], column[1]);
       const Vec odd = _mm512_unpackhi_pd(column[0], column[1]);
@@ -287,7 +279,7 @@ namespace SPHDissipation {
     {
       _mm256_storeu_pd(to, a);
     }
-    template <class Index> SPH_INLINE Vec gather(const double *from, const Index *i)
+    SPH_INLINE Vec gather(const double *from, const Offset *i)
     {
       return _mm256_setr_pd(*at<1>(from, i[0]), *at<1>(from, i[1]), *at<1>(from, i[2]),
                             *at<1>(from, i[3]));
@@ -359,7 +351,7 @@ namespace SPHDissipation {
     };
     constexpr PackBytes PACK_BYTES;
 
-    template <class Index> SPH_INLINE void pack(Index *to, const Index *from, int bits)
+    SPH_INLINE void pack(Offset *to, const Offset *from, int bits)
     {
       const __m128i order =
           _mm_load_si128(reinterpret_cast<const __m128i *>(PACK_BYTES.order[bits]));
@@ -445,15 +437,13 @@ namespace SPHDissipation {
       d = _mm256_permute2f128_pd(ab_odd, cd_odd, 0x31);
     }
 
-    template <int N, class Index>
-    SPH_INLINE void load_4_columns(const double *row, const Index *i, Vec *column)
+    template <int N> SPH_INLINE void load_4_columns(const double *row, const Offset *i, Vec *column)
     {
       for (int l = 0; l < LANES; l++) column[l] = load(at<N>(row, i[l]));
       transpose(column[0], column[1], column[2], column[3]);
     }
 
-    template <int N, class Index>
-    SPH_INLINE void load_2_columns(const double *row, const Index *i, Vec *column)
+    template <int N> SPH_INLINE void load_2_columns(const double *row, const Offset *i, Vec *column)
     {
       const Vec even =
           _mm256_set_m128d(_mm_loadu_pd(at<N>(row, i[2])), _mm_loadu_pd(at<N>(row, i[0])));
@@ -463,8 +453,7 @@ namespace SPHDissipation {
       column[1] = _mm256_unpackhi_pd(even, odd);
     }
 
-    template <int N, class Index>
-    SPH_INLINE void add_4_columns(double *row, const Index *i, const Vec *column)
+    template <int N> SPH_INLINE void add_4_columns(double *row, const Offset *i, const Vec *column)
     {
       Vec r[4] = {column[0], column[1], column[2], column[3]};
       transpose(r[0], r[1], r[2], r[3]);
@@ -474,8 +463,7 @@ namespace SPHDissipation {
       }
     }
 
-    template <int N, class Index>
-    SPH_INLINE void add_2_columns(double *row, const Index *i, const Vec *column)
+    template <int N> SPH_INLINE void add_2_columns(double *row, const Offset *i, const Vec *column)
     {
       const Vec even = _mm256_unpacklo_pd(column[0], column[1]);
       const Vec odd = _mm256_unpackhi_pd(column[0], column[1]);
@@ -502,7 +490,7 @@ namespace SPHDissipation {
     {
       *to = a;
     }
-    template <class Index> SPH_INLINE Vec gather(const double *from, const Index *i)
+    SPH_INLINE Vec gather(const double *from, const Offset *i)
     {
       return *at<1>(from, *i);
     }
@@ -539,7 +527,7 @@ namespace SPHDissipation {
     {
       *to = a;
     }
-    template <class Index> SPH_INLINE void pack(Index *to, const Index *from, int)
+    SPH_INLINE void pack(Offset *to, const Offset *from, int)
     {
       *to = *from;
     }
@@ -585,23 +573,19 @@ namespace SPHDissipation {
       *to = *from;
     }
 
-    template <int N, class Index>
-    SPH_INLINE void load_4_columns(const double *row, const Index *i, Vec *column)
+    template <int N> SPH_INLINE void load_4_columns(const double *row, const Offset *i, Vec *column)
     {
       for (int c = 0; c < 4; c++) column[c] = at<N>(row, *i)[c];
     }
-    template <int N, class Index>
-    SPH_INLINE void load_2_columns(const double *row, const Index *i, Vec *column)
+    template <int N> SPH_INLINE void load_2_columns(const double *row, const Offset *i, Vec *column)
     {
       for (int c = 0; c < 2; c++) column[c] = at<N>(row, *i)[c];
     }
-    template <int N, class Index>
-    SPH_INLINE void add_4_columns(double *row, const Index *i, const Vec *column)
+    template <int N> SPH_INLINE void add_4_columns(double *row, const Offset *i, const Vec *column)
     {
       for (int c = 0; c < 4; c++) at<N>(row, *i)[c] += column[c];
     }
-    template <int N, class Index>
-    SPH_INLINE void add_2_columns(double *row, const Index *i, const Vec *column)
+    template <int N> SPH_INLINE void add_2_columns(double *row, const Offset *i, const Vec *column)
     {
       for (int c = 0; c < 2; c++) at<N>(row, *i)[c] += column[c];
     }
@@ -610,8 +594,7 @@ namespace SPHDissipation {
 
     // the same for all instruction sets
 
-    template <int N, class Index>
-    SPH_INLINE void add_column(double *row, const Index *i, Vec column)
+    template <int N> SPH_INLINE void add_column(double *row, const Offset *i, Vec column)
     {
       double lane[LANES];
       store(lane, column);
