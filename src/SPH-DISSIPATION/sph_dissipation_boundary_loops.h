@@ -120,8 +120,9 @@ void boundary_sum_loop(const LoopData &data, const BoundaryRows &rows, const Bou
       const FluidColumns fluid = {{r[3], other[0], other[1]}, other[2], other[3]};
       const Vec kernel_weight = load_weight<K>(*data.par, &rows.distance[k]);
       const Vec w = data.weight ? gather(data.weight, j) : all(1.0);
-      const Vec height = add_fluid(fluid, wall, r, kernel_weight, surface, gather(to.rho, j), w,
-                                   gather(data.zeta_term, j), total);
+      const Vec height =
+          add_fluid(fluid, wall, r, kernel_weight, surface, gather(to.rho, j), w,
+                    gather(to.reference_volume, j), gather(data.zeta_term, j), total);
       if constexpr (SPINS) {
         Vec spin[4];
         load_4_columns<WIDTH<Spin>>(numbers(data.spin), j, spin);

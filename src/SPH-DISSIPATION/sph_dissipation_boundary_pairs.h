@@ -102,7 +102,7 @@ namespace SPHDissipation {
     const int *mask;
     int bits;
     const Surface *surface;
-    const double *rho;
+    const double *rho, *reference_volume;
     BoundarySum *sum;    // to which is added
   };
 

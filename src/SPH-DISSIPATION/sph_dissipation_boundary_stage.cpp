@@ -717,7 +717,19 @@ void BoundaryStage::accumulate()
   });
   const bool has_spin = engine.has_spin();
   const auto loop = engine.loop_set().boundary(engine.parameters().kernel).sums[has_spin];
-  const BoundarySumData data = {atom->mask, sum_bits, surface.surface.data(), atom->rho,
+  const ParticleRows &rows = engine.rows();
+  const bool by_mass = (engine.parameters().volume == Volume::MASS);
+  if (!by_mass) {
+    reference_volume.resize(nall);
+    engine.for_each(nall, [&](int i) {
+      reference_volume[i] = rows.reference_volume(i);
+    });
+  }
+  const BoundarySumData data = {atom->mask,
+                                sum_bits,
+                                surface.surface.data(),
+                                atom->rho,
+                                by_mass ? rows.weight : reference_volume.data(),
                                 sum.data()};
   engine.team().run([&](int k) {
     loop(engine.pairs(), pairs.of_thread[k], data);
@@ -796,5 +808,5 @@ const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 double BoundaryStage::memory_usage() const
 {
   return bytes(surface_pairs, sum, filled, pairs, filled_sums, flow_sums, repulsion_sums, surface,
-               heat_sum, repulsion, near, contact, body_of, own_numden, pushes);
+               heat_sum, reference_volume, repulsion, near, contact, body_of, own_numden, pushes);
 }

@@ -149,6 +149,7 @@ namespace SPHDissipation {
    private:
     std::vector<BoundarySum> sum;    // of owned and ghost atoms; empty if no boundary needs them
     std::vector<BoundaryHeatSum> heat_sum;    // the same; empty if nothing conducts
+    std::vector<double> reference_volume;     // of owned and ghost atoms, where the loops have no such weight
     BoundaryPairs pairs;                      // of this step
     const std::string style;                  // of the pair style, for messages
     std::vector<Boundary *> boundaries;

@@ -62,12 +62,12 @@ SPH_INLINE void add_distances(Real weight, Real height, Sums &total)
   total.d6 += weight_d4 * height * height;
 }
 
-// Contribution of f to the sums of w, kernel_weight = W(r), w_f = reference volume of f.  Returns the distance of f from the
-// surface.  F: members u, vol, g as those of a Particle
+// Contribution of f to the sums of w, kernel_weight = W(r), w_f = weight of f in the loops, vol_0 = its mass over the reference
+// density of its type.  Returns the distance of f from the surface.  F: members u, vol, g as those of a Particle
 
 template <class Real, class F, class Number>
 SPH_INLINE Real add_fluid(const F &f, const Particle &w, const Real *r, Real kernel_weight,
-                          const Surface &s, Real rho, Real w_f, Real zeta_term,
+                          const Surface &s, Real rho, Real w_f, Real vol_0, Real zeta_term,
                           BoundarySums<Number> &total)
 {
   const Real weight = f.vol * kernel_weight;
@@ -80,12 +80,12 @@ SPH_INLINE Real add_fluid(const F &f, const Particle &w, const Real *r, Real ker
   add_distances(weight, height, total);
   for (int d = 0; d < 3; d++) {
     const Real relative = f.u[d] - w.u[d] + turn[d];
-    total.r[d] += weight * r[d];
+    total.rho_r[d] += weight * rho * r[d];
     total.u[d] += weight * relative;
     total.ud3[d] += weight_d3 * relative;
     total.ud4[d] += weight_d4 * relative;
   }
-  total.rho += weight * rho;
+  total.density += kernel_weight * vol_0;
   total.pressure += kernel_weight * w_f * w_f * f.g / f.vol;
   total.zeta_term += weight * zeta_term;
   return height;

@@ -118,8 +118,8 @@ namespace SPHDissipation {
   template <class Number> struct BoundarySums {
     typedef typename Number::type Real;
     Real weight;        // 1
-    Real r[3];          // x_w - x_f
-    Real rho;           // density
+    Real rho_r[3];      // density times x_w - x_f
+    Real density;       // density over the reference density of its type
     Real pressure;      // p + zeta cdot/c (bulk density), p (otherwise)
     Real zeta_term;     // zeta cdot/c
     Real d, d3;         // d, d^3
@@ -295,7 +295,7 @@ namespace SPHDissipation {
     const double norm = 1.0 / sum.weight;
     double pressure = sum.pressure * norm;
     for (int d = 0; d < 3; d++)
-      pressure += sum.rho * norm * (gravity[d] - acceleration[d]) * sum.r[d] * norm;
+      pressure += (gravity[d] - acceleration[d]) * sum.rho_r[d] * norm;
     return pressure;
   }
 
@@ -431,7 +431,9 @@ namespace SPHDissipation {
   }
 
   // Values of particle i of a wall with this acceleration in pass 2, extrapolated from the fluid,
-  // sum.weight > 0.  A wall does not pull on a fluid without tension.
+  // sum.weight > 0.  The wall is as dense as the fluid, each relative to its reference density: so a particle of the wall has the
+  // volume that one of the fluid would have in its place, whatever the fluids around it are.  A wall does not pull on a fluid
+  // without tension.
 
   template <class Rows>    // ParticleRows
   SPH_FUNCTION void extend_fluid(const Rows &rows, int i, const WallCondition &condition,
@@ -440,7 +442,8 @@ namespace SPHDissipation {
   {
     const double norm = 1.0 / sum.weight;
     const double pressure = wall_pressure(sum, condition.gravity, acceleration);
-    rows.set_state(i, sum.rho * norm, (pressure > 0.0 || rows.par.tension) ? pressure : 0.0);
+    const double density = rows.types[rows.type[i]].eos.rho0 * sum.density * norm;
+    rows.set_state(i, density, (pressure > 0.0 || rows.par.tension) ? pressure : 0.0);
     rows.zeta_term[i] = sum.zeta_term * norm;
     extend_motion(condition, surface, sum, rows.particle[i].u, spin);
   }

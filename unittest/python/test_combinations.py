@@ -35,6 +35,7 @@ class Lines:
     room: tuple = ()  # for states, in the atom style
     state: tuple = ()  # their values in data files
     types: int = 1  # of the fluid
+    wall_density: float = 0.0  # reference density of walls, which have a type of their own then
     pair: tuple = ()  # keywords of the pair style
     mu: float = 0.5
     kappa: float = 2.0
@@ -116,6 +117,7 @@ FEATURES = {
     "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
     "gravity": Feature(body("gravity 5.0 vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
     "walls": Feature(walls("v_U"), walls("0.3")),
+    "dense_walls": Feature(walls("0.3") + Lines(wall_density=4.0), walls("0.3"), not_plain_with=("adapt", "overlay", "interdrag", "tension")),
     "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused=NOT_WITH_BODIES),
     "hot_bodies": Feature(disc("rigid single", "heat temp v_hot"), disc("rigid group 1 disc", "heat temp 0.05"),
                           refused={**NOT_WITH_BODIES, "noise": "conductivity"}),
@@ -170,10 +172,10 @@ FEATURES = {
                     refused={"open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag"}),
     "idle_spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
 }
-NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room"), ("bodies", "hot_bodies")}  # two values of the same
+NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room"), ("bodies", "hot_bodies"), ("walls", "dense_walls")}  # two values of the same
 # pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones,
 # and the random forces of a drag are no pairs'
-NO_BALANCE = {("walls", "open"): "", ("noise", "drag"): "", ("open", "overlay"): "not in the ledger"}
+NO_BALANCE = {("walls", "open"): "", ("dense_walls", "open"): "", ("noise", "drag"): "", ("open", "overlay"): "not in the ledger"}
 PAIRS = [(name,) for name in FEATURES] + [pair for pair in itertools.combinations(FEATURES, 2) if pair not in NEVER]
 PAIRS += [("split", "reset_ahead", "restart")]  # all three have to do with how long ago the last event of a particle was
 
@@ -235,20 +237,25 @@ def particles(lines):
     u[wet], v[wet] = random.normal(0.5, 0.1, number), random.normal(0.0, 0.1, number)
     ids = np.arange(len(x)) + FIRST
     types = np.where(x < 8.0, 1, lines.types)
+    mass = np.ones(len(x))
+    if lines.wall_density:
+        solid = (part == "low") | (part == "high")
+        types[solid], mass[solid] = lines.types + 1, lines.wall_density
     groups = {name: ids[part == name] for name in np.unique(part)}
     groups["driven"] = ids[driven]
     if "alien" in has:
         groups["alien"] = np.arange(4) + 1
         ids, types = np.append(groups["alien"], ids), np.append(np.ones(4, dtype=int), types + 1)
+        mass = np.append(np.ones(4), mass)
         x, y, u, v = (np.append(np.array(new), old) for new, old in (([4.1, 5.2, 4.5, 5.5], x), ([5.0, 5.1, 6.0, 6.2], y),
                                                                     ([0.5, 0.0, -0.5, 0.2], u), ([0.0, 0.4, 0.0, -0.4], v)))
     spinning = lines.style != "sph/bulk"
-    own = " ".join(("1.0", *("0.16",) * spinning, str(lines.energy), *lines.state))
+    own = " ".join((*("0.16",) * spinning, str(lines.energy), *lines.state))
     spin = [f" 0 0 {w}" if spinning else "" for w in np.sin(1.7 * ids)]
     xlo, xhi = (-10.0, 26.0) if "zones" in has else (0.0, 16.0)
     ylo, yhi = (-4.0, 14.0) if "walls" in has else (0.0, 10.0)
     text = (f"\n\n{len(x)} atoms\n{types.max()} atom types\n\n{xlo} {xhi} xlo xhi\n{ylo} {yhi} ylo yhi\n-0.5 0.5 zlo zhi\n\n"
-            f"Atoms # {lines.style}\n\n" + "".join(f"{i} {t} {own} {a} {b} 0.0\n" for i, t, a, b in zip(ids, types, x.tolist(), y.tolist()))
+            f"Atoms # {lines.style}\n\n" + "".join(f"{i} {t} {m} {own} {a} {b} 0.0\n" for i, t, m, a, b in zip(ids, types, mass, x.tolist(), y.tolist()))
             + "\nVelocities\n\n" + "".join(f"{i} {a} {b} 0.0{w}\n" for i, a, b, w in zip(ids, u.tolist(), v.tolist(), spin)))
     return text, groups
 
@@ -257,9 +264,13 @@ def coefficients(lines, first, own):
     """The fluid's are those of types first, first + 1, ..., in `own`."""
     style = f"{lines.style} " if lines.others else ""
     types = range(first, first + lines.types) if lines.types > 1 else [own]
+    wall = first + lines.types
     keywords = " ".join((*(f"{name} {value}" for name, value in (("cv", lines.cv), ("conductivity", lines.conductivity)) if value), *lines.keywords))
     unlike = " ".join(("mu mean",) * bool(lines.others) + lines.unlike)
     result = [f"{one} {one} {style}1.0 10.0 {lines.mu} {lines.kappa} {lines.spin} 3.0 {keywords}" for one in types]
+    if lines.wall_density:
+        result += [f"{wall} {wall} {style}{lines.wall_density} 7.0 {Lines.mu} {lines.kappa + 1.0} {lines.spin} 3.0 {keywords}"]
+        result += [f"{one} {wall} {style}mu mean" for one in types if lines.others]
     if unlike:
         result += [f"{one} {other} {style}{unlike}" for one, other in itertools.combinations(types, 2)]
     if lines.others:
@@ -283,7 +294,7 @@ def write(folder, name, lines):
     data, groups = particles(lines)
     (folder / f"{name}.data").write_text(data)
     first = 2 if "alien" in lines.particles else 1
-    own = "*" if first + lines.types == 2 else f"{first}*{first + lines.types - 1}"
+    own = "*" if first + lines.types == 2 and not lines.wall_density else f"{first}*{first + lines.types - 1}"
     words = dict(name=name, style=lines.style, own=own, timestep=lines.timestep)
 
     def block(commands):
@@ -295,10 +306,10 @@ def write(folder, name, lines):
     coeffs = coefficients(lines, first, own)
     begin = (f"neighbor {lines.skin} bin\nneigh_modify every 5 delay 0 check no\n"
              f"timestep {lines.timestep}\nfix FLUID fluid {lines.style} {' '.join(lines.integrator)}\n")
-    fixes = block(lines.fixes) + "compute E all property/atom esph\n" + account(lines)
+    fixes = block(lines.fixes) + "compute E all property/atom esph\nvariable m atom mass*gmask(fluid)\n" + account(lines)
     words["again"] = (coeffs if lines.others else "") + begin + fixes  # what a restart file does not have
     also = "omegaz tqz " * (lines.style != "sph/bulk") + "d_solute" * ("solute" in lines.room)
-    output = f"write_dump all custom {name}.{{}} id mass x y vx vy fx fy c_E {also} modify sort id format float %.17g\n"
+    output = f"write_dump all custom {name}.{{}} id v_m x y vx vy fx fy c_E {also} modify sort id format float %.17g\n"
     ends = "f" if "zones" in lines.particles else "p", "f" if "walls" in lines.particles else "p"
     return (f"log {name}.log\nunits lj\ndimension 2\nboundary {' '.join(ends)} p\nnewton {lines.newton}\n"
             f"atom_style {lines.style} {' '.join(lines.room)}\nread_data {name}.data\n"
@@ -312,7 +323,7 @@ def write(folder, name, lines):
 # running them
 
 
-QUANTITIES = {"id": ("id",), "mass": ("mass",), "esph": ("c_E",), "x": ("x", "y"), "v": ("vx", "vy"), "spin": ("omegaz",),
+QUANTITIES = {"id": ("id",), "mass": ("v_m",), "esph": ("c_E",), "x": ("x", "y"), "v": ("vx", "vy"), "spin": ("omegaz",),
               "force": ("fx", "fy"), "torque": ("tqz",), "solute": ("d_solute",)}
 
 

@@ -1014,6 +1014,44 @@ def test_accepted(box, wall):
 
 
 # ---------------------------------------------------------------------------------------------
+# walls whose reference density is not that of the fluid; test_combinations.py has them with all features
+
+
+def layers(lower, upper, wall, volume="mass"):
+    """Two layers of fluid in a channel, 10 rows each, and its walls, with these reference densities and one mu; a body force per
+    volume drives them from the exact profile."""
+    speed = "".join(f"variable c{k} equal 5.0/sqrt({rho})\npair_coeff {k} {k} {rho} ${{c{k}}} 0.5 intrinsic 0.4 pb 1.0\n"
+                    f"set type {k} mass $(0.01*{rho})\n" for k, rho in enumerate((wall, lower, upper), 1))
+    return (header(2, boundary="p f p") + "lattice sq 100.0 origin 0.5 0.5 0\nregion box block 0 1.0 -1.4 1.4 -0.5 0.5 units box\n"
+            "create_box 3 box\ncreate_atoms 1 box\nregion below block INF INF INF -1.0 INF INF units box\n"
+            "region above block INF INF 1.0 INF INF INF units box\nregion top block INF INF 0.0 1.0 INF INF units box\n"
+            "group below region below\ngroup above region above\ngroup fluid subtract all below above\nset group fluid type 2\n"
+            "set region top type 3\ngroup lower type 2\ngroup upper type 3\n"
+            f"pair_style sph/bulk volume {volume}\n{speed}"
+            "variable u atom 0.1*(1.0-y^2)\nvelocity fluid set v_u 0 0\nfix I fluid sph/bulk viscous rkl2\n"
+            f"fix L lower gravity $(0.1/{lower}) vector 1 0 0\nfix U upper gravity $(0.1/{upper}) vector 1 0 0\n"
+            "fix B below sph/wall\nfix A above sph/wall\ntimestep 0.005\n"
+            f"compute C fluid chunk/atom bin/1d y lower 0.1 units box\nfix P fluid ave/chunk 1 1 1 C vx file profile\nrun 1000\n")
+
+
+def profile(lammps, *args):
+    """Mean velocities of the rows."""
+    lammps(layers(*args))
+    rows = [line.split() for line in open(lammps.path("profile")) if line.startswith("  ")][-28:]
+    return np.array([float(row[3]) for row in rows if float(row[2]) > 0.0])
+
+
+def test_densities_of_walls(lammps):
+    """One fluid, or two of a ratio of 10, flow as fluids of the walls' density do."""
+    alike = profile(lammps, 1.0, 1.0, 1.0)
+    y = np.arange(20) * 0.1 - 0.95
+    np.testing.assert_allclose(alike, 0.1 * (1.0 - y**2), rtol=0, atol=0.004)  # mg at a support of four spacings
+    for lower, upper, wall, volume in ((1.0, 1.0, 7.0, "number"), (0.1, 1.0, 1.0, "mass"), (10.0, 1.0, 0.5, "number")):
+        found = profile(lammps, lower, upper, wall, volume)
+        np.testing.assert_allclose(found, alike, rtol=0, atol=0.001)
+
+
+# ---------------------------------------------------------------------------------------------
 # the inputs of the manual
 
 HOWTO = Path(__file__).resolve().parents[2] / "doc" / "src" / "Howto_sph_walls.rst"

@@ -215,9 +215,11 @@ def forces(model, state, walls):
         values = values if values.ndim == 2 else values[:, None]
         return (weight @ values) / safe
 
-    centre = (weight[..., None] * r).sum(axis=1) / safe  # place of a wall particle minus that of its means
-    rho[solid] = mean(rho * fluid)[solid, 0]
-    head = rho * ((gravity - acceleration) * centre).sum(axis=1)
+    # mass of the fluid around times the way from it to the wall particle
+    moment = (weight[..., None] * rho[None, :, None] * r).sum(axis=1) / safe
+    head = ((gravity - acceleration) * moment).sum(axis=1)
+    rho0 = np.array([one.rho0 for one in own])
+    rho[solid] = (rho0 * mean(fluid * rho / rho0)[:, 0])[solid]
     vol[solid] = state.mass[solid] / rho[solid]
     for at in in_wall:
         dry = at[~wet[at]]
