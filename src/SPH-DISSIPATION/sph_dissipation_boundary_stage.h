@@ -149,9 +149,10 @@ namespace SPHDissipation {
    private:
     std::vector<BoundarySum> sum;    // of owned and ghost atoms; empty if no boundary needs them
     std::vector<BoundaryHeatSum> heat_sum;    // the same; empty if nothing conducts
-    std::vector<double> reference_volume;     // of owned and ghost atoms, where the loops have no such weight
-    BoundaryPairs pairs;                      // of this step
-    const std::string style;                  // of the pair style, for messages
+    std::vector<double>
+        reference_volume;       // of owned and ghost atoms, where the loops have no such weight
+    BoundaryPairs pairs;        // of this step
+    const std::string style;    // of the pair style, for messages
     std::vector<Boundary *> boundaries;
     int group_bits = 0, symmetric_bits = 0, body_bits = 0, frozen_bits = 0, mean_bits = 0;
     int sum_bits = 0;    // of those that need sums over the fluid

@@ -28,15 +28,7 @@ OptionalTerm(RelativeDrag)
 #elif defined(CHANNEL_TERMS)
 
 // -b F V_i V_j (u.r) r
-struct RelativeDrag : PairTerm<InterdragChannel, InterdragChannel::DRAG> {
-  static constexpr bool CENTRAL = true, BY_SQUARE = true;
-  template <class Pair> static SPH_INLINE void add_central(Pair &pair)
-  {
-    const auto drag = pair.coeff[FIRST] * pair.vv * pair.approach;
-    pair.central -= drag;
-    pair.heat[CHANNEL] += 0.5 * drag * pair.approach;
-  }
-};
+typedef AlongBySquare<InterdragChannel, InterdragChannel::DRAG> RelativeDrag;
 
 #else
 

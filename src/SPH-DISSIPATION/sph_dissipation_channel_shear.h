@@ -32,10 +32,13 @@ template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_
   }
 };
 
-// AlongR with the viscosities of the particles: their arithmetic mean within a fluid, for which there is a dissipation
+// -a F V_i V_j (u.r) r
+typedef AlongBySquare<ShearChannel, ShearChannel::BY_SQUARE> AlongRBySquare;
+
+// AlongR or, with FR2, AlongRBySquare with the viscosities of the particles: their arithmetic mean within a fluid, for which there is a dissipation
 // function, and the harmonic one between two fluids; that of the fluid next to a boundary particle, which has none
 // ONE_FLUID: there is no pair of two
-template <bool ONE_FLUID>
+template <bool ONE_FLUID, bool FR2>
 struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE> {
   static constexpr bool CENTRAL = true, BY_RATE = true;
   template <class Pair> static SPH_INLINE void add_central(Pair &pair)
@@ -45,7 +48,7 @@ struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE
     const auto b = pair.mu[1] - if_positive(-pair.mu[1], more);
     auto mean = 0.5 * pair.coeff[FIRST] * (a + b);
     if constexpr (!ONE_FLUID) mean += pair.coeff[LAST] * mean_coefficient(a, b);
-    const auto drag = mean * pair.by_metric * pair.approach;
+    const auto drag = mean * (FR2 ? pair.vv : pair.by_metric) * pair.approach;
     pair.central -= drag;
     pair.heat[CHANNEL] += 0.5 * drag * pair.approach;
   }
@@ -72,19 +75,27 @@ namespace SPHDissipation {
 
   // mg:      f_i = -2 (n+2) mu sum_j F (u.e) e V_i V_j        P2 (41)
   // mg/fr:   f_i = -eta sum_j F r (u.e) e V_i V_j             P1 (15), (49)
+  // mg/fr2:  f_i = -2 n mu/<r^2> sum_j F (u.r) r V_i V_j      a weight that is smooth at r = 0: sums over lattices and rows
+  //                                                           of particles are nearly the integrals; see the theory page
   // morris:  f_i = -2 mu sum_j F u V_i V_j                    Laplacian of the velocity
   // espanol: f_i = -a sum_j F [u + (u.e) e] V_i V_j           P. Espanol, M. Revenga, Phys. Rev. E 67,
   //                                                           026705 (2003), with bulk term zero
   // micropolar: f_i = -sum_j F V_i V_j [zeta1 (e.u*) e + zeta2 u*], u* = u - Omega_mean x r   P3 (12)
+  // micropolar mg/fr2: the term with zeta1 is that of mg/fr2 where zeta1 > 0.  A negative one keeps the weight of zeta2, with
+  //                    which it is admissible.
 
-  // prefactor of the shear term per unit mu, in dimension n; mean_radius = integral of r W
-  inline double shear_factor(Shear shear, int n, double mean_radius)
+  // prefactor of the shear term per unit mu, in dimension n; mean_radius, mean_square = integrals of r W and r^2 W
+  inline double shear_factor(Shear shear, int n, double mean_radius, double mean_square)
   {
     switch (shear) {
       case Shear::MG:
+      case Shear::MICROPOLAR:
         return 2.0 * (n + 2);
       case Shear::MG_FR:
         return 2.0 * n * (n + 2) / ((n + 1) * mean_radius);
+      case Shear::MG_FR2:
+      case Shear::MICROPOLAR_FR2:
+        return 2.0 * n / mean_square;
       case Shear::MORRIS:
         return 2.0;
       case Shear::ESPANOL:
@@ -92,6 +103,11 @@ namespace SPHDissipation {
       default:
         return 0.0;
     }
+  }
+
+  inline double shear_factor(const PairFluid &fluid)
+  {
+    return shear_factor(fluid.shear, fluid.dim, fluid.mean_radius, fluid.mean_square);
   }
 
   // bulk viscosity of the shear term: lambda = mu for mg and lambda = -mu for Morris, kappa =
@@ -102,7 +118,9 @@ namespace SPHDissipation {
     switch (shear) {
       case Shear::MG:
       case Shear::MG_FR:
+      case Shear::MG_FR2:
       case Shear::MICROPOLAR:
+      case Shear::MICROPOLAR_FR2:
         return (1.0 + 2.0 / n) * mu;
       case Shear::MORRIS:
         return (2.0 / n - 1.0) * mu;
@@ -122,6 +140,8 @@ namespace SPHDissipation {
         return surface ? 45.0 : 21.0;
       case Shear::MG_FR:
         return surface ? 38.0 : 17.0;
+      case Shear::MG_FR2:
+        return surface ? 38.0 : 15.0;
       case Shear::MORRIS:
         return surface ? 20.0 : 8.0;
       case Shear::ESPANOL:
@@ -135,8 +155,8 @@ namespace SPHDissipation {
   inline double rate_of_terms(int n, double hsq, double inertia, double along_r, double along_u,
                               bool surface = false)
   {
-    const double mg = std::max(along_r, 0.0) / shear_factor(Shear::MG, n, 1.0);
-    const double morris = along_u / shear_factor(Shear::MORRIS, n, 1.0);
+    const double mg = std::max(along_r, 0.0) / shear_factor(Shear::MG, n, 0.0, 0.0);
+    const double morris = along_u / shear_factor(Shear::MORRIS, n, 0.0, 0.0);
     return (shear_rate(Shear::MG, surface) * mg + shear_rate(Shear::MORRIS, surface) * morris) /
         (inertia * hsq);
   }
@@ -150,7 +170,7 @@ namespace SPHDissipation {
 
   struct ShearChannel : BaseChannel {
     static constexpr const char *NAME = "shear";
-    enum { ALONG_R, ALONG_U, ALIKE, UNLIKE, NPAIR };    // the last two: per mu
+    enum { ALONG_R, BY_SQUARE, ALONG_U, ALIKE, UNLIKE, NPAIR };    // the last two: per mu
     static constexpr int NTYPE = Rheology::NUMBER;
     static constexpr std::array<TypeKeyword, 6> TYPE_KEYWORDS = {
         {{"power", 3, 0, RHEOLOGY},
@@ -164,29 +184,36 @@ namespace SPHDissipation {
 
     static void set_coefficients(const PairFluid &fluid, const OwnWords &, double *own)
     {
-      const double mu = fluid.viscosity[MU];
-      if (fluid.shear == Shear::MICROPOLAR) {
-        own[ALONG_R] = 2.0 * (fluid.dim + 2) * (mu - fluid.viscosity[MU_R]);
+      const double mu = fluid.viscosity[MU], factor = shear_factor(fluid);
+      if (has_spins(fluid.shear)) {
+        const double rest = mu - fluid.viscosity[MU_R];
+        if (fluid.shear == Shear::MICROPOLAR_FR2 && rest > 0.0)
+          own[BY_SQUARE] = factor * rest;
+        else
+          own[ALONG_R] = shear_factor(Shear::MICROPOLAR, fluid.dim, 0.0, 0.0) * rest;
         return;
       }
-      const double drag = shear_factor(fluid.shear, fluid.dim, fluid.mean_radius) * mu;
-      if (fluid.by_rate)
-        own[fluid.alike ? ALIKE : UNLIKE] = shear_factor(fluid.shear, fluid.dim, fluid.mean_radius);
-      if (fluid.shear != Shear::MORRIS) own[ALONG_R] = drag;
-      if (fluid.shear == Shear::MORRIS || fluid.shear == Shear::ESPANOL) own[ALONG_U] = drag;
+      if (fluid.by_rate) own[fluid.alike ? ALIKE : UNLIKE] = factor;
+      if (fluid.shear == Shear::MG_FR2)
+        own[BY_SQUARE] = factor * mu;
+      else if (fluid.shear != Shear::MORRIS)
+        own[ALONG_R] = factor * mu;
+      if (fluid.shear == Shear::MORRIS || fluid.shear == Shear::ESPANOL) own[ALONG_U] = factor * mu;
     }
     SPH_FUNCTION static void add_friction(const double *own, PairFriction &friction)
     {
       friction.along += own[ALONG_R] + own[ALONG_U];
       friction.across += own[ALONG_U];
+      friction.along_by_square += own[BY_SQUARE];
     }
     template <class Add>
     static void add_columns(const PairFluid &fluid, const OwnWords &, const double *own, Add &&add)
     {
-      if (fluid.shear == Shear::MICROPOLAR)
-        add("zeta1", own[ALONG_R]);
+      const double along = (own[BY_SQUARE] > 0.0) ? own[BY_SQUARE] : own[ALONG_R];
+      if (has_spins(fluid.shear))
+        add("zeta1", along);
       else
-        add("shear_coeff", std::max(own[ALONG_R], own[ALONG_U]));
+        add("shear_coeff", std::max(along, own[ALONG_U]));
       if (fluid.by_rate) add("largest_mu", fluid.largest_mu);
     }
     static double intrinsic_kappa(const PairFluid &fluid)
@@ -204,9 +231,13 @@ namespace SPHDissipation {
     static double rate(const PairFluid &fluid, const OwnWords &, const double *own,
                        const PairInertia &inertia)
     {
-      if (fluid.shear == Shear::MICROPOLAR)
-        return rate_of_terms(fluid.dim, inertia.hsq, inertia.rho, own[ALONG_R],
-                             slip_coefficient(fluid), inertia.surface);
+      if (has_spins(fluid.shear)) {
+        const double by_square = shear_rate(Shear::MG_FR2, inertia.surface) * own[BY_SQUARE] /
+            (shear_factor(fluid) * inertia.rho * inertia.hsq);
+        return by_square +
+            rate_of_terms(fluid.dim, inertia.hsq, inertia.rho, own[ALONG_R],
+                          slip_coefficient(fluid), inertia.surface);
+      }
       const double mu = fluid.by_rate ? fluid.largest_mu : fluid.viscosity[MU];
       return shear_rate(fluid.shear, inertia.surface) * mu / inertia.rho / inertia.hsq;
     }

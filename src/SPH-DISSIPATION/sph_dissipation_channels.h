@@ -84,10 +84,10 @@ template <class... Term> struct Form {
 #define OPTIONAL_TERMS
 #define OptionalTerm(One) , One
 // clang-format off
-using FullForm = Form<AlongR<false>, AlongU
+using FullForm = Form<AlongR<false>, AlongRBySquare, AlongU
 #include "sph_dissipation_channel_list.h"
                       >;
-using FullSpinForm = Form<AlongR<false>, Slip, SpinDiffusion
+using FullSpinForm = Form<AlongR<false>, AlongRBySquare, Slip, SpinDiffusion
 #include "sph_dissipation_channel_list.h"
                           >;
 // clang-format on
@@ -99,21 +99,31 @@ using FullSpinForm = Form<AlongR<false>, Slip, SpinDiffusion
 
 template <class Function> void with_form(const Terms &terms, Function &&function)
 {
-  if (terms.by_rate)
-    return terms.one_fluid ? function(Form<ByRate<true>>()) : function(Form<ByRate<false>>());
-  if (terms.optional && terms.shear == Shear::MICROPOLAR) return function(FullSpinForm());
+  if (terms.by_rate) {
+    const bool one_fluid = terms.one_fluid;
+    if (terms.shear == Shear::MG_FR2)
+      return one_fluid ? function(Form<ByRate<true, true>>())
+                       : function(Form<ByRate<false, true>>());
+    return one_fluid ? function(Form<ByRate<true, false>>())
+                     : function(Form<ByRate<false, false>>());
+  }
+  if (terms.optional && has_spins(terms.shear)) return function(FullSpinForm());
   if (terms.optional) return function(FullForm());
   switch (terms.shear) {
     case Shear::MG:
       return function(Form<AlongR<false>>());
     case Shear::MG_FR:
       return function(Form<AlongR<true>>());
+    case Shear::MG_FR2:
+      return function(Form<AlongRBySquare>());
     case Shear::MORRIS:
       return function(Form<AlongU>());
     case Shear::ESPANOL:
       return function(FullForm());
     case Shear::MICROPOLAR:
       return function(Form<AlongR<false>, Slip, SpinDiffusion>());
+    case Shear::MICROPOLAR_FR2:
+      return function(Form<AlongR<false>, AlongRBySquare, Slip, SpinDiffusion>());
     default:
       return function(Form<>());
   }
@@ -157,8 +167,8 @@ namespace SPHDissipation {
   // what the coefficients of a pair of types follow from
   struct PairFluid {
     Shear shear = Shear(0);
-    int dim = 0;                                // of the kernel
-    double support = 0.0, mean_radius = 0.0;    // integral of r W
+    int dim = 0;                                                   // of the kernel
+    double support = 0.0, mean_radius = 0.0, mean_square = 0.0;    // integrals of r W and r^2 W
     double viscosity[NVISCOSITY] = {};
     double zeta = 0.0;             // coefficient of the bulk term, mean of the types
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
@@ -350,7 +360,8 @@ namespace SPHDissipation {
   // Coefficients of the terms of two types, one channel after the other:
   //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
   //   tau_i = 1/2 sum_j F V_i V_j zeta2 r x u* - sum_j F V_i V_j [xi1 (e.dOmega) e + xi2 dOmega]
-  // with F r instead of F before along_r for mg/fr, and those of optional terms, which are in their headers
+  // with F r instead of F before along_r for mg/fr, a term F r^2 V_i V_j by_square (e.u) e for mg/fr2, and those of
+  // optional terms, which are in their headers
   struct PairCoeff {
     double a[Channels::NPAIR];
 
@@ -458,7 +469,7 @@ namespace SPHDissipation {
   inline PairCoeff pair_coefficients(const TypePair &pair)
   {
     PairCoeff coeff = {};
-    Channels::visit(pair.shear == Shear::MICROPOLAR, [&](auto channel) {
+    Channels::visit(has_spins(pair.shear), [&](auto channel) {
       using One = decltype(channel);
       channel.set_coefficients(pair, pair.words<One>(), coeff.of<One>());
     });
@@ -468,7 +479,7 @@ namespace SPHDissipation {
   inline double pair_energy(const TypePair &pair)
   {
     double sum = 0.0;
-    Channels::visit(pair.shear == Shear::MICROPOLAR, [&](auto channel) {
+    Channels::visit(has_spins(pair.shear), [&](auto channel) {
       sum += channel.pair_energy(pair, pair.words<decltype(channel)>());
     });
     return sum;
@@ -477,7 +488,7 @@ namespace SPHDissipation {
   // prefactor of (u.e)^2 in the dissipation of a pair at distance r, in units of F V_i V_j
   SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
   {
-    const PairFriction friction = Channels::friction(shear == Shear::MICROPOLAR, coeff.a);
+    const PairFriction friction = Channels::friction(has_spins(shear), coeff.a);
     const double along = (shear == Shear::MG_FR) ? friction.along * r : friction.along;
     return along + friction.along_by_square * r * r;
   }
@@ -486,7 +497,7 @@ namespace SPHDissipation {
   inline double intrinsic_kappa(const PairFluid &fluid)
   {
     double kappa = 0.0;
-    Channels::visit(fluid.shear == Shear::MICROPOLAR, [&](auto channel) {
+    Channels::visit(has_spins(fluid.shear), [&](auto channel) {
       kappa += channel.intrinsic_kappa(fluid);
     });
     return kappa;
@@ -514,7 +525,7 @@ namespace SPHDissipation {
   inline const char *inadmissible(const TypePair &pair)
   {
     const char *violated = nullptr;
-    Channels::visit(pair.shear == Shear::MICROPOLAR, [&](auto channel) {
+    Channels::visit(has_spins(pair.shear), [&](auto channel) {
       if (!violated) violated = channel.inadmissible(pair, pair.words<decltype(channel)>());
     });
     return violated;

@@ -431,7 +431,8 @@ void Engine::set_square(int i, int j, bigint entry)
     rsq += r * r;
     approach += r * (a.u[d] - b.u[d]);
   }
-  if (rsq > 0.0) square[entry] = slope(i, j, entry) * approach * (approach / rsq);
+  const double metric = (par->shear == Shear::MG_FR2) ? 1.0 : rsq;
+  if (rsq > 0.0) square[entry] = slope(i, j, entry) * approach * (approach / metric);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -102,15 +102,16 @@ namespace SPHDissipation {
     return unit_sphere_surface(n) * sum / (2.0 * PANELS);
   }
 
-  // mean radius <r> = integral of r W, used by the F r weighting of P1 (15) and (49); length
+  // integral of r^power W; <r> is in the weight F r of P1 (15) and (49), <r^2> in the weight F r^2
 
-  inline double kernel_mean_radius(Kernel kernel, int n, double support)
+  inline double kernel_mean(Kernel kernel, int n, int power, double support)
   {
-    return support * with_kernel(kernel, [=](auto k) {
-             return k.norm(n) * unit_ball_integral(n, [=](double q) {
-                      return q * k.shape(q);
-                    });
-           });
+    const double mean = with_kernel(kernel, [=](auto k) {
+      return k.norm(n) * unit_ball_integral(n, [=](double q) {
+               return (power == 2) ? q * q * k.shape(q) : q * k.shape(q);
+             });
+    });
+    return (power == 2) ? support * support * mean : support * mean;
   }
 
   // Kernel of the energy of pairs of unlike types, W = norm (1 - q^2)^2: its force is small at short distances, so that

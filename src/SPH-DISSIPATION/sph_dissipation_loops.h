@@ -63,6 +63,7 @@ namespace SPHDissipation {
       const double weight_norm = par.weight_norm, slope_norm = par.slope_norm;
       const Vec support_sq = all(par.support * par.support), one = all(1.0);
       const double support_inv = 1.0 / par.support;
+      const bool by_square = (par.shear == Shear::MG_FR2);
       bigint next = data.begin;
 
       for (int ii = 0; ii < data.inum; ii++) {
@@ -104,7 +105,10 @@ namespace SPHDissipation {
           add_2_columns<WIDTH<DensitySum>>(numbers(data.density), j, sums);
 
           if constexpr (SLOPES) pack(slope + n, f, inside);
-          if constexpr (SQUARES) pack(square + n, f * approach * (approach / (rsq + TINY)), inside);
+          if constexpr (SQUARES) {
+            const Vec metric = by_square ? one : rsq + TINY;
+            pack(square + n, f * approach * (approach / metric), inside);
+          }
           pack(neighbor + n, j, inside);
           n += count_bits(inside);
         }
@@ -158,7 +162,7 @@ namespace SPHDissipation {
       }
     }
 
-    // sum_j V_j F (e.u)^2, by the pairs of pass 1
+    // sum_j V_j F (e.u)^2, with mg/fr2 (r.u)^2, by the pairs of pass 1
 
     inline void shear_rate_loop(const LoopData &data, const double *vol, double *rate)
     {

@@ -92,8 +92,7 @@ void FluidModel::settings(int narg, char **arg)
     nwords = energy ? 4 : (keyword == "temp") ? 3 : 2;
     if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "bulk" &&
         keyword != "volume" && keyword != "limit" && keyword != "simd" && keyword != "temp" &&
-        keyword != "density" && keyword != "delta" && keyword != "tension" &&
-        (keyword != "shear" || spins))
+        keyword != "density" && keyword != "delta" && keyword != "tension" && keyword != "shear")
       error->all(FLERR, place(arg[iarg]), "Unknown pair_style {} keyword: {}", style, keyword);
     if (iarg + nwords > narg)
       utils::missing_cmd_args(
@@ -178,7 +177,11 @@ void FluidModel::set_choice(const std::string &keyword, const char *word)
     known = choose(choice.eos, word, {"linear", "tait", "ideal"});
   } else if (keyword == "shear") {
     what = "shear form";
-    known = choose(choice.shear, word, {"none", "mg", "mg/fr", "morris", "espanol"});
+    for (const Shear form : shear_forms(spins))
+      if (strcmp(word, shear_name(form)) == 0) {
+        choice.shear = form;
+        known = true;
+      }
   } else if (keyword == "bulk") {
     what = "bulk form";
     known = choose(choice.bulk, word, {"none", "density", "volume"});

@@ -145,13 +145,13 @@ void FluidModel::read_settings(FILE *fp)
                                          : "another",
                style, format, own);
 
-  // the micropolar shear term belongs to a style of its own
-
-  const int first_shear = static_cast<int>(spins ? Shear::MICROPOLAR : Shear::NONE);
-  const int last_shear = static_cast<int>(spins ? Shear::MICROPOLAR : Shear::ESPANOL);
   choice.kernel = static_cast<Kernel>(read.integer("kernel", 0, static_cast<int>(Kernel::LUCY)));
   choice.eos = static_cast<Eos>(read.integer("eos", 0, static_cast<int>(Eos::IDEAL)));
-  choice.shear = static_cast<Shear>(read.integer("shear", first_shear, last_shear));
+  choice.shear =
+      static_cast<Shear>(read.integer("shear", 0, static_cast<int>(Shear::MICROPOLAR_FR2)));
+  if (has_spins(choice.shear) != spins)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Restart file is damaged: pair style {} has no such shear form", style);
   choice.bulk = static_cast<Bulk>(read.integer("bulk", 0, static_cast<int>(Bulk::VOLUME)));
   choice.dim = read.integer("dim", 0, 3);
   choice.limit = static_cast<Limit>(read.integer("limit", 0, static_cast<int>(Limit::YES)));

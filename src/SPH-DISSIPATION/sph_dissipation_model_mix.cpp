@@ -108,6 +108,7 @@ void FluidModel::derive(int dim, double support)
     if (!type.other && par->by_rate) check_rheology(i);
     if (choice.thermal) check_balance(i);
   }
+  par->rate_factor = 0.5 * shear_factor(pair_fluid(1, 1));
   par->set_uniform();
   for (const PairCoeff &one : par->pair)
     if (par->by_rate && optional_channel(one))
@@ -157,7 +158,8 @@ TypePair FluidModel::pair_fluid(int i, int j) const
   fluid.shear = choice.shear;
   fluid.dim = par->dim;
   fluid.support = par->support;
-  fluid.mean_radius = kernel_mean_radius(par->kernel, par->dim, par->support);
+  fluid.mean_radius = kernel_mean(par->kernel, par->dim, 1, par->support);
+  fluid.mean_square = kernel_mean(par->kernel, par->dim, 2, par->support);
   fluid.zeta = 0.5 * (par->type[i].zeta + par->type[j].zeta);
   for (int k = 0; k < Flows::NUMBER; k++)
     fluid.flow[k] = mean_coefficient(par->type[i].flow[k], par->type[j].flow[k]);
@@ -307,10 +309,11 @@ void FluidModel::check_rheology(int i) const
                    "Pair_coeff {} of type {}, a viscosity that is not constant, {}", keyword, k,
                    what);
   };
-  if (choice.shear != Shear::MG || choice.bulk != Bulk::DENSITY)
-    refuse(fmt::format("requires pair style sph/bulk with shear mg and bulk density, not {} with "
-                       "shear {} and bulk {}",
-                       style, shear_name(choice.shear), bulk_name(choice.bulk)));
+  if ((choice.shear != Shear::MG && choice.shear != Shear::MG_FR2) || choice.bulk != Bulk::DENSITY)
+    refuse(fmt::format(
+        "requires pair style sph/bulk with shear mg or mg/fr2 and bulk density, not {} with "
+        "shear {} and bulk {}",
+        style, shear_name(choice.shear), bulk_name(choice.bulk)));
   if (par->dim == 1) refuse("requires dim 2 or 3: on a line there is no shear");
   if (choice.limit != Limit::NO) refuse("cannot be used with limit of pair_style");
   if (choice.thermal)

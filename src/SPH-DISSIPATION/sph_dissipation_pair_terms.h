@@ -100,6 +100,19 @@ template <class Of, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTe
   template <class Pair> static SPH_INLINE void add_vector(Pair &) {}
 };
 
+// -a F V_i V_j (u.r) r with a coefficient of a channel
+
+template <class Of, int COEFF> struct AlongBySquare : PairTerm<Of, COEFF> {
+  using Term = PairTerm<Of, COEFF>;
+  static constexpr bool CENTRAL = true, BY_SQUARE = true;
+  template <class Pair> static SPH_INLINE void add_central(Pair &pair)
+  {
+    const auto drag = pair.coeff[Term::FIRST] * pair.vv * pair.approach;
+    pair.central -= drag;
+    pair.heat[Term::CHANNEL] += 0.5 * drag * pair.approach;
+  }
+};
+
 // the heat of the channels alone
 
 template <class Form> SPH_INLINE void find_heat(PairState &pair)

@@ -166,12 +166,13 @@ namespace SPHDissipation {
     }
   };
 
-  // Square of the rate of shear of a particle, of sum = sum_j V_j F (e.u)^2 and rate = cdot/c in dimension n: 2 E:E to
-  // second order.  V (mu gamma^2 + kappa (cdot/c)^2) is the heat of mg and of the bulk term, so that the derivative of
-  // sum_i V_i phi(gamma_i), phi' = mu gamma, is the force of mg with the mean of mu_i and mu_j (theory page).
-  SPH_FUNCTION double shear_rate_squared(int n, double sum, double rate)
+  // Square of the rate of shear of a particle, of sum = sum_j V_j F (e.u)^2, with mg/fr2 (r.u)^2, the half of shear_factor(),
+  // and rate = cdot/c in dimension n: 2 E:E to second order.  V (mu gamma^2 + kappa (cdot/c)^2) is the heat of the shear and
+  // the bulk term, so that the derivative of sum_i V_i phi(gamma_i), phi' = mu gamma, is the force with the mean of mu_i and
+  // mu_j (theory page).
+  SPH_FUNCTION double shear_rate_squared(int n, double factor, double sum, double rate)
   {
-    return (n + 2.0) * sum - (1.0 + 2.0 / n) * rate * rate;
+    return factor * sum - (1.0 + 2.0 / n) * rate * rate;
   }
 
 }    // namespace SPHDissipation

@@ -22,22 +22,45 @@
 #include "sph_dissipation_kernel.h"
 
 #include <cmath>
+#include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   // forms of the shear force and of the bulk force, see the headers of these channels
 
-  enum class Shear { NONE, MG, MG_FR, MORRIS, ESPANOL, MICROPOLAR };
+  enum class Shear { NONE, MG, MG_FR, MORRIS, ESPANOL, MICROPOLAR, MG_FR2, MICROPOLAR_FR2 };
+
+  SPH_FUNCTION constexpr bool has_spins(Shear shear)
+  {
+    return shear == Shear::MICROPOLAR || shear == Shear::MICROPOLAR_FR2;
+  }
 
   inline const char *shear_name(Shear shear)
   {
-    return (shear == Shear::MG)        ? "mg"
-        : (shear == Shear::MG_FR)      ? "mg/fr"
-        : (shear == Shear::MORRIS)     ? "morris"
-        : (shear == Shear::ESPANOL)    ? "espanol"
-        : (shear == Shear::MICROPOLAR) ? "micropolar"
-                                       : "none";
+    switch (shear) {
+      case Shear::MG:
+      case Shear::MICROPOLAR:
+        return "mg";
+      case Shear::MG_FR2:
+      case Shear::MICROPOLAR_FR2:
+        return "mg/fr2";
+      case Shear::MG_FR:
+        return "mg/fr";
+      case Shear::MORRIS:
+        return "morris";
+      case Shear::ESPANOL:
+        return "espanol";
+      default:
+        return "none";
+    }
+  }
+
+  // those of a style
+  inline std::vector<Shear> shear_forms(bool spins)
+  {
+    if (spins) return {Shear::MICROPOLAR, Shear::MICROPOLAR_FR2};
+    return {Shear::NONE, Shear::MG, Shear::MG_FR, Shear::MG_FR2, Shear::MORRIS, Shear::ESPANOL};
   }
 
   enum class Bulk { NONE, DENSITY, VOLUME };
@@ -168,6 +191,7 @@ namespace SPHDissipation {
     bool inviscid = true;             // they are zero
     bool optional = false;            // pairs have optional terms
     bool by_rate = false;             // mu of any type is not constant
+    double rate_factor = 0.0;         // of the sum in shear_rate_squared()
     bool drag = false;                // of single particles, of any type
     bool thermal_pressure = false;    // of any type: it depends on the internal energy
     int flows = 0;                    // bits of the flows of any type
@@ -178,7 +202,7 @@ namespace SPHDissipation {
     bool states = false;              // any type has some
     double step = 0.0;                // time step that their numbers are of
 
-    bool spins() const { return shear == Shear::MICROPOLAR; }
+    bool spins() const { return has_spins(shear); }
     bool conducts() const { return flows >> HEAT_FLOW & 1; }
     Terms terms() const { return {shear, optional, by_rate, uniform}; }
     void set_kernel(Kernel, int dim, double support);

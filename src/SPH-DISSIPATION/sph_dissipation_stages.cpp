@@ -140,7 +140,9 @@ void ViscosityStage::run(int not_fluid)
   engine.for_each(atom->nlocal, [&](int i) {
     const DensitySum &density = engine.density[i];
     shear_rate[i] = rows.is_fluid(i, not_fluid)
-        ? sqrt(std::max(shear_rate_squared(rows.par.dim, rates[i], density.cdot / density.c), 0.0))
+        ? sqrt(std::max(shear_rate_squared(rows.par.dim, rows.par.rate_factor, rates[i],
+                                           density.cdot / density.c),
+                        0.0))
         : 0.0;
     rows.set_viscosity(i, shear_rate[i], not_fluid);
   });

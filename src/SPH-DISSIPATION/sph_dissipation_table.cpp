@@ -89,7 +89,7 @@ void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &
                          double waves, double diffusion_rate)
 {
   constexpr int NONE = -1;
-  const bool spins = (pair.shear == Shear::MICROPOLAR);
+  const bool spins = has_spins(pair.shear);
   const PairCoeff coeff = pair_coefficients(pair);
   Row row = {fmt::format("{}-{}", i, j), {}, {{"acoustic", NONE, waves}}};
   std::vector<double> numbers, of_motion, of_heat, of_flows;

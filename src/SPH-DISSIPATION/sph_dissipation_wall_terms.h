@@ -294,8 +294,7 @@ namespace SPHDissipation {
   {
     const double norm = 1.0 / sum.weight;
     double pressure = sum.pressure * norm;
-    for (int d = 0; d < 3; d++)
-      pressure += (gravity[d] - acceleration[d]) * sum.rho_r[d] * norm;
+    for (int d = 0; d < 3; d++) pressure += (gravity[d] - acceleration[d]) * sum.rho_r[d] * norm;
     return pressure;
   }
 

@@ -17,9 +17,9 @@ using namespace DenseReference;
 System::Coefficients System::coefficients(const Pair &p, const std::string &form) const
 {
   const Real weight = p.F * V(p.i) * V(p.j);
-  if (form == "micropolar") {
+  if (has_spins(form)) {
     const PairViscosity visc = micropolar_viscosity(atoms.type[p.i], atoms.type[p.j]);
-    return {weight * (visc.zeta1 + visc.zeta2), weight * visc.zeta2, weight * (visc.xi1 + visc.xi2),
+    return {weight * (central(p, form, visc) + visc.zeta2), weight * visc.zeta2, weight * (visc.xi1 + visc.xi2),
             weight * visc.xi2};
   }
   const SmallMatrix block = shear_block(p, form);
@@ -42,10 +42,10 @@ static SmallVector cross(const SmallVector &a, const SmallVector &b)
 
 Noise System::noise(const std::string &form, bool has_bulk, bool limited, Real kT) const
 {
-  const bool spins = (form == "micropolar");
+  const bool spins = has_spins(form);
   const int s = (n == 3) ? 3 : 1;
   const int dof = N * n + (spins ? N * s : 0);
-  const bool along_alone = (form == "mg" || form == "mg/fr" || form == "none");
+  const bool along_alone = (form.rfind("mg", 0) == 0 || form == "none");
   const bool across = (n > 1 && !along_alone);
   std::vector<Eigen::Triplet<Real>> entries;
   Noise result;

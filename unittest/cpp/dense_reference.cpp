@@ -179,17 +179,17 @@ Real Kernel::mean_distance() const
   return moment(1);
 }
 
-Real Kernel::slope_moment() const
+Real Kernel::slope_moment(int power) const
 {
   const Real sphere[3] = {2.0L, 2.0L * PI, 4.0L * PI};
-  std::vector<Real> radial(n + 1, 0.0L);
+  std::vector<Real> radial(n + power - 1, 0.0L);
   radial.back() = -1.0L;
   Real sum = 0.0, begin = 0.0;
   for (const auto &p : pieces) {
     sum += integrate(p.slope * Polynomial(radial), begin, p.end);
     begin = p.end;
   }
-  return norm * sphere[n - 1] * sum * std::pow(support, static_cast<Real>(n));
+  return norm * sphere[n - 1] * sum * std::pow(support, static_cast<Real>(n + power - 2));
 }
 
 const Kernel::Piece &Kernel::piece(Real q) const
@@ -446,9 +446,9 @@ Real System::zeta(int type, const std::string &shear_form) const
   if (fluid.intrinsic) return 0.0L;
   // second viscosity of the shear term alone: mu (lap u + 2 grad div u) for mg, mu lap u for morris
   Real lambda = 0.0L;
-  if (shear_form == "mg" || shear_form == "mg/fr") lambda = fluid.mu;
+  if (shear_form.rfind("mg", 0) == 0) lambda = fluid.mu;
   if (shear_form == "morris") lambda = -fluid.mu;
-  if (shear_form == "micropolar") lambda = fluid.mu - model.spins[type - 1].mu_r;
+  if (has_spins(shear_form)) lambda = fluid.mu - model.spins[type - 1].mu_r;
   if (shear_form == "espanol") lambda = -fluid.mu * (n + 1) / (n + 3);
   const Real shear_kappa = shear_form == "none" ? 0.0L : lambda + 2.0L * fluid.mu / n;
   return fluid.kappa - shear_kappa;
@@ -465,6 +465,8 @@ SmallMatrix System::shear_block(const Pair &p, const std::string &form) const
   if (form == "mg") return 2.0L * (n + 2) * weight * dyad;
   if (form == "mg/fr")    // P1 eqs. (15), (49)
     return 2.0L * n * (n + 2) / ((n + 1) * mean_distance) * weight * p.dist * dyad;
+  if (form == "mg/fr2")    // the same mean over directions as mg: 2 (n+2) n = 2 n (n+2) <r^2>/<r^2>, n = integral of F r^2
+    return 2.0L * (n + 2) * n / kernel.slope_moment(4) * weight * p.r * p.r.transpose();
   if (form == "morris") return 2.0L * weight * SmallMatrix::Identity(n, n);
   if (form == "espanol")
     return 2.0L * (n + 2) / (n + 3) * weight * (SmallMatrix::Identity(n, n) + dyad);
@@ -520,7 +522,7 @@ System::PairViscosity System::micropolar_viscosity(int itype, int jtype) const
     for (int k = 1; k < 3; k++)
       azimuth[k] *= 0.5L * integrate(sine_squared * sine_squared, -1.0L, 1.0L);
   }
-  const Real half = 0.5L * kernel.slope_moment();
+  const Real half = 0.5L * kernel.slope_moment(2);
   const Real xx = half * azimuth[0], xxyy = half * azimuth[1], xxxx = half * azimuth[2];
 
   PairViscosity result;
@@ -540,9 +542,17 @@ System::PairViscosity System::micropolar_viscosity(int itype, int jtype) const
   return result;
 }
 
+// coefficient of (e.u*)^2: with the weight F r^2 unless it is negative
+
+Real System::central(const Pair &p, const std::string &form, const PairViscosity &visc) const
+{
+  if (form == "micropolar" || visc.zeta1 < 0.0L) return visc.zeta1;
+  return visc.zeta1 * p.r.squaredNorm() * kernel.slope_moment(2) / kernel.slope_moment(4);
+}
+
 // the power is q.R q with q = velocities and spins: each ordered pair brings half of its form
 
-Micropolar System::micropolar() const
+Micropolar System::micropolar(const std::string &form) const
 {
   const int s = (n == 3) ? 3 : 1, dof = N * (n + s);
   const Vector q = velocity_and_spin();
@@ -591,7 +601,7 @@ Micropolar System::micropolar() const
       const Matrix spin_along = e.transpose() * difference;
       spin_form += visc.xi1 * spin_along.transpose() * spin_along;
     }
-    const Matrix forms[3] = {weight * visc.zeta1 * along.transpose() * along,
+    const Matrix forms[3] = {weight * central(p, form, visc) * along.transpose() * along,
                              weight * visc.zeta2 * slip.transpose() * slip, weight * spin_form};
 
     const int width = static_cast<int>(columns.size());

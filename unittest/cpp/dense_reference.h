@@ -68,7 +68,7 @@ class Kernel {
   Real W(Real r) const;
   Real F(Real r) const;          // -W'(r)/r
   Real mean_distance() const;    // integral of r W over all space
-  Real slope_moment() const;     // integral of r^2 F over all space
+  Real slope_moment(int power) const;    // integral of r^power F over all space
 
  private:
   struct Piece {
@@ -116,6 +116,13 @@ struct Particles {
   std::vector<bool> wall;
   int size() const { return static_cast<int>(mass.size()); }
 };
+
+// forms of a fluid with spins: micropolar, micropolar/fr2
+
+inline bool has_spins(const std::string &form)
+{
+  return form.rfind("micropolar", 0) == 0;
+}
 
 struct Model {
   std::string kernel = "wendland/c2";
@@ -175,7 +182,7 @@ class System {
   Vector compression_power(const std::string &eos) const;    // p V cdot/c, per particle
 
   Viscous shear(const std::string &form) const;
-  Micropolar micropolar() const;
+  Micropolar micropolar(const std::string &form = "micropolar") const;
   Viscous bulk(const std::string &form, const std::string &shear_form, bool limited = false) const;
 
   // with B B^T = 2 kT times the friction matrix of shear, micropolar, and bulk terms (dense_noise.cpp)
@@ -213,6 +220,7 @@ class System {
     Real zeta1, zeta2, xi1, xi2;
   };
   PairViscosity micropolar_viscosity(int itype, int jtype) const;
+  Real central(const Pair &, const std::string &form, const PairViscosity &) const;
   mutable std::map<std::pair<int, int>, PairViscosity> known_viscosity;
   struct Coefficients {    // of a pair: before (e.u*)^2 and its complement, likewise for the spins
     Real along, across, spin_along, spin_across;

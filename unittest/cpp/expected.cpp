@@ -16,7 +16,7 @@
 using DenseReference::Vector;
 
 const std::vector<std::string> ALL_EOS = {"linear", "tait", "ideal"};
-const std::vector<std::string> ALL_SHEAR = {"mg", "mg/fr", "morris", "espanol", "none"};
+const std::vector<std::string> ALL_SHEAR = {"mg", "mg/fr", "mg/fr2", "morris", "espanol", "none"};
 const std::vector<std::string> ALL_BULK = {"density", "volume", "none"};
 
 static constexpr double TOLERANCE = 1.0e-12;

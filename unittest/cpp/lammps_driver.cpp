@@ -198,7 +198,8 @@ void LammpsDriver::pair_style(const DenseReference::Model &model, const std::str
   const bool micropolar = !model.spins.empty();
   command("pair_style sph/" + std::string(micropolar ? "micropolar" : "bulk") + " kernel " +
           model.kernel + " dim " + std::to_string(model.n) + " eos " + eos +
-          (micropolar ? "" : " shear " + shear) + " bulk " + bulk + " simd " + simd +
+          " shear " + (shear == "micropolar" ? "mg" : shear == "micropolar/fr2" ? "mg/fr2" : shear) +
+          " bulk " + bulk + " simd " + simd +
           (model.volume_by_mass ? " volume mass " : " ") + keywords);
   auto spin_words = [](const DenseReference::SpinFluid &spin, bool named) {
     return std::string(named ? " mu_r " : " ") + exact(spin.mu_r) + (named ? " gamma1 " : " ") +

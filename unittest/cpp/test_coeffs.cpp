@@ -27,7 +27,8 @@
 
 using namespace LAMMPS_NS::SPHDissipation;
 
-static constexpr Shear FORMS[] = {Shear::MG, Shear::MG_FR, Shear::MORRIS, Shear::ESPANOL};
+static constexpr Shear FORMS[] = {Shear::MG, Shear::MG_FR, Shear::MG_FR2, Shear::MORRIS,
+                                   Shear::ESPANOL};
 
 /* ---------------------------------------------------------------------- */
 
@@ -35,6 +36,7 @@ TEST(Coeffs, names)
 {
   EXPECT_STREQ(shear_name(Shear::MG), "mg");
   EXPECT_STREQ(shear_name(Shear::MG_FR), "mg/fr");
+  EXPECT_STREQ(shear_name(Shear::MG_FR2), "mg/fr2");
   EXPECT_STREQ(shear_name(Shear::MORRIS), "morris");
   EXPECT_STREQ(shear_name(Shear::ESPANOL), "espanol");
   EXPECT_STREQ(shear_name(Shear::NONE), "none");
@@ -52,7 +54,7 @@ static long double continuum_force(Shear shear, Kernel kernel, int n, bool longi
   constexpr double R = 1.3;
   constexpr int angles = 12;
   const long double pi = std::acos(-1.0L);
-  const double factor = shear_factor(shear, n, kernel_mean_radius(kernel, n, R));
+  const double factor = shear_factor(shear, n, kernel_mean(kernel, n, 1, R), kernel_mean(kernel, n, 2, R));
 
   // mean over directions e of e_x^2 times the diagonal element a of the pair matrix
   const auto integrand = [&](long double ex, long double ea) {
@@ -82,7 +84,7 @@ static long double continuum_force(Shear shear, Kernel kernel, int n, bool longi
 
   const long double sphere[3] = {2.0L, 2.0L * pi, 4.0L * pi};
   const auto radial = [&](long double r) {
-    const long double weighting = shear == Shear::MG_FR ? r : 1.0L;
+    const long double weighting = shear == Shear::MG_FR ? r : shear == Shear::MG_FR2 ? r * r : 1.0L;
     return std::pow(r, n + 1.0L) * weighting * kernel_slope(kernel, n, r, R);
   };
   return factor * mean * sphere[n - 1] * quadrature(radial, 0.0L, R, 120);
@@ -108,12 +110,14 @@ TEST(Coeffs, factors_as_numbers)
   const double morris_kappa[3] = {1.0, 0.0, -1.0 / 3.0};
   const double espanol[3] = {1.5, 1.6, 5.0 / 3.0}, espanol_kappa[3] = {1.5, 0.4, 0.0};
   for (int n = 1; n <= 3; n++) {
-    EXPECT_EQ(shear_factor(Shear::MG, n, 0.7), mg[n - 1]);
-    EXPECT_EQ(shear_factor(Shear::MORRIS, n, 0.7), 2.0);
-    EXPECT_NEAR(shear_factor(Shear::ESPANOL, n, 0.7), espanol[n - 1], 1e-15);
-    EXPECT_EQ(shear_factor(Shear::NONE, n, 0.7), 0.0);
+    EXPECT_EQ(shear_factor(Shear::MG, n, 0.7, 0.6), mg[n - 1]);
+    EXPECT_EQ(shear_factor(Shear::MORRIS, n, 0.7, 0.6), 2.0);
+    EXPECT_NEAR(shear_factor(Shear::ESPANOL, n, 0.7, 0.6), espanol[n - 1], 1e-15);
+    EXPECT_EQ(shear_factor(Shear::NONE, n, 0.7, 0.6), 0.0);
     EXPECT_NEAR(intrinsic_kappa(Shear::MG, n, 2.0), 2.0 * kappa[n - 1], 1e-15);
     EXPECT_EQ(intrinsic_kappa(Shear::MG, n, 2.0), intrinsic_kappa(Shear::MG_FR, n, 2.0));
+    EXPECT_EQ(intrinsic_kappa(Shear::MG, n, 2.0), intrinsic_kappa(Shear::MG_FR2, n, 2.0));
+    EXPECT_EQ(shear_factor(Shear::MG_FR2, n, 0.7, 0.6), 2.0 * n / 0.6);
     EXPECT_NEAR(intrinsic_kappa(Shear::MORRIS, n, 2.0), 2.0 * morris_kappa[n - 1], 1e-15);
     EXPECT_NEAR(intrinsic_kappa(Shear::ESPANOL, n, 2.0), 2.0 * espanol_kappa[n - 1], 1e-15);
     EXPECT_EQ(intrinsic_kappa(Shear::NONE, n, 2.0), 0.0);
@@ -122,7 +126,8 @@ TEST(Coeffs, factors_as_numbers)
 
 TEST(Coeffs, bulk_coefficient_is_the_inverse)
 {
-  for (const Shear shear : {Shear::MG, Shear::MG_FR, Shear::MORRIS, Shear::ESPANOL, Shear::NONE}) {
+  for (const Shear shear : {Shear::MG, Shear::MG_FR, Shear::MG_FR2, Shear::MORRIS, Shear::ESPANOL,
+                            Shear::NONE}) {
     for (int n = 1; n <= 3; n++) {
       const double intrinsic = intrinsic_kappa(shear, n, 0.8);
       for (const double kappa : {0.0, 0.3, 4.0}) {
@@ -167,7 +172,7 @@ static PairFluid fluid_of(Shear shear, int dim)
   PairFluid fluid;
   fluid.shear = shear;
   fluid.dim = dim;
-  fluid.mean_radius = 1.0;
+  fluid.mean_radius = fluid.mean_square = 1.0;
   return fluid;
 }
 
@@ -206,6 +211,7 @@ TEST(TimeStep, limits_as_numbers)
   // all others: 0.9 over the largest rate
   EXPECT_NEAR(shear_step(Shear::MG, 0.04, 0.5), 0.9 * 0.08 / 21.0, 1e-17);
   EXPECT_NEAR(shear_step(Shear::MG_FR, 0.04, 0.5), 0.9 * 0.08 / 17.0, 1e-17);
+  EXPECT_NEAR(shear_step(Shear::MG_FR2, 0.04, 0.5), 0.9 * 0.08 / 15.0, 1e-17);
   EXPECT_NEAR(shear_step(Shear::MORRIS, 0.04, 0.5), 0.9 * 0.08 / 8.0, 1e-17);
   EXPECT_NEAR(shear_step(Shear::ESPANOL, 0.04, 0.5), 0.9 * 0.08 / 10.0, 1e-17);
   EXPECT_NEAR(bulk_step(0.04, 0.5), 0.9 * 0.08 / 1.6, 1e-16);

@@ -18,7 +18,7 @@
 
 using namespace DenseReference;
 
-static const std::vector<std::string> SHEAR = {"mg", "mg/fr", "morris", "espanol", "none"};
+static const std::vector<std::string> SHEAR = {"mg", "mg/fr", "mg/fr2", "morris", "espanol", "none"};
 static const std::vector<std::string> BULK = {"density", "volume", "none"};
 static const std::vector<std::string> EOS = {"linear", "tait", "ideal"};
 
@@ -168,7 +168,7 @@ TEST(DenseReference, matrix_is_symmetric)
         return static_cast<double>((R - R.transpose()).cwiseAbs().maxCoeff() /
                                    R.cwiseAbs().maxCoeff());
       };
-      for (const auto &form : {"mg", "mg/fr", "morris", "espanol"})
+      for (const auto &form : {"mg", "mg/fr", "mg/fr2", "morris", "espanol"})
         EXPECT_LT(asymmetry(system.shear(form).R), 1e-16) << form;
       EXPECT_LT(asymmetry(system.bulk("density", "mg").R), 1e-16);
       EXPECT_GT(asymmetry(system.bulk("volume", "mg").R), 1e-3);
@@ -192,7 +192,7 @@ TEST(DenseReference, eigenvalues_are_not_negative)
     };
 
     // several fluids: shear alone, then with a bulk term of zeta > 0
-    for (const auto &form : {"mg", "mg/fr"}) {
+    for (const auto &form : {"mg", "mg/fr", "mg/fr2"}) {
       for (const Real kappa : {1.0L, 2.0L}) {
         set_kappa(kappa);
         const Vector spectrum = eigenvalues(make_system(config, model), form);
@@ -222,7 +222,7 @@ TEST(DenseReference, limit_on_zeta_restores_positivity)
     model.mu_unlike.clear();
     for (auto &fluid : model.fluids) fluid.kappa = 0.0L;
     const System system = make_system(config, model);
-    for (const auto &form : {"mg", "mg/fr"}) {
+    for (const auto &form : {"mg", "mg/fr", "mg/fr2"}) {
       EXPECT_GT(system.beyond_limit(form), 0);
       const Matrix shear = system.shear(form).R;
       for (const bool limited : {false, true}) {
@@ -299,7 +299,7 @@ TEST(DenseReference, effective_viscosities)
   constexpr int cells = 15;
   const Real spacing = 0.25L;
   const Fluid fluid{1.0L, 1.0L, 0.4L, 1.5L};
-  for (const auto &form : {"mg", "mg/fr"}) {
+  for (const auto &form : {"mg", "mg/fr", "mg/fr2"}) {
     Particles particles;
     particles.x.resize(2, cells * cells);
     particles.v.resize(2, cells * cells);

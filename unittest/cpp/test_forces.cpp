@@ -193,7 +193,7 @@ TEST(Forces, limit_on_negative_bulk_coefficients)
     const auto expected = reference(config, model);
     for (const bool on : {true, false}) {
       lammps().create(config, newton(on));
-      for (const std::string shear : {"mg", "mg/fr"}) {
+      for (const std::string shear : {"mg", "mg/fr", "mg/fr2"}) {
         for (const std::string limit : {"count", "yes"}) {
           lammps().pair_style(model, "linear", shear, "density", "limit " + limit);
           const Computed computed = lammps().run0();

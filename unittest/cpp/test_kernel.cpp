@@ -169,7 +169,7 @@ TEST(Kernel, mean_radius)
     const auto rW = [=](long double r) {
       return r * kernel_weight(kernel, n, r, R);
     };
-    EXPECT_NEAR(kernel_mean_radius(kernel, n, R), space_integral(n, rW), 1e-13);
+    EXPECT_NEAR(kernel_mean(kernel, n, 1, R), space_integral(n, rW), 1e-13);
   });
 }
 
@@ -179,7 +179,7 @@ TEST(Kernel, mean_radius_of_wendland_c2)
 {
   for (int n = 1; n <= 3; n++) {
     const double eta =
-        2.0 * n * (n + 2) / ((n + 1) * kernel_mean_radius(Kernel::WENDLAND_C2, n, R));
+        2.0 * n * (n + 2) / ((n + 1) * kernel_mean(Kernel::WENDLAND_C2, n, 1, R));
     EXPECT_NEAR(eta * 0.5 * R, 6.0 + n, 1e-13 * (6.0 + n));
   }
 }

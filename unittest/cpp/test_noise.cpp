@@ -87,8 +87,8 @@ struct Case {
 static Matrix friction(const Case &one, const System &system)
 {
   Matrix R;
-  if (one.shear == "micropolar")
-    R = system.micropolar().R;
+  if (DenseReference::has_spins(one.shear))
+    R = system.micropolar(one.shear).R;
   else
     R = system.shear(one.shear).R;
   const int nu = system.size() * one.config.dim;
@@ -150,7 +150,7 @@ static void check(const Case &one, const std::vector<Layout> &layouts, Record &r
     for (std::size_t k = 0; k < noise.numbers.size(); k++)
       numbers(k) = value(noise.numbers[k], step);
     const Vector rows = noise.B * numbers / std::sqrt(static_cast<Real>(DT));
-    const bool spins = (one.shear == "micropolar");
+    const bool spins = (DenseReference::has_spins(one.shear));
     expected = Vector::Zero((spins ? 6 : 3) * size);
     const int s = (dim == 3) ? 3 : 1;
     for (int i = 0; i < size; i++) {
@@ -172,7 +172,7 @@ static void check(const Case &one, const std::vector<Layout> &layouts, Record &r
     for (std::size_t k = 0; k < hot.size(); k++) hot[k] -= cold[k];
     const std::string where = one.label() + (layout.newton ? " newton on " : " newton off ") +
         layout.processors + " " + layout.simd;
-    for (int part = 0; part < (one.shear == "micropolar" ? 2 : 1); part++) {
+    for (int part = 0; part < (DenseReference::has_spins(one.shear) ? 2 : 1); part++) {
       const std::vector<double> computed(hot.begin() + 3 * part * size,
                                          hot.begin() + 3 * (part + 1) * size);
       record.check(part ? "torque" : "force",
@@ -214,12 +214,12 @@ static Case make(Configuration config, const std::string &shear, bool stokes = f
 static std::vector<std::string> forms(int dim, bool stokes)
 {
   if (stokes) {    // those whose bulk viscosity is positive
-    if (dim == 1) return {"mg", "mg/fr", "morris", "espanol"};
-    if (dim == 2) return {"mg", "mg/fr", "espanol", "micropolar"};
-    return {"mg", "mg/fr", "micropolar"};
+    if (dim == 1) return {"mg", "mg/fr", "mg/fr2", "morris", "espanol"};
+    if (dim == 2) return {"mg", "mg/fr", "mg/fr2", "espanol", "micropolar", "micropolar/fr2"};
+    return {"mg", "mg/fr", "mg/fr2", "micropolar", "micropolar/fr2"};
   }
-  if (dim == 1) return {"mg", "mg/fr", "morris", "espanol", "none"};
-  return {"mg", "mg/fr", "morris", "espanol", "none", "micropolar"};
+  if (dim == 1) return {"mg", "mg/fr", "mg/fr2", "morris", "espanol", "none"};
+  return {"mg", "mg/fr", "mg/fr2", "morris", "espanol", "none", "micropolar", "micropolar/fr2"};
 }
 
 // a wall of the particles with y (1d: x) in the lowest third; masses of the reference density

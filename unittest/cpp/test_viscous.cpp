@@ -37,7 +37,7 @@ struct Case {
   Configuration config;
   Model model;
   std::string shear, bulk;
-  bool spins() const { return shear == "micropolar"; }
+  bool spins() const { return DenseReference::has_spins(shear); }
   std::string label() const
   {
     return "dim " + std::to_string(config.dim) + " " + shear + " bulk " + bulk +
@@ -71,7 +71,7 @@ struct Dense {
       system(one.model, one.config.reference_box(), one.config.reference_particles())
   {
     const int dim = one.config.dim, size = system.size(), nu = dim * size;
-    gamma = one.spins() ? system.micropolar().R : system.shear(one.shear).R;
+    gamma = one.spins() ? system.micropolar(one.shear).R : system.shear(one.shear).R;
     if (one.bulk != "none") gamma.topLeftCorner(nu, nu) += system.bulk(one.bulk, one.shear).R;
     v = one.spins() ? system.velocity_and_spin() : system.velocity();
     mass = Vector(v.size());
@@ -214,8 +214,8 @@ static Configuration small(int dim, unsigned seed)
 
 static std::vector<std::string> forms(int dim)
 {
-  if (dim == 1) return {"mg", "mg/fr", "morris", "espanol", "none"};
-  return {"mg", "mg/fr", "morris", "espanol", "none", "micropolar"};
+  if (dim == 1) return {"mg", "mg/fr", "mg/fr2", "morris", "espanol", "none"};
+  return {"mg", "mg/fr", "mg/fr2", "morris", "espanol", "none", "micropolar", "micropolar/fr2"};
 }
 
 /* ---------------------------------------------------------------------- */

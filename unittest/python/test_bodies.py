@@ -109,7 +109,7 @@ def drop(dim=2, options="", coeff="1.0 10.0 0.3 0.8", mass=1.0, newton="on", ext
 
 @pytest.mark.parametrize("dim, options, mass, rigid, ranks, newton", [
     (2, "", 1.0, "rigid single", 1, "on"), (2, "temp 0.02 7", 3.0, "rigid molecule", 2, "off"),
-    (3, "shear mg/fr", 0.5, "rigid single", 2, "on"), (3, "temp 0.02 7", 1.0, "rigid/nve single", 1, "on")])
+    (3, "shear mg/fr2", 0.5, "rigid single", 2, "on"), (3, "temp 0.02 7", 1.0, "rigid/nve single", 1, "on")])
 def test_momentum_and_angular_momentum(lammps, dim, options, mass, rigid, ranks, newton):
     text = drop(dim, options, mass=mass, newton=newton, rigid=rigid)
     table = lammps(text + "thermo 20\nrun 300\n", ranks=ranks).thermo()[-1]

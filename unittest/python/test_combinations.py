@@ -147,6 +147,7 @@ FEATURES = {
     "types": Feature(Lines(types=2), Lines(), effect=False),
     "limit": Feature(Lines(pair=("limit yes",), kappa=0.9), Lines(kappa=0.9), not_plain_with=("noise",)),
     "shift": Feature(Lines(integrator=("shift 0.5",)), refused={"noise": "shift"}),
+    "square": Feature(Lines(pair=("shear mg/fr2",))),
     "spin": Feature(Lines(style="sph/micropolar", spin="0.2 0.05 -0.05")),
     "surface": Feature(Lines(pair=("density continuity",)), refused={"noise": "temp", "warm": "temp", "gas": "no free surface", "shift": "shift",
                                                                       "heat": "tension yes", "rerun": "rerun"}),

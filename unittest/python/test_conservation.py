@@ -52,7 +52,7 @@ def test_linear_momentum_on_two_ranks(lammps, newton):
 
 @pytest.mark.parametrize("dim, radius", [(2, 7.0), (3, 3.5)])
 @pytest.mark.parametrize("options", ["shear mg bulk density", "shear mg bulk volume", "shear mg/fr bulk density",
-                                     "shear mg/fr bulk volume", "shear none bulk density", "shear none bulk volume"])
+                                     "shear mg/fr bulk volume", "shear mg/fr2", "shear none bulk density", "shear none bulk volume"])
 def test_momentum_of_an_isolated_drop(lammps, dim, radius, options):
     first, last = evolve_drop(lammps, dim, radius, options)
     linear, angular = linear_drift(first, last), angular_drift(first, last)

@@ -8,7 +8,7 @@ import pytest
 from helpers import INTEGRATE, Lammps, disordered, dump, fluid, header, relative, undump
 
 EOS = ("linear", "tait", "ideal")
-SHEAR = ("mg", "mg/fr", "morris", "espanol", "none")
+SHEAR = ("mg", "mg/fr", "mg/fr2", "morris", "espanol", "none")
 BULK = ("density", "volume", "none")
 KERNELS = ("wendland/c2", "wendland/c4", "wendland/c6", "cubic", "quintic", "lucy")
 CELLS = {1: 60, 2: 12, 3: 6}
@@ -50,7 +50,7 @@ def test_kinetic_plus_internal_energy_is_stationary(balance, dim, key):
 
 
 @pytest.mark.parametrize("dim", [1, 2, 3])
-@pytest.mark.parametrize("shear, bulk", [("mg", "none"), ("mg/fr", "none"), ("morris", "none"), ("espanol", "none"),
+@pytest.mark.parametrize("shear, bulk", [("mg", "none"), ("mg/fr", "none"), ("mg/fr2", "none"), ("morris", "none"), ("espanol", "none"),
                                          ("none", "density"), ("mg", "density"),
                                          ("morris", "density")])
 def test_no_particle_is_cooled_by_viscosity(balance, dim, shear, bulk):

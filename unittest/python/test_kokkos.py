@@ -128,7 +128,7 @@ def test_trajectory_in_3d(lammps, style):
 
 @pytest.mark.parametrize("style, options", [
     *(("sph/bulk", options) for options in (
-        "eos tait shear morris", "eos linear shear espanol bulk volume", "eos ideal", "volume mass shear mg/fr",
+        "eos tait shear morris", "eos linear shear espanol bulk volume", "eos ideal", "volume mass shear mg/fr", "shear mg/fr2",
         "volume mass bulk volume", "bulk none shear none")),
     *(("sph/micropolar", options) for options in (
         "eos tait bulk volume", "eos ideal", "volume mass bulk volume", "bulk none"))])

@@ -177,7 +177,7 @@ def test_two_particles_at_the_same_point(lammps, dim, cells, kernel, newton):
     assert "nan" not in result.log.lower().split()
 
 
-@pytest.mark.parametrize("shear", ["mg", "mg/fr", "morris", "espanol"])
+@pytest.mark.parametrize("shear", ["mg", "mg/fr", "mg/fr2", "morris", "espanol"])
 def test_two_particles_alone_at_the_same_point(lammps, shear):
     """No force although their velocities differ."""
     particles = lattice(2, 10).where(np.arange(100) < 2)

@@ -380,7 +380,7 @@ def at_walls(dim, form, velocity, support, commands, wall="", jitter=0.0):
 
 
 @pytest.mark.parametrize("dim, support", [(2, 3.0), (2, 4.0), (3, 3.0)])
-@pytest.mark.parametrize("form", ["mg", "mg/fr", "morris", "espanol"])
+@pytest.mark.parametrize("form", ["mg", "mg/fr", "mg/fr2", "morris", "espanol"])
 def test_surface_of_walls(lammps, dim, support, form):
     """A linear profile that is zero at the surface has no force; how far off it is, from the force of another velocity.  A wall
     without the factor is 0.53 to 0.73 spacings off."""
@@ -390,11 +390,11 @@ def test_surface_of_walls(lammps, dim, support, form):
     assert abs(force[0] / force[1]) < 0.003
 
 
-@pytest.mark.parametrize("form", ["mg", "mg/fr", "morris", "espanol"])
+@pytest.mark.parametrize("form", ["mg", "mg/fr", "mg/fr2", "morris", "espanol"])
 def test_power_at_walls(lammps, form):
     """Energy of motion and heat with the work of a wall that travels, and turns where the forces have angular momentum; a fluid
     that turns with its wall has no friction then."""
-    turns = form in ("mg", "mg/fr")
+    turns = form.startswith("mg")
     commands = ("variable p atom fx*vx+fy*vy\ncompute P fluid reduce sum v_p\ncompute E all property/atom desph\n"
                 "compute H fluid reduce sum c_E\ncompute D all sph/dissipation\n"
                 "thermo_style custom step c_P c_H f_W[*] c_D c_D[*]\n")
@@ -526,7 +526,7 @@ def heated(style="sph/bulk", options="", ranks=1, extra="", mass=2.0, kappa=0.8,
 
 
 @pytest.mark.parametrize("style, options", [
-    ("sph/bulk", ""), ("sph/bulk", "shear mg/fr volume mass"), ("sph/bulk", "shear espanol"), ("sph/bulk", "bulk none"),
+    ("sph/bulk", ""), ("sph/bulk", "shear mg/fr volume mass"), ("sph/bulk", "shear mg/fr2"), ("sph/micropolar", "shear mg/fr2"), ("sph/bulk", "shear espanol"), ("sph/bulk", "bulk none"),
     ("sph/micropolar", "")])
 @pytest.mark.parametrize("ranks, newton", [(1, "on"), (1, "off"), (2, "on")])
 def test_total_energy_over_1000_steps(lammps, style, options, ranks, newton):

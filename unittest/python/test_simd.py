@@ -43,7 +43,7 @@ def fields(lammps, particles, options, support=None):
 
 
 @pytest.mark.parametrize("kernel", ["wendland/c2", "wendland/c4", "wendland/c6", "cubic", "quintic", "lucy"])
-@pytest.mark.parametrize("options", ["shear mg bulk density", "shear mg/fr bulk volume", "shear morris bulk volume",
+@pytest.mark.parametrize("options", ["shear mg bulk density", "shear mg/fr bulk volume", "shear mg/fr2 volume mass", "shear morris bulk volume",
                                      "shear espanol bulk density"])
 def test_instruction_sets_agree(lammps, kernel, options):
     particles = disordered(3, (7, 8, 9))

@@ -43,7 +43,7 @@ def micropolar_input(lammps, particles, omega=None, overlay=False, **options):
 
 
 @pytest.mark.parametrize("dim, cells", [(2, 12), (3, 6)])
-@pytest.mark.parametrize("style", ["mg", "mg/fr bulk volume", "morris", "espanol", STYLE, "hybrid/overlay"])
+@pytest.mark.parametrize("style", ["mg", "mg/fr bulk volume", "mg/fr2", "morris", "espanol", STYLE, "hybrid/overlay"])
 def test_nine_components_against_six(lammps, dim, cells, style):
     """On one rank, two and four, with newton on and off: one tensor, and what LAMMPS computes of it by other ways."""
     particles = disordered(dim, cells, ntypes=2 if "/" in style and "mg" not in style else 1)

@@ -31,6 +31,7 @@ def steps_of(log):
 FORMS = {
     "mg": (BULK, "shear mg", "{0} intrinsic"),
     "mg/fr": (BULK, "shear mg/fr", "{0} intrinsic"),
+    "mg/fr2": (BULK, "shear mg/fr2", "{0} intrinsic"),
     "morris": (BULK, "shear morris", "{0} intrinsic"),
     "espanol": (BULK, "shear espanol", "{0} intrinsic"),
     "bulk": (BULK, "shear mg", "1.0 {0}"),

@@ -9,7 +9,7 @@ TENSOR = ("Pxx", "Pyy", "Pzz", "Pxy", "Pxz", "Pyz")
 THERMO = ("compute P all pressure NULL virial\ncompute S all stress/atom NULL virial\n"
           "compute T all reduce sum c_S[*]\n"
           "thermo_style custom step vol c_P c_P[*] c_T[*]\nthermo_modify norm no format float %.17g\n")
-MODELS = {"mg": "shear mg bulk density", "mg/fr": "shear mg/fr bulk volume eos tait",
+MODELS = {"mg": "shear mg bulk density", "mg/fr": "shear mg/fr bulk volume eos tait", "mg/fr2": "shear mg/fr2",
           "morris": "shear morris bulk density"}
 
 

@@ -80,8 +80,7 @@ def model_of(dim, style=BULK, **settings):
 
 
 def pair_commands(model):
-    form = f"shear {model.shear} " if model.style == BULK else ""
-    text = f"pair_style {model.style} kernel {model.kernel} eos {model.eos} {form}bulk {model.bulk}\n"
+    text = f"pair_style {model.style} kernel {model.kernel} eos {model.eos} shear {model.shear} bulk {model.bulk}\n"
     for k, fluid in enumerate(model.fluids, 1):
         kappa = "intrinsic" if model.bulk == "none" else fluid.kappa
         spin = f"{fluid.mu_r} {fluid.gamma1} {fluid.gamma2} " if model.style == MICRO else ""
@@ -170,7 +169,7 @@ WALLS = {  # of the paddle and of the floor
         "turning": (dict(rotate=((3.0, 3.5, 3.2), (0.3, -1.0, 0.5), 0.9), velocity=(0.1, 0.2, -0.1), spin=0.3),
                     dict(gravity=(0.3, 0.0, -3.0)))},
 }
-OPTIONS = [dict(bulk="volume"), dict(bulk="none"), dict(shear="mg/fr"), dict(shear="mg/fr", bulk="volume"), dict(shear="morris"),
+OPTIONS = [dict(bulk="volume"), dict(bulk="none"), dict(shear="mg/fr"), dict(shear="mg/fr", bulk="volume"), dict(shear="mg/fr2"), dict(shear="morris"),
            dict(shear="morris", bulk="volume", kernel="lucy"), dict(shear="espanol", bulk="none"),
            dict(eos="tait"), dict(eos="ideal"), dict(eos="ideal", bulk="volume")]
 PARALLEL = [(1, "off"), (2, "on"), (2, "off"), (4, "on"), (4, "off")]
@@ -178,7 +177,7 @@ CASES = ([(dim, BULK, name, {}) for dim in (2, 3) for name in WALLS[dim]]
          + [(dim, MICRO, name, {}) for dim in (2, 3) for name in WALLS[dim]]
          + [(dim, BULK, "turning", options) for dim in (2, 3) for options in OPTIONS]
          + [(dim, MICRO, "turning", options) for dim in (2, 3)
-            for options in (dict(bulk="volume"), dict(bulk="none"), dict(eos="tait"), dict(eos="ideal", kernel="lucy"))])
+            for options in (dict(shear="mg/fr2"), dict(bulk="volume"), dict(bulk="none"), dict(eos="tait"), dict(eos="ideal", kernel="lucy"))])
 
 
 def expected(dim, style, name, options):

@@ -73,17 +73,17 @@ class Model:
         norm = norms[self.dim] / self.support ** self.dim
         return np.where(inside, norm * shape(q), 0.0), np.where(inside, norm / self.support ** 2 * over_q(q), 0.0)
 
-    def mean_distance(self):
-        """Integral of r W over all space."""
+    def mean(self, power):
+        """Integral of r^power W over all space."""
         shape, norms = KERNELS[self.kernel]
         area = {2: 2 * pi, 3: 4 * pi}[self.dim]
-        return area * norms[self.dim] * self.support * (shape * P([0, 1]) ** self.dim).integ()(1.0)
+        return area * norms[self.dim] * self.support**power * (shape * P([0, 1]) ** (self.dim + power - 1)).integ()(1.0)
 
     def intrinsic(self, fluid):
         n = self.dim
         if self.style == "sph/micropolar":
             return (1 + 2 / n) * fluid.mu - fluid.mu_r
-        return {"mg": 1 + 2 / n, "mg/fr": 1 + 2 / n, "morris": 2 / n - 1,
+        return {"mg": 1 + 2 / n, "mg/fr": 1 + 2 / n, "mg/fr2": 1 + 2 / n, "morris": 2 / n - 1,
                 "espanol": (3 - n) * (n + 2) / (n * (n + 3))}[self.shear] * fluid.mu
 
     def zeta(self, fluid):
@@ -275,14 +275,17 @@ def forces(model, state, walls):
         zeta1, zeta2 = 2 * (n + 2) * (mu[..., None] - mu_r), 4 * mu_r
         xi1, xi2 = (5 * (g1 + g2), g1 - g2) if n == 3 else (0.0, 2 * g1)
         contact = uu - np.cross(0.5 * (spin[:, None] + spin), r)
-        f -= FVV * (zeta1 * (e * contact).sum(axis=2)[..., None] * e + zeta2 * contact)
+        central = np.where(zeta1 > 0, zeta1 * n / (n + 2) * (dist**2)[..., None] / model.mean(2), zeta1) if model.shear == "mg/fr2" else zeta1
+        f -= FVV * (central * (e * contact).sum(axis=2)[..., None] * e + zeta2 * contact)
         spins = spin[:, None] - spin
         torque = FVV * (0.5 * zeta2 * np.cross(r, contact) - xi1 * (e * spins).sum(axis=2)[..., None] * e - xi2 * spins)
     elif model.shear == "mg":
         f -= (2 * (n + 2) * mu)[..., None] * FVV * along
     elif model.shear == "mg/fr":
-        eta = 2 * n * (n + 2) / ((n + 1) * model.mean_distance()) * mu
+        eta = 2 * n * (n + 2) / ((n + 1) * model.mean(1)) * mu
         f -= (eta * dist)[..., None] * FVV * along
+    elif model.shear == "mg/fr2":
+        f -= (2 * n / model.mean(2) * mu * dist**2)[..., None] * FVV * along
     elif model.shear == "morris":
         f -= (2 * mu)[..., None] * FVV * uu
     elif model.shear == "espanol":
