@@ -42,6 +42,7 @@ SAFETY, BULK_RATE = 0.9, 1.6
 SHEAR = {
     "mg": (21, lambda n: 1 + 2 / n),
     "mg/fr": (17, lambda n: 1 + 2 / n),
+    "mg/fr2": (15, lambda n: 1 + 2 / n),
     "morris": (8, lambda n: 2 / n - 1),
     "espanol": (10, lambda n: (3 - n) * (n + 2) / (n * (n + 3))),
 }
@@ -95,7 +96,8 @@ def lattice_sums(dim, kernel, support, shear, k):
         return sum(shape(complex((j + 0.5) / 2000)).real * ((j + 0.5) / 2000)**power for j in range(2000))
 
     eta = 2 * dim * (dim + 2) / ((dim + 1) * support * moment(dim) / moment(dim - 1))
-    forms = {"mg": lambda r, c: 2 * (dim + 2) * c, "mg/fr": lambda r, c: eta * r * c, "morris": lambda r, c: 2.0,
+    square = 2 * dim / (support**2 * moment(dim + 1) / moment(dim - 1))
+    forms = {"mg": lambda r, c: 2 * (dim + 2) * c, "mg/fr": lambda r, c: eta * r * c, "mg/fr2": lambda r, c: square * r**2 * c, "morris": lambda r, c: 2.0,
              "espanol": lambda r, c: 2 * (dim + 2) / (dim + 3) * (1 + c)}
     q = friction = elastic = 0.0
     for x, r in near:

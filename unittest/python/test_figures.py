@@ -122,9 +122,9 @@ def test_tables_of_examples_are_those_of_the_last_run(folder):
     assert len(unknown) <= UNKEPT.get(folder.name, 0), unknown
 
 
-# viscosity of rows of particles that slide past each other, over mu: {support over spacing: mg, morris}, wendland/c2 in 2d
+# viscosity of rows of particles that slide past each other, over mu: {support over spacing: mg, morris, mg/fr2}, wendland/c2 in 2d
 
-ROWS = {2.5: (0.85, 0.967), 3: (0.919, 0.997), 3.5: (0.954, 0.994), 4: (0.972, 0.999), 5: (0.988, 1.000), 6: (0.994, 1.000)}
+ROWS = {2.5: (0.85, 0.967, 0.987), 3: (0.919, 0.997, 0.998), 3.5: (0.954, 0.994, 0.999), 4: (0.972, 0.999, 1.0), 5: (0.988, 1.000, 1.0), 6: (0.994, 1.000, 1.0)}
 
 
 @pytest.mark.parametrize("support", ROWS)
@@ -135,9 +135,10 @@ def test_viscosity_of_rows(support):
     def friction(y, form):
         r = np.hypot(x, y)
         shape = np.maximum(1.0 - r, 0.0) ** 3 * y * y
-        return (shape * (x * x / np.maximum(r * r, 1e-30) if form == "mg" else 1.0)).sum()
+        weight = {"mg": x * x / np.maximum(r * r, 1e-30), "morris": 1.0, "mg/fr2": x * x}[form]
+        return (shape * weight).sum()
 
-    for form, expected in zip(("mg", "morris"), ROWS[support]):
+    for form, expected in zip(("mg", "morris", "mg/fr2"), ROWS[support]):
         rows = sum(friction(row / support, form) for row in range(-6, 7)) / support
         plane = sum(friction(y, form) for y in x) * (x[1] - x[0])
         digits = 2 if expected == 0.85 else 3
@@ -145,11 +146,11 @@ def test_viscosity_of_rows(support):
 
 
 def test_viscosities_of_rows_in_the_manual():
-    tables = {"Howto_sph_walls": [mg for mg, _ in ROWS.values()], "Howto_sph_numbers": [ROWS[support][0] for support in (3, 4, 6)]}
-    for page, wanted in tables.items():
-        row = re.search(r"^   \* - (?:viscosity of rows|rows that slide).*\n((?:     - .*\n)+)", (ROOT / "doc" / "src" / f"{page}.rst").read_text(),
-                        re.MULTILINE)
-        assert [float(number) for number in re.findall(r"     - (\S+)", row[1])] == wanted
+    for page, supports in {"Howto_sph_walls": ROWS, "Howto_sph_numbers": (3, 4, 6)}.items():
+        rows = re.findall(r"^   \* - (?:viscosity of rows|rows that slide past|the same rows).*\n((?:     - .*\n)+)",
+                          (ROOT / "doc" / "src" / f"{page}.rst").read_text(), re.MULTILINE)
+        for row, form in zip(rows, (0, 2), strict=True):
+            assert [float(number) for number in re.findall(r"     - (\S+)", row)] == [ROWS[support][form] for support in supports]
 
 
 @pytest.mark.parametrize("path, text", [(gallery.README, gallery.readme), (gallery.PAGE, gallery.page)], ids=["README", "page"])

@@ -26,7 +26,7 @@ LAWS = {
 class Reference:
     """All sums of a periodic or isolated set of particles."""
 
-    def __init__(self, particles, volume="number", periodic=True):
+    def __init__(self, particles, volume="number", periodic=True, shear="mg"):
         p, n = particles, particles.dim
         self.n, self.m, R = n, p.mass, SUPPORT[n]
         self.w = p.mass / RHO0 if volume == "mass" else np.ones(len(p))
@@ -39,7 +39,9 @@ class Reference:
         norm = {2: 7 / (np.pi * R**2), 3: 21 / (2 * np.pi * R**3)}[n]
         self.F = norm * 20 * (1 - q)**3 / R**2
         np.fill_diagonal(self.F, 0.0)
-        self.r, self.dsq = r, np.where(d > 0, d, 1.0)**2
+        self.r = r
+        # weight of (r.u)^2 F, with the mean of r^2 W as its unit: 5/36 and 1/5 of R^2
+        self.weight = (n + 2) / np.where(d > 0, d, 1.0)**2 if shear == "mg" else n / ({2: 5 / 36, 3: 1 / 5}[n] * R**2)
         self.c = (self.w * norm * (1 - q)**4 * (1 + 4 * q)).sum(axis=1)
         self.V = self.w / self.c
         self.rho = self.m / self.V
@@ -48,7 +50,7 @@ class Reference:
         """gamma^2, cdot/c, and r.u of all pairs."""
         approach = (self.r * (v[:, None] - v[None])).sum(axis=2)
         dilation = -(self.w * self.F * approach).sum(axis=1) / self.c
-        square = (self.n + 2) * (self.V * self.F * approach**2 / self.dsq).sum(axis=1) - (1 + 2 / self.n) * dilation**2
+        square = (self.V * self.F * approach**2 * self.weight).sum(axis=1) - (1 + 2 / self.n) * dilation**2
         return square, dilation, approach
 
     def forces(self, v, law, like=None):
@@ -60,7 +62,7 @@ class Reference:
         zeta = KAPPA - (1 + 2 / self.n) * mu
         P = C0**2 * (self.rho - RHO0) + zeta * dilation
         g = P / self.c**2
-        drag = 2 * (self.n + 2) * mean * self.F * np.outer(self.V, self.V) / self.dsq * approach
+        drag = 2 * self.weight * mean * self.F * np.outer(self.V, self.V) * approach
         central = np.outer(self.w, self.w) * self.F * (g[:, None] + g[None]) - drag
         heat = 0.5 * (drag * approach).sum(axis=1), zeta * self.V * dilation**2
         return (central[..., None] * self.r).sum(axis=1), mu, heat
@@ -79,14 +81,14 @@ def run_0(lammps, particles, keywords, name="f", options="", ranks=1, newton="on
 # ---- forces ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("keywords", LAWS)
-def test_forces_and_heat(lammps, keywords):
+@pytest.mark.parametrize("keywords, shear", [*((law, "mg") for law in LAWS), ("power 0.6 0.01 5", "mg/fr2"), ("yield 0.3 40", "mg/fr2")])
+def test_forces_and_heat(lammps, keywords, shear):
     """Those of the reference, 2d; the heat is that of both rates."""
     particles = disordered(2, 12)
-    reference = Reference(particles)
+    reference = Reference(particles, shear=shear)
     force, mu, heat = reference.forces(particles.v, LAWS[keywords])
     square, dilation, _ = reference.rates(particles.v)
-    frame, table = run_0(lammps, particles, keywords)
+    frame, table = run_0(lammps, particles, keywords, options=f"shear {shear}")
     assert square.min() > 0 and mu.max() > 1.1 * mu.min()
     assert relative(frame["c_G"] - np.sqrt(square), np.sqrt(square)) < 1e-12
     assert relative(frame["f"] - force, force) < 1e-12
@@ -161,10 +163,10 @@ def test_rigid_rotation_has_no_rate(lammps):
     assert np.linalg.norm(particles.v, axis=1).max() > 10
 
 
-@pytest.mark.parametrize("arrangement, support, along, diagonal", [
-    ("hex", 3, 0.989, 0.989), ("hex", 4, 0.997, 0.997), ("hex", 6, 0.9995, 0.9995),
-    ("sq", 3, 0.881, 1.103), ("sq", 4, 0.958, 1.038), ("sq", 6, 0.991, 1.009)])
-def test_rate_on_lattices(lammps, arrangement, support, along, diagonal):
+@pytest.mark.parametrize("arrangement, support, along, diagonal, shear", [
+    ("hex", 3, 0.989, 0.989, "mg"), ("hex", 4, 0.997, 0.997, "mg"), ("hex", 6, 0.9995, 0.9995, "mg"),
+    ("sq", 3, 0.881, 1.103, "mg"), ("sq", 4, 0.958, 1.038, "mg"), ("sq", 6, 0.991, 1.009, "mg"), ("sq", 3, 0.991, 1.038, "mg/fr2")])
+def test_rate_on_lattices(lammps, arrangement, support, along, diagonal, shear):
     """Factors of the square of the rate, in the middle of a patch in shear along the lattice and at 45 degrees."""
     a = np.sqrt(2 / np.sqrt(3)) if arrangement == "hex" else 1.0
     b = 1 / a
@@ -179,7 +181,7 @@ def test_rate_on_lattices(lammps, arrangement, support, along, diagonal):
         v = np.zeros_like(x)
         v[:, :2] = x[:, :2] @ gradient.T
         patch = Particles(2, x, v, ones, 5 * ones, ones.astype(int), -reach, reach)
-        model = f"pair_style sph/bulk\npair_coeff * * {RHO0} {C0} {MU} {KAPPA} {support} yield 0.3 1\n"
+        model = f"pair_style sph/bulk shear {shear}\npair_coeff * * {RHO0} {C0} {MU} {KAPPA} {support} yield 0.3 1\n"
         frame, _ = run_0(lammps, patch, "", periodic=False, model=model)
         assert frame["c_G"][middle]**2 == pytest.approx(factor, abs=1.5e-3 if factor < 0.999 or factor > 1.001 else 2e-4)
 
