@@ -673,11 +673,10 @@ bool FixSPHBulk::sets_temperatures() const
 void FixSPHBulk::set_inertia()
 {
   double *const inertia = fields().inertia;
-  const double power = 2.0 / domain->dimension;
   if (inertia_flag)
     for (int i = 0; i < atom->nlocal; i++)
       if ((atom->mask[i] & groupbit) && !(inertia_done && inertia[i] > 0.0))
-        inertia[i] = factor * pow(atom->vfrac[i], power) + offset;
+        inertia[i] = factor * spacing_squared(domain->dimension, atom->vfrac[i]) + offset;
   inertia_done = true;
 }
 
@@ -691,7 +690,7 @@ void FixSPHBulk::set_inertia_of(int i, double &inertia) const
   if (inertia > 0.0) return;
   const FluidModel &model = *find_fluid(force)->model;
   const double volume = atom->rmass[i] / model.coeffs[atom->type[i]].eos.rho0;
-  inertia = factor * pow(volume, 2.0 / domain->dimension) + offset;
+  inertia = factor * spacing_squared(domain->dimension, volume) + offset;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -402,7 +402,7 @@ bool FixSPHOpen::warn_of_gap()
         end = k + 1;
       }
   }
-  if (widest < GAP * std::max(spacing, pow(largest, 1.0 / fluid->dimension()))) return false;
+  if (widest < GAP * std::max(spacing, spacing_of(fluid->dimension(), largest))) return false;
   if (comm->me == 0)
     error->warning(FLERR,
                    "Fix {} {}: there is a gap of {:.3g} in the fluid in front of what enters at "

@@ -171,7 +171,7 @@ void FixSPHRefine::init()
   check_overlap();
 
   const double support = fluid->support_radius();
-  largest_volume = pow(WIDEST * support, domain->dimension);
+  largest_volume = whole_power(WIDEST * support, domain->dimension);
   if (!target->init(lmp, fmt::format("Fix {}", style), true))
     error->all(FLERR, "Variable {} for Fix {} is neither of equal style nor of atom style",
                target->name(), style);
@@ -187,7 +187,7 @@ void FixSPHRefine::init()
 
 double FixSPHRefine::target_volume(double value) const
 {
-  return by_spacing ? pow(value, domain->dimension) : value;
+  return by_spacing ? whole_power(value, domain->dimension) : value;
 }
 
 /* ----------------------------------------------------------------------

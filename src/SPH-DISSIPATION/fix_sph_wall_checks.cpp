@@ -326,13 +326,13 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
 
   const double ball[] = {2.0, MY_PI, 4.0 / 3.0 * MY_PI};               // of radius 1, 1d to 3d
   const double mean_weight[] = {8.0 / 15.0, 1.0 / 3.0, 8.0 / 35.0};    // in it
-  const double integral = ball[dim - 1] * mean_weight[dim - 1] * pow(support, dim);
+  const double integral = ball[dim - 1] * mean_weight[dim - 1] * whole_power(support, dim);
   double worst[2] = {0.0, 0.0}, worst_all[2];    // spacing - depth, spacing over depth of bad ones
   double sum[2] = {0.0, 0.0}, sum_all[2];        // of particles with a full support: masses, rho0 V
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double rho0 = fluid->model->coeffs[atom->type[i]].eos.rho0;
-    const double spacing = pow(atom->rmass[i] / rho0, 1.0 / dim);
+    const double spacing = spacing_of(dim, atom->rmass[i] / rho0);
 
     double nearest = support, normal[3] = {0.0, 0.0, 0.0}, lengths = 0.0;
     double weights = 1.0, moment[3] = {0.0, 0.0, 0.0};

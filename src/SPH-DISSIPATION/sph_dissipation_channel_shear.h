@@ -43,9 +43,8 @@ struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE
   static constexpr bool CENTRAL = true, BY_RATE = true;
   template <class Pair> static SPH_INLINE void add_central(Pair &pair)
   {
-    const auto more = pair.mu[1] - pair.mu[0];
-    const auto a = pair.mu[0] + if_positive(-pair.mu[0], more);
-    const auto b = pair.mu[1] - if_positive(-pair.mu[1], more);
+    const auto a = larger(pair.mu[0], if_positive(-pair.mu[0], pair.mu[1]));
+    const auto b = larger(pair.mu[1], if_positive(-pair.mu[1], pair.mu[0]));
     auto mean = 0.5 * pair.coeff[FIRST] * (a + b);
     if constexpr (!ONE_FLUID) mean += pair.coeff[LAST] * mean_coefficient(a, b);
     const auto drag = mean * (FR2 ? pair.vv : pair.by_metric) * pair.approach;

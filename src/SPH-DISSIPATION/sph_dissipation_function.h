@@ -40,4 +40,42 @@
 #define SPH_INLINE SPH_HOST_INLINE
 #endif
 
+#include <cmath>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // Powers and roots of numbers with a unit.  Another unit, of a power of two, changes no digit of them; it changes
+  // digits of pow() and cbrt().
+
+  SPH_FUNCTION double whole_power(double x, int n)
+  {
+    double power = 1.0;
+    for (int k = 0; k < n; k++) power *= x;
+    return power;
+  }
+
+  SPH_FUNCTION double cube_root(double x)
+  {
+    int exponent;
+    const double part = frexp(x, &exponent);
+    const int rest = (exponent % 3 + 3) % 3;
+    return ldexp(cbrt(ldexp(part, rest)), (exponent - rest) / 3);
+  }
+
+  // spacing of particles of this volume on a square or cubic lattice, and its square
+
+  SPH_FUNCTION double spacing_of(int dim, double volume)
+  {
+    return (dim == 1) ? volume : (dim == 2) ? sqrt(volume) : cube_root(volume);
+  }
+
+  SPH_FUNCTION double spacing_squared(int dim, double volume)
+  {
+    return (dim == 2) ? volume : whole_power(spacing_of(dim, volume), 2);
+  }
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
 #endif

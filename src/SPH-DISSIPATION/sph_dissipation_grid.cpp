@@ -232,7 +232,7 @@ bigint ParticleGrid::solve(bool linear)
     const double det =
         c[0][0] * cofactor[0][0] + c[0][1] * cofactor[0][1] + c[0][2] * cofactor[0][2];
     double a[3] = {}, bcb = 0.0;
-    if (trace > FLAT && det > FLAT * std::pow(trace / dim, dim))
+    if (trace > FLAT && det > FLAT * whole_power(trace / dim, dim))
       for (int d = 0; d < dim; d++) {
         for (int e = 0; e < dim; e++) a[d] -= cofactor[d][e] * b[e] / det;
         bcb -= a[d] * b[d];

@@ -13,7 +13,7 @@
 
 // The pairs of particles i and j that the loops work off, in vectors on the CPU, one by one on a device.
 // Included in more than one namespace, as sph_dissipation_kernel_shapes.h, which must have a type Vec,
-// square_root(a) and if_positive(a, b), see sph_dissipation_simd.h.
+// square_root(a), larger(a, b), and if_positive(a, b), see sph_dissipation_simd.h.
 //
 // r = r_i - r_j, u = u_i - u_j, slope = F; P1, P2, P3: see sph_dissipation_channels.h.  Forces are those on
 // i, opposite on j; of the heat of a pair half goes to each.

@@ -465,7 +465,7 @@ bigint RefineEvent::plan(NeighList *full, bigint most)
 bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
 {
   const int dim = domain->dimension;
-  const double spacing = pow(items[i].volume, 1.0 / dim);
+  const double spacing = spacing_of(dim, items[i].volume);
   Arrangement arrangement;
   bool alone = true;
   const int *const neighbors = full->firstneigh[i];

@@ -28,8 +28,7 @@ namespace SPHDissipation {
 
   template <class K> SPH_FUNCTION double contact_inverse(int dim, double support, double vol)
   {
-    const double spacing = (dim == 1) ? vol : (dim == 2) ? sqrt(vol) : cbrt(vol);
-    const double q = spacing / support;
+    const double q = spacing_of(dim, vol) / support;
     return 1.0 / K::shape((q < 0.9) ? q : 0.9);
   }
 

@@ -386,7 +386,7 @@ namespace SPHDissipation {
     void add(const double *r)
     {
       const double rsq = dot(r, r);
-      if (rsq > 0.0) near.add_product(std::pow(rsq, -5.0), r);
+      if (rsq > 0.0) near.add_product(1.0 / whole_power(rsq, 5), r);
     }
 
     // axis along which the spacing is largest, the first one of equal ones; spacing along it of a
@@ -395,12 +395,12 @@ namespace SPHDissipation {
     double widest(int dim, double volume, double *axis, double &ratio) const
     {
       constexpr double EQUAL = 1.0e-6;
-      const double even = std::pow(volume, 1.0 / dim);
+      const double even = spacing_of(dim, volume);
       const Eigen3 principal = eigen(near);
       int least = 0;
       double mean = 1.0;    // geometric, of the roots: the product may leave the range of numbers
       for (int d = 0; d < dim; d++) {
-        mean *= std::pow(std::max(principal.value[d], 0.0), 1.0 / dim);
+        mean *= spacing_of(dim, std::max(principal.value[d], 0.0));
         if (principal.value[d] < (1.0 - EQUAL) * principal.value[least]) least = d;
       }
       for (int d = 0; d < 3; d++) axis[d] = principal.axis[least][d];

@@ -292,9 +292,6 @@ void PairEnergyStage::find_pairs(NeighList *list, const PairEnergyKernel &kernel
   const Parameters &par = engine.parameters();
   const ParticleRows &particles = engine.rows();
   const int *const type = atom->type;
-  const auto distance = [&](double volume) {
-    return (par.dim == 1) ? volume : (par.dim == 2) ? std::sqrt(volume) : std::cbrt(volume);
-  };
   energies = par.pair_energy;
   pairs.clear();
   for (int ii = 0; ii < list->inum; ii++) {
@@ -305,8 +302,9 @@ void PairEnergyStage::find_pairs(NeighList *list, const PairEnergyKernel &kernel
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
       if (with[type[j]] == 0.0) continue;
       const double w_j = particles.reference_volume(j);
-      pairs.push_back(
-          {i, j, with[type[j]] * w_i * w_j * kernel.of_rows(distance(w_i), distance(w_j))});
+      pairs.push_back({i, j,
+                       with[type[j]] * w_i * w_j *
+                           kernel.of_rows(spacing_of(par.dim, w_i), spacing_of(par.dim, w_j))});
     }
   }
 }

@@ -96,7 +96,7 @@ void SurfaceStage::find(int bits)
   double spacing = 0.0, last = 0.0, factor = 0.0;
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     if (!(atom->mask[i] & bits)) continue;
-    const double own = pow(atom->vfrac[i], 1.0 / dim);
+    const double own = spacing_of(dim, atom->vfrac[i]);
     surface[i].spacing = own;
     if (has_flux && own != last)
       factor =
@@ -163,7 +163,7 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
     const bool of_body = body && body[i] > 0.0;
     if (!of_body && MathExtra::lensq3(s.normal) == 0.0) return;    // out of reach of the fluid
     const double width = WIDTH * s.spacing;
-    const double norm = pow(width * sqrt(MathConst::MY_2PI), -dim);
+    const double norm = 1.0 / whole_power(width * sqrt(MathConst::MY_2PI), dim);
     const double radius = std::min(support, CUTOFF * s.spacing);
     double filled = 0.0, inward[3] = {0.0, 0.0, 0.0};
     cells.near(atom->x[i], radius, [&](int j, const double *r, double rsq) {

@@ -239,9 +239,9 @@ namespace SPHDissipation {
   SPH_FUNCTION NearKernel near_kernel(int dim, double support, double weight_norm, double vol)
   {
     const double spacings = (dim == 1) ? 4.0 : (dim == 2) ? 3.0 : 2.5;
-    const double wanted = spacings * pow(vol, 1.0 / dim);
+    const double wanted = spacings * spacing_of(dim, vol);
     const double radius = (support < wanted) ? support : wanted;
-    return {vol * weight_norm * pow(support / radius, dim), 1.0 / radius};
+    return {vol * weight_norm * whole_power(support / radius, dim), 1.0 / radius};
   }
 
   // Repulsion of the surfaces with thermal noise or free surfaces: a particle of the fluid has the energy k s^2/2, where s is
@@ -257,9 +257,9 @@ namespace SPHDissipation {
 
   SPH_FUNCTION NearKernel contact_kernel(int dim, double support, double norm, double vol)
   {
-    const double wanted = CONTACT * pow(vol, 1.0 / dim);
+    const double wanted = CONTACT * spacing_of(dim, vol);
     const double radius = (support < wanted) ? support : wanted;
-    return {vol * norm / pow(radius, dim), 1.0 / radius};
+    return {vol * norm / whole_power(radius, dim), 1.0 / radius};
   }
 
   SPH_FUNCTION double beyond_surface(double occupied)

@@ -360,6 +360,44 @@ def drop(dim, radius, seed=1, rate=0.1, speed=0.3):
 
 
 # ---------------------------------------------------------------------------------------------
+# units: a number of an input may have one behind it, as the 3.0 of "drag 3.0[pt/ll]"
+
+
+@dataclass(frozen=True)
+class Units:
+    """Changes the units of an input: each number with a unit is multiplied by a power of two, which changes no digit of it.
+
+    A unit has the letters l, t, m, and T of length, time, mass, and temperature, and v, r, p, and e of velocity, density,
+    pressure, and energy. Each of the four has an exponent of two here; without one, T has that of an energy, as with kB = 1.
+    """
+
+    length: int = 0
+    time: int = 0
+    mass: int = 0
+    temperature: int = None
+    dim: int = 2
+
+    def exponent(self, unit):
+        energy = self.mass + 2 * (self.length - self.time)
+        of = {"l": self.length, "t": self.time, "m": self.mass, "T": energy if self.temperature is None else self.temperature,
+              "v": self.length - self.time, "r": self.mass - self.dim * self.length, "p": energy - self.dim * self.length, "e": energy}
+        above, _, below = unit.partition("/")
+        return sum(of[letter] for letter in above.strip("1")) - sum(of[letter] for letter in below)
+
+    def of_input(self, text):
+        """The text of an input in these units, without the units behind its numbers."""
+        return re.sub(r"(?<![\w.])([\d.]+(?:e[-+]?\d+)?)\[([ltmTvrpe1/]+)\]", lambda found: self.number(*found.groups()), text)
+
+    def number(self, digits, unit):
+        power = self.exponent(unit)
+        return repr(float(digits) * 2.0**power) if power else digits
+
+    def in_first(self, values, unit):
+        """Values of the output in the units in which the input was written."""
+        return np.ldexp(values, -self.exponent(unit))
+
+
+# ---------------------------------------------------------------------------------------------
 # input text
 
 

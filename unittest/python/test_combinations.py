@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 import pytest
 
-from helpers import Lammps, Result, read_dump
+from helpers import Lammps, Result, Units, read_dump
 
 BOUND = 1e-12  # of the largest value
 SHORT = 5e-4  # a time step for which terms of second order are below NEARLY, those of first order above
@@ -46,7 +46,7 @@ class Lines:
     keywords: tuple = ()  # of its pair_coeff, besides these two
     unlike: tuple = ()  # keywords of two unlike types
     others: tuple = ()  # pair_coeff of pair style soft, in a hybrid style
-    hybrid: str = "{sph} soft 1.5"
+    hybrid: str = "{sph} soft 1.5[l]"
     integrator: tuple = ()  # keywords of the fix that integrates the fluid
     early: tuple = ()  # after it, before the other fixes
     fixes: tuple = ()
@@ -84,30 +84,30 @@ class Feature:
 
 
 def zones(normal, outlet):
-    return Lines(particles=("zones",), fixes=("variable u atom 0.5+0.02*y",
-                                              f"fix in inlet sph/open fluid 0 0 0 {normal} 0 0 8 velocity v_u 0 0",
-                                              f"fix out outlet sph/open fluid 16 0 0 -{normal} 0 0 8 {outlet}"),
+    return Lines(particles=("zones",), fixes=("variable u atom 0.5[v]+0.02[1/t]*y",
+                                              f"fix in inlet sph/open fluid 0 0 0 {normal} 0 0 8[l] velocity v_u 0 0",
+                                              f"fix out outlet sph/open fluid 16[l] 0 0 -{normal} 0 0 8[l] {outlet}"),
                  carried=tuple(f"f_{name}[{{entered}}]-f_{name}[{{left}}]+f_{name}[{{pushed}}]" for name in ("in", "out")))
 
 
 def walls(speed):
-    return Lines(particles=("walls",), fixes=("variable U equal 0.3", f"fix low low sph/wall velocity {speed} 0 0 move no",
+    return Lines(particles=("walls",), fixes=("variable U equal 0.3[v]", f"fix low low sph/wall velocity {speed} 0 0 move no",
                                               "fix high high sph/wall"), force=("-f_low[{k}]", "-f_high[{k}]"))
 
 
 def disc(rigid, heat=""):
-    return Lines(particles=("disc",), fixes=("variable hot equal 0.05", f"fix turn disc {rigid}", f"fix disc disc sph/wall move rigid {heat}"),
+    return Lines(particles=("disc",), fixes=("variable hot equal 0.05[T]", f"fix turn disc {rigid}", f"fix disc disc sph/wall move rigid {heat}"),
                  force=("-f_disc[{k}]",), **dict(cv=100.0, conductivity=30.0, energy=2.5) if heat else {})
 
 
 def body(fix):
-    return Lines(fixes=("variable mx atom 4.0*mass", "variable my atom -3.0*mass", "variable driven atom mass*gmask(driven)",
+    return Lines(fixes=("variable mx atom 4.0[v/t]*mass", "variable my atom -3.0[v/t]*mass", "variable driven atom mass*gmask(driven)",
                         "compute driven fluid reduce sum v_driven", f"fix G driven {fix}"),
                  force=("c_driven*(4.0*(2-{k})-3.0*({k}-1))",))
 
 
 LARGE = "rkl2", "implicit"  # they start anew after a change of the time step or of a coefficient
-TARGET = "1.0-0.75*(x>3)*(x<6)+1.6*(x>10)*(x<13)"
+TARGET = "1.0-0.75*(x>3[l])*(x<6[l])+1.6*(x>10[l])*(x<13[l])"
 NOT_WITH_BODIES = {"open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
                    "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "not constant", "arrhenius": "not constant", "rerun": "rerun"}
 NOT_WITH_LAWS = {"warm": "drift", "limit": "limit", "interdrag": "not constant", "implicit": "implicit", "spin": "sph/bulk", "idle_spin": "sph/bulk"}
@@ -115,23 +115,23 @@ NOT_WITH_LAWS = {"warm": "drift", "limit": "limit", "interdrag": "not constant",
 FEATURES = {
     "rkl2": Feature(Lines(integrator=("viscous rkl2",)), nearly=Lines(), refused={"noise": "temp"}, nearly_with={"thinning": 1e-3}),
     "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
-    "gravity": Feature(body("gravity 5.0 vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
-    "walls": Feature(walls("v_U"), walls("0.3")),
-    "dense_walls": Feature(walls("0.3") + Lines(wall_density=4.0), walls("0.3"), not_plain_with=("adapt", "overlay", "interdrag", "tension")),
+    "gravity": Feature(body("gravity 5.0[v/t] vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
+    "walls": Feature(walls("v_U"), walls("0.3[v]")),
+    "dense_walls": Feature(walls("0.3[v]") + Lines(wall_density=4.0), walls("0.3[v]"), not_plain_with=("adapt", "overlay", "interdrag", "tension")),
     "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused=NOT_WITH_BODIES),
-    "hot_bodies": Feature(disc("rigid single", "heat temp v_hot"), disc("rigid group 1 disc", "heat temp 0.05"),
+    "hot_bodies": Feature(disc("rigid single", "heat temp v_hot"), disc("rigid group 1 disc", "heat temp 0.05[T]"),
                           refused={**NOT_WITH_BODIES, "noise": "conductivity"}),
-    "open": Feature(zones(1, "pressure 1.0"), zones(3, "density 1.01"), not_plain_with=("gas", "heat"), refused={"noise": "temp", "rerun": "rerun"}),
-    "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom {TARGET}", "fix R fluid sph/refine 5 volume v_t")),
-                     Lines(pair=("volume mass",), fixes=(f"variable t atom sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
+    "open": Feature(zones(1, "pressure 1.0[p]"), zones(3, "density 1.01[r]"), not_plain_with=("gas", "heat"), refused={"noise": "temp", "rerun": "rerun"}),
+    "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom 1.0[ll]*({TARGET})", "fix R fluid sph/refine 5 volume v_t")),
+                     Lines(pair=("volume mass",), fixes=(f"variable t atom 1.0[l]*sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
                      refused={"rerun": "rerun"}),
-    "noise": Feature(Lines(pair=("temp 0.01 4711",))),
-    "hybrid": Feature(Lines(particles=("alien",), others=("1 1 soft 2.0",), fixes=("fix alien alien nve",)), Lines(), effect=False),
-    "overlay": Feature(Lines(others=("{own} {own} soft 2.0",)), Lines(others=("{own} {own} soft 2.0",), hybrid="soft 1.5 {sph}")),
-    "adapt": Feature(Lines(fixes=("variable mu equal 0.8", "fix A all adapt 1 pair {style} mu {own} {own} v_mu reset yes")), Lines(mu=0.8),
+    "noise": Feature(Lines(pair=("temp 0.01[e] 4711",))),
+    "hybrid": Feature(Lines(particles=("alien",), others=("1 1 soft 2.0[e]",), fixes=("fix alien alien nve",)), Lines(), effect=False),
+    "overlay": Feature(Lines(others=("{own} {own} soft 2.0[e]",)), Lines(others=("{own} {own} soft 2.0[e]",), hybrid="soft 1.5[l] {sph}")),
+    "adapt": Feature(Lines(fixes=("variable mu equal 0.8[pt]", "fix A all adapt 1 pair {style} mu {own} {own} v_mu reset yes")), Lines(mu=0.8),
                      not_plain_with=LARGE),
-    "timestep": Feature(Lines(early=("timestep 0.003", "run 0"), late=("timestep {timestep}",),
-                              between=("timestep 0.003", "run 0", "timestep {timestep}")), Lines(), effect=False,
+    "timestep": Feature(Lines(early=("timestep 0.003[t]", "run 0"), late=("timestep {timestep}",),
+                              between=("timestep 0.003[t]", "run 0", "timestep {timestep}")), Lines(), effect=False,
                         not_plain_with=(*LARGE, "warm")),
     "short_runs": Feature(Lines(second="run 1\n" * 5), Lines(), effect=False,
                           not_plain_with=("open",)),  # every run builds a neighbor list, and then rows of zones are continued
@@ -141,35 +141,35 @@ FEATURES = {
     "restart": Feature(Lines(between=("write_restart {name}.restart", "clear", "read_restart {name}.restart", "{again}")), Lines(),
                        effect=False),
     "rerun": Feature(Lines(end="write_dump all custom {name}.last id type x y vx vy modify format float %.17g\n"
-                               "displace_atoms all move 0.2 0.1 0\nvelocity all set 3.0 4.0 NULL\nrerun {name}.last dump x y vx vy"),
-                     Lines(end="velocity fluid set 1e-13 NULL NULL sum yes units box\nrun 0"), effect=False, not_plain_with=("relax",),
+                               "displace_atoms all move 0.2[l] 0.1[l] 0\nvelocity all set 3.0[v] 4.0[v] NULL\nrerun {name}.last dump x y vx vy"),
+                     Lines(end="velocity fluid set 1e-13[v] NULL NULL sum yes units box\nrun 0"), effect=False, not_plain_with=("relax",),
                      refused={"gas": "rerun", "warm": "rerun"}),
     "types": Feature(Lines(types=2), Lines(), effect=False),
     "limit": Feature(Lines(pair=("limit yes",), kappa=0.9), Lines(kappa=0.9), not_plain_with=("noise",)),
-    "shift": Feature(Lines(integrator=("shift 0.5",)), refused={"noise": "shift"}),
+    "shift": Feature(Lines(integrator=("shift 0.5[v]",)), refused={"noise": "shift"}),
     "square": Feature(Lines(pair=("shear mg/fr2",))),
-    "spin": Feature(Lines(style="sph/micropolar", spin="0.2 0.05 -0.05")),
+    "spin": Feature(Lines(style="sph/micropolar", spin="0.2[pt] 0.05[ptll] -0.05[ptll]")),
     "surface": Feature(Lines(pair=("density continuity",)), refused={"noise": "temp", "warm": "temp", "gas": "no free surface", "shift": "shift",
                                                                       "heat": "tension yes", "rerun": "rerun"}),
-    "drag": Feature(Lines(keywords=("drag 0.3 0.2 -0.1 0",), force=("c_drag[{k}]",),
-                          fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3*c_state[1]*(c_state[2]-0.2)",
-                                 "variable dragy atom -0.3*c_state[1]*(c_state[3]+0.1)", "compute drag fluid reduce sum v_dragx v_dragy"))),
-    "interdrag": Feature(Lines(types=2, unlike=("interdrag 0.8",))),
-    "tension": Feature(Lines(types=2, unlike=("tension 0.8",))),
-    "thinning": Feature(Lines(keywords=("power 0.6 0.05 1.5 yield 0.05 5",)), refused={**NOT_WITH_LAWS, "open": "power", "noise": "drift"}),
-    "arrhenius": Feature(Lines(cv=100.0, energy=2.5, keywords=("arrhenius 0.05 0.02 1.5",)),
-                         Lines(cv=100.0, energy=2.5, mu=0.5 * np.exp(-1.25), keywords=(f"arrhenius 0.05 0.04 {1.5 * np.exp(1.25)}",)),
+    "drag": Feature(Lines(keywords=("drag 0.3[pt/ll] 0.2[v] -0.1[v] 0",), force=("c_drag[{k}]",),
+                          fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3[pt/ll]*c_state[1]*(c_state[2]-0.2[v])",
+                                 "variable dragy atom -0.3[pt/ll]*c_state[1]*(c_state[3]+0.1[v])", "compute drag fluid reduce sum v_dragx v_dragy"))),
+    "interdrag": Feature(Lines(types=2, unlike=("interdrag 0.8[pt/ll]",))),
+    "tension": Feature(Lines(types=2, unlike=("tension 0.8[pl]",))),
+    "thinning": Feature(Lines(keywords=("power 0.6 0.05[pt] 1.5[pt] yield 0.05[p] 5[t]",)), refused={**NOT_WITH_LAWS, "open": "power", "noise": "drift"}),
+    "arrhenius": Feature(Lines(cv=100.0, energy=2.5, keywords=("arrhenius 0.05[T] 0.02[T] 1.5",)),
+                         Lines(cv=100.0, energy=2.5, mu=0.5 * np.exp(-1.25), keywords=(f"arrhenius 0.05[T] 0.04[T] {1.5 * np.exp(1.25)}",)),
                          not_plain_with=("adapt", "thinning"), refused={**NOT_WITH_LAWS, "open": "arrhenius", "rkl2": "viscous", "implicit": "viscous",
                                                                        "noise": "arrhenius", "rerun": "arrhenius"}),
-    "relax": Feature(Lines(room=("relax 2",), state=("-0.99 0",), keywords=("relax 4.0 0.02 3.0 0.5",))),
-    "heat": Feature(Lines(cv=100.0, conductivity=30.0, keywords=("gruneisen 0.5 0.01",), energy=2.5),
+    "relax": Feature(Lines(room=("relax 2",), state=("-0.99 0",), keywords=("relax 4.0[pt] 0.02[t] 3.0[pt] 0.5[t]",))),
+    "heat": Feature(Lines(cv=100.0, conductivity=30.0, keywords=("gruneisen 0.5 0.01[T]",), energy=2.5),
                     refused={"rerun": "conductivity", "noise": "conductivity", "gas": "gruneisen"}),
-    "solute": Feature(Lines(room=("solute",), state=("1.0",), keywords=("solute 0.4",),
+    "solute": Feature(Lines(room=("solute",), state=("1.0",), keywords=("solute 0.4[ll/t]",),
                             early=("variable amount atom 1.0+0.5*sin(id)", "set group all d_solute v_amount")),
                       effect=False, refused={"open": "solute", "noise": "solute", "warm": "solute"}),
     "idle_room": Feature(Lines(room=("relax 1",), state=("0",)), Lines(), effect=False),
     "gas": Feature(Lines(pair=("eos ideal",), energy=2.5), refused={"noise": "ideal"}),
-    "warm": Feature(Lines(pair=("temp energy 100 4711",), energy=2.5),
+    "warm": Feature(Lines(pair=("temp energy 100[e/mT] 4711",), energy=2.5),
                     refused={"open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag"}),
     "idle_spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
 }
@@ -251,13 +251,13 @@ def particles(lines):
         x, y, u, v = (np.append(np.array(new), old) for new, old in (([4.1, 5.2, 4.5, 5.5], x), ([5.0, 5.1, 6.0, 6.2], y),
                                                                     ([0.5, 0.0, -0.5, 0.2], u), ([0.0, 0.4, 0.0, -0.4], v)))
     spinning = lines.style != "sph/bulk"
-    own = " ".join((*("0.16",) * spinning, str(lines.energy), *lines.state))
-    spin = [f" 0 0 {w}" if spinning else "" for w in np.sin(1.7 * ids)]
+    own = " ".join((*("0.16[ll]",) * spinning, f"{lines.energy}[e]", *lines.state))
+    spin = [f" 0 0 {w}[1/t]" if spinning else "" for w in np.sin(1.7 * ids)]
     xlo, xhi = (-10.0, 26.0) if "zones" in has else (0.0, 16.0)
     ylo, yhi = (-4.0, 14.0) if "walls" in has else (0.0, 10.0)
-    text = (f"\n\n{len(x)} atoms\n{types.max()} atom types\n\n{xlo} {xhi} xlo xhi\n{ylo} {yhi} ylo yhi\n-0.5 0.5 zlo zhi\n\n"
-            f"Atoms # {lines.style}\n\n" + "".join(f"{i} {t} {m} {own} {a} {b} 0.0\n" for i, t, m, a, b in zip(ids, types, mass, x.tolist(), y.tolist()))
-            + "\nVelocities\n\n" + "".join(f"{i} {a} {b} 0.0{w}\n" for i, a, b, w in zip(ids, u.tolist(), v.tolist(), spin)))
+    text = (f"\n\n{len(x)} atoms\n{types.max()} atom types\n\n{xlo}[l] {xhi}[l] xlo xhi\n{ylo}[l] {yhi}[l] ylo yhi\n-0.5[l] 0.5[l] zlo zhi\n\n"
+            f"Atoms # {lines.style}\n\n" + "".join(f"{i} {t} {m}[m] {own} {a}[l] {b}[l] 0.0\n" for i, t, m, a, b in zip(ids, types, mass, x.tolist(), y.tolist()))
+            + "\nVelocities\n\n" + "".join(f"{i} {a}[v] {b}[v] 0.0{w}\n" for i, a, b, w in zip(ids, u.tolist(), v.tolist(), spin)))
     return text, groups
 
 
@@ -266,11 +266,12 @@ def coefficients(lines, first, own):
     style = f"{lines.style} " if lines.others else ""
     types = range(first, first + lines.types) if lines.types > 1 else [own]
     wall = first + lines.types
-    keywords = " ".join((*(f"{name} {value}" for name, value in (("cv", lines.cv), ("conductivity", lines.conductivity)) if value), *lines.keywords))
+    numbers = ("cv", lines.cv, "e/mT"), ("conductivity", lines.conductivity, "pll/tT")
+    keywords = " ".join((*(f"{name} {value}[{unit}]" for name, value, unit in numbers if value), *lines.keywords))
     unlike = " ".join(("mu mean",) * bool(lines.others) + lines.unlike)
-    result = [f"{one} {one} {style}1.0 10.0 {lines.mu} {lines.kappa} {lines.spin} 3.0 {keywords}" for one in types]
+    result = [f"{one} {one} {style}1.0[r] 10.0[v] {lines.mu}[pt] {lines.kappa}[pt] {lines.spin} 3.0[l] {keywords}" for one in types]
     if lines.wall_density:
-        result += [f"{wall} {wall} {style}{lines.wall_density} 7.0 {Lines.mu} {lines.kappa + 1.0} {lines.spin} 3.0 {keywords}"]
+        result += [f"{wall} {wall} {style}{lines.wall_density}[r] 7.0[v] {Lines.mu}[pt] {lines.kappa + 1.0}[pt] {lines.spin} 3.0[l] {keywords}"]
         result += [f"{one} {wall} {style}mu mean" for one in types if lines.others]
     if unlike:
         result += [f"{one} {other} {style}{unlike}" for one, other in itertools.combinations(types, 2)]
@@ -290,13 +291,13 @@ def account(lines):
             "thermo_modify norm no format float %.17g\n")
 
 
-def write(folder, name, lines):
+def write(folder, name, lines, units=Units()):
     """The input of one case, and its data file; `name` is that of all its files."""
     data, groups = particles(lines)
-    (folder / f"{name}.data").write_text(data)
+    (folder / f"{name}.data").write_text(units.of_input(data))
     first = 2 if "alien" in lines.particles else 1
     own = "*" if first + lines.types == 2 and not lines.wall_density else f"{first}*{first + lines.types - 1}"
-    words = dict(name=name, style=lines.style, own=own, timestep=lines.timestep)
+    words = dict(name=name, style=lines.style, own=own, timestep=f"{lines.timestep}[t]")
 
     def block(commands):
         return "".join(one.format(**words) + "\n" for one in commands)
@@ -305,26 +306,27 @@ def write(folder, name, lines):
     hybrid = "hybrid/overlay" if any("{own}" in one for one in lines.others) else "hybrid"
     pair = f"pair_style {hybrid} {lines.hybrid.format(sph=sph)}\n" if lines.others else f"pair_style {sph}\n"
     coeffs = coefficients(lines, first, own)
-    begin = (f"neighbor {lines.skin} bin\nneigh_modify every 5 delay 0 check no\n"
-             f"timestep {lines.timestep}\nfix FLUID fluid {lines.style} {' '.join(lines.integrator)}\n")
-    fixes = block(lines.fixes) + "compute E all property/atom esph\nvariable m atom mass*gmask(fluid)\n" + account(lines)
+    begin = (f"neighbor {lines.skin}[l] bin\nneigh_modify every 5 delay 0 check no\n"
+             f"timestep {words['timestep']}\nfix FLUID fluid {lines.style} {' '.join(lines.integrator)}\n")
+    fixes = block(lines.fixes) + "compute E all property/atom esph desph numden dnumden\nvariable m atom mass*gmask(fluid)\n" + account(lines)
     words["again"] = (coeffs if lines.others else "") + begin + fixes  # what a restart file does not have
     also = "omegaz tqz " * (lines.style != "sph/bulk") + "d_solute" * ("solute" in lines.room)
-    output = f"write_dump all custom {name}.{{}} id v_m x y vx vy fx fy c_E {also} modify sort id format float %.17g\n"
+    output = f"write_dump all custom {name}.{{}} id v_m x y vx vy fx fy c_E[*] {also} modify sort id format float %.17g\n"
     ends = "f" if "zones" in lines.particles else "p", "f" if "walls" in lines.particles else "p"
-    return (f"log {name}.log\nunits lj\ndimension 2\nboundary {' '.join(ends)} p\nnewton {lines.newton}\n"
+    text = (f"log {name}.log\nunits lj\ndimension 2\nboundary {' '.join(ends)} p\nnewton {lines.newton}\n"
             f"atom_style {lines.style} {' '.join(lines.room)}\nread_data {name}.data\n"
             + "".join(f"group {one} id {' '.join(map(str, ids))}\n" for one, ids in groups.items())
             + pair + coeffs + begin + block(lines.early) + fixes + block(lines.late)
             + "run 5\n" + block((*lines.between, lines.second)) + output.format("after")
             + block((lines.end,)) + output.format("again") + "print COMPLETE\n")
+    return units.of_input(text)
 
 
 # ---------------------------------------------------------------------------------------------
 # running them
 
 
-QUANTITIES = {"id": ("id",), "mass": ("v_m",), "esph": ("c_E",), "x": ("x", "y"), "v": ("vx", "vy"), "spin": ("omegaz",),
+QUANTITIES = {"id": ("id",), "mass": ("v_m",), "esph": ("c_E[1]",), "x": ("x", "y"), "v": ("vx", "vy"), "spin": ("omegaz",),
               "force": ("fx", "fy"), "torque": ("tqz",), "solute": ("d_solute",)}
 
 
