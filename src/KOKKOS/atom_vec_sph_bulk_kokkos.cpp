@@ -74,6 +74,7 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
   add_field(OFFSET_MASK, k_vol_heat, vol_heat, OWN, {EXCHANGE});
   add_field(OFFSET_MASK, k_vol_support, vol_support, OWN, {EXCHANGE});
   add_field(OFFSET_MASK, k_shear_rate, shear_rate, OWN, {EXCHANGE});
+  add_field(TRACE_MASK, k_trace, trace, OWN, {EXCHANGE});
   if (has_spins) {
     add_field(OMEGA_MASK, atoms.k_omega, atoms.omega, ATOM);
     add_field(TORQUE_MASK, atoms.k_torque, atoms.torque, ATOM);
@@ -200,7 +201,7 @@ void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
     show_custom_vectors();
     mask |= DESPH_BEFORE_MASK | OFFSET_MASK | INERTIA_MASK | STATES_MASK;
   }
-  if (mask & DARRAY_MASK) mask |= OMEGAEST_MASK;
+  if (mask & DARRAY_MASK) mask |= OMEGAEST_MASK | TRACE_MASK;
   for (const auto &field : fields)
     if (mask & field->mask) field->sync(space);
 }

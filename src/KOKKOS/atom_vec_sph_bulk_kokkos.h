@@ -78,7 +78,7 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
 
   tdual_field k_rho, k_drho, k_vfrac, k_esph, k_desph, k_desph_before;
   tdual_field k_rho_sum, k_vol_rate, k_vol_rate_before, k_vol_heat, k_vol_support, k_shear_rate;
-  tdual_field_3 k_vest;
+  tdual_field_3 k_vest, k_trace;
   tdual_field k_inertia;    // empty without spins, as the next one
   tdual_field_3 k_omegaest;
   tdual_field k_state[SPHDissipation::MOST_STATES];    // empty where there is no room

@@ -72,8 +72,9 @@ static constexpr uint64_t MODIFIED[] = {    // at the beginning and at the end o
     V_MASK | ESPH_MASK | DESPH_BEFORE_MASK | OMEGA_MASK};
 static constexpr uint64_t MOTION = V_MASK | OMEGA_MASK;
 static constexpr uint64_t EXTRAPOLATION = VEST_MASK | OMEGAEST_MASK;
-static constexpr uint64_t IDENTITY = X_MASK | IMAGE_MASK | MASK_MASK | TAG_MASK | TYPE_MASK;
 static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK | STATES_MASK;
+static constexpr uint64_t TRACED =
+    X_MASK | MASK_MASK | TYPE_MASK | RMASS_MASK | MOTION | SPH_RHO_MASK | ENERGY | TRACE_MASK;
 static constexpr uint64_t DIFFUSION = CONTINUITY_MASK | STATES_MASK;    // of volume
 
 /* ---------------------------------------------------------------------- */
@@ -93,7 +94,7 @@ FixSPHBulkKokkos<DeviceType>::FixSPHBulkKokkos(LAMMPS *lmp, int narg, char **arg
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_exchange()
 {
-  atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | OFFSET_MASK | IDENTITY);
+  atomKK->sync(Host, TRACED | EXTRAPOLATION | OFFSET_MASK);
   FixSPHBulk::setup_pre_exchange();
   atomKK->modified(Host, EXTRAPOLATION | ENERGY | OFFSET_MASK);
 }
@@ -102,14 +103,16 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_exchang
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::post_run()
 {
-  atomKK->sync(Host, MOTION | IDENTITY);
+  atomKK->sync(Host, TRACED);
   FixSPHBulk::post_run();
+  atomKK->modified(Host, TRACE_MASK);
 }
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::write_restart(FILE *fp)
 {
-  atomKK->sync(Host, MOTION | EXTRAPOLATION | ENERGY | IDENTITY);
+  atomKK->sync(Host, TRACED);
   FixSPHBulk::write_restart(fp);
+  atomKK->modified(Host, TRACE_MASK);
 }
 
 /* ----------------------------------------------------------------------

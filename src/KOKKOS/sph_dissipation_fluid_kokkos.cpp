@@ -240,10 +240,11 @@ template <class DeviceType> void FluidKokkos<DeviceType>::adopt()
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::begin_run(double dt, bool continues)
+template <class DeviceType>
+void FluidKokkos<DeviceType>::begin_run(double dt, bool continues, const Changes &changes)
 {
   rates_known = false;
-  Fluid::begin_run(dt, continues);
+  Fluid::begin_run(dt, continues, changes);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -73,7 +73,7 @@ namespace SPHDissipation {
     // on the device where that computes; public because CUDA asks for it of functions with lambdas
 
     void sum_density() override;
-    void begin_run(double dt, bool continues) override;
+    void begin_run(double dt, bool continues, const Changes &) override;
     void advance_states() override;
     void sum_bound() override;
     void set_reference_volume() override;

@@ -33,6 +33,7 @@ namespace SPHDissipation {
   constexpr uint64_t OMEGAEST_MASK = uint64_t(1) << 55;
   constexpr uint64_t STATES_MASK = uint64_t(1) << 54;    // all of them
   constexpr uint64_t OFFSET_MASK = uint64_t(1) << 53;    // rho_sum, vol_rate, ...
+  constexpr uint64_t TRACE_MASK = uint64_t(1) << 52;
 
   // what density continuity reads and modifies besides
 

@@ -38,13 +38,13 @@
 #include "sph_dissipation_solvers.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_threads.h"
+#include "sph_dissipation_traces.h"
 #include "sph_dissipation_value.h"
 #include "sph_dissipation_viscous.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <vector>
 
@@ -80,7 +80,7 @@ static const char cite_rkl2[] =
 
 // first number of the data in a restart file, with a minus
 
-static constexpr int FORMAT = 1001;
+static constexpr int FORMAT = 1101;
 
 // the style of which another one, with the suffix of an accelerator package of LAMMPS, is a variant
 
@@ -137,7 +137,7 @@ double rest_of_heat(const TimeStep &step, const double *v, const double *acting,
 
 FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), fluid_style(without_suffix(style)), spins(Fields::with_spins(atom)),
-    viscous(new ViscousSettings)
+    viscous(new ViscousSettings), changes(new Changes)
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   read_keywords(narg, arg);
@@ -230,7 +230,8 @@ void FixSPHBulk::init()
   const auto &integrators = modify->get_fix_by_style("^" + fluid_style);
   integrated_groups = 0;
   for (const auto &ifix : integrators) integrated_groups |= ifix->groupbit;
-  first_instance = (integrators.front() == this);
+  first = dynamic_cast<FixSPHBulk *>(integrators.front());
+  first_instance = (first == this);
   last_instance = (integrators.back() == this);
 
   if (first_instance) check_integrated_once();
@@ -458,16 +459,20 @@ void FixSPHBulk::warn_not_integrated()
 void FixSPHBulk::setup_pre_exchange()
 {
   if (update->whichflag == 0) return;    // from a command that moves particles between processors
+  if (first_instance) {
+    *changes = is_rerun(lmp) ? Changes() : find_changes(lmp, [this](int i) {
+      return traced(i);
+    });
+  }
   const bool continued = is_continued();
   if (first_instance) reset_extrapolation();
   if (!continued || !(dt_of_states > 0.0)) dt_of_states = dtv;
-  if (fluid && first_instance) fluid->begin_run(dt_of_states, continued);
+  if (fluid && first_instance) fluid->begin_run(dt_of_states, continued, *changes);
   if (fluid && !continued) fluid->begin_anew();
   double *const desph_before = fields().desph_before;
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
   double *const vol_rate_before = fields().vol_rate_before;
-  if (fluid && first_instance) fluid->keep_densities();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     if (!continued) {
@@ -487,61 +492,31 @@ void FixSPHBulk::setup_pre_exchange()
 void FixSPHBulk::post_run()
 {
   const bool extrapolated = last.known || update->ntimestep > setup_step;
-  last = find_motion();
-  last.known = (update->whichflag == 1 && extrapolated);
+  last = {update->whichflag == 1 && extrapolated, dtv};
+  leave_traces();
 }
 
 /* ----------------------------------------------------------------------
-   Sums of two numbers of 32 bits, computed from the bits of velocity, spin, type, ID, and of the
-   position as far as writing a restart file does not change it.  Walls set their velocity
-   themselves, see Fluid::note_change().
+   of the particles of all integrators, of those that others drive, and of walls, which set their velocity themselves,
+   see Fluid::note_change()
 ------------------------------------------------------------------------- */
 
-FixSPHBulk::Motion FixSPHBulk::find_motion() const
+void FixSPHBulk::leave_traces()
 {
-  const double length = std::max({domain->xprd, domain->yprd, domain->zprd});
-  const double fine =
-      0.75487766624669276 * 16777216.0 / length;    // no fraction: lattices have those
-  Motion motion = {0, {0, 0}, dtv};
-  for (int i = 0; i < atom->nlocal; i++) {
-    const bool wall = fluid && fluid->is_boundary(i);
-    const bool driven = first_instance && fluid && fluid->has_type(atom->type[i]) &&
-        !(atom->mask[i] & (integrated_groups | fluid->not_fluid()));
-    const bool moves = driven || (atom->mask[i] & groupbit);
-    if (!moves && !wall) continue;
-    const std::uint64_t tag = atom->tag_enable ? atom->tag[i] : 0;
-    std::uint64_t number = tag * (atom->ntypes + 1) + atom->type[i];
-    double place[3];
-    domain->unmap(atom->x[i], atom->image[i], place);
-    for (double &x : place) x = std::floor(x * fine + 0.5);
-    for (const double *values :
-         {moves ? static_cast<const double *>(atom->v[i]) : nullptr,
-          moves && spins ? static_cast<const double *>(atom->omega[i]) : nullptr,
-          static_cast<const double *>(place)}) {
-      if (!values) continue;
-      std::uint64_t bits[3];
-      memcpy(bits, values, sizeof(bits));
-      for (const auto word : bits) {
-        number = (number ^ word) * 0x9E3779B97F4A7C15;
-        number ^= number >> 32;
-      }
-    }
-    motion.sum[0] += static_cast<bigint>(number & 0xffffffff);
-    motion.sum[1] += static_cast<bigint>(number >> 32);
-  }
-  return motion;
+  if (first_instance)
+    SPHDissipation::leave_traces(lmp, [this](int i) {
+      return traced(i);
+    });
 }
 
-/* ---------------------------------------------------------------------- */
-
-FixSPHBulk::Motion FixSPHBulk::sum_of(Motion mine, MPI_Comm world)
+Traced FixSPHBulk::traced(int i) const
 {
-  constexpr bigint EXACT = (bigint(1) << 52) - 1;    // as a number of a restart file
-  Motion all = mine;
-  MPI_Allreduce(&mine.known, &all.known, 1, MPI_LMP_BIGINT, MPI_MAX, world);
-  MPI_Allreduce(mine.sum, all.sum, 2, MPI_LMP_BIGINT, MPI_SUM, world);
-  for (auto &sum : all.sum) sum &= EXACT;
-  return all;
+  const int mask = atom->mask[i];
+  if (mask & integrated_groups) return Traced::ALL;
+  if (!fluid) return Traced::NOTHING;
+  if (fluid->is_boundary(i)) return Traced::REST;
+  return (fluid->has_type(atom->type[i]) && !(mask & fluid->not_fluid())) ? Traced::ALL
+                                                                          : Traced::NOTHING;
 }
 
 /* ----------------------------------------------------------------------
@@ -552,9 +527,7 @@ FixSPHBulk::Motion FixSPHBulk::sum_of(Motion mine, MPI_Comm world)
 bool FixSPHBulk::is_continued() const
 {
   if (update->whichflag == 2 || is_rerun(lmp)) return false;
-  const Motion before = sum_of(last, world), now = sum_of(find_motion(), world);
-  return before.known && (before.dt == now.dt || !has_viscous_stage()) &&
-      std::equal(now.sum, now.sum + 2, before.sum);
+  return last.known && (last.dt == dtv || !has_viscous_stage()) && first->changes->none_of_motion();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -928,14 +901,18 @@ Fields &FixSPHBulk::fields() const
 
 void FixSPHBulk::write_restart(FILE *fp)
 {
-  const Motion motion = restart_motion();
+  if (update->whichflag != 0) {
+    last = {update->whichflag == 1, dtv};
+    leave_traces();
+  }
   if (comm->me != 0) return;
+  const auto &end = fields().end;
   std::vector<double> state = {-FORMAT};
   if (spins) state.insert(state.end(), {static_cast<double>(inertia_done), factor, offset});
-  for (const bigint number : {bigint(density_done), motion.known, motion.sum[0], motion.sum[1]})
+  for (const bigint number :
+       {bigint(density_done), bigint(last.known), end.number, end.box, end.step})
     state.push_back(static_cast<double>(number));
-  state.push_back(motion.dt);
-  state.push_back(dt_of_states);
+  for (const double number : {end.length, last.dt, dt_of_states}) state.push_back(number);
   state.push_back(static_cast<double>(temperature_done));
   state.push_back(temperature && !temperature->varies() ? temperature->now() : 0.0);
   const int size = static_cast<int>(state.size() * sizeof(double));
@@ -954,21 +931,13 @@ void FixSPHBulk::restart(char *buf)
     state += 3;
   }
   density_done = static_cast<int>(state[0]);
-  last = {static_cast<bigint>(state[1]), {0, 0}, state[4]};
-  dt_of_states = state[5];
-  const bool other = temperature && !temperature->varies() && temperature->now() != state[7];
-  temperature_done = state[6] != 0.0 && !other;
-  if (comm->me == 0)
-    for (int k = 0; k < 2; k++) last.sum[k] = static_cast<bigint>(state[2 + k]);
-}
-
-/* ---------------------------------------------------------------------- */
-
-FixSPHBulk::Motion FixSPHBulk::restart_motion() const
-{
-  const bool known = (update->whichflag == 1) || is_continued();
-  Motion motion = sum_of(find_motion(), world);
-  motion.known = known;
-  if (update->whichflag == 0) motion.dt = last.dt;
-  return motion;
+  auto &end = fields().end;
+  end.number = static_cast<bigint>(state[2]);
+  end.box = static_cast<bigint>(state[3]);
+  end.step = static_cast<bigint>(state[4]);
+  end.length = state[5];
+  last = {state[1] != 0.0, state[6]};
+  dt_of_states = state[7];
+  const bool other = temperature && !temperature->varies() && temperature->now() != state[9];
+  temperature_done = state[8] != 0.0 && !other;
 }

@@ -26,10 +26,12 @@ FixStyle(sph/bulk,FixSPHBulk);
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+  struct Changes;
   class Fields;
   class Fluid;
   class Value;
   struct ViscousSettings;
+  enum class Traced;
   struct TimeStep;
   struct VolumeStep;
 }    // namespace SPHDissipation
@@ -115,19 +117,18 @@ class FixSPHBulk : public Fix {
 
   void reset_extrapolation();    // of particles that no such fix integrates
 
-  // Numbers that depend on the positions and velocities of the particles of the group, and on the
-  // positions of wall particles.  If they have not changed since the last run, a run continues it
-  // with the extrapolated quantities of its last step
+  // If neither positions nor velocities have changed since the last run, nor those of walls, a run continues it with the
+  // extrapolated quantities of its last step
 
-  struct Motion {
-    bigint known;    // 0: no step was taken
-    bigint sum[2];
-    double dt;    // time step
+  struct Last {
+    bool known;    // a step was taken
+    double dt;     // its length
   };
-  Motion last = {};                 // at the end of the last step, of this processor
-  Motion restart_motion() const;    // on all processors; of the particles as they are written
-  Motion find_motion() const;
-  static Motion sum_of(Motion, MPI_Comm);
+  Last last = {};
+  std::unique_ptr<SPHDissipation::Changes>
+      changes;    // since then, of all groups; of the first instance
+  SPHDissipation::Traced traced(int i) const;
+  void leave_traces();
   bool is_continued() const;
   void check_integrated_once();
   void warn_of_jump() const;
@@ -147,6 +148,7 @@ class FixSPHBulk : public Fix {
   int density_done = 0;         // the masses were set, in this run or before a restart
   int density_flag = 0;         // set the masses so that the mean density is rho0
   bool set_up = false;          // since it was defined
+  FixSPHBulk *first = nullptr;         // the first instance
   bool energy_extrapolated = false;    // for the first forces of a run
   bigint setup_step = 0;               // of the last setup
   bool last_instance = false;          // acts when all are set up

@@ -28,6 +28,7 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_traces.h"
 #include "update.h"
 
 #include <algorithm>
@@ -422,6 +423,59 @@ void FluidChecks::masses() const
                style, weightless);
 }
 
+/* ----------------------------------------------------------------------
+   Not what a command has set, of any particle.  Between two times the diffusion changes the offsets of densities.
+------------------------------------------------------------------------- */
+
+void FluidChecks::kept_states(const Changes &changes, bool densities_follow) const
+{
+  if (!changes.known || comm->me != 0) return;
+  const bool *const of = changes.of;
+  const bool other_time = changes.other_time();
+  std::vector<std::string> kept, changed;
+  if (model.choice.continuity && of[PLACE] && !of[DENSITY] &&
+      (!densities_follow || (other_time && model.choice.delta > 0.0)))
+    kept.push_back("sph/rho");
+  bool heat_acts = model.choice.own_temperatures;
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (!model.coeffs[i].other && model.heat_acts(i)) heat_acts = true;
+  if (heat_acts && (of[PLACE] || of[MASS] || of[TYPE]) && !of[ENERGY]) kept.push_back("sph/e");
+  for (const StateInfo &one : state_table()) {
+    if (of[STATES] || !(other_time || (of[MASS] && one.kind != StateKind::PER_MASS))) continue;
+    int most = 0;
+    for (int i = 1; i <= atom->ntypes; i++)
+      if (!model.coeffs[i].other) most = std::max(most, one.count(model.coeffs[i].keywords.data()));
+    for (int k = 0; k < most; k++) kept.push_back("d_" + Fields::state_name(one.first + k));
+  }
+  if (Fields::with_spins(atom) && other_time && !of[SPIN]) kept.push_back("omega");
+  if (kept.empty()) return;
+  if (of[PLACE]) changed.push_back("positions");
+  if (of[VELOCITY]) changed.push_back("velocities");
+  if (of[MASS]) changed.push_back("masses");
+  if (of[TYPE]) changed.push_back("types");
+  error->warning(FLERR,
+                 "Pair style {}: commands have changed {} after the last run, but {} stay as they "
+                 "are; use the set command for these, or ignore this warning if they shall stay",
+                 style, utils::join_words(changed, ", "), utils::join_words(kept, ", "));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidChecks::followed_densities(const std::vector<double> &before) const
+{
+  constexpr double MUCH = 0.1;    // of rho0
+  const bigint all = count_particles(lmp, [&](int i) {
+    const TypeCoeff &type = model.coeffs[atom->type[i]];
+    return !type.other && std::fabs(atom->rho[i] - before[i]) > MUCH * type.eos.rho0;
+  });
+  if (all && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style {}: commands have moved particles after the last run, which changes "
+                   "the densities of {} of "
+                   "them by more than {:g} rho0; use set ... sph/rho 0 to begin with rho0",
+                   style, all, MUCH);
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FluidChecks::numbers() const
@@ -489,9 +543,7 @@ void FluidChecks::energies(const std::function<double(int)> &heat, int boundary_
   for (int i = 0; i < atom->nlocal; i++) {
     const TypeCoeff &type = model.coeffs[atom->type[i]];
     if (type.other || (atom->mask[i] & boundary_bits)) continue;
-    if (type.eos.gruneisen == 0.0 && !model.conducts(atom->type[i]) &&
-        !model.keyword_that_needs(THERMAL_FRICTION, atom->type[i]))
-      continue;
+    if (!model.heat_acts(atom->type[i])) continue;
     number[0]++;
     if (atom->esph[i] == 0.0 || !(heat(i) > 0.0)) number[1]++;
   }

@@ -20,12 +20,14 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace LAMMPS_NS {
 class Fix;
 class LAMMPS;
 
 namespace SPHDissipation {
+  struct Changes;
   class Engine;
   class FluidModel;
 
@@ -95,6 +97,13 @@ namespace SPHDissipation {
     // all masses of fluid and of integrated particles are positive; also during a run, for fixes that
     // insert particles, whose mass is zero at first
     void masses() const;
+
+    // warning about states that are those of other positions, masses, or types than the commands since the last run have
+    // given the particles; densities_follow: their sums change with the positions
+    void kept_states(const Changes &, bool densities_follow) const;
+
+    // warning about densities of owned particles that the positions have changed much, from what they were before
+    void followed_densities(const std::vector<double> &before) const;
 
     // velocities, spins, and internal energies are finite numbers, as LAMMPS wants of positions
     void numbers() const;

@@ -14,6 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_FIELDS_H
 #define LMP_SPH_DISSIPATION_FIELDS_H
 
+#include "lmptype.h"
 #include "sph_dissipation_states.h"
 
 #include <string>
@@ -30,6 +31,8 @@ namespace SPHDissipation {
   // the states of all channels; those of the channel that has this place
   const std::vector<StateInfo> &state_table();
   const StateInfo &state_info(int slot);
+
+  constexpr int NTRACE = 3;    // numbers of a particle in which hashes are, see leave_traces()
 
   // What the fluid keeps of a particle beyond class Atom, per atom.  The atom style derives from
   // this class and keeps the pointers up to date; class Atom owns the arrays, as custom properties
@@ -73,6 +76,15 @@ namespace SPHDissipation {
     double *shear_rate =
         nullptr;    // of the last forces, if any viscosity depends on it, otherwise 0
     bool density_in_files = false;    // data files have a column rho
+
+    // When a run or a minimization ends: the trace of each particle, of others 0; how many have one, the largest extent of the
+    // box, a hash of the box, the step
+    double **trace = nullptr;
+    struct {
+      bigint number = 0;    // 0: there was no run
+      double length = 0.0;
+      bigint box = 0, step = 0;
+    } end;
 
    protected:
     explicit Fields(bool spins) : has_spins(spins) {}

@@ -37,6 +37,7 @@
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_state.h"
+#include "sph_dissipation_traces.h"
 #include "sph_dissipation_viscous.h"
 #include "timer.h"
 #include "update.h"
@@ -274,6 +275,7 @@ bigint Fluid::compute(PairTally *tally)
     if (checks_speed()) check_speed();
   }
   if (update->setupflag) check.numbers();
+  if (follows && update->setupflag) densities_before.assign(atom->rho, atom->rho + atom->nlocal);
   if (touched) {
     const std::uint64_t hash = model->hash();
     changed = changed || hash != model->hash_of_forces;
@@ -399,11 +401,15 @@ bool Fluid::at_rest() const
 
 /* ---------------------------------------------------------------------- */
 
-void Fluid::begin_run(double dt, bool continues)
+void Fluid::begin_run(double dt, bool continues, const Changes &changes)
 {
   continued = continues;
   set_step(dt);
   flows->forget();
+  follows =
+      model->choice.continuity && changes.places_alone() && model->hash() == model->hash_of_forces;
+  if (!follows) keep_densities();
+  FluidChecks(lmp, style, *model).kept_states(changes, follows);
   if (Fields::of(atom)->slots.empty()) return;
   const bigint others = state->keep();
   if (others && comm->me == 0)
@@ -412,6 +418,8 @@ void Fluid::begin_run(double dt, bool continues)
                    "have, which are lost; those of its own begin anew",
                    style, others);
 }
+
+/* ---------------------------------------------------------------------- */
 
 void Fluid::keep_densities()
 {
@@ -788,6 +796,8 @@ void Fluid::report()
     state.warn(style, shift->wanted);
   }
   announced = true;
+  if (follows) check.followed_densities(densities_before);
+  follows = false;
   if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
 
   if (!step_follows()) check_time_step(table);

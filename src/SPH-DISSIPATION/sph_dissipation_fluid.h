@@ -20,6 +20,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 class NeighList;
@@ -28,6 +29,7 @@ class Pair;
 namespace SPHDissipation {
 
   class BoundaryStage;
+  struct Changes;
   class ShiftStage;
   class DensityStage;
   class DiffusionStage;
@@ -111,12 +113,12 @@ namespace SPHDissipation {
 
     virtual bigint compute(PairTally *);
 
-    // From the integrator: a run begins, with the states as a step of dt has left them; such a
-    // step begins
+    // From the integrator: a run begins, with the states as a step of dt has left them, and with what has changed since the
+    // last one; such a step begins
 
-    virtual void begin_run(double dt, bool continues);
+    virtual void begin_run(double dt, bool continues, const Changes &);
     // with density continuity: owned particles keep their densities where sums change that are not due to motion, of
-    // particles that come, go, split, or merge, and at the start of a run, before which anything may have changed
+    // particles that come, go, split, or merge
     void keep_densities();
 
     // with the diffusion of volume: steps from one evaluation of its rates to the next one; the last forces have evaluated
@@ -243,6 +245,9 @@ namespace SPHDissipation {
     bool continued =
         false;               // the run continues the last one, with the velocities of its last step
     bool touched = false;    // by a command, which may have given the same coefficients
+    bool follows =
+        false;    // the first forces of the run change densities as their sums have changed
+    std::vector<double> densities_before;    // such forces, of owned particles
     bool changed =
         false;    // other coefficients, or motions of walls, than those of the last forces
     double warned_step = 0.0;    // the time step that the last warning was about

@@ -109,9 +109,10 @@ namespace SPHDissipation {
     {
       return (coeffs[type].cv > 0.0) ? coeffs[type].cv : choice.heat_capacity;
     }
-    bool has_temperatures() const;    // any type has a heat capacity
-    bool has_rheology() const;        // mu of any type is not constant
-    bool has_pair_energy() const;     // any two types
+    bool has_temperatures() const;     // any type has a heat capacity
+    bool heat_acts(int type) const;    // on its pressure, viscosity, or states, or it is conducted
+    bool has_rheology() const;         // mu of any type is not constant
+    bool has_pair_energy() const;      // any two types
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 
     // a keyword of this type that needs one of these, see enum Requirement, or nullptr

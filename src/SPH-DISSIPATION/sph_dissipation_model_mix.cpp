@@ -610,6 +610,13 @@ bool FluidModel::conducts(int type) const
 
 /* ---------------------------------------------------------------------- */
 
+bool FluidModel::heat_acts(int type) const
+{
+  return coeffs[type].eos.gruneisen != 0.0 || keyword_that_needs(HEAT_CAPACITY, type);
+}
+
+/* ---------------------------------------------------------------------- */
+
 double FluidModel::stiffness(int type, double dt) const
 {
   return States::stiffness(par->type[type].keywords, par->type[type].eos.rho0, dt);

@@ -363,6 +363,11 @@ class Instance:
         number = int(lib.lammps_get_natoms(self.handle))
         return np.ctypeslib.as_array(ctypes.cast(pointer, ctypes.POINTER(ctypes.c_double)), (number,)).copy()
 
+    def integers(self, name):
+        pointer = lib.lammps_extract_atom(self.handle, name.encode())
+        number = int(lib.lammps_get_natoms(self.handle))
+        return np.ctypeslib.as_array(ctypes.cast(pointer, ctypes.POINTER(ctypes.c_int)), (number,)).copy()
+
     def array(self, name):
         pointer = lib.lammps_extract_atom(self.handle, name.encode())
         assert pointer, name

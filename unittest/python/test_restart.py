@@ -225,7 +225,7 @@ def test_restart_data_of_another_format(lammps, fix, format, words, ranks):
     fixes = "fix F fluid sph/bulk\nfix W wall sph/wall rotate 6 6 0 0 0 1 0.1\ntimestep 0.001\n"
     lammps(header(2) + "read_data box.data\n" + fluid(2) + groups + fixes + "run 1\nwrite_restart state.restart\n")
     content = lammps.path("state.restart").read_bytes()
-    place = content.find(np.float64({"sph/bulk": -1001.0, "sph/wall": -1002.0}[fix]).tobytes())
+    place = content.find(np.float64({"sph/bulk": -1101.0, "sph/wall": -1002.0}[fix]).tobytes())
     assert place > 0
     lammps.path("other.restart").write_bytes(content[:place] + np.float64(format).tobytes() + content[place + 8:])
     result = lammps("read_restart other.restart\n" + fixes + "run 1\n", ranks=ranks, check=False, timeout=60)
