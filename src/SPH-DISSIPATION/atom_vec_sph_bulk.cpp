@@ -18,6 +18,7 @@
 #include "atom_vec_sph_bulk.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "memory.h"
 #include "pair_sph_bulk.h"
@@ -168,8 +169,29 @@ void AtomVecSPHBulk::share_columns(int ilocal, bool used) const
                                                                         : 0.0;
 }
 
+/* ----------------------------------------------------------------------
+   where LAMMPS writes a data file, with or without coefficients; style hybrid calls pack_data_pre() alone
+------------------------------------------------------------------------- */
+
+void AtomVecSPHBulk::pack_data(double **buf)
+{
+  warn_of_lost_densities();
+  AtomVec::pack_data(buf);
+}
+
+void AtomVecSPHBulk::warn_of_lost_densities() const
+{
+  const Fluid *const fluid = find_fluid(force);
+  if (fluid && fluid->model->choice.continuity && !density_in_files && comm->me == 0)
+    error->warning(FLERR,
+                   "Data file without the densities of density continuity, which become rho0: use "
+                   "atom_style {} rho, or write_restart",
+                   fluid->style);
+}
+
 void AtomVecSPHBulk::pack_data_pre(int ilocal)
 {
+  if (ilocal == 0 && atom->avec != this) warn_of_lost_densities();
   share_columns(ilocal, true);
   if (!slots.empty()) check_data_line(ilocal);
 }

@@ -40,6 +40,7 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
   void grow_pointers() override;
   void force_clear(int, size_t) override;
   void data_atom_post(int) override;
+  void pack_data(double **) override;
   void pack_data_pre(int) override;
   void pack_data_post(int ilocal) override { share_columns(ilocal, false); }
   void unpack_restart_init(int) override;
@@ -66,6 +67,7 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
  private:
   void add_spins();
   void share_columns(int, bool) const;
+  void warn_of_lost_densities() const;
   void check_data_line(int) const;
   double state_value(int, int) const;          // for output
   std::vector<double> temperatures() const;    // of owned particles

@@ -184,7 +184,6 @@ namespace SPHDissipation {
     int place(const char *) const;
     int format_number() const;    // of restart files
     std::string type_line(int) const;
-    void warn_of_lost_densities() const;
     void put_line(FILE *, const std::string &line, const std::string &what) const;
   };
 

@@ -278,20 +278,8 @@ void FluidModel::read_coeffs(FILE *fp, int **setflag)
 
 void FluidModel::write_data(FILE *fp) const
 {
-  warn_of_lost_densities();
   for (int i = 1; i <= atom->ntypes; i++)
     put_line(fp, fmt::format("{} {}", i, type_line(i)), style + " coefficients");
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FluidModel::warn_of_lost_densities() const
-{
-  if (choice.continuity && !Fields::of(atom)->density_in_files)
-    error->warning(FLERR,
-                   "Data file without the densities of density continuity, which become rho0: use "
-                   "atom_style {} rho, or write_restart",
-                   style);
 }
 
 /* ----------------------------------------------------------------------
@@ -300,7 +288,6 @@ void FluidModel::warn_of_lost_densities() const
 
 void FluidModel::write_data_all(FILE *fp) const
 {
-  warn_of_lost_densities();
   for (int i = 1; i <= atom->ntypes; i++) {
     put_line(fp, fmt::format("{} {} {}", i, i, type_line(i)), style + " coefficients");
     for (int j = i + 1; j <= atom->ntypes; j++) {
