@@ -12,6 +12,7 @@ import warnings
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+from sph_dissipation import program      # noqa: E402
 from sph_dissipation.results import each_table, is_text      # noqa: E402
 
 
@@ -37,6 +38,8 @@ def cell(box):
     """Edges and origin of the box of a dump."""
     head, *rows = box
     rows = [[float(word) for word in row.split()] for row in rows]
+    if len(rows) != 3 or min(map(len, rows)) < 2 + (" xy xz yz" in head) + 2 * (" abc origin" in head):
+        raise ValueError("ITEM: BOX BOUNDS has not the form that LAMMPS writes")
     if " abc origin" in head:
         return [row[:3] for row in rows], [row[3] for row in rows]
     xy, xz, yz = (row[2] for row in rows) if " xy xz yz" in head else (0.0, 0.0, 0.0)
@@ -74,17 +77,19 @@ def main():
     if len(sys.argv) < 2:
         raise SystemExit(__doc__)
     warnings.showwarning = lambda message, *_: print(f"dump_to_vtk: {message}", file=sys.stderr)
-    for path in map(Path, sys.argv[1:]):
-        number = 0
-        try:
-            for _, names, rows, other in each_table(path):
-                (path.with_suffix("") if path.suffix == ".gz" else path).with_suffix(f".{number:04d}.vtk").write_text(vtk(names, rows, other.get("BOX BOUNDS")))
-                number += 1
-        except (OSError, ValueError) as error:
-            raise SystemExit(f"dump_to_vtk: {'' if str(path) in str(error) else f'{path}: '}{error}") from None
-        if not number:
-            raise SystemExit(f"dump_to_vtk: {path} has no whole frame")
-        print(f"{path}: {number} frame" + "s" * (number > 1))
+    with program("dump_to_vtk"):
+        for path in map(Path, sys.argv[1:]):
+            number = 0
+            try:
+                for _, names, rows, other in each_table(path):
+                    text = vtk(names, rows, other.get("BOX BOUNDS"))
+                    (path.with_suffix("") if path.suffix == ".gz" else path).with_suffix(f".{number:04d}.vtk").write_text(text)
+                    number += 1
+            except ValueError as error:
+                raise SystemExit(f"dump_to_vtk: {'' if str(path) in str(error) else f'{path}: '}{error}") from None
+            if not number:
+                raise SystemExit(f"dump_to_vtk: {path} has no whole frame")
+            print(f"{path}: {number} frame" + "s" * (number > 1))
 
 
 if __name__ == "__main__":

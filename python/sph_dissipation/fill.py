@@ -7,8 +7,17 @@ The particles are those of a simple cubic lattice, as "lattice sc" of LAMMPS wit
 """
 import argparse
 import math
+import os
 import re
 from pathlib import Path
+
+from . import program
+
+WELD = 1e-6             # of the size of a shape: corners nearer to each other are one, which rounding has moved
+MOST = 2**31 - 1        # IDs of LAMMPS, if it is not built for more
+DIGITS = 15             # of coordinates in a data file
+# bytes of memory of a point of the lattice, of a particle, and of a point in the box around one triangle
+BYTES, BYTES_OF_PARTICLE, BYTES_OF_TRIANGLE = 11, 120, 200
 
 
 def read_stl(path):
@@ -21,27 +30,51 @@ def read_stl(path):
         facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
         triangles = np.frombuffer(data, facet, count, 84)["corners"].astype(float)
     else:
-        words = re.findall(rb"^\s*vertex\s+(\S+)\s+(\S+)\s+(\S+)\s*$", data, re.MULTILINE)
-        if not data.lstrip().startswith(b"solid") or not words or len(words) % 3:
-            raise ValueError("is no STL file")
-        triangles = np.array(words).astype(float).reshape(-1, 3, 3)
+        words = re.findall(rb"^\s*vertex\s+(\S+)\s+(\S+)\s+(\S+)\s*$", data, re.MULTILINE | re.IGNORECASE)
+        if not data.lstrip()[:5].lower() == b"solid" or not words or len(words) % 3:
+            raise ValueError("is no STL file, or a part of one")
+        try:
+            triangles = np.array(words).astype(float).reshape(-1, 3, 3)
+        except ValueError:
+            raise ValueError("has coordinates that are no numbers") from None
     if not np.isfinite(triangles).all():
-        raise ValueError("has coordinates that are no numbers")
+        raise ValueError("has coordinates that are no finite numbers")
     return triangles
 
 
-def open_edges(triangles):
-    """Number of edges of triangles without an opposite edge of another triangle: 0 if the surface is closed."""
+def weld(triangles):
+    """The same triangles, with those corners in one place that are nearer to each other than a part WELD of the size of the shape."""
     import numpy as np
 
-    corners, number = np.unique(triangles.astype(np.float32).reshape(-1, 3), axis=0, return_inverse=True)
+    points, number = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
+    apart = WELD * np.ptp(points, axis=0).max()
+    label, count, before = np.zeros(len(points), dtype=np.int64), 1, 0
+    # groups are divided where they have a gap along an axis, until they have none
+    while count > before:
+        before = count
+        for values in points.T:
+            order = np.lexsort((values, label))
+            cut = (np.diff(label[order]) > 0) | (np.diff(values[order]) > apart)
+            label[order] = np.concatenate([[0], np.cumsum(cut)])
+        count = label.max() + 1
+    first = np.unique(label, return_index=True)[1]
+    return points[first[label[number.reshape(-1)]]].reshape(-1, 3, 3)
+
+
+def open_edges(triangles):
+    """Edges of triangles without an opposite edge of another triangle, array [edge, end, coordinate]: none if the surface is closed."""
+    import numpy as np
+
+    corners, number = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
     number = number.reshape(-1, 3)
-    edges = np.concatenate([number[:, [k, (k + 1) % 3]] for k in range(3)])
+    edges = np.stack([number[:, [k, (k + 1) % 3]] for k in range(3)], axis=1).reshape(-1, 2)
     edges = edges[edges[:, 0] != edges[:, 1]]
     code, back = (edges[:, k].astype(np.int64) * len(corners) + edges[:, 1 - k] for k in (0, 1))
-    names, counts = np.unique(np.concatenate([code, back]), return_counts=True)
-    balance = np.bincount(np.searchsorted(names, code), minlength=len(names)) * 2 - counts
-    return int(np.maximum(balance, 0).sum())
+    names, first, counts = np.unique(code, return_index=True, return_counts=True)
+    backs = np.sort(back)
+    counts -= np.searchsorted(backs, names, "right") - np.searchsorted(backs, names, "left")
+    which = np.repeat(first, np.maximum(counts, 0))
+    return corners[edges[np.sort(which)]]
 
 
 def volume(triangles):
@@ -86,7 +119,7 @@ def inside(triangles, axes):
             height = triangle[0, 2] - ((x[columns][i] - triangle[0, 0]) * normal[0] + (y[rows][j] - triangle[0, 1]) * normal[1]) / normal[2]
         below = np.searchsorted(z, np.clip(height, low[2], high[2]), side="left")
         np.add.at(change, (columns.start + i, rows.start + j, below), turns[i, j])
-    above = change[:, :, ::-1].cumsum(axis=2)[:, :, ::-1]
+    above = change[:, :, ::-1].cumsum(axis=2, dtype=np.int32)[:, :, ::-1]
     return above[:, :, 1:] != 0
 
 
@@ -114,8 +147,42 @@ def near(triangles, axes, distance):
     return found
 
 
+def check_size(triangles, spacing, thickness=0.0):
+    """About how many particles there are; ValueError if LAMMPS cannot number them, or the memory of this machine does not hold them."""
+    import numpy as np
+
+    low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
+    sides = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
+    number = (abs(volume(triangles)) + 0.5 * sides.sum() * thickness) / spacing**3
+    about = f"needs about {number:.3g} particles at a spacing of {spacing:g}"
+    if number > MOST:
+        raise ValueError(f"{about}, and LAMMPS numbers at most {MOST}: take a larger spacing")
+    if spacing < 1e6 * 10.0**-DIGITS * np.abs([low, high]).max():
+        raise ValueError(f"is too far from the origin for a spacing of {spacing:g}, which takes more than {DIGITS} digits: move it")
+    cells = np.prod((high - low + 2 * thickness) / spacing + 4)
+    largest = np.prod((np.ptp(triangles, axis=1) + 2 * thickness) / spacing + 1, axis=1).max() if thickness else 0.0
+    needed, memory = BYTES * cells + BYTES_OF_PARTICLE * number + BYTES_OF_TRIANGLE * largest, memory_of_machine()
+    if needed > memory:
+        raise ValueError(f"{about}, which take {needed / 2**30:.3g} GiB of memory; this machine has {memory / 2**30:.3g}: take a larger spacing")
+    return number
+
+
+def memory_of_machine():
+    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+
+
 def fill(triangles, spacing, thickness=0.0):
     """Positions of the particles inside of a closed surface, and of those outside at most a thickness away from it."""
+    import numpy as np
+
+    number = check_size(triangles, spacing, thickness)
+    try:
+        return lattice_points(triangles, spacing, thickness)
+    except MemoryError:
+        raise ValueError(f"needs about {number:.3g} particles at a spacing of {spacing:g}, for which the memory is not enough: take a larger spacing") from None
+
+
+def lattice_points(triangles, spacing, thickness):
     import numpy as np
 
     margin = thickness + spacing
@@ -132,19 +199,30 @@ def write_data(path, groups, spacing, mass):
 
     points = np.concatenate([x for _, x in groups])
     types = np.concatenate([np.full(len(x), kind) for kind, x in groups])
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(f"particles at a spacing of {spacing:g}\n\n{len(points)} atoms\n{types.max()} atom types\n\n")
-        for axis, low, high in zip("xyz", points.min(axis=0) - spacing / 2, points.max(axis=0) + spacing / 2):
-            file.write(f"{low:.10g} {high:.10g} {axis}lo {axis}hi\n")
-        file.write("\nAtoms # sph/bulk\n\n")
-        for number, (kind, x) in enumerate(zip(types, points), 1):
-            file.write(f"{number} {kind} {mass:.10g} 0.0 {x[0]:.10g} {x[1]:.10g} {x[2]:.10g}\n")
+    try:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(f"particles at a spacing of {spacing:g}\n\n{len(points)} atoms\n{types.max()} atom types\n\n")
+            for axis, low, high in zip("xyz", points.min(axis=0) - spacing / 2, points.max(axis=0) + spacing / 2):
+                file.write(f"{low:.{DIGITS}g} {high:.{DIGITS}g} {axis}lo {axis}hi\n")
+            file.write("\nAtoms # sph/bulk\n\n")
+            for number, (kind, x) in enumerate(zip(types, points), 1):
+                file.write(f"{number} {kind} {mass:.{DIGITS}g} 0.0 " + " ".join(f"{place:.{DIGITS}g}" for place in x) + "\n")
+    except OSError as error:
+        error.filename = str(path)    # that of a full disk has none
+        raise
 
 
 def positive(text):
     value = float(text)
     if not 0 < value < math.inf:
         raise argparse.ArgumentTypeError("must be > 0")
+    return value
+
+
+def finite(text):
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError("must be a finite number")
     return value
 
 
@@ -160,7 +238,7 @@ def arguments(argv=None):
     parser.add_argument("shape", type=Path, metavar="SHAPE.stl")
     parser.add_argument("spacing", type=positive, metavar="SPACING", help="of the particles")
     parser.add_argument("--scale", type=positive, default=1.0, help="multiplies the coordinates of the file (default: 1)")
-    parser.add_argument("--move", type=float, nargs=3, default=(0.0, 0.0, 0.0), metavar=("X", "Y", "Z"), help="moves the shape then")
+    parser.add_argument("--move", type=finite, nargs=3, default=(0.0, 0.0, 0.0), metavar=("X", "Y", "Z"), help="moves the shape then")
     parser.add_argument("--inside", type=kind, default=1, metavar="TYPE", help="of the particles inside; 0: none (default: 1)")
     parser.add_argument("--outside", type=kind, default=0, metavar="TYPE", help="of particles around the shape, the wall of a vessel")
     parser.add_argument("--thickness", type=positive, metavar="D", help="of the particles around it; at least the support radius")
@@ -174,28 +252,45 @@ def arguments(argv=None):
     return args
 
 
-def main(argv=None):
+def run(args):
     import numpy as np
 
-    args = arguments(argv)
+    mass = args.density * math.prod([args.spacing] * 3)    # no error where it is too large
+    if not 0 < mass < math.inf:
+        raise SystemExit(f"fill: --density {args.density:g} times {args.spacing:g}^3, the mass of a particle, is {mass:g}: take other units")
     try:
-        triangles = read_stl(args.shape) * args.scale + np.array(args.move)
-        missing = open_edges(triangles)
-        if missing:
-            raise ValueError(f"is not closed: {missing} edges have no triangle on one side")
-    except (OSError, ValueError) as error:
-        raise SystemExit(f"fill: {args.shape} {error.strerror if isinstance(error, OSError) else error}") from None
-    size = abs(volume(triangles))
-    points = fill(triangles, args.spacing, args.thickness or 0.0)
-    if not len(points[0]):
-        raise SystemExit(f"fill: {args.shape} has no room for particles at a spacing of {args.spacing:g}")
+        triangles = weld(read_stl(args.shape))
+        holes = open_edges(triangles)
+        if len(holes):
+            places = ", ".join("({:.6g} {:.6g} {:.6g})".format(*place) for place in holes.mean(axis=1)[:3])
+            raise ValueError(f"is not closed: {len(holes)} edges have no triangle on one side, the first ones at {places}")
+        triangles = triangles * args.scale + np.array(args.move)
+        if not np.isfinite(triangles).all():
+            raise ValueError("is too large, with --scale and --move, for a computer to calculate with")
+        path = args.out or Path(args.shape.with_suffix(".data").name)
+        if path.exists() and path.samefile(args.shape):
+            raise ValueError("is the file to be written: name another one by --out")
+        points = fill(triangles, args.spacing, args.thickness or 0.0)
+        if not len(points[0]):
+            raise ValueError(f"has no room for particles at a spacing of {args.spacing:g}")
+    except ValueError as error:
+        raise SystemExit(f"fill: {args.shape} {error}") from None
     groups = [(number, x) for number, x in zip((args.inside, args.outside), points) if number]
-    path = args.out or args.shape.with_suffix(".data").name
-    write_data(path, groups, args.spacing, args.density * args.spacing**3)
+    write_data(path, groups, args.spacing, mass)
+    size = abs(volume(triangles))
     print(f"{len(triangles)} triangles around a volume of {size:.6g}, filled by {len(points[0]) * args.spacing**3 / size:.4f} of it")
     for number, x in groups:
         print(f"type {number}: {len(x)} particles")
     print(f"wrote {path}")
+
+
+def main(argv=None):
+    args = arguments(argv)
+    with program("fill"):
+        import numpy as np
+
+        with np.errstate(all="ignore"):    # what is not finite is noticed
+            run(args)
 
 
 if __name__ == "__main__":

@@ -66,10 +66,11 @@ def gas(columns):
     rho = p * columns["M"] / (GAS_CONSTANT * columns["temperature"])
     relax = [(columns[name], columns["tau" + name[7:]]) for name in columns if name.startswith("kappa_r") and columns[name]]
     modulus = 5 / 3 * p - columns["gamma"] * p - sum(kappa_r / tau for kappa_r, tau in relax)
-    below = STEADY / (2 * math.pi * kappa / modulus) if kappa else math.inf
-    cp, cv = columns["cp"] / columns["M"], (columns["cp"] - GAS_CONSTANT) / columns["M"]
-    return Fluid(rho, math.sqrt(columns["gamma"] * p / rho), columns["mu"], kappa, relax, (0.0, below), False,
-                 columns["k"] * (1 / cv - 1 / cp))
+    below = STEADY / (2 * math.pi * kappa / modulus) if kappa and modulus > 0 else math.inf
+    conduction, cp = 0.0, columns.get("cp")
+    if cp and cp > GAS_CONSTANT and columns.get("k"):    # pair_coeff does without these columns
+        conduction = columns["k"] * columns["M"] * (1 / (cp - GAS_CONSTANT) - 1 / cp)
+    return Fluid(rho, math.sqrt(columns["gamma"] * p / rho), columns["mu"], kappa, relax, (0.0, below), False, conduction)
 
 
 def humid_air(humidity, temperature=293.15, pressure=101325.0):
@@ -113,18 +114,71 @@ def humid_air(humidity, temperature=293.15, pressure=101325.0):
 
 
 def rows(path):
-    """{name: ({column: number, or None for -}, comment)} of a file of fluids"""
-    found, columns = {}, COLUMNS
-    for line in path.read_text(encoding="utf-8").splitlines():
+    """{name: ({column: number, or None for -}, comment)} of a file of fluids; ValueError with the place of what pair_coeff refuses"""
+    found, line_of, columns = {}, {}, COLUMNS
+    try:
+        lines = Path(path).read_text(encoding="utf-8").splitlines()
+    except UnicodeDecodeError:
+        raise ValueError(f"{path} is not a text file") from None
+    for number, line in enumerate(lines, 1):
         words, _, comment = line.partition("#")
         words = words.split()
-        if words[:1] == ["columns"]:
-            columns = words[1:]
-        elif words:
-            if len(words) != len(columns):
-                raise ValueError(f"{path}: {words[0]} has {len(words)} columns, not {len(columns)}")
-            found[words[0]] = ({column: None if word == "-" else float(word) for column, word in zip(columns[1:], words[1:])}, comment)
+        try:
+            if words[:1] == ["columns"]:
+                columns = named_columns(words[1:])
+            elif words:
+                if len(words) != len(columns):
+                    raise ValueError(f"a fluid has {len(columns)} columns ({' '.join(columns)}), not {len(words)}")
+                value = {column: number_of(word) for column, word in zip(columns[1:], words[1:])}
+                check(value, dict(zip(columns, words)))
+                if words[0] in found:
+                    raise ValueError(f"fluid {words[0]} stands already in line {line_of[words[0]]}")
+                found[words[0]], line_of[words[0]] = (value, comment), number
+        except ValueError as error:
+            raise ValueError(f"{path}:{number}: {error}") from None
     return found
+
+
+def number_of(word):
+    """None for -"""
+    try:
+        number = None if word == "-" else float(word)
+    except ValueError:
+        number = math.nan
+    if number is not None and not math.isfinite(number):
+        raise ValueError(f"'{word}' is not a number")
+    return number
+
+
+def named_columns(columns):
+    if columns[:1] != ["name"]:
+        raise ValueError("the first column must be name")
+    needed = COLUMNS[2:] if "rho" in columns else ["temperature", "pressure", "M", "gamma", "mu", "kappa"]
+    for column in columns:
+        if columns.count(column) > 1:
+            raise ValueError(f"there are two columns {column}")
+        process = re.fullmatch(r"(kappa_r|tau)([0-9]+)", column)
+        if process:
+            needed = [*needed, f"kappa_r{process[2]}", f"tau{process[2]}"]
+    for column in needed:
+        if column not in columns:
+            raise ValueError(f"there is no column {column}")
+    return columns
+
+
+def check(value, text):
+    """numbers of a fluid by the names of their columns, and how they are written"""
+    positive = ["rho", "c"] if "rho" in value else ["pressure", "M", "temperature", "gamma"]
+    for name in value:
+        tau = f"tau{name[7:]}"
+        if name.startswith("kappa_r") and (value[name], value[tau]) != (None, None):
+            positive += [name, tau]
+    for name in positive:
+        if not (value[name] or 0.0) > 0.0:
+            raise ValueError(f"{name} must be > 0, not {text[name]}")
+    for name in ("mu", "kappa"):
+        if value[name] is None or value[name] < 0.0:
+            raise ValueError(f"{name} must be >= 0, not mu = {text['mu']} kappa = {text['kappa']}")
 
 
 def read(path):
@@ -132,7 +186,7 @@ def read(path):
     fluids = {}
     for name, (value, comment) in rows(path).items():
         fluids[name] = one = Fluid(*(value[column] for column in COLUMNS[2:])) if "rho" in value else gas(value)
-        valid = re.match(r" kappa (measured )?(above|below) (\S+)$", comment)
+        valid = re.match(r" kappa (measured )?(above|below) ([0-9.e+-]+)$", comment)
         if valid:
             limit = float(valid[3])
             one.valid, one.measured = ((0.0, limit) if valid[2] == "below" else (limit, math.inf)), bool(valid[1])
@@ -163,8 +217,12 @@ def air_of(name):
 
 
 if __name__ == "__main__":
-    for argument in sys.argv[1:]:
-        try:
-            print(" ".join([argument, *(f"{value:.6g}" for value in air_of(argument).values())]))
-        except ValueError as error:
-            raise SystemExit(f"fluids: no fluid {argument}: {error}") from None
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    from sph_dissipation import program
+
+    with program("fluids"):
+        for argument in sys.argv[1:]:
+            try:
+                print(" ".join([argument, *(f"{value:.6g}" for value in air_of(argument).values())]))
+            except ValueError as error:
+                raise SystemExit(f"fluids: no fluid {argument}: {error}") from None

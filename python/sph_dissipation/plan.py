@@ -23,7 +23,7 @@ import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from . import fluids
+from . import fluids, program
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -62,7 +62,8 @@ LATTICE = {2: ("hex", math.sqrt(2 / math.sqrt(3)), 2, (1, math.sqrt(3))), 3: ("b
 
 STIFF = 10.0      # times the step of sound, from which rate of the viscous terms on they get a solver of their own,
 STIFFER = 300.0   # and from which on one that damps fast motions at once; see the page about large viscosities
-MOST_STEPS = 2**31 - 1    # of LAMMPS's run command
+MOST = 2**31 - 1          # steps of LAMMPS's run command, and IDs of particles
+MOST_NEIGHBORS = 1e5      # of a particle
 GRAVITY = {"lj": 1.0, "si": 9.81}
 TANK = 5.366              # length over the height of the column, of the experiment of examples/dam_break
 DAMPING = 0.15            # kappa of a free surface over rho0 c0 rc/2, see the page about free surfaces
@@ -137,9 +138,11 @@ class Plan:
         self.set_particles()
         self.set_time_step()
         self.steps = math.ceil((args.time or 10 * args.length / (self.c0 if self.wave else args.velocity)) / self.dt)
-        if self.steps > MOST_STEPS:
+        if self.steps > MOST:
             raise SystemExit(f"plan: these are {self.steps:.2g} steps of {self.dt:g}, more than LAMMPS can run; take a lower speed of "
                              "sound (--c), a shorter --time, or a larger length")
+        if self.number > MOST:
+            raise SystemExit(f"plan: these are {float(self.number):.3g} particles, and LAMMPS numbers at most {MOST}; take less --particles")
 
     def set_particles(self):
         args = self.args
@@ -147,6 +150,9 @@ class Plan:
         nearest = constant * (1.0 if self.dim == 2 else math.sqrt(3) / 2)
         if args.support <= nearest:
             raise SystemExit(f"plan: --support {args.support:g} reaches no neighbor of this lattice, the nearest are at {nearest:.3g}; take 4 or more")
+        neighbors = (math.pi if self.dim == 2 else 4 / 3 * math.pi) * args.support**self.dim
+        if neighbors > MOST_NEIGHBORS:
+            raise SystemExit(f"plan: --support {args.support:g} gives a particle {neighbors:.2g} neighbors; take 4 to 10")
         self.cells = [max(round(args.particles / (constant * edge)), 1) for edge in edges]    # whole ones; exactly one wave along x
         self.dx = args.length / (constant * self.cells[0] * edges[0] if self.wave else args.particles)
         self.rc = args.support * self.dx
@@ -487,8 +493,8 @@ def measured_time(plan, lmp):
         Path(folder, "in.plan").write_text(small.input())
         try:
             done = subprocess.run([str(lmp), "-in", "in.plan", "-var", "steps", str(steps), "-nocite", "-log", "none"], cwd=folder,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, check=False,
-                                  timeout=60, env={**os.environ, "OMP_NUM_THREADS": "1"})
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, errors="replace",
+                                  check=False, timeout=60, env={**os.environ, "OMP_NUM_THREADS": "1"})
         except subprocess.TimeoutExpired:
             return None
     loop = re.search(r"^Loop time of (\S+) on", done.stdout, re.MULTILINE)
@@ -584,8 +590,7 @@ def arguments(argv):
     return args
 
 
-def main(argv=None):
-    args = arguments(argv)
+def printed(args):
     try:
         plan = (Column if args.column else Plan)(args)
         numbers = plan.input()
@@ -601,7 +606,13 @@ def main(argv=None):
         each = measured_time(plan, plan.args.lmp.resolve())
         if each is not None:
             time = f"run time            about {duration(each * plan.number * plan.steps)} of one core, from a short run on this machine"
-    sys.stdout.write(plan.input(time))
+    return plan.input(time)
+
+
+def main(argv=None):
+    args = arguments(argv)
+    with program("plan"):
+        print(printed(args), end="")
 
 
 if __name__ == "__main__":

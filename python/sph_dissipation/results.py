@@ -4,6 +4,7 @@ import gzip
 import math
 import re
 import warnings
+import zlib
 
 ITEM = re.compile(r"ITEM: (NUMBER OF|BOX BOUNDS|GRID SIZE|GRID CELLS|\w+)")
 
@@ -17,8 +18,15 @@ def lines_of(path):
             yield from file
         except EOFError:    # packed, and cut
             pass
-        except (UnicodeDecodeError, gzip.BadGzipFile):
+        except (UnicodeDecodeError, gzip.BadGzipFile, zlib.error):
             raise ValueError(f"{path} is not a text file") from None
+
+
+def whole_numbers(path, what, text):
+    words = text.split()
+    if not words or not all(re.fullmatch("[0-9]+", word) for word in words):
+        raise ValueError(f"{path}: {what} must be whole numbers, not '{text.strip()}'")
+    return list(map(int, words))
 
 
 def cut(path, step):
@@ -63,14 +71,14 @@ def each_table(path, kinds=("ATOMS", "ENTRIES")):
                 size = other.get("GRID SIZE" if kind == "GRID CELLS" else "NUMBER OF", [])[1:]
                 if not size:
                     raise ValueError(f"{path}: ITEM: {kind} without the number of its lines")
-                count = math.prod(map(int, size[0].split()))
+                count = math.prod(whole_numbers(path, f"the number of lines of ITEM: {kind}", size[0]))
                 names, rows = head.split()[1 + len(kind.split()):], [line.split() for line in lines[:count]]
                 if len(rows) < count or not (head, *lines)[count].endswith("\n") or len({len(row) for row in rows}) > 1:
                     cut(path, step)
                 elif rows and len(rows[0]) != len(names):
                     raise ValueError(f"{path}: {len(names)} names of columns for {len(rows[0])} values; names must have no spaces")
                 else:
-                    yield int(step), names, rows, other
+                    yield whole_numbers(path, "the step", step)[0], names, rows, other
                 if any(line.strip() for line in lines[count:]):
                     cut(path, f"after {step}")
             step, last, other = None, step, {}
@@ -122,7 +130,7 @@ def each_average(path):
         elif step is not None:
             rows.append(words)
         elif words:
-            if names is None or len(words) < 2 or not (words[0] + words[1]).isdigit():
+            if names is None or len(words) < 2 or not re.fullmatch("[0-9]+", words[0] + words[1]):
                 raise ValueError(f"{path} has no output of fix ave/chunk, nor of fix ave/time with mode vector")
             step, count, rows = int(words[0]), int(words[1]), []
         if comment:
@@ -130,6 +138,8 @@ def each_average(path):
         if step is not None and len(rows) == count:
             yield step, columns(names, rows)
             step = None
+    if names is None:
+        raise ValueError(f"{path} has no output of fix ave/chunk, nor of fix ave/time with mode vector")
     if step is not None:
         cut(path, step)
 
@@ -143,7 +153,7 @@ def read_array(path):
     """The outputs of fix ave/time with mode vector: [array[row, column]]."""
     import numpy as np
 
-    return [np.column_stack([*found.values()][1:]) for _, found in each_average(path)]
+    return [np.array([*found.values()][1:]).T for _, found in each_average(path)]
 
 
 def read_grid(path):
@@ -152,14 +162,21 @@ def read_grid(path):
     import numpy as np
 
     found = []
-    for _, _, rows, other in each_table(path, ["GRID CELLS"]):
-        length = np.array([np.diff([float(word) for word in line.split()[:2]])[0] for line in other["BOX BOUNDS"][1:]])
-        count = tuple(map(int, other["GRID SIZE"][1].split()))
-        rows = np.array(rows, dtype=float)
-        place = (rows[:, :3].astype(int) - 1) % count
-        field = np.full((*count, rows.shape[1] - 3), np.nan)
-        field[tuple(place.T)] = rows[:, 3:]
-        assert not np.isnan(field).any()
+    for step, _, rows, other in each_table(path, ["GRID CELLS"]):
+        count = whole_numbers(path, "ITEM: GRID SIZE", other["GRID SIZE"][1])
+        try:
+            length = np.array([float(high) - float(low) for low, high, *_ in map(str.split, other["BOX BOUNDS"][1:])])
+            rows = np.array(rows, dtype=float)
+            places = rows[:, :3].astype(int) - 1
+            if len(count) != 3 or len(length) != 3:
+                raise ValueError
+        except (KeyError, IndexError, ValueError):
+            raise ValueError(f"{path}: step {step} has not the form of a dump of style grid with columns ix iy iz") from None
+        field, seen = np.full((*count, rows.shape[1] - 3), np.nan), np.zeros(count, dtype=bool)
+        places = tuple((places % count).T)
+        field[places], seen[places] = rows[:, 3:], True
+        if not seen.all():
+            raise ValueError(f"{path}: step {step} has not all cells of its grid, or columns that are not ix iy iz")
         found.append((length, field))
     return found
 

@@ -173,7 +173,10 @@ FluidLine SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const
       known += " " + words[0];
       if (words[0] == name) fluid = one;
     }
+    if (ferror(fp))
+      error->one(FLERR, "Cannot read file of fluids {}: {}", file, utils::getsyserror());
     fclose(fp);
+    if (known.empty()) error->one(FLERR, "File {} has no fluids", file);
     if (!line_of.count(name))
       error->one(FLERR, "No fluid {} in file {}, which has:{}", name, file, known);
   }

@@ -1,6 +1,10 @@
 """Shapes of STL files are filled with particles, python/sph_dissipation/fill.py; the shapes are made here."""
 
 import itertools
+import os
+import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -48,12 +52,12 @@ def write_text(path, triangles):
 
 def test_files_and_volume(tmp_path):
     for shape, exact in ((cube(2.0), 8.0), (sphere(), 4 / 3 * np.pi * 0.9957)):
-        assert fill.volume(shape) == pytest.approx(exact, rel=2e-3) and fill.open_edges(shape) == 0
+        assert fill.volume(shape) == pytest.approx(exact, rel=2e-3) and len(fill.open_edges(shape)) == 0
         assert fill.volume(shape[:, ::-1]) == pytest.approx(-fill.volume(shape))
         for write in (write_binary, write_text):
             write(tmp_path / "shape.stl", shape)
             assert np.abs(fill.read_stl(tmp_path / "shape.stl") - shape).max() < 1e-6
-    assert fill.open_edges(cube()[1:]) == 3 and fill.open_edges(np.concatenate([cube(), cube(0.5, (0.2, 0.2, 0.2))])) == 0
+    assert len(fill.open_edges(cube()[1:])) == 3 and len(fill.open_edges(np.concatenate([cube(), cube(0.5, (0.2, 0.2, 0.2))]))) == 0
 
 
 @pytest.mark.parametrize("spacing", [0.1, 0.05])
@@ -138,12 +142,86 @@ def test_errors(tmp_path, capsys, words, message):
     assert message in str(error.value) + capsys.readouterr().err
 
 
+def test_corners_that_rounding_has_moved(tmp_path):
+    """Corners that differ by rounding are one: the surface is closed, and no ray passes between the triangles."""
+    grid = np.linspace(-1.2, 1.2, 25)       # meets corners and edges of the octahedron
+    size = np.abs(np.stack(np.meshgrid(grid, grid, grid, indexing="ij"))).sum(axis=0)
+    random = np.random.default_rng(3)
+    for noise in (1e-16, 1e-12, 1e-7):
+        shape = sphere(divisions=0)
+        shape = shape + random.choice([-noise, noise], shape.shape)
+        assert len(fill.open_edges(shape)) > 0 and len(fill.open_edges(fill.weld(shape))) == 0
+        which = fill.inside(fill.weld(shape), [grid] * 3)
+        assert which[size < 1 - 1e-6].all() and not which[size > 1 + 1e-6].any()
+    lines = ["SOLID shape"]
+    for triangle in cube() + random.choice([-1e-16, 1e-16], (12, 3, 3)):
+        lines += ["FACET NORMAL 0 0 0", "OUTER LOOP", *("VERTEX " + " ".join(map(repr, map(float, corner))) for corner in triangle), "ENDLOOP", "ENDFACET"]
+    (tmp_path / "cube.stl").write_text("\n".join(lines))
+    fill.main([str(tmp_path / "cube.stl"), "0.1", "--out", str(tmp_path / "cube.data")])
+    assert "\n1000 atoms\n" in (tmp_path / "cube.data").read_text()
+    # fine meshes are left as they are
+    points = random.uniform(size=(20000, 3, 3))
+    assert (fill.weld(points) == points).all()
+
+
+def test_data_far_from_the_origin(tmp_path):
+    """Places have all digits that their spacing needs."""
+    write_text(tmp_path / "cube.stl", cube())
+    fill.main([str(tmp_path / "cube.stl"), "0.125", *"--move 1e7 0 0 --out".split(), str(tmp_path / "cube.data")])
+    x = np.loadtxt(tmp_path / "cube.data", skiprows=10, usecols=4)
+    assert sorted(set(x)) == list(1e7 + 0.125 * np.arange(8) + 0.0625)
+
+
 def test_files_that_are_no_closed_surface(tmp_path):
     path = tmp_path / "shape.stl"
-    for make, message in ((lambda: write_text(path, cube()[1:]), "is not closed: 3 edges"), (lambda: path.write_text("solid\n"), "is no STL file"),
-                          (lambda: path.write_text("ply\n"), "is no STL file"), (lambda: write_text(path, cube() * np.nan), "no numbers"),
-                          (path.unlink, "No such file")):
-        if make != path.unlink or path.exists():
-            make()
-        with pytest.raises(SystemExit, match=message):
+    whole = cube()
+    for make, message in ((lambda: write_text(path, whole[1:]), r"is not closed: 3 edges have .*, the first ones at \(0 0.5 0.5\), \(0 1 0.5\), \(0 0.5 1\)$"),
+                          (lambda: write_text(path, np.concatenate([whole, cube(1.0, (5, 6, 7))[:11]])), r"3 edges .* at \(5 6.5 8\), "),
+                          (lambda: write_text(path, np.concatenate([whole, 1e-5 * whole[1:]])), "is not closed: 3 edges"),    # a small hole
+                          (lambda: path.write_text("solid\n"), "is no STL file"), (lambda: path.write_text("ply\n"), "is no STL file"),
+                          (lambda: path.write_text(""), "is no STL file"), (lambda: path.write_bytes(bytes(range(256)) * 9), "is no STL file"),
+                          (lambda: write_binary(path, whole) or path.write_bytes(path.read_bytes()[:-1]), "is no STL file, or a part of one"),
+                          (lambda: write_text(path, whole * np.nan), "no finite numbers"), (lambda: write_text(path, whole * np.inf), "no finite numbers"),
+                          (lambda: path.write_text("solid\n" + "vertex 0,5 0 0\n" * 3), "no numbers"),
+                          (path.unlink, "No such file"), (path.mkdir, "Is a directory")):
+        make()
+        with pytest.raises(SystemExit, match=message) as error:
             fill.main([str(path), "0.1"])
+        assert str(path) in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("words, message", [
+    ("1e-9", "needs about 1e\\+27 particles at a spacing of 1e-09, and LAMMPS numbers at most 2147483647: take a larger spacing"),
+    ("1e-3 --outside 2 --thickness 1", "needs about 7e\\+09 particles"), ("1e-2", "needs about 1e\\+06 particles .* take .* GiB of memory; this machine has "),
+    ("0.1 --move 1e9 0 0", "too far from the origin"), ("0.1 --move nan 0 0", "must be a finite number"), ("0.1 --scale 1e308 --move 1e308 1e308 1e308", "is too large"),
+    ("1e-120", "the mass of a particle, is 0"), ("1e120", "the mass of a particle, is inf"), ("0.1 --density 1e-323", "the mass of a particle, is 0"),
+    ("1e-100 --scale 1e-90", "needs about 1e\\+30 particles"), ("0.1 --scale 1e-200", "has no room"), ("0.1 --out {0}/none/cube.data", "none/cube.data: No such file"),
+    ("0.1 --out {0}", "Is a directory"), ("0.1 --out /dev/full", "/dev/full: No space left on device"), ("0.1 --out {0}/cube.stl", "is the file to be written")])
+def test_numbers_and_places_that_do_not_work(tmp_path, monkeypatch, capsys, words, message):
+    """One line says what is wrong."""
+    monkeypatch.setattr(fill, "memory_of_machine", lambda: 5e7)
+    write_text(tmp_path / "cube.stl", cube())
+    with pytest.raises(SystemExit) as error:
+        fill.main([str(tmp_path / "cube.stl"), *words.format(tmp_path).split(), *([] if "--out" in words else ["--out", str(tmp_path / "cube.data")])])
+    assert re.search(message, str(error.value) + capsys.readouterr().err) and "\n" not in str(error.value)
+    assert not (tmp_path / "cube.data").exists()
+
+
+def test_end_of_memory_and_of_the_output(tmp_path):
+    """... as the system has them; and a Python without numpy."""
+    write_text(tmp_path / "cube.stl", cube())
+    (tmp_path / "without").mkdir()
+    (tmp_path / "without" / "numpy.py").write_text("raise ModuleNotFoundError(name='numpy')\n")
+
+    def run(command, folder=ROOT):
+        environment = {**os.environ, "PYTHONPATH": f"{folder}{os.pathsep}{ROOT / 'python'}", "OPENBLAS_NUM_THREADS": "1"}
+        done = subprocess.run(["bash", "-c", command.format(f"{sys.executable} -m sph_dissipation.fill cube.stl")], cwd=tmp_path, env=environment,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        return done.returncode, done.stderr
+
+    code, text = run("ulimit -v 400000; {0} 0.004")
+    assert code and re.match("fill: cube.stl needs about 1.56e.07 particles at a spacing of 0.004, .* memory", text) and text.count("\n") == 1
+    assert run("{0} 0.1 >/dev/full") == (1, "fill: No space left on device\n")
+    code, text = run("{0} 0.1 | true; exit ${{PIPESTATUS[0]}}")
+    assert code in (0, 1) and not text
+    assert run("{0} 0.1", tmp_path / "without") == (1, "fill: needs numpy, which this Python does not have; ./sphd fill finds one that does\n")

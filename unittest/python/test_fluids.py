@@ -134,7 +134,9 @@ BAD = {
     "duplicate of another fluid": (GOOD + "honey 300 999 1500 1e-3 1e-3\n",
                                    r"my\.fluids:6: fluid honey .*already in line 4"),
     "unknown name": (spoilt("water", "Water"), r"No fluid water in .*my\.fluids.*: honey Water"),
-    "empty": ("# UNITS: si\n", r"No fluid water in .*my\.fluids"),
+    "empty": ("# UNITS: si\n", r"File my\.fluids has no fluids"),
+    "garbage": ("\x01\x02\u00ff" * 999, r"my\.fluids:1: a fluid has 6 columns"),
+    "a folder": ("", r"Cannot read file of fluids my\.fluids: Is a directory"),
     "other units": (spoilt("UNITS: si", "UNITS: cgs"), r"my\.fluids requires cgs units but si units are in use"),
     "missing file": (None, r"Cannot open file of fluids my\.fluids, .*LAMMPS_POTENTIALS: No such file"),
 }
@@ -144,7 +146,9 @@ BAD = {
 @pytest.mark.parametrize("name", BAD)
 def test_bad_file(box, name, ranks):
     content, message = BAD[name]
-    if content is not None:
+    if name == "a folder":
+        box.path("my.fluids").mkdir()
+    elif content is not None:
         box.path("my.fluids").write_text(content)
     result = box(deck("pair_coeff * * my.fluids water 2.5\n"), ranks=ranks, check=False, timeout=60)
     assert result.code != 0, f"accepted:\n{result.output[-2000:]}"
@@ -357,6 +361,22 @@ def test_good_file_of_gases(box, ranks):
     haze, honey = ([float(word) for word in line.split()[1:6]] for line in written[2:4])
     rho = 1e5 * 0.02 / (R * 300)
     assert haze == pytest.approx([rho, math.sqrt(1.4e5 / rho), 2e-5, 1e-5, 2.5], rel=1e-15) and honey == [1400, 2000, 10.0, 1.0, 2.5]
+
+
+def test_the_python_package_refuses_the_same(tmp_path):
+    """... with the same words; it does not look at units."""
+    path = tmp_path / "my.fluids"
+    for content, message in [*BAD.values(), *BAD_GASES.values()]:
+        if message.startswith(r"my\.fluids:"):
+            path.write_text(content)
+            with pytest.raises(ValueError, match=f"^{re.escape(str(tmp_path))}/{message}"):
+                tool.read(path)
+    path.write_text(GOOD + GOOD_GASES + "columns name c mu rho kappa\nwine 2000 10.0 1400 1.0\n")
+    assert list(tool.read(path)) == ["honey", "water", "haze", "fog", "wine"]
+    assert tool.read(path)["haze"].conduction == 0.0 and len(tool.read(path)["fog"].relax) == 1
+    # a gas of single atoms has no rotation, up to whose frequency a constant would hold
+    path.write_text("columns name pressure kappa gamma M temperature mu\nsteam 1e5 1e-5 1.6666666666666667 0.02 300 2e-5\n")
+    assert tool.read(path)["steam"].valid == (0.0, math.inf)
 
 
 def test_a_gas_needs_si_units(box):

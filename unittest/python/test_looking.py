@@ -146,13 +146,14 @@ def test_other_files(tmp_path):
            "flow.bin": (bytes(range(256)), "not a text file"), "wide.dump": (DUMP.encode("utf-16"), "not a text file"),
            "names.dump": (DUMP.replace("element", "my element").encode(), "names must have no spaces"),
            "places.dump": (DUMP.replace(" x y ", " q r ").encode(), "no columns x y"), "none.dump": (None, "No such file"),
+           "box.dump": (DUMP.replace(" x y ", " xs ys ").replace("-0.5 0.5\n", "-0.5\n").encode(), "ITEM: BOX BOUNDS has not the form"),
            "grid.dump": (b"ITEM: TIMESTEP\n0\nITEM: GRID SIZE nx ny nz\n1 1 1\nITEM: GRID CELLS ix iy iz f\n1 1 1 0\n", "has no ITEM: ATOMS or ENTRIES")}
     for name, (content, message) in bad.items():
         if content is not None:
             (tmp_path / name).write_bytes(content)
         done = to_vtk(name, cwd=tmp_path)
         assert done.returncode == 1 and message in done.stderr and done.stderr.count("\n") == 1 and done.stderr.count(name) == 1, done.stderr
-        if name != "places.dump":
+        if name not in ("places.dump", "box.dump"):
             with pytest.raises((ValueError, OSError), match=message):
                 frames(tmp_path / name)
     done = subprocess.run([sys.executable, str(ROOT / "tools" / "animate.py"), "nope"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
@@ -206,6 +207,45 @@ def test_cut_averages(tmp_path):
         ((length, field),) = sph.read_grid(path)
     assert list(length) == [1, 2, 3] and field.tolist() == [[[[0.5]], [[1.5]]]]
 
+
+
+GRID = "ITEM: TIMESTEP\n0\nITEM: GRID SIZE nx ny nz\n2 1 1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n-0.5 0.5\nITEM: GRID CELLS ix iy iz f\n1 1 1 0\n2 1 1 0.5\n"
+CHUNKS = "# Chunk-averaged data\n# Timestep Number-of-chunks Total-count\n# Chunk Ncount vx\n10 2 9\n  1 4 0.25\n  2 5 0.5\n20 2 9\n  1 4 0.25\n  2 5 0.5\n"
+FLUIDS = (ROOT / "potentials" / "gases.sph").read_text().partition("columns ")
+WORDS = ["nan", "inf", "-1", "1e400", "9" * 20, "\u00b2", "abc", "#", "ITEM: ATOMS id\n", "ITEM: TIMESTEP\n", "\0", "-", "0", "1.5", "\n", "columns"]
+
+
+@pytest.mark.parametrize("read, text", [(frames, DUMP), (sph.read_grid, GRID), (sph.averages, CHUNKS), (sph.read_array, CHUNKS),
+                                        (sph.fluids.read, "".join(FLUIDS[1:]))], ids=lambda value: getattr(value, "__name__", ""))
+@pytest.mark.filterwarnings("ignore")
+def test_damaged_files(tmp_path, read, text):
+    """A file with other words, lines, or bytes is read, or refused by one line that names it; so are a folder, an empty file, and packed ones."""
+    path = tmp_path / "damaged"
+    random = np.random.default_rng(5)
+    words, lines = re.split(r"(\s+)", text), text.splitlines(keepends=True)
+    refused = 0
+    for number in range(200):
+        place, word = random.integers(len(words)), WORDS[random.integers(len(WORDS))]
+        line, byte = random.integers(len(lines)), random.integers(len(text))
+        damaged = ["".join(words[:place] + [word] + words[place + 1:]), "".join(lines[:line] + lines[line + 1:]),
+                   "".join(lines[:line] + [word + "\n"] + lines[line:]), text[:byte], text[:byte] + "\u00e6" + text[byte + 1:]][number % 5]
+        data = damaged.encode(("utf-8", "latin-1")[number % 7 == 0], errors="replace")
+        if number % 11 == 0:
+            data = bytearray(gzip.compress(data))
+            data[random.integers(2, len(data))] ^= 1 << random.integers(8)
+        path.write_bytes(data)
+        try:
+            read(path)
+        except (ValueError, OSError) as error:
+            refused += 1
+            assert "\n" not in str(error) and not isinstance(error, UnicodeError) and (str(path) in str(error) or isinstance(error, gzip.BadGzipFile)), repr(error)
+    assert 0 < refused < 200
+    path.write_bytes(b"")
+    if read is not sph.fluids.read:
+        with pytest.raises(ValueError, match="damaged (is not|has no)"):
+            read(path)
+    with pytest.raises(OSError, match="Is a directory"):
+        read(tmp_path)
 
 LOG = """units lj
 dimension 2

@@ -231,10 +231,27 @@ def test_proposal():
     (f"--rho 1 --mu 1 {BOX} --support 7", "two support radii"), (f"--rho 1 --mu 1 {BOX} --dim 3 --shear morris", "give --kappa"),
     (f"--rho 1 --mu 1 {BOX} --fraction 2", "--fraction"), (f"{WATER} --units lj", "leave --units out"),
     (f"{WATER} --time 1e9", "more than LAMMPS can run"), (f"{WATER} --lmp {ROOT}", "no program that can be run"),
-    (f"{WATER} --lmp {ROOT}/README.md", "no program that can be run")])
+    (f"{WATER} --lmp {ROOT}/README.md", "no program that can be run"),
+    ("--fluid water --wavelength 1 --support 1e5 --particles 1000000", "3.1e+10 neighbors"),
+    ("--fluid water --wavelength 1 --dim 3 --particles 3000", "these are 2.7e+10 particles, and LAMMPS numbers at most 2147483647"),
+    ("--fluid water --column 1 --dim 3 --particles 3000", "these are 2.74e+10 particles")])
 def test_errors(case, message):
     done = printed(case)
     assert done.returncode != 0 and message in done.stderr and "Traceback" not in done.stderr
+
+
+def test_failures_of_the_system(tmp_path):
+    """... of the output, of a LAMMPS that is none, and of the folder for temporary files end in one line."""
+    other = tmp_path / "other"
+    other.write_text("#!/no/such/program\n")
+    other.chmod(0o755)
+    for words, variables, message in [(f"--lmp {tmp_path}/none >/dev/full", {}, "plan: No space left on device\n"),
+                                      (f"--lmp {tmp_path}/none | true; exit ${{PIPESTATUS[0]}}", {}, None),
+                                      (f"--lmp {other}", {}, f"plan: {other}: No such file or directory\n"),
+                                      (f"--lmp {LMP}", {"TMPDIR": str(tmp_path / "none")}, None)]:
+        command = f"{ROOT}/sphd plan {CASES[0]} {words}"
+        done = subprocess.run(["bash", "-c", command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, env={**os.environ, **variables})
+        assert done.stderr == message and done.returncode if message else not done.stderr
 
 
 def test_modules_of_the_working_folder(tmp_path):
