@@ -61,6 +61,11 @@ class Kept:
         sys.__stdout__.flush()
 
 
+def processor_time():
+    """of this process and of what it has started; under ./sphd run also of the build, which this process was before"""
+    return sum(os.times()[:4])
+
+
 def tell(text):
     """For the screen alone: paths and times of this machine."""
     print(text, file=sys.__stdout__, flush=True)
@@ -71,7 +76,7 @@ class Example:
 
     def __init__(self, folder, description):
         self.folder, self.name = folder, folder.name
-        self.begin = time.monotonic()
+        self.begin, self.spent = time.monotonic(), processor_time()
         self.missed = []
         self.processes, self.ended, self.lock = set(), False, threading.Lock()
         self.parser = argparse.ArgumentParser(prog=f"./sphd run {self.name}" if Path(sys.argv[0]).stem == "run" else None,
@@ -209,8 +214,7 @@ class Example:
     def finish(self, *paths):
         for path in paths:
             tell(f"wrote {path}")
-        mine = os.times()
-        tell(f"{self.name}: {time.monotonic() - self.begin:.1f} s, {sum(mine[:4]):.1f} s of processor time")
+        tell(f"{self.name}: {time.monotonic() - self.begin:.1f} s, {processor_time() - self.spent:.1f} s of processor time")
         if self.missed:
             print("\n  ".join(["missed:", *self.missed]))
         elif self.args.check:

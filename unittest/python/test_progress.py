@@ -103,6 +103,15 @@ def test_an_error_ends_the_other_runs(tmp_path, monkeypatch):
     assert time.monotonic() - begin < 20
 
 
+def test_processor_time_of_the_example(tmp_path):
+    """./sphd run is one process with its build, whose processor time is not that of the example."""
+    (tmp_path / "run.py").write_text(SCRIPT.format(folder=str(ROOT / "examples"), here=str(tmp_path)).rpartition("example.run")[0] + "example.finish()\n")
+    build = f"{sys.executable} -c 'import time\nwhile time.process_time() < 1.5: pass'"
+    done = subprocess.run(["bash", "-c", f"{build}; exec {sys.executable} {tmp_path / 'run.py'}"], stdout=subprocess.PIPE, text=True, check=True,
+                          env={**os.environ, "SPHD_LMP": sys.executable})
+    assert float(re.search(r", (\S+) s of processor time$", done.stdout, re.MULTILINE)[1]) < 0.5, done.stdout
+
+
 SCRIPT = """import sys
 sys.path.insert(0, {folder!r})
 import run_lammps
