@@ -297,7 +297,7 @@ class Plan:
         longitudinal = self.zeta + (SHEAR[self.args.shear][1](self.dim) + 2 - 2 / self.dim) * self.mu
         wave = replace(self.fluid, c=self.c0, kappa=longitudinal - 4 / 3 * self.mu)
         s = wave.standing_wave(self.args.length)
-        lines = ["pressure            with pb the particles are a crystal, of which LAMMPS warns: right for sound, not for shear"]
+        lines = ["pressure            with pb the particles are a crystal: right for sound, not for shear"]
         if s is None or abs(s.real) > 2 * s.imag:
             return lines + ["NOTE                the wave does not outlive a period"]
         k = wave.wave_number(s.imag / (2 * math.pi))

@@ -838,10 +838,10 @@ void Fluid::announce_noise(double rate)
   if (rate == 0.0 && !other &&
       (model->choice.own_temperatures || model->choice.temperature > 0.0) && comm->me == 0)
     error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", style);
-  if (rate * update->dt > ACCURATE_NOISE && !viscous->active() && comm->me == 0)
+  if (rate * update->dt > 1.001 * ACCURATE_NOISE && !viscous->active() && comm->me == 0)
     error->warning(
         FLERR,
-        "Pair style {}: the largest viscous rate times the time step is {:.3g}, above {:g}; "
+        "Pair style {}: the largest viscous rate times the time step is {:.4g}, above {:g}; "
         "velocities between steps, and with them the structure of the fluid, are hotter "
         "than the temperature of the noise",
         style, rate * update->dt, ACCURATE_NOISE);

@@ -160,14 +160,26 @@ def potentials(monkeypatch):
     monkeypatch.setenv("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
 
 
+# what is true of these inputs: a body and a floor that might meet; LAMMPS's own, about masses
+WARNED = {"ground floor sph/wall": "bodies have no contact forces", "hybrid sph/bulk bond": "Atom style hybrid defines both"}
+
+
 @pytest.mark.parametrize("text, finds", INPUTS)
 def test_inputs_run(lammps, text, finds):
-    """finds: the numbers after "The input finds", which are in the last line of output, rounded"""
+    """... without a warning; finds: the numbers after "The input finds", which are in the last line of output, rounded"""
     result = lammps(text, timeout=300)
     assert "Loop time" in result.log
+    assert all(any(words in text and warning in line for words, warning in WARNED.items()) for line in result.warnings), result.warnings
     for number in finds:
         last = [abs(float(column[-1])) for column in result.thermo()[-1].values()]
         assert any(round(value, len(number.partition(".")[2])) == float(number) for value in last), (number, last)
+
+
+def test_streaming_in_a_box_of_unequal_sides(lammps):
+    """k = 1.5 q: without the part of the wave in the mean, and with velocities by the places of the displaced particles."""
+    (text,) = (text for _, _, text, _ in blocks(ROOT / "doc" / "src" / "Howto_sph_streaming.rst") if "v_ratio" in text)
+    found = [lammps(text.replace("equal 0.010", f"equal {0.002 * ratio}").replace("0 48 0 28", "0 48 0 42")).thermo()[-1]["v_ratio"][-1] for ratio in (5, 15)]
+    assert found == pytest.approx([5, 15], rel=0.015)
 
 
 @pytest.mark.parametrize("text", FRAGMENTS)

@@ -47,7 +47,7 @@ def test_plan(lammps, case):
     plan = planner.Plan(planner.arguments(case.split()))
     text = plan.input()
     result = lammps(re.sub(r"(variable +steps index) .*", r"\1 4", text))
-    assert all(plan.wave and "shear elasticity" in line for line in result.warnings), result.warnings
+    assert not result.warnings, result.warnings
     limits = {name: step for name, step in plan.limits.items() if step < 1e300}
     assert table(result.log) == pytest.approx({**limits, "all": plan.explicit}, rel=5e-4)    # four digits
     assert f"Created {plan.number} atoms" in result.log
