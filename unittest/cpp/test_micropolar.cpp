@@ -218,6 +218,28 @@ TEST(Micropolar, one_fluid_at_the_edge_of_the_admissible_range)
 
 /* ---------------------------------------------------------------------- */
 
+// shear mg/fr2: the central part has the weight F r^2 where it is positive
+
+TEST(Micropolar, weight_fr2)
+{
+  for (int dim = 2; dim <= 3; dim++) {
+    const Configuration config = spinning_fluid(dim, false, 240 + dim);
+    const Model model = micropolar_model(config, "wendland/c2");
+    lammps().create(config, Layout());
+    lammps().pair_style(model, "tait", "micropolar/fr2", "density");
+    const Computed computed = lammps().run0();
+    if (LammpsDriver::rank() != 0) continue;
+    const System system = make_system(config, model);
+    const auto expected =
+        reference(config, system, system.micropolar("micropolar/fr2"), "tait", "density");
+    EXPECT_LE(deviation(computed.force, expected.force), TOLERANCE);
+    EXPECT_LE(deviation(computed.torque, expected.torque), TOLERANCE);
+    EXPECT_LE(deviation(computed.desph, expected.desph), TOLERANCE);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
 // the friction matrix of velocities and spins together, with the bulk term
 
 static Matrix friction(const System &system, int dim)
