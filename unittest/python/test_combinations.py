@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from helpers import Lammps, Result, Units, read_dump
+from test_messages import NEED, TEXTS
 
 BOUND = 1e-12  # of the largest value
 SHORT = 5e-4  # a time step for which terms of second order are below NEARLY, those of first order above
@@ -466,6 +467,28 @@ def test_pair(cases, names):
         rest = tuple(other for other in names if other != name)
         if rest and FEATURES[name].effect and not refusal(rest):
             assert complaints(cases, (names, "all"), (rest, "all"), 1e-7), f"{name} has no effect"
+
+
+# the same features in the words of the pages
+ON_PAGES = {"rkl2": r"\*viscous rkl2\*", "implicit": r"\*(viscous )?implicit\*", "bodies": r"\*move rigid\*", "hot_bodies": r"\*move rigid\*", "open": r"ix sph/open\b",
+            "split": r"ix sph/refine\b", "noise": r"\*temp( T seed)?\*", "warm": r"\*temp( energy)?\*", "rerun": r"[Rr]erun", "limit": r"\*limit\*|a \*kappa\* below",
+            "shift": r"\*shift\*", "spin": r"\*sph/micropolar\*", "idle_spin": r"\*sph/micropolar\*", "surface": r"\*density continuity\*", "drag": r"\*drag\*",
+            "interdrag": r"\*interdrag\*", "thinning": r"\*power\*|iscosities that are not constant", "arrhenius": r"\*arrhenius\*|iscosities that are not constant",
+            "heat": r"\*(conductivity|gruneisen)\*", "solute": r"\*solute\*", "gas": r"\*eos ideal\*"}
+# sentences that say it in another way
+REQUIRED = {frozenset(["thinning", "spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["arrhenius", "spin"]): r"Pair style \*sph/bulk\*.* required",
+            frozenset(["thinning", "idle_spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["arrhenius", "idle_spin"]): r"Pair style \*sph/bulk\*.* required",
+            frozenset(["heat", "gas"]): r"\*gruneisen\* values .*with \*eos linear\* and \*tait\*",
+            frozenset(["hot_bodies", "noise"]): r"\*temp T seed\* .*\*conductivity\*"}
+
+
+@pytest.mark.parametrize("pair", [pair for pair in PAIRS if refusal(pair)], ids="-".join)
+def test_refused_pair_is_on_a_page(pair):
+    """A sentence of the manual says that the two cannot be used together."""
+    one, other = (re.compile(ON_PAGES[name]) for name in pair)
+    required = REQUIRED.get(frozenset(pair))
+    assert any(re.search(required, sentence) if required else one.search(sentence) and other.search(sentence) and NEED.search(sentence)
+               for page in TEXTS for sentence in TEXTS[page])
 
 
 NEAR = [(name, pair) for name in FEATURES if FEATURES[name].nearly for pair in PAIRS if name in pair and not refusal(pair)]
