@@ -190,7 +190,6 @@ void FixSPHWall::init()
                style);
 
   if (bodies) check_bodies(fluid);
-  frozen = bodies && !fluid->model->choice.continuity;
   motion->init();
   if (!heat_value->init(lmp, fmt::format("fix {} heat", style), true))
     error->all(FLERR, "Variable {} for fix {} heat is neither of equal style nor of atom style",
@@ -320,6 +319,7 @@ void FixSPHWall::setup(int vflag)
                    "Fix {} {}: bodies have no contact forces: only the fluid keeps them apart "
                    "from each other and from walls",
                    id, style);
+  if (!checked && bodies) check_tension(find_fluid(force));
   checked = true;
   if (bodies && find_fluid(force)->viscous->active()) check_masses();
   if (bodies) note_forces();
@@ -486,10 +486,7 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
   if (bodies) {
     stage.for_each(atom->nlocal, [&](int i) {
       if (!(atom->mask[i] & groupbit)) return;
-      if (frozen)
-        stage.set_frozen(i);
-      else
-        stage.set_mean_pressure(i, sums[i], condition->gravity);
+      stage.set_frozen(i, condition->gravity);
     });
     return;
   }

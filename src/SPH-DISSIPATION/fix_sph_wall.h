@@ -78,8 +78,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
                     const SPHDissipation::BoundarySum *) override;
   bool has_symmetric_friction() const override { return noise || bodies; }
   bool has_bodies() const override { return bodies != nullptr; }
-  bool has_frozen_pressure() const override { return frozen; }
-  bool has_mean_pressure() const override { return bodies ? !frozen : !noise; }
+  bool has_mean_pressure() const override { return !bodies && !noise; }
   int number_bodies(int, double *) override;
   SPHDissipation::RigidMotions *rigid_motions() override;
   bool gives_heat() const override;
@@ -116,13 +115,13 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   // bodies that the fluid moves
 
   bool by_molecule, split_given = false;
-  bool frozen = false;     // their pressure is that of frozen fluid
   int first_number = 0;    // of the first body in BoundaryStage
 
   void read_bodies(const std::string &others);
   void check_bodies(const SPHDissipation::Fluid *) const;
   bool check_movers() const;
   void check_masses() const;
+  void check_tension(const SPHDissipation::Fluid *) const;
   void set_acting();
   void note_forces();
   void add_rest_of_heat();

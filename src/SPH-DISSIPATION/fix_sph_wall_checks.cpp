@@ -237,6 +237,26 @@ void FixSPHWall::check_masses() const
 }
 
 /* ----------------------------------------------------------------------
+   With density continuity, the particles at a dry surface have the density of their body alone.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::check_tension(const Fluid *fluid) const
+{
+  constexpr double DRY = 0.9;    // of rho0; at the surface of a body it is 0.7 and less
+  const Settings &choice = fluid->model->choice;
+  if (!choice.continuity || !choice.tension) return;
+  const bigint dry = count_particles(lmp, [&](int i) {
+    return (atom->mask[i] & groupbit) &&
+        atom->rho[i] < DRY * fluid->model->coeffs[atom->type[i]].eos.rho0;
+  });
+  if (dry && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {} {} move rigid: {} particles of bodies are dry; with tension yes of the "
+                   "pair style they pull on fluid that comes near: use tension no",
+                   style, id, dry);
+}
+
+/* ----------------------------------------------------------------------
    Tell whether the pair style of the fluid gets the pairs of two kinds of particles: also pair style hybrid
    must let them through.
 ------------------------------------------------------------------------- */

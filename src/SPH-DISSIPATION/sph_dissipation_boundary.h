@@ -78,16 +78,12 @@ namespace SPHDissipation {
     virtual bool has_symmetric_friction() const { return false; }
 
     // Bodies that the fluid moves: numbers of those of its owned particles, from first on, into body[]; returns the next
-    // number.  Where the surface is follows from the particles of a body alone
+    // number.  Where the surface is follows from the particles of a body alone.  Their pressure is that of frozen fluid,
+    // BoundaryStage::set_frozen(), whose energy is that of the equation of state
 
     virtual bool has_bodies() const { return false; }
     virtual int number_bodies(int first, double * /*body*/) { return first; }
     virtual RigidMotions *rigid_motions() { return nullptr; }
-
-    // The pressure of its particles is that of frozen fluid, BoundaryStage::set_frozen(), whose energy is that of the
-    // equation of state
-
-    virtual bool has_frozen_pressure() const { return false; }
 
     // The pressure of its particles is that of the fluid around them, bulk viscosity included: friction is not symmetric
     virtual bool has_mean_pressure() const { return true; }

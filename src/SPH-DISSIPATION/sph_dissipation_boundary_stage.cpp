@@ -55,15 +55,15 @@ void BoundaryStage::remove(Boundary *boundary)
 
 void BoundaryStage::find_bits()
 {
-  group_bits = symmetric_bits = body_bits = frozen_bits = mean_bits = 0;
+  group_bits = symmetric_bits = body_bits = mean_bits = 0;
   for (const auto &one : boundaries) {
     group_bits |= one->boundary_bit();
     if (one->has_symmetric_friction()) symmetric_bits |= one->boundary_bit();
     if (one->has_bodies()) body_bits |= one->boundary_bit();
-    if (one->has_frozen_pressure()) frozen_bits |= one->boundary_bit();
     if (one->has_mean_pressure()) mean_bits |= one->boundary_bit();
   }
-  sum_bits = group_bits & ~frozen_bits;
+  sum_bits = group_bits & ~body_bits;
+  engine.body_bits = body_bits;
   if (boundaries.empty()) engine.forget_wall_energy();
   if (group_bits == symmetric_bits) engine.excess.clear();
 }
@@ -158,16 +158,16 @@ void BoundaryStage::find_bodies()
 void BoundaryStage::sum_bodies()
 {
   own_numden.clear();
-  if (!frozen_bits) return;
+  if (!body_bits) return;
   const Parameters &par = engine.parameters();
   own_numden.assign(atom->nlocal, 0.0);
   std::vector<int> members;
   for (int i = 0; i < atom->nlocal + atom->nghost; i++)
-    if (atom->mask[i] & frozen_bits) members.push_back(i);
+    if (atom->mask[i] & body_bits) members.push_back(i);
   const Cells cells(atom->x, members, par.support);
   with_kernel(par.kernel, [&](auto kernel) {
     engine.for_each(atom->nlocal, [&](int i) {
-      if (!(atom->mask[i] & frozen_bits)) return;
+      if (!(atom->mask[i] & body_bits)) return;
       cells.near(atom->x[i], par.support, [&](int j, const double *, double rsq) {
         if (j == i || body_of[j] != body_of[i]) return;
         own_numden[i] += engine.weight(j) * par.weight_norm * kernel.shape(sqrt(rsq) / par.support);
@@ -186,10 +186,15 @@ bool BoundaryStage::is_body(int i) const
 
 /* ---------------------------------------------------------------------- */
 
-void BoundaryStage::set_frozen(int i)
+void BoundaryStage::set_frozen(int i, const double *gravity)
 {
   const ParticleRows &rows = engine.rows();
-  const double weight = engine.weight(i), vol = weight / (engine.density[i].c + own_numden[i]);
+  double c = engine.density[i].c;    // with an offset it has the other particles of the body
+  if (!rows.par.continuity)
+    c += own_numden[i];
+  else if (!(rows.rho_sum[i] < 0.0))
+    c = begin_frozen(i, gravity);
+  const double weight = engine.weight(i), vol = weight / c;
   const double rho = atom->rmass[i] / vol;
   const double p = pressure(rows.par.eos, rows.types[atom->type[i]].eos, rho, 0.0);
   engine.particle[i].g = pressure_term(p, vol, weight);
@@ -198,13 +203,34 @@ void BoundaryStage::set_frozen(int i)
   atom->desph[i] += p * vol * engine.density[i].cdot * (vol / weight);
 }
 
-void BoundaryStage::set_mean_pressure(int i, const BoundarySum &sum_of, const double *gravity)
+/* ----------------------------------------------------------------------
+   With density continuity, a particle whose surroundings are full of fluid begins with the pressure of this fluid, at rest, and
+   one whose surroundings are empty with the density of its body alone, for which water that comes is no compression.
+------------------------------------------------------------------------- */
+
+double BoundaryStage::begin_frozen(int i, const double *gravity)
 {
+  constexpr double EMPTY = 0.8, FULL = 1.0;    // of what the body leaves of the support
   constexpr double REST[3] = {0.0, 0.0, 0.0};
-  if (!(sum_of.weight > 0.0)) return;
-  const double p = wall_pressure(sum_of, gravity, REST);
-  set_state(i, engine.rows().types[atom->type[i]].eos.rho0,
-            (p > 0.0 || engine.parameters().tension) ? p : 0.0);
+  const Parameters &par = engine.parameters();
+  const EosParams &eos = par.type[atom->type[i]].eos;
+  const double mass = atom->rmass[i] / engine.weight(i);
+  engine.rows().rho_sum[i] = -mass * engine.density[i].c;
+  const double c = engine.density[i].c + own_numden[i];
+  if (!(sum_bits & body_bits) || !(sum[i].weight > 0.0)) return c;
+
+  BoundarySum fluid = sum[i];
+  fluid.pressure -= fluid.zeta_term;
+  double p = wall_pressure(fluid, gravity, REST);
+  if (!par.tension) p = std::max(p, 0.0);
+  const double self = par.weight_norm * with_kernel(par.kernel, [](auto k) {
+                        return k.shape(0.0);
+                      });
+  const double own = atom->rmass[i] / eos.rho0 * (own_numden[i] / engine.weight(i) + self);
+  const double wet = fluid.weight / (1.0 - own);
+  const double part = std::min(std::max((wet - EMPTY) / (FULL - EMPTY), 0.0), 1.0);
+  const double rho = density_at(par.eos, eos, p, 0.0);
+  return (rho > 0.0) ? c + part * (rho / mass - c) : c;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -212,6 +238,8 @@ void BoundaryStage::set_mean_pressure(int i, const BoundarySum &sum_of, const do
 void BoundaryStage::extend(bool increments)
 {
   if (increments && !mean_bits) return;
+  const bool bodies_begin = engine.constants().continuity && update->setupflag;
+  sum_bits = bodies_begin ? group_bits : group_bits & ~body_bits;
   accumulate();
   for (auto boundary : boundaries)
     if (!(increments && boundary->has_symmetric_friction()))
@@ -550,8 +578,8 @@ double BoundaryStage::energy(double *each_atom) const
 {
   double total = 0.0;
   const Parameters &par = engine.parameters();
-  for (int i = 0; i < atom->nlocal && frozen_bits; i++) {
-    if (!(atom->mask[i] & frozen_bits)) continue;
+  for (int i = 0; i < atom->nlocal && body_bits; i++) {
+    if (!(atom->mask[i] & body_bits)) continue;
     const double energy =
         atom->rmass[i] * elastic_energy(par.eos, par.type[atom->type[i]].eos, atom->rho[i]);
     total += energy;

@@ -109,13 +109,10 @@ namespace SPHDissipation {
                       const double *acceleration);
     double *spin(int i) { return engine.has_spin() ? engine.spin[i].w : nullptr; }
 
-    // the pressure of frozen fluid of the same body
+    // the pressure of frozen fluid of the same body; the gravity that acts on the fluid, for its beginning with density
+    // continuity
 
-    void set_frozen(int i);
-
-    // the pressure of the fluid around it, at rest under this gravity
-
-    void set_mean_pressure(int i, const BoundarySum &, const double *gravity);
+    void set_frozen(int i, const double *gravity);
 
     // number of the body of an owned or ghost particle, see Boundary::number_bodies()
 
@@ -154,7 +151,7 @@ namespace SPHDissipation {
     BoundaryPairs pairs;        // of this step
     const std::string style;    // of the pair style, for messages
     std::vector<Boundary *> boundaries;
-    int group_bits = 0, symmetric_bits = 0, body_bits = 0, frozen_bits = 0, mean_bits = 0;
+    int group_bits = 0, symmetric_bits = 0, body_bits = 0, mean_bits = 0;
     int sum_bits = 0;    // of those that need sums over the fluid
 
     int rows_bits = 0;    // that the rows of the pairs were found for
@@ -180,6 +177,7 @@ namespace SPHDissipation {
 
     void find_bodies();
     void sum_bodies();
+    double begin_frozen(int i, const double *gravity);
     enum class FrictionPart { ALL, ADDED, BODY };    // factor of surface_factor(), less 1, 1
     void find_surface_pairs();
     void run_friction(FrictionPart, PairTally *, const StepNoise *, bool linear);

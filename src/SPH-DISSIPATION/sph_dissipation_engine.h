@@ -380,6 +380,10 @@ namespace SPHDissipation {
     void set_wall_energy(const double *);    // what walls hold of it, of owned atoms
     void forget_wall_energy();
     std::vector<Excess> excess;    // the same; empty: of no particle
+
+    // groups of the bodies, and whether the next densities leave their rho as it is: see ParticleRows::add_offset()
+    int body_bits = 0;
+    bool keeps_bodies = false;
     double *divergence =
         nullptr;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
     Spin *spin = nullptr;    // micropolar only

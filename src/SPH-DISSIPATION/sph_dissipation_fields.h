@@ -68,9 +68,10 @@ namespace SPHDissipation {
     int room(const StateInfo &) const;    // number of them, of a channel
     static std::string state_name(int slot);
 
-    // Of density continuity: the part of rho that is the sum of the last forces, 0 of a density that waits for its first
-    // sum (that of a new particle is 0, which means rho0); of the last evaluation of the diffusion the rate of the volume,
-    // that of the internal energy, and how full the support is; the rate of the volume of the evaluation before
+    // Of density continuity: the part of rho that is the sum of the last forces, negative of a body, see
+    // ParticleRows::add_offset(); 0 of a density that waits for its first sum (that of a new particle is 0, which means
+    // rho0).  Of the last evaluation of the diffusion the rate of the volume, that of the internal energy, and how full the
+    // support is; the rate of the volume of the evaluation before
     double *rho_sum = nullptr, *vol_rate = nullptr, *vol_rate_before = nullptr;
     double *vol_heat = nullptr, *vol_support = nullptr;
     double *shear_rate =

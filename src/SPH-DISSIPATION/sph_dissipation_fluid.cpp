@@ -423,7 +423,9 @@ void Fluid::begin_run(double dt, bool continues, const Changes &changes)
 
 void Fluid::keep_densities()
 {
-  std::fill_n(Fields::of(atom)->rho_sum, atom->nlocal, 0.0);
+  double *const sum = Fields::of(atom)->rho_sum;
+  for (int i = 0; i < atom->nlocal; i++) sum[i] = std::min(sum[i], 0.0);
+  engine->keeps_bodies = true;
 }
 
 void Fluid::begin_step(double dt)

@@ -201,23 +201,30 @@ namespace SPHDissipation {
     }
 
     // Density continuity: c of an owned particle, a sum, becomes rho/m.  Since the last forces, rho has changed as the
-    // sum has; at the first ones it is what it was, or rho0.  Particles of walls and open zones have a sum alone.
+    // sum has; at the first ones it is what it was, or rho0.  Particles of walls and open zones have a sum alone, and so have
+    // those of bodies until BoundaryStage::set_frozen() begins their density.  Their sum is that without their own body, and
+    // negative; keeps: their rho is what it was.
 
-    SPH_FUNCTION void add_offset(int i, int not_fluid) const
+    SPH_FUNCTION void add_offset(int i, int not_fluid, int bodies = 0, bool keeps = false) const
     {
       constexpr double LEAST =
           0.1;    // of rho0, for spray, where the sum has lost nearly all neighbors
       double &sum = rho_sum[i];
       const double before = sum, mass = rmass[i] / weight[i * each];
-      sum = 0.0;
-      if (!is_fluid(i, not_fluid)) return;
-      sum = mass * density[i].c;
-      const double rho0 = types[type[i]].eos.rho0;
+      const double all = mass * density[i].c, rho0 = types[type[i]].eos.rho0;
       double now = rho[i];
-      if (before > 0.0)
-        now += sum - before;
-      else if (!(now > 0.0))
-        now = rho0;
+      sum = 0.0;
+      if (is_fluid(i, not_fluid)) {
+        sum = all;
+        if (before > 0.0)
+          now += all - before;
+        else if (!(now > 0.0))
+          now = rho0;
+      } else {
+        if (!(mask[i] & bodies) || !(before < 0.0)) return;
+        sum = -all;
+        if (!keeps) now += all + before;
+      }
       if (now < LEAST * rho0) now = LEAST * rho0;
       rho[i] = now;
       density[i].c = now / mass;

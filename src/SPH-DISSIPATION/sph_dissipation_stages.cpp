@@ -57,8 +57,9 @@ void DensityStage::sum(NeighList *list, double **vest, double **omegaest, int no
   if (!engine.parameters().continuity) return;
   const ParticleRows &rows = engine.rows();
   engine.for_each(atom->nlocal, [&](int i) {
-    rows.add_offset(i, not_fluid);
+    rows.add_offset(i, not_fluid, engine.body_bits, engine.keeps_bodies);
   });
+  engine.keeps_bodies = false;
 }
 
 /* ---------------------------------------------------------------------- */
