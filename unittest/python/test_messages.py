@@ -156,7 +156,7 @@ REFUSALS = {
     "cannot be used with temp of pair_style": [(RHEOLOGY, LAWS, "*temp*"), (NOISE, "*temp*", LAWS)],
     "cannot be used with a mu of the unlike types": [(RHEOLOGY, LAWS, "a *mu* of unlike types")],
     # other words for the same
-    "requires pair style sph/bulk with shear mg and bulk density": [(RHEOLOGY, "*sph/bulk*", "*shear mg*", "*bulk density*")],
+    "requires pair style sph/bulk with shear mg or mg/fr2 and bulk density": [(RHEOLOGY, "*sph/bulk*", "*shear mg* or *mg/fr2*", "*bulk density*")],
     "requires dim 2 or 3: on a line": [(RHEOLOGY, "two or three dimensions")],
     "Pair style {} with temp needs fix {} viscous": [(FLUID, "*temp T seed*", "*explicit*", "*trapezoidal*")],
     "Pair style {} with temp energy needs fix {} viscous explicit": [(FLUID, "*temp energy*", "*explicit*"), (NOISE, "*temp energy*", "*viscous rkl2* and *implicit*")],
