@@ -60,14 +60,18 @@ namespace SPHDissipation {
     double *support;
   };
 
-  // a F of a pair without that factor
+  // F of a pair, and a without that factor
 
   template <class K, class DeviceType>
+  KOKKOS_FORCEINLINE_FUNCTION double pair_slope(const LoopDataKokkos<DeviceType> &data, double rsq)
+  {
+    return data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
+  }
+  template <class DeviceType>
   KOKKOS_FORCEINLINE_FUNCTION double diffusion_slope(const LoopDataKokkos<DeviceType> &data,
                                                      const DiffusionRowsKokkos &rows, int i, int j,
-                                                     double rsq)
+                                                     double slope)
   {
-    const double slope = data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
     if (data.par.impedes_alike) return slope;
     return slope_by_impedance(slope, rows.impedance[i], rows.impedance[j]);
   }
@@ -86,17 +90,22 @@ namespace SPHDissipation {
       rows.support[i] = 0.0;
       for (int d = 0; d < DIM; d++) own[At::G + d] = 0.0;
       if (own[At::VOL] == 0.0) return;
-      double sum[At::NSUM] = {};
+      double sum[At::NSUM] = {}, filled[At::NTENSOR] = {};
       for_neighbors(data, i, [&](int j, const double *, double rsq) {
         const double *const other = rows.row[j].a;
-        const double slope = diffusion_slope<K>(data, rows, i, j, rsq);
+        const double slope = pair_slope<K>(data, rsq);
+        const double part = diffusion_slope(data, rows, i, j, slope);
         double r[DIM], term[At::NSUM];
         for (int d = 0; d < DIM; d++) r[d] = own[d] - other[d];
-        gradient_terms<DIM>(slope, own[At::P] - other[At::P], r, term);
+        const double difference = own[At::P] - other[At::P];
+        gradient_terms<DIM>(part, difference, r, term);
         for (int m = 0; m < At::NSUM; m++) sum[m] += other[At::VOL] * term[m];
+        if (data.par.impedes_alike) return;
+        gradient_terms<DIM>(slope, difference, r, term);
+        for (int m = 0; m < At::NTENSOR; m++) filled[m] += other[At::VOL] * term[m];
       });
-      const double scale = data.par.impedes_alike ? 1.0 : rows.impedance[i];
-      rows.support[i] = pressure_gradient(DIM, sum, scale, own + At::G);
+      rows.support[i] =
+          pressure_gradient(DIM, sum, data.par.impedes_alike ? sum : filled, own + At::G);
     }
   };
 
@@ -121,7 +130,8 @@ namespace SPHDissipation {
           const double difference = own[At::P] - other[At::P];
           const double by_i = without_gradient<DIM>(difference, own + At::G, r);
           const double by_j = without_gradient<DIM>(difference, other + At::G, r);
-          const double from_j = diffusion_slope<K>(data, rows, i, j, rsq) * other[At::VOL];
+          const double part = diffusion_slope(data, rows, i, j, pair_slope<K>(data, rsq));
+          const double from_j = part * other[At::VOL];
           flow[0] += from_j * (0.5 * (by_i + by_j));
           flow[1] += from_j * by_i * by_i;
         });

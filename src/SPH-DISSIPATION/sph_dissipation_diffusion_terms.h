@@ -41,8 +41,9 @@ namespace SPHDissipation {
 
   template <int DIM> struct DiffusionPlaces {
     static constexpr int VOL = (DIM == 3) ? 3 : 2, P = VOL + 1, G = P + 1;
-    // sum a V r r by rows of its upper half, sum a V (p_i - p_j) r; rows of them do not cross a cache line
-    static constexpr int NSUM = DIM * (DIM + 1) / 2 + DIM, WIDTH = (DIM == 3) ? 12 : 8;
+    // sum a V r r by rows of its upper half, sum a V (p_i - p_j) r; with two impedances, what the first one times Z lacks of
+    // sum V F r r
+    static constexpr int NTENSOR = DIM * (DIM + 1) / 2, NSUM = NTENSOR + DIM;
   };
   struct alignas(64) SumBlock {
     double a[8] = {};
@@ -51,13 +52,20 @@ namespace SPHDissipation {
   {
     return (dim == 3) ? 3 : 2;
   }
-  inline int number_of_sums(int dim)
+  SPH_FUNCTION int size_of_tensor(int dim)
   {
-    return dim * (dim + 1) / 2 + dim;
+    return dim * (dim + 1) / 2;
   }
-  inline int width_of_sums(int dim)
+  inline int number_of_sums(int dim, bool alike)
   {
-    return (dim == 3) ? 12 : 8;
+    return size_of_tensor(dim) * (alike ? 1 : 2) + dim;
+  }
+
+  // of the rows of sums; alike: of impedance
+
+  constexpr int width_of_sums(int dim, bool alike)
+  {
+    return (dim < 3) ? 8 : alike ? 12 : 16;
   }
 
   struct DiffusionData {
@@ -96,16 +104,17 @@ namespace SPHDissipation {
     return mean + 2.0 * p * std::cos(std::acos(cosine) / 3.0 + THIRD_OF_CIRCLE);
   }
 
-  // Gradient of the pressure from the sums of a particle.  Returns the smallest eigenvalue of their tensor, which is 1
-  // inside of a fluid of one impedance if scale is its inverse.  Where that is near zero, neighbors are too few, or on
-  // one line or plane: the gradient is zero there.
+  // Gradient of the pressure from the sums of a particle.  filled = sum_j V_j F r r, the tensor of these sums without the
+  // impedances.  Returns the smallest eigenvalue of it, which is 1 inside of all fluids.  Where that is near zero, neighbors
+  // are too few, or on one line or plane: the gradient is zero there.
 
   constexpr double LEAST_SUPPORT = 0.01;
 
-  SPH_FUNCTION double pressure_gradient(int dim, const double *sums, double scale, double *g)
+  SPH_FUNCTION double pressure_gradient(int dim, const double *sums, const double *filled,
+                                        double *g)
   {
-    const double smallest = scale * smallest_eigenvalue(dim, sums);
-    const double *const d = sums + dim * (dim + 1) / 2;
+    const double smallest = smallest_eigenvalue(dim, filled);
+    const double *const d = sums + size_of_tensor(dim);
     const double *const t = sums;
     for (int k = 0; k < dim; k++) g[k] = 0.0;
     if (!(smallest >= LEAST_SUPPORT)) return smallest;

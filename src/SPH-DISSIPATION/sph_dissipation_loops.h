@@ -655,7 +655,7 @@ namespace SPHDissipation {
     void diffusion_sums(const LoopData &data, const DiffusionData &diffusion, double *sums)
     {
       typedef DiffusionPlaces<DIM> At;
-      constexpr int N = At::NSUM, FOURS = N / 4 * 4, WIDTH = At::WIDTH;
+      constexpr int N = At::NSUM, FOURS = N / 4 * 4, WIDTH = width_of_sums(DIM, ALIKE);
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         const double *const own = diffusion.row[i].a;
@@ -666,6 +666,8 @@ namespace SPHDissipation {
         const double *const slope_of = data.slope + data.first[ii];
         Vec total[N], on_j[N], other[8], r[DIM];
         for (int k = 0; k < N; k++) total[k] = all(0.0);
+        Vec unlike[At::NTENSOR];
+        for (int k = 0; k < At::NTENSOR; k++) unlike[k] = all(0.0);
 
         for (int k = 0; k < n; k += LANES) {
           const Offset *const j = neighbor + k;
@@ -683,8 +685,23 @@ namespace SPHDissipation {
           }
           for (int m = 0; m < FOURS; m += 4) add_4_columns<WIDTH>(sums + m, j, on_j + m);
           for (int m = FOURS; m < N; m++) add_column<WIDTH>(sums + m, j, on_j[m]);
+
+          // few blocks have pairs of two impedances
+
+          if constexpr (!ALIKE) {
+            const Vec its = gather(diffusion.impedance, j), more = its - all(impedance);
+            if (!bits_below(all(0.0), if_positive(slope, larger(more, -more)))) continue;
+            const Vec rest = load(slope_of + k) * more / (its + all(impedance));
+            for (int d = 0, m = 0; d < DIM; d++)
+              for (int e = d; e < DIM; e++, m++) {
+                const Vec term = rest * r[d] * r[e];
+                unlike[m] += other[At::VOL] * term;
+                add_column<WIDTH>(sums + N + m, j, -own[At::VOL] * term);
+              }
+          }
         }
         for (int k = 0; k < N; k++) sums[i * WIDTH + k] += sum(total[k]);
+        for (int k = 0; k < At::NTENSOR && !ALIKE; k++) sums[i * WIDTH + N + k] += sum(unlike[k]);
       }
     }
 

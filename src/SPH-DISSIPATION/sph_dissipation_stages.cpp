@@ -379,7 +379,8 @@ double PairEnergyStage::energy(double *each_atom, int groupbit) const
 void DiffusionStage::evaluate(int not_fluid, int integrated)
 {
   const Parameters &par = engine.parameters();
-  const int dim = par.dim, nsum = number_of_sums(dim), width = width_of_sums(dim);
+  const bool alike = par.impedes_alike;
+  const int dim = par.dim, nsum = number_of_sums(dim, alike), width = width_of_sums(dim, alike);
   const int vol = place_of_volume(dim), p = vol + 1;
   constexpr std::size_t WIDTH = sizeof(DiffusionRow) / sizeof(double);
   const Fields &fields = *Fields::of(atom);
@@ -389,10 +390,12 @@ void DiffusionStage::evaluate(int not_fluid, int integrated)
   double *const sum = sums[0].a;
   exchange.reverse({{sum, static_cast<std::size_t>(width), nsum}});
   engine.for_each(atom->nlocal, [&](int i) {
-    double *const row = rows[i].a;
-    const double scale = par.impedes_alike ? 1.0 : impedances[i];
-    fields.vol_support[i] =
-        (row[vol] > 0.0) ? pressure_gradient(dim, sum + width * i, scale, row + p + 1) : 0.0;
+    double *const row = rows[i].a, *const own = sum + width * i;
+    double *const rest = own + number_of_sums(dim, true);
+    for (int m = 0; m < size_of_tensor(dim) && !alike; m++) rest[m] += impedances[i] * own[m];
+    const double *const filled = alike ? own : rest;
+    fields.vol_support[i] = (row[vol] > 0.0) ? pressure_gradient(dim, own, filled, row + p + 1)
+                                             : 0.0;
   });
   exchange.forward({{rows[0].a + p + 1, WIDTH, dim}});
   engine.accumulate_diffusion(DiffusionPart::FLOW, data, 2, flow);
@@ -401,7 +404,7 @@ void DiffusionStage::evaluate(int not_fluid, int integrated)
 
   // with the factor of a_ij that the loops leave out
 
-  const double factor = par.delta * par.support / (par.impedes_alike ? impedances[0] : 1.0);
+  const double factor = par.delta * par.support / (alike ? impedances[0] : 1.0);
   engine.for_each(atom->nlocal, [&](int i) {
     volume_rates(rows[i].a + vol, flow_of + 2 * i, factor, fields.vol_rate[i], fields.vol_heat[i]);
   });

@@ -117,7 +117,7 @@ def dense(p, rho, rho0, c0, rc, delta, by_mass, tension=True):
     jump = pressure[:, None] - pressure
     tensor = np.einsum("ij,j,ijx,ijy->ixy", a, volume, r, r)
     vector = np.einsum("ij,j,ij,ijx->ix", a, volume, jump, r)
-    lowest = np.linalg.eigvalsh(tensor)[:, 0] * impedance / (delta * rc)
+    lowest = np.linalg.eigvalsh(np.einsum("ij,j,ijx,ijy->ixy", slope, volume, r, r))[:, 0]
     gradient = np.array([np.linalg.solve(t, d) if low >= 0.01 else np.zeros(p.dim)
                          for t, d, low in zip(tensor, vector, lowest)])
     chi = jump - 0.5 * np.einsum("ijx,ijx->ij", gradient[:, None] + gradient, r)
@@ -169,6 +169,49 @@ def test_dense_reference(lammps, dim, cells, types, volume, newton, ranks, optio
     assert relative(frame["desph"] - work - energy_rate, energy_rate) < 1e-11
     assert relative(frame["c_G[2]"] - lowest, lowest) < 1e-12
     assert abs(frame["d_vol_rate"].sum()) < 1e-13 * np.abs(rate).max()
+
+
+@pytest.mark.parametrize("dim, cells", [(1, 16), (2, 10), (3, 8)])
+def test_surface_in_a_full_box_of_two_fluids(lammps, dim, cells):
+    """Densities 1000 : 1, as water and air: the support of no particle has a gap; a lattice has one value."""
+    p = lattice(dim, cells)
+    p.x[:, 1] = 0.3 if dim == 1 else p.x[:, 1]
+    p.type = np.where(p.x[:, 0] > cells / 2, 2, 1)
+    p.mass = np.where(p.type == 2, 1e-3, 1.0)
+    found = []
+    for second in ("1.0", "0.001"):
+        write(lammps.path("box.data"), p)
+        lammps(text(dim, "density continuity", coeffs="".join(f"pair_coeff {k} {k} {rho} 10.0 0.1 0.3 2.5\n" for k, rho in ((1, "1.0"), (2, second))))
+               + f"set group all mass 1.0\nset type 2 mass {second}\n" + FIELDS + dump("a.dump", extra=WANTED) + "run 0\n")
+        found.append(lammps.frame("a.dump")["c_G[2]"])
+    assert np.abs(found[0] - found[0][0]).max() < 1e-14 and abs(found[0][0] - 1.0) < 0.1
+    assert np.abs(found[1] - found[0]).max() < 1e-14
+
+
+def test_gradient_of_a_light_particle_in_a_heavy_fluid(lammps):
+    """All of its neighbors are heavy. It has the gradient of their pressure, so that no volume flows in a hydrostatic column."""
+    p = lattice(2, 12)
+    p.type = np.where(np.arange(len(p)) == 78, 2, 1)
+    rho0, c0 = np.where(p.type == 2, 1e-3, 1.0), np.where(p.type == 2, 30.0, 10.0)
+    p.mass = 1.0 * rho0
+    pressure = 2.0 - 0.1 * p.x[:, 1]
+    write(lammps.path("box.data"), p, rho0 + pressure / c0**2)
+    coeffs = "pair_coeff 1 1 1.0 10.0 0.1 0.3 2.5\npair_coeff 2 2 0.001 30.0 0.1 0.3 2.5\n"
+    lammps(text(2, "density continuity tension yes", coeffs=coeffs, boundary=free(2)) + FIELDS + dump("a.dump", extra=WANTED) + "run 0\n")
+    frame = lammps.frame("a.dump")
+    assert p.x[78, 1] == 6.5 and abs(frame["c_G[2]"][78] - 1.0) < 0.1
+    assert abs(frame["d_vol_rate"][78]) < 1e-13
+
+
+def test_surface_does_not_count_walls(lammps):
+    p = lattice(2, 10)
+    write(lammps.path("box.data"), p)
+    wall = "region low block INF INF INF 4 INF INF units box\ngroup low region low\ngroup fluid subtract all low\n"
+    start = text(2, "density continuity", boundary="p f p").replace("fix FLUID all", wall + "fix FLUID fluid") + FIELDS
+    lammps(start + "fix W low sph/wall\n" + dump("with.dump", extra=WANTED) + "run 0\n")
+    lammps(start + "delete_atoms group low compress no\n" + dump("without.dump", extra=WANTED) + "run 0\n")
+    beside = lammps.frame("with.dump")["c_G[2]"][np.isin(lammps.frame("with.dump")["id"], lammps.frame("without.dump")["id"])]
+    assert np.abs(beside - lammps.frame("without.dump")["c_G[2]"]).max() < 1e-14 and beside.min() < 0.6
 
 
 def test_heat_is_never_negative(lammps):
