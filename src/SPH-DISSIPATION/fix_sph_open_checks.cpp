@@ -63,10 +63,19 @@ void FixSPHOpen::check_groups(int fluid_group)
     if (!(atom->mask[i] & groupbit)) continue;
     number[0]++;
     if (atom->mask[i] & fluidbit) number[1]++;
-    if (!fluid->has_type(atom->type[i]))
-      error->one(FLERR, "Fix {}: particle {} of type {} is not of the fluid", style, atom->tag[i],
-                 atom->type[i]);
   }
+  double type;
+  const std::string other = first_particle(
+      lmp,
+      [&](int i) {
+        return (atom->mask[i] & groupbit) && !fluid->has_type(atom->type[i]);
+      },
+      [&](int i) {
+        return atom->type[i];
+      },
+      type);
+  if (!other.empty())
+    error->all(FLERR, "Fix {}: {} of type {} is not of the fluid", style, other, type);
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   if (!all[0])
     error->all(FLERR,
@@ -224,10 +233,19 @@ void FixSPHOpen::check_heat()
                  style, keyword, i);
   }
   if (!values->given(OpenValues::TEMPERATURE)) return;
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && model.heat_capacity(atom->type[i]) == 0.0)
-      error->one(FLERR, "{} needs the heat capacity of type {}, keyword cv of pair_coeff",
-                 fmt::format("Fix {} temperature", style), atom->type[i]);
+  double type;
+  const std::string cold = first_particle(
+      lmp,
+      [&](int i) {
+        return (atom->mask[i] & groupbit) && model.heat_capacity(atom->type[i]) == 0.0;
+      },
+      [&](int i) {
+        return atom->type[i];
+      },
+      type);
+  if (!cold.empty())
+    error->all(FLERR, "{} needs the heat capacity of type {}, keyword cv of pair_coeff",
+               fmt::format("Fix {} temperature", style), type);
 }
 
 /* ----------------------------------------------------------------------

@@ -175,7 +175,7 @@ void FixSPHRefine::init()
   if (!target->init(lmp, fmt::format("Fix {}", style), true))
     error->all(FLERR, "Variable {} for Fix {} is neither of equal style nor of atom style",
                target->name(), style);
-  if (!target->varies()) check_target(target->now(), 0);
+  if (!target->varies()) check_target(target->now(), "");
   event->init(*fluid, merge_below);
   neighbor->add_request(this, NeighConst::REQ_FULL | NeighConst::REQ_OCCASIONAL);
   set_up = true;
@@ -190,27 +190,25 @@ double FixSPHRefine::target_volume(double value) const
   return by_spacing ? whole_power(value, domain->dimension) : value;
 }
 
+bool FixSPHRefine::is_target(double value) const
+{
+  return value > 0.0 && target_volume(value) <= largest_volume;
+}
+
 /* ----------------------------------------------------------------------
-   Refuse a value that cannot be a target: that of the particle with this ID, or, 0, of all.
+   Refuse a value that cannot be a target, on all processors; where = " for " and the particle, or empty.
 ------------------------------------------------------------------------- */
 
-void FixSPHRefine::check_target(double value, tagint tag) const
+void FixSPHRefine::check_target(double value, const std::string &where) const
 {
-  const double volume = target_volume(value);
-  if (value > 0.0 && volume <= largest_volume) return;
-  const std::string where = tag ? fmt::format(" for particle {}", tag) : "";
-  if (!std::isfinite(value) || !(value > 0.0)) {
-    const std::string message =
-        fmt::format("Fix {}: the target {} is {}{}, must be > 0", style, target_word, value, where);
-    if (tag) error->one(FLERR, message);
-    error->all(FLERR, message);
-  }
-  const std::string message =
-      fmt::format("Fix {}: the target {}{} is a volume of {:g}, larger than {:g}: particles would "
-                  "have hardly any neighbors within the support radius",
-                  style, target_word, where, volume, largest_volume);
-  if (tag) error->one(FLERR, message);
-  error->all(FLERR, message);
+  if (is_target(value)) return;
+  if (!std::isfinite(value) || !(value > 0.0))
+    error->all(FLERR, "Fix {}: the target {} is {}{}, must be > 0", style, target_word, value,
+               where);
+  error->all(FLERR,
+             "Fix {}: the target {}{} is a volume of {:g}, larger than {:g}: particles would have "
+             "hardly any neighbors within the support radius",
+             style, target_word, where, target_volume(value), largest_volume);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -220,9 +218,20 @@ void FixSPHRefine::evaluate_target()
   if (!target->varies()) return;
   modify->clearstep_compute();
   target->evaluate(lmp, igroup);
-  if (!target->is_by_atom()) check_target(target->now(), 0);
-  for (int i = 0; i < atom->nlocal && target->is_by_atom(); i++)
-    if (atom->mask[i] & groupbit) check_target((*target)(i), atom->tag[i]);
+  if (target->is_by_atom()) {
+    double wrong;
+    const std::string where = first_particle(
+        lmp,
+        [&](int i) {
+          return (atom->mask[i] & groupbit) && !is_target((*target)(i));
+        },
+        [&](int i) {
+          return (*target)(i);
+        },
+        wrong);
+    if (!where.empty()) check_target(wrong, " for " + where);
+  } else
+    check_target(target->now(), "");
   modify->addstep_compute(update->ntimestep + 1);
 }
 

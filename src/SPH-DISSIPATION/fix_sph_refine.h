@@ -87,7 +87,8 @@ class FixSPHRefine : public Fix {
   void check_setup();
   void check_overlap();
   double target_volume(double value) const;
-  void check_target(double value, tagint tag) const;
+  bool is_target(double value) const;
+  void check_target(double value, const std::string &where) const;
   void evaluate_target();
   typedef std::function<double(int, double)> Sound;
   double waiting(const Sound &, int i) const;

@@ -133,7 +133,10 @@ void FixSPHTorque::post_force(int /*vflag*/)
   check_set_up(lmp, this, set_up);
   const bool any_variable = value[0].varies() || value[1].varies() || value[2].varies();
   if (any_variable) modify->clearstep_compute();
-  for (int d = 0; d < 3; d++) value[d].evaluate(lmp, igroup);
+  for (int d = 0; d < 3; d++) {
+    value[d].evaluate(lmp, igroup);
+    value[d].demand_finite(lmp, groupbit, fmt::format("Fix {}", style));
+  }
   if (any_variable) modify->addstep_compute(update->ntimestep + 1);
 
   const Fields &fields = *Fields::of(atom);

@@ -253,9 +253,8 @@ void FixSPHWall::pre_force(int /*vflag*/)
   if (heat_value->varies()) heat_value->evaluate(lmp, igroup);
   for (int d = 0; d < 3; d++) {
     gravity[d].evaluate(lmp, igroup);
+    gravity[d].demand_finite(lmp, groupbit, fmt::format("Fix {} gravity", style));
     condition->gravity[d] = gravity[d].now();
-    if (!std::isfinite(condition->gravity[d]))
-      error->all(FLERR, "Fix {} gravity must be finite, not {}", style, condition->gravity[d]);
   }
   modify->addstep_compute(update->ntimestep + 1);
   if (heat_value->varies()) check_heat();
@@ -279,10 +278,17 @@ void FixSPHWall::check_heat() const
       error->all(FLERR, "Fix {} heat {}, not {}", style, what, heat_value->now());
     return;
   }
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && is_wrong((*heat_value)(i)))
-      error->one(FLERR, "Fix {} heat {}, not {} for particle {}", style, what, (*heat_value)(i),
-                 atom->tag[i]);
+  double wrong;
+  const std::string where = first_particle(
+      lmp,
+      [&](int i) {
+        return (atom->mask[i] & groupbit) && is_wrong((*heat_value)(i));
+      },
+      [&](int i) {
+        return (*heat_value)(i);
+      },
+      wrong);
+  if (!where.empty()) error->all(FLERR, "Fix {} heat {}, not {} for {}", style, what, wrong, where);
 }
 
 /* ----------------------------------------------------------------------

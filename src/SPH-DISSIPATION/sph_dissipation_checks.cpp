@@ -44,16 +44,35 @@ using namespace SPHDissipation;
 
 std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool(int)> &wrong)
 {
-  Atom *atom = lmp->atom;
-  tagint first = MAXTAGINT;
-  int found = 0;
+  double ignored;
+  return first_particle(
+      lmp, wrong,
+      [](int) {
+        return 0.0;
+      },
+      ignored);
+}
+
+/* ----------------------------------------------------------------------
+   without IDs, the first one of the first rank that has any
+------------------------------------------------------------------------- */
+
+std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool(int)> &wrong,
+                                           const std::function<double(int)> &value, double &found)
+{
+  const Atom *const atom = lmp->atom;
+  const int me = lmp->comm->me;
+  tagint mine = MAXTAGINT;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!wrong(i)) continue;
-    found = 1;
-    if (atom->tag_enable) first = std::min(first, atom->tag[i]);
+    const tagint tag = atom->tag_enable ? atom->tag[i] : me;
+    if (tag >= mine || !wrong(i)) continue;
+    mine = tag;
+    found = value(i);
   }
-  first = over_all(lmp->world, first, MPI_MIN);
-  if (!over_all(lmp->world, found, MPI_MAX)) return "";
+  const tagint first = over_all(lmp->world, mine, MPI_MIN);
+  if (first == MAXTAGINT) return "";
+  MPI_Bcast(&found, 1, MPI_DOUBLE, over_all(lmp->world, mine == first ? me : 0, MPI_MAX),
+            lmp->world);
   return atom->tag_enable ? fmt::format("particle {}", first) : "a particle";
 }
 
@@ -493,13 +512,25 @@ void FluidChecks::numbers() const
   const auto finite = [](const double *a) {
     return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
   };
+  const Fields &fields = *Fields::of(atom);
+  check("mass", "use the set command", [&](int i) {
+    return std::isfinite(atom->rmass[i]);
+  });
   check("velocity", "use velocity create after set mass, and see the variables that have set it",
         [&](int i) {
           return finite(atom->v[i]);
         });
-  if (Fields::with_spins(atom))
+  if (fields.has_spins) {
     check("spin", "see the variables that have set it", [&](int i) {
       return finite(atom->omega[i]);
+    });
+    check("inertia", "use the set command", [&](int i) {
+      return std::isfinite(fields.inertia[i]);
+    });
+  }
+  for (const int slot : fields.slots)
+    check("d_" + Fields::state_name(slot), "use the set command", [&](int i) {
+      return std::isfinite(fields.state[slot][i]);
     });
   if (model.choice.continuity)
     check("density", "use set sph/rho", [&](int i) {

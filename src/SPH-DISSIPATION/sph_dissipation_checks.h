@@ -38,9 +38,11 @@ namespace SPHDissipation {
   bool in_neighbor_lists(LAMMPS *, const Kind &, const Kind &);    // pairs of two kinds
 
   // the first of the particles of all ranks for which wrong(i) holds, by its ID if particles have
-  // one: "particle 17"; empty if there is none
+  // one: "particle 17"; empty if there is none; and, if asked for, a value of it
 
   std::string first_particle(LAMMPS *, const std::function<bool(int)> &wrong);
+  std::string first_particle(LAMMPS *, const std::function<bool(int)> &wrong,
+                             const std::function<double(int)> &value, double &found);
 
   // how many there are
 

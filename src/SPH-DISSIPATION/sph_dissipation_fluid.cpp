@@ -647,16 +647,29 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
       boundary->find_energies_at_rest(neighbors());
     const StateRows states = engine->states();
     const int zone_bits = open->bits_of(groupbit);
+    const auto gets_one = [&](int i) {
+      return (atom->mask[i] & (zone_bits | groupbit)) && has_type(atom->type[i]) && !is_boundary(i);
+    };
+    double wrong;
+    const auto type_of = [&](int i) {
+      return atom->type[i];
+    };
+    const auto without = [&](int i) {
+      return gets_one(i) && model->heat_capacity(atom->type[i]) == 0.0;
+    };
+    const auto cannot_be = [&](int i) {
+      return gets_one(i) && !(value(i) >= 0.0 && std::isfinite(value(i)));
+    };
+    if (!first_particle(lmp, without, type_of, wrong).empty())
+      error->all(FLERR, "{} needs the heat capacity of type {}, keyword cv of pair_coeff", user,
+                 wrong);
+    if (!first_particle(lmp, cannot_be, value, wrong).empty())
+      error->all(FLERR, "{} must be >= 0, not {}", user, wrong);
     for (int i = 0; i < atom->nlocal; i++) {
+      if (!gets_one(i)) continue;
       const int type = atom->type[i];
       const bool in_zone = atom->mask[i] & zone_bits;
-      if (!(in_zone || (atom->mask[i] & groupbit)) || !has_type(type) || is_boundary(i)) continue;
       const double temperature = value(i);
-      if (model->heat_capacity(type) == 0.0)
-        error->one(FLERR, "{} needs the heat capacity of type {}, keyword cv of pair_coeff", user,
-                   type);
-      if (!(temperature >= 0.0) || !std::isfinite(temperature))
-        error->one(FLERR, "{} must be >= 0, not {}", user, temperature);
       desph_before[i] = 0.0;
       if (in_zone) {    // at a density that is not known yet
         atom->esph[i] = atom->rmass[i] * model->heat_capacity(type) * temperature;

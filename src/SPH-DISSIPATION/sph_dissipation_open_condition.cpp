@@ -20,6 +20,7 @@
 #include "math_extra.h"
 #include "modify.h"
 #include "sph_dissipation_characteristics.h"
+#include "sph_dissipation_checks.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_fields.h"
@@ -114,7 +115,6 @@ void OpenValues::evaluate(int igroup)
 {
   if (!any_variable) return;
   const int groupbit = group->bitmask[igroup];
-  const int nlocal = atom->nlocal;
   modify->clearstep_compute();
   for (int k = 0; k < NQUANTITY; k++) {
     Value &one = value[k];
@@ -126,12 +126,19 @@ void OpenValues::evaluate(int igroup)
                    update->ntimestep, wrong);
       continue;
     }
-    for (int i = 0; i < nlocal; i++) {
-      if (!(atom->mask[i] & groupbit)) continue;
-      if (const char *const wrong = fault(k, one(i)))
-        error->one(FLERR, "{}: variable {} is {} for particle {} at step {}: {}", owner, one.name(),
-                   one(i), atom->tag[i], update->ntimestep, wrong);
-    }
+    double odd;
+    const std::string where = first_particle(
+        lmp,
+        [&](int i) {
+          return (atom->mask[i] & groupbit) && fault(k, one(i));
+        },
+        [&](int i) {
+          return one(i);
+        },
+        odd);
+    if (!where.empty())
+      error->all(FLERR, "{}: variable {} is {} for {} at step {}: {}", owner, one.name(), odd,
+                 where, update->ntimestep, fault(k, odd));
   }
   modify->addstep_compute(update->ntimestep + 1);
 }

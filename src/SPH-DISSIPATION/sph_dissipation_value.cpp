@@ -17,8 +17,11 @@
 #include "error.h"
 #include "input.h"
 #include "lammps.h"
+#include "sph_dissipation_checks.h"
+#include "update.h"
 #include "variable.h"
 
+#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -60,6 +63,31 @@ void Value::evaluate(LAMMPS *lmp, int igroup)
     lmp->input->variable->compute_atom(variable, igroup, column.data(), 1, 0);
   } else
     number = lmp->input->variable->compute_equal(variable);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Value::demand_finite(LAMMPS *lmp, int groupbit, const std::string &owner) const
+{
+  if (!varies()) return;
+  double odd = number;
+  std::string where;
+  if (by_atom) {
+    where = first_particle(
+        lmp,
+        [&](int i) {
+          return (lmp->atom->mask[i] & groupbit) && !std::isfinite(column[i]);
+        },
+        [&](int i) {
+          return column[i];
+        },
+        odd);
+    if (where.empty()) return;
+    where = " for " + where;
+  } else if (std::isfinite(number))
+    return;
+  lmp->error->all(FLERR, "{}: variable {} is {}{} at step {}: values must be finite", owner,
+                  variable_name, odd, where, lmp->update->ntimestep);
 }
 
 /* ---------------------------------------------------------------------- */

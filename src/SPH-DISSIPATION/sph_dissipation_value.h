@@ -37,6 +37,8 @@ namespace SPHDissipation {
 
     // Evaluate the variable at this step; if it is of atom style, for owned particles of the group.
     void evaluate(LAMMPS *, int igroup);
+    // an error, of all ranks, about a variable that is no finite number, for any particle of a group
+    void demand_finite(LAMMPS *, int groupbit, const std::string &owner) const;
 
     const std::string &name() const { return variable_name; }    // name of the variable
     bool varies() const { return is_variable; }

@@ -90,6 +90,13 @@ bool WallMotion::evaluate(double *result)
   });
 }
 
+/* ---------------------------------------------------------------------- */
+
+void WallMotion::demand_finite() const
+{
+  for (const auto &one : values) one.value.demand_finite(lmp, 0, owner);
+}
+
 /* ----------------------------------------------------------------------
    Set values and rates at the start of a run.  Variables that are functions of time get their rate
    from the values in the next steps.  Those that depend on the particles are not known in advance:
@@ -104,6 +111,7 @@ void WallMotion::start()
 
   double now[NVALUES];
   const bool of_particles = evaluate(now);
+  demand_finite();
   if (any_variable) modify->addstep_compute(update->ntimestep + 1);
   for (int k = 0; k < NVALUES; k++) {
     if (!continues || (!of_particles && values[k].now != now[k])) values[k].rate = 0.0;
@@ -153,6 +161,7 @@ void WallMotion::advance()
 {
   double now[NVALUES];
   evaluate(now);
+  demand_finite();
   if (any_variable) modify->addstep_compute(update->ntimestep + 1);
   known_step = update->ntimestep;
   for (int k = 0; k < NVALUES; k++) {

@@ -74,6 +74,7 @@ namespace SPHDissipation {
 
     void read(Component &, const char *);
     bool evaluate(double *);
+    void demand_finite() const;
     void estimate_rates();
   };
 

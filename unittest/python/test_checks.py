@@ -171,6 +171,54 @@ def test_numbers_are_finite(lammps, commands, words, ranks):
             + test_micropolar.fluid(2) + test_micropolar.integrate("inertia 0.1667 0.1") + "run 2\n", words, ranks)
 
 
+SQUARE = ("region B block 0 9 0 9 -.5 .5\nlattice sq 1.0 origin 0.5 0.5 0\ncreate_box 2 B\ncreate_atoms 1 box\nset group all mass 1.0\n"
+        "region W block INF INF INF 2.9 INF INF\ngroup W region W\ngroup F subtract all W\ngroup five id 5\ntimestep 0.001\n")
+ONE_FLUID = "pair_style sph/bulk {}\npair_coeff * * 1 10 .1 .3 2.7 {}\nfix FLUID {} sph/bulk {}\n"
+SPIN = test_micropolar.fluid(2) + "fix FLUID all sph/micropolar inertia .1 0\n"
+WALL = "set group all sph/e 10\n" + ONE_FLUID.format("", "cv 1 conductivity 1", "F", "") + "fix W W sph/wall "
+VOLUME = ONE_FLUID.format("volume mass", "", "all", "") + "fix R all sph/refine 1 volume "
+ADAPT = ONE_FLUID.format("", "cv 1 conductivity 1 drag 1 0 0 0", "all", "") + "fix A all adapt 1 pair sph/bulk {} 1 1 v_n\n"
+PROPERTY = "must be a finite number, which that of particle 5 is not"
+
+# atom style; commands, with v_n, a variable of equal style, or v_a, finite but for particle 5; words of the error
+
+SET_ONCE = [
+    ("sph/bulk relax 1", ONE_FLUID.format("", "relax 1 1", "all", "") + "set group five d_rho_relaxed1 v_a\n", "d_rho_relaxed1 " + PROPERTY),
+    ("sph/bulk solute", ONE_FLUID.format("", "solute 1", "all", "") + "set group five d_solute v_a\n", "d_solute " + PROPERTY),
+    ("sph/bulk relax 1", "set group all sph/e 100\n" + ONE_FLUID.format("eos ideal", "gamma 1.4 cv 10 vibration 5 1", "all", "")
+     + "set group five d_tvib v_a\n", "d_tvib " + PROPERTY),
+    ("sph/bulk", ONE_FLUID.format("density continuity", "", "all", "") + "set group five sph/rho v_a\n", "density " + PROPERTY),
+    ("sph/bulk", ONE_FLUID.format("", "", "all", "") + "set group five mass v_a\n", f"mass (must be > 0|{PROPERTY})"),
+    ("sph/micropolar", SPIN + "set group five d_inertia v_a\n", "inertia " + PROPERTY),
+    ("sph/bulk", ONE_FLUID.format("", "cv 1", "all", "temperature v_n"), "Fix sph/bulk temperature must be >= 0, not VALUE"),
+    ("sph/bulk", ONE_FLUID.format("", "cv 1", "all", "temperature v_a"), "Fix sph/bulk temperature must be >= 0, not VALUE")]
+IN_EACH_STEP = [
+    ("sph/micropolar", SPIN + "fix T all sph/torque 0 0 v_n\n", r"Fix sph/torque: variable n is VALUE at step \d"),
+    ("sph/micropolar", SPIN + "fix T all sph/torque 0 0 v_a\n", r"Fix sph/torque: variable a is VALUE for particle 5 at step \d"),
+    ("sph/bulk", WALL + "velocity v_n 0 0\n", r"Fix sph/wall: variable n is VALUE at step \d"),
+    ("sph/bulk", WALL + "rotate 6 6 0 0 0 1 v_n\n", r"Fix sph/wall: variable n is VALUE at step \d"),
+    ("sph/bulk", WALL + "gravity v_n 0 0\n", r"Fix sph/wall gravity: variable n is VALUE at step \d"),
+    ("sph/bulk", WALL + "heat temp v_n\n", "heat temp must be >= 0, not VALUE"),
+    ("sph/bulk", WALL + "heat temp v_a\n", "heat temp must be >= 0, not VALUE for particle 5"),
+    ("sph/bulk", WALL + "heat flux v_a\n", "heat flux must be finite, not VALUE for particle 5"),
+    ("sph/bulk", VOLUME + "v_n\n", "target v_n is VALUE, must be > 0"),
+    ("sph/bulk", VOLUME + "v_a\n", "target v_a is VALUE for particle 5, must be > 0"),
+    *[("sph/bulk", ADAPT.format(name), f"{name} of types 1 1 was changed to VALUE, which is not admissible")
+      for name in ("mu", "kappa", "c0", "pb", "conductivity", "drag")]]
+
+
+@pytest.mark.parametrize("number", ["exp(1000.0*{0})", "(1.0-{0})*exp(1000.0*{0})"], ids=["inf", "nan"])
+@pytest.mark.parametrize("atoms, commands, words, first, ranks", [(*case, 0, 2) for case in SET_ONCE + IN_EACH_STEP]
+                         + [(*case, 3, 1) for case in IN_EACH_STEP])
+def test_values_are_finite(lammps, atoms, commands, words, first, ranks, number):
+    """Of states, and of variables, from this step on: all ranks report them, so that nothing else is lost."""
+    variables = (f"variable n equal {number.format(f'(step>={first})')}\n"
+                 f"variable a atom {number.format(f'(id==5)*(step>={first})')}\n")
+    result = lammps(header(2, style=atoms) + SQUARE + variables + commands + "run 5\n", ranks=ranks, check=False)
+    assert result.code == 1 and re.search(words.replace("VALUE", "-?(nan|inf)"), result.error), result.output[-1500:]
+    assert "ERROR on proc" not in result.output
+
+
 # ---------------------------------------------------------------------------------------------
 # one dimension
 
