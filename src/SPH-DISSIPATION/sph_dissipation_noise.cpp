@@ -76,7 +76,10 @@ StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
 void NoiseStage::set_surface_noise()
 {
   surface_coeff = coeff;
-  for (NoiseCoeff &one : surface_coeff) one.central *= sqrt(2.0);
+  for (NoiseCoeff &one : surface_coeff) {
+    one.central *= sqrt(2.0);
+    one.central_by_square *= 2.0;
+  }
   surface_data = data;
   surface_data.of_pairs = NoiseChannel::SURFACE;
   surface_data.coeff = surface_coeff.data();

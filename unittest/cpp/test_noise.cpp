@@ -194,7 +194,7 @@ static Layout newton(bool on)
 static Case make(Configuration config, const std::string &shear, bool stokes = false)
 {
   Case one{config, test_model(config, "wendland/c2"), shear, "density", stokes};
-  if (shear == "micropolar") {
+  if (DenseReference::has_spins(shear)) {
     add_spins(one.config, 77);
     one.model.spins = {{0.3L, 0.02L, 0.01L}, {0.7L, 0.05L, 0.03L}, {0.31L, 0.03L, 0.015L}};
     one.model.spin_unlike[{1, 3}] = {0.2L, 0.04L, -0.015L};
@@ -342,7 +342,7 @@ TEST(Noise, one_fluid)
         Case one = make(periodic_fluid(dim, false, 570 + dim), shear, stokes);
         one.config.type.assign(one.config.size(), 1);
         one.model.fluids.resize(1);
-        if (shear == "micropolar") one.model.spins.resize(1);
+        if (DenseReference::has_spins(shear)) one.model.spins.resize(1);
         one.model.mu_unlike.clear();
         one.model.spin_unlike.clear();
         check(one, {newton(true)}, record);
