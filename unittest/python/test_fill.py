@@ -181,7 +181,7 @@ def test_files_that_are_no_closed_surface(tmp_path):
                           (lambda: path.write_text("solid\n"), "is no STL file"), (lambda: path.write_text("ply\n"), "is no STL file"),
                           (lambda: path.write_text(""), "is no STL file"), (lambda: path.write_bytes(bytes(range(256)) * 9), "is no STL file"),
                           (lambda: write_binary(path, whole) or path.write_bytes(path.read_bytes()[:-1]), "is no STL file, or a part of one"),
-                          (lambda: write_text(path, whole * np.nan), "no finite numbers"), (lambda: write_text(path, whole * np.inf), "no finite numbers"),
+                          (lambda: write_text(path, whole * np.nan), "no finite numbers"), (lambda: write_text(path, whole + np.inf), "no finite numbers"),
                           (lambda: path.write_text("solid\n" + "vertex 0,5 0 0\n" * 3), "no numbers"),
                           (path.unlink, "No such file"), (path.mkdir, "Is a directory")):
         make()
