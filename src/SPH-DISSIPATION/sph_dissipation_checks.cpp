@@ -499,15 +499,19 @@ void FluidChecks::followed_densities(const std::vector<double> &before) const
 
 void FluidChecks::numbers() const
 {
-  const auto check = [&](const std::string &name, const std::string &help,
-                         const std::function<bool(int)> &finite) {
+  const auto demand = [&](const std::string &name, const std::string &what, const std::string &help,
+                          const std::function<bool(int)> &good) {
     const auto odd = first_particle(lmp, [&](int i) {
-      return !model.coeffs[atom->type[i]].other && !finite(i);
+      return !model.coeffs[atom->type[i]].other && !good(i);
     });
     if (!odd.empty())
       error->all(FLERR, Error::NOLASTLINE,
-                 "Pair style {}: {} must be a finite number, which that of {} is not; {}", style,
-                 name, odd, help);
+                 "Pair style {}: {} must be {}, which that of {} is not; {}", style, name, what,
+                 odd, help);
+  };
+  const auto check = [&](const std::string &name, const std::string &help,
+                         const std::function<bool(int)> &finite) {
+    demand(name, "a finite number", help, finite);
   };
   const auto finite = [](const double *a) {
     return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
@@ -527,18 +531,44 @@ void FluidChecks::numbers() const
     check("inertia", "use the set command", [&](int i) {
       return std::isfinite(fields.inertia[i]);
     });
+    demand("inertia", ">= 0", "use the set command", [&](int i) {
+      return fields.inertia[i] >= 0.0;
+    });
   }
   for (const int slot : fields.slots)
     check("d_" + Fields::state_name(slot), "use the set command", [&](int i) {
       return std::isfinite(fields.state[slot][i]);
     });
-  if (model.choice.continuity)
+  if (model.choice.continuity) {
     check("density", "use set sph/rho", [&](int i) {
-      return std::isfinite(atom->rho[i]) && atom->rho[i] >= 0.0;
+      return std::isfinite(atom->rho[i]);
     });
+    demand("density", ">= 0", "use set sph/rho, where 0 stands for rho0", [&](int i) {
+      return atom->rho[i] >= 0.0;
+    });
+  }
   check("internal energy", "use the set command", [&](int i) {
     return std::isfinite(atom->esph[i]);
   });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidChecks::states() const
+{
+  constexpr double IN_ANOTHER_COLUMN = -1.0;
+  const Fields &fields = *Fields::of(atom);
+  for (const int slot : fields.slots) {
+    if (state_info(slot).kind != StateKind::PER_MASS) continue;
+    const double *const state = fields.state[slot];
+    const auto odd = first_particle(lmp, [&](int i) {
+      return state[i] < 0.0 && state[i] != IN_ANOTHER_COLUMN;
+    });
+    if (!odd.empty())
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair style {}: d_{} must be >= 0, which that of {} is not; use the set command",
+                 style, Fields::state_name(slot), odd);
+  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -107,8 +107,12 @@ namespace SPHDissipation {
     // warning about densities of owned particles that the positions have changed much, from what they were before
     void followed_densities(const std::vector<double> &before) const;
 
-    // velocities, spins, and internal energies are finite numbers, as LAMMPS wants of positions
+    // masses, velocities, spins, and all states are finite numbers, as LAMMPS wants of positions; densities and inertia are
+    // not negative
     void numbers() const;
+
+    // states per mass are not negative, but for the mark of a data file: before the first forces turn negative ones into others
+    void states() const;
 
     // warning about particles of one fluid whose sizes differ, if their volumes are those of equal ones
     void sizes(int boundary_bits) const;

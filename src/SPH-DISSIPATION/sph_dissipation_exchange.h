@@ -61,7 +61,7 @@ namespace SPHDissipation {
     return all;
   }
 
-  // a number of all processors together; op: MPI_SUM, MPI_MIN, or MPI_MAX of those of each
+  // a number of all processors together; op: MPI_SUM, MPI_MIN, ... of those of each
 
   template <class T> T over_all(MPI_Comm world, T mine, MPI_Op op)
   {

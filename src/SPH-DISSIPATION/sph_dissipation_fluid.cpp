@@ -409,14 +409,19 @@ void Fluid::begin_run(double dt, bool continues, const Changes &changes)
   follows =
       model->choice.continuity && changes.places_alone() && model->hash() == model->hash_of_forces;
   if (!follows) keep_densities();
-  FluidChecks(lmp, style, *model).kept_states(changes, follows);
+  const FluidChecks check(lmp, style, *model);
+  check.kept_states(changes, follows);
   if (Fields::of(atom)->slots.empty()) return;
-  const bigint others = state->keep();
-  if (others && comm->me == 0)
-    error->warning(FLERR,
-                   "Pair style {}: {} particles have states of processes that their type does not "
-                   "have, which are lost; those of its own begin anew",
-                   style, others);
+  check.states();
+  const auto [others, places] = state->keep();
+  if (!others || comm->me != 0) return;
+  std::vector<std::string> names;
+  for (const int slot : Fields::of(atom)->slots)
+    if (places >> slot & 1) names.push_back("d_" + Fields::state_name(slot));
+  error->warning(FLERR,
+                 "Pair style {}: {} particles have {}, which their type does not have and which is "
+                 "lost; states of its own begin anew",
+                 style, others, utils::join_words(names, ", "));
 }
 
 /* ---------------------------------------------------------------------- */

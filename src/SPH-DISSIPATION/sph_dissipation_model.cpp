@@ -464,6 +464,9 @@ int FluidModel::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, in
       error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
                  keyword);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
+    for (const Given &one : given)
+      if (one.k == k)
+        error->all(FLERR, place(arg[iarg]), "Pair_coeff keyword {} is given twice", keyword);
     const bool mean = (k < nviscosity() && strcmp(arg[iarg + 1], "mean") == 0);
     const double value = mean ? 0.0 : utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     if (k == 0 && !(value >= 0.0))

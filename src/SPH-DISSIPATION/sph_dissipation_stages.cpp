@@ -229,13 +229,17 @@ void StateStage::advance(int not_fluid, const std::vector<double> &noise) const
 
 /* ---------------------------------------------------------------------- */
 
-bigint StateStage::keep() const
+std::pair<bigint, int> StateStage::keep() const
 {
   const StateRows states = engine.states();
   bigint mine = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (States::keep(states, i)) mine++;
-  return over_all(world, mine, MPI_SUM);
+  int bits = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int others = States::keep(states, i);
+    if (others) mine++;
+    bits |= others;
+  }
+  return {over_all(world, mine, MPI_SUM), over_all(world, bits, MPI_BOR)};
 }
 
 /* ---------------------------------------------------------------------- */

@@ -145,8 +145,9 @@ namespace SPHDissipation {
 
     void advance(int not_fluid, const std::vector<double> &noise) const;
 
-    // owned particles keep the states that their types have; returns how many particles, of all processors, had others
-    bigint keep() const;
+    // owned particles keep the states that their types have; returns how many particles, of all processors, had others, and
+    // bits of the places of these
+    std::pair<bigint, int> keep() const;
 
     // energy that they hold, of owned particles of these groups, not_fluid as above
 

@@ -182,17 +182,21 @@ namespace SPHDissipation {
       return (noise_of<One>(numbers, slot - first<One>()) + ...);
     }
 
-    // Drop the states that the type of a particle does not have; return whether there were any.  One that is -1, from a
+    // Drop the states that the type of a particle does not have; return bits of their places.  One that is -1, from a
     // data file, is in the column of another one: in the last one that is > 0 and that its type does not need.
-    template <class Rows> static bool keep(const Rows &rows, int i)
+    template <class Rows> static int keep(const Rows &rows, int i)
     {
-      bool others = false;
-      double spare = 0.0;
+      int others = 0;
+      Spare spare = {0.0, 0};
       (keep_of<One>(rows.numbers(i), rows, i, spare, others), ...);
       return others;
     }
 
    private:
+    struct Spare {
+      double value;
+      int bit;    // of its place
+    };
     template <class Channel, class Coeffs> static int count_of(const double *coeffs)
     {
       return Channel::count(coeffs + Coeffs::template first_of<Channel>());
@@ -225,17 +229,18 @@ namespace SPHDissipation {
       return (k >= 0 && k < own.count) ? Channel::noise(own.of[k]) : 0.0;
     }
     template <class Channel, class Rows>
-    static void keep_of(const Slots<Channel> &own, const Rows &rows, int i, double &spare,
-                        bool &others)
+    static void keep_of(const Slots<Channel> &own, const Rows &rows, int i, Spare &spare,
+                        int &others)
     {
       double *const *const state = rows.state + first<Channel>();
       if (!std::is_void<typename Channel::Room>::value && state[0] && state[0][i] < 0.0) {
-        state[0][i] = own.count ? spare : 0.0;
-        if (own.count) others = false;
+        state[0][i] = own.count ? spare.value : 0.0;
+        if (own.count) others &= ~spare.bit;
       }
       for (int k = own.count; k < Channel::MOST && state[k]; k++) {
-        if (state[k][i] != 0.0) others = true;
-        if (state[k][i] > 0.0) spare = state[k][i];
+        const int bit = 1 << (first<Channel>() + k);
+        if (state[k][i] != 0.0) others |= bit;
+        if (state[k][i] > 0.0) spare = {state[k][i], bit};
         state[k][i] = 0.0;
       }
     }

@@ -219,6 +219,16 @@ def test_values_are_finite(lammps, atoms, commands, words, first, ranks, number)
     assert "ERROR on proc" not in result.output
 
 
+@pytest.mark.parametrize("atoms, commands, words", [
+    ("sph/bulk", ONE_FLUID.format("density continuity", "", "all", "") + "set group five sph/rho -1\n",
+     "density must be >= 0, which that of particle 5 is not; use set sph/rho, where 0 stands for rho0"),
+    ("sph/micropolar", SPIN + "set group five d_inertia -1\n", "inertia must be >= 0, which that of particle 5 is not"),
+    ("sph/bulk relax 1", ONE_FLUID.format("eos ideal", "gamma 1.4 cv 10 vibration 5 1", "all", "") + "set group five d_tvib -2\n",
+     "d_tvib must be >= 0, which that of particle 5 is not")])
+def test_states_that_cannot_be_negative(lammps, atoms, commands, words):
+    refused(lammps, header(2, style=atoms) + SQUARE + commands + "run 1\n", words, 2)
+
+
 # ---------------------------------------------------------------------------------------------
 # one dimension
 

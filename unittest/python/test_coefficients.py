@@ -374,6 +374,13 @@ def test_keywords_that_are_refused(lammps, line, message):
     assert result.code and message in result.error, result.error
 
 
+@pytest.mark.parametrize("line", ["mu 0.1 mu 0.2", "interdrag 1 mu 0.1 interdrag 1"])
+def test_keywords_of_unlike_types_come_once(lammps, line):
+    disordered(2, 8, ntypes=2).write(lammps.path("two.data"))
+    result = lammps(header(2) + "read_data two.data\n" + fluid(2) + f"pair_coeff 1 2 {line}\n", check=False)
+    assert result.code == 1 and f"Pair_coeff keyword {line.split()[0]} is given twice" in result.error, result.error
+
+
 @pytest.mark.parametrize("line, warning", [("drag 0 1 1 0", "the stream of drag 0 of type 1 is ignored"), ("gruneisen 0 300", "T0 of gruneisen 0 of type 1 is ignored")])
 def test_keywords_without_effect(lammps, line, warning):
     assert warning in lammps(start(lammps, f"pair_coeff * * 1 10 0.5 2 3 cv 1 {line}\n") + "run 0\n").output
