@@ -22,6 +22,7 @@
 #include "group.h"
 #include "input.h"
 #include "lammps.h"
+#include "math_extra.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "sph_dissipation_engine.h"
@@ -619,6 +620,35 @@ void FluidChecks::energies(const std::function<double(int)> &heat, int boundary_
                    "Pair style {} eos ideal: {} of {} particles have no internal energy and thus "
                    "no pressure; use set ... sph/e",
                    style, all[1], all[0]);
+}
+
+/* ----------------------------------------------------------------------
+   as far as data files have their places; with newton off, the owners of both particles have a pair
+------------------------------------------------------------------------- */
+
+bigint FluidChecks::places(const Engine &engine, double support, bigint before) const
+{
+  constexpr double SAME = 1.0e-6;    // of the support radius
+  const double same_sq = SAME * SAME * support * support;
+  const Particle *const particle = engine.particle;
+  bigint twice = 0;
+  tagint first = MAXTAGINT;
+  engine.visit_pairs([&](int i, int j, bigint) {
+    if (MathExtra::distsq3(particle[i].x, particle[j].x) > same_sq) return;
+    twice += (force->newton_pair || j < atom->nlocal) ? 2 : 1;
+    if (atom->tag_enable) first = std::min({first, atom->tag[i], atom->tag[j]});
+  });
+  const bigint all = over_all(world, twice, MPI_SUM) / 2;
+  if (all <= before) return all;
+  first = over_all(world, first, MPI_MIN);
+  const std::string one = atom->tag_enable ? fmt::format(", one of them particle {}", first) : "";
+  if (comm->me == 0)
+    error->warning(
+        FLERR,
+        "Pair style {}: {} pairs of particles are in the same place{}: they exert no "
+        "force on each other and stay together; use delete_atoms overlap where regions overlap",
+        style, all, one);
+  return all;
 }
 
 /* ----------------------------------------------------------------------

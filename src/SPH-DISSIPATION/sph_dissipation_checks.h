@@ -123,6 +123,10 @@ namespace SPHDissipation {
     void energies(const std::function<double(int i)> &heat, int boundary_bits) const;
     void neighbors(const Engine &, int boundary_bits, int dim, double support) const;
 
+    // warning about pairs of particles, of fluid or of fluid and walls, in the same place; returns how many there are, of
+    // which before were told
+    bigint places(const Engine &, double support, bigint before) const;
+
    private:
     const std::string &style;
     const FluidModel &model;

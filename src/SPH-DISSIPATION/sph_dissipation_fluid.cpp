@@ -368,6 +368,17 @@ void Fluid::find_viscosities(bool find_rates)
 }
 
 /* ----------------------------------------------------------------------
+   before the search for particles inside of walls, with the pairs of pass 1
+------------------------------------------------------------------------- */
+
+void Fluid::check_places()
+{
+  if (!checks_places) return;
+  checks_places = false;
+  shared_places = FluidChecks(lmp, style, *model).places(*engine, support, shared_places);
+}
+
+/* ----------------------------------------------------------------------
    a minimization has no velocities: what is minimized is the energy of the equation of state
 ------------------------------------------------------------------------- */
 
@@ -380,6 +391,7 @@ void Fluid::sum_density()
   density->run(neighbors(), minimize ? nullptr : atom->vest,
                minimize ? nullptr : extrapolated_spin(), at_rest(), missing_time(), not_fluid(),
                slopes_read);
+  check_places();
 }
 
 /* ----------------------------------------------------------------------
@@ -406,6 +418,7 @@ void Fluid::begin_run(double dt, bool continues, const Changes &changes)
   continued = continues;
   set_step(dt);
   flows->forget();
+  checks_places = true;
   follows =
       model->choice.continuity && changes.places_alone() && model->hash() == model->hash_of_forces;
   if (!follows) keep_densities();
@@ -800,6 +813,7 @@ void Fluid::report()
 {
   const FluidChecks check(lmp, style, *model);
   const CoeffTable table = coeff_table();
+  check_places();    // if the forces were not of the host
   if (!announced) {
     model->warn_of_ignored();
     warned_step = noise_step = 0.0;

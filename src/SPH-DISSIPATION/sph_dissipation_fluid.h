@@ -250,11 +250,14 @@ namespace SPHDissipation {
     std::vector<double> densities_before;    // such forces, of owned particles
     bool changed =
         false;    // other coefficients, or motions of walls, than those of the last forces
-    double warned_step = 0.0;    // the time step that the last warning was about
-    double noise_step = 0.0;     // the time step that was announced with the noise
+    double warned_step = 0.0;      // the time step that the last warning was about
+    double noise_step = 0.0;       // the time step that was announced with the noise
+    bool checks_places = false;    // at the first forces of a run
+    bigint shared_places = 0;      // pairs of particles in the same place that a warning was about
     int fast_lists = 0;    // neighbor lists in a row with fast particles; -1: there was a warning
 
     void check_setup();
+    void check_places();
     void check_speed();
     void find_own_types();
     void check_all_interact();

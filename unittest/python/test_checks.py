@@ -310,6 +310,21 @@ def test_support_smaller_than_the_spacing(lammps, dim, ranks, newton):
             assert f"have only {number} neighbors on average within the support radius 0.9" in found[0]
 
 
+@pytest.mark.parametrize("newton, ranks", [("on", 1), ("off", 2), ("on", 4), ("off", 4)])
+def test_particles_in_the_same_place(lammps, newton, ranks):
+    """Of two regions that overlap, and of fluid on a wall; once, unless their number grows."""
+    regions = ("region B block 0 12 0 12 -.5 .5\nlattice sq 1.0 origin 0.5 0.5 0\ncreate_box 2 B\nregion W block INF INF 0 {} INF INF\n"
+               "region F block INF INF 3 INF INF INF\nregion M block 3 6 5 {} INF INF\ncreate_atoms 2 region W\ncreate_atoms 1 region F\n"
+               "create_atoms 1 region M\ngroup W type 2\ngroup F type 1\nset group all mass 1\n")
+    base = header(2, newton=newton) + "{}pair_style sph/bulk\npair_coeff * * 1 10 .1 .3 2.7\nfix FLUID F sph/bulk\nfix W W sph/wall\ntimestep 0.01\n"
+    for wall, more, number in ((3, 5, 0), (3, 7, 6), (4, 5, 12), (4, 7, 18)):
+        result = lammps(base.format(regions.format(wall, more)) + "run 1\nrun 1\n", ranks=ranks)
+        found = [re.search(r"(\d+) pairs of particles are in the same place, one of them particle \d+:", line) for line in result.warnings]
+        assert [int(one[1]) for one in found if one] == [number] * (number > 0)
+    result = lammps(base.format(regions.format(5, 5)) + "run 1\n", ranks=ranks, check=False)
+    assert "24 pairs of particles are in the same place" in result.log and "is inside a wall in step 0" in result.output
+
+
 def test_a_few_free_particles_are_no_fluid(lammps):
     for chosen in ([5], [3, 40, 77, 100]):
         lattice(2, 12).where(np.isin(np.arange(144), chosen)).write(lammps.path("box.data"))
