@@ -591,7 +591,7 @@ void FixSPHBulk::setup_pre_force(int /*vflag*/)
   set_masses();
   set_temperatures();
   if (update->whichflag == 1) add_remapped_velocity();
-  if (!spins || !has_viscous_stage()) return;    // which needs the inertia for the first forces
+  if (!spins || !exact) return;    // the first forces depend on the inertia
   fluid->find_volumes();
   set_inertia();
 }

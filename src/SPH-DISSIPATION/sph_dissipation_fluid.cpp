@@ -275,7 +275,7 @@ bigint Fluid::compute(PairTally *tally)
     if (checks_speed()) check_speed();
   }
   if (update->setupflag) check.numbers();
-  if (follows && update->setupflag) densities_before.assign(atom->rho, atom->rho + atom->nlocal);
+  remember_densities();
   if (touched) {
     const std::uint64_t hash = model->hash();
     changed = changed || hash != model->hash_of_forces;
@@ -438,6 +438,12 @@ void Fluid::begin_run(double dt, bool continues, const Changes &changes)
 }
 
 /* ---------------------------------------------------------------------- */
+
+void Fluid::remember_densities()
+{
+  if (follows && densities_before.empty())
+    densities_before.assign(atom->rho, atom->rho + atom->nlocal);
+}
 
 void Fluid::keep_densities()
 {
@@ -660,6 +666,7 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
 {
   double *const desph_before = Fields::of(atom)->desph_before;
   on_host([&]() {
+    remember_densities();
     density->run(neighbors(), nullptr, nullptr, not_fluid());
     if (!boundary->empty() && model->choice.own_temperatures)
       boundary->find_energies_at_rest(neighbors());
@@ -774,6 +781,7 @@ const double *Fluid::own_torque(int i) const
 void Fluid::find_volumes()
 {
   on_host([this]() {
+    remember_densities();
     density->run(neighbors(), nullptr, nullptr, not_fluid());
   });
 }
@@ -831,6 +839,7 @@ void Fluid::report()
   }
   announced = true;
   if (follows) check.followed_densities(densities_before);
+  densities_before.clear();
   follows = false;
   if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
 

@@ -258,6 +258,7 @@ namespace SPHDissipation {
 
     void check_setup();
     void check_places();
+    void remember_densities();
     void check_speed();
     void find_own_types();
     void check_all_interact();

@@ -204,9 +204,13 @@ def test_another_motion_of_a_wall_starts_anew(lammps, keywords, change):
     assert relative(kept["v"] - anew["v"], anew["v"]) < 1e-6
 
 
-def test_run_0_is_no_part_of_a_run(lammps):
-    """Energies, too, which are extrapolated within a step."""
-    text = continued(lammps, "temperatures")
+@pytest.mark.parametrize("name, inertia", [*((name, None) for name in CONTINUED), ("temperatures", "inertia 0.1 0.0"), ("spins", "inertia 0.1 0.0"),
+                                           ("rkl2", "inertia 0.1 0.0"), ("trapezoidal", "inertia 0.1 0.0")])
+def test_run_0_is_no_part_of_a_run(lammps, name, inertia):
+    """Energies, too, which are extrapolated within a step; also where the first forces find the inertia."""
+    text = continued(lammps, name)
+    if inertia:
+        text = text.replace("fix FLUID all sph/micropolar", f"set group all d_inertia 0\nfix FLUID all sph/micropolar {inertia}")
     last = lambda name: dump(name) + "run 0\n"
     lammps(text + "run 3\n" + last("one.dump"))
     lammps(text + "run 0\nrun 0\nrun 3\n" + last("two.dump"))
