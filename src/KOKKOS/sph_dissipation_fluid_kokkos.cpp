@@ -173,9 +173,9 @@ template <class DeviceType> void FluidKokkos<DeviceType>::build_host_list()
    sums over their neighbors
 ------------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::announce()
+template <class DeviceType>
+void FluidKokkos<DeviceType>::for_report(const std::function<void()> &task)
 {
-  if (!pair->compute_flag) return;
   on_host([&]() {
     if (on_device) {
       const int n = atom->nlocal + atom->nghost;
@@ -185,7 +185,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::announce()
       density->run(pair->list, atom->vest, nullptr, not_fluid());
       for (const auto &[to, from] : before) std::copy(from.begin(), from.end(), to);
     }
-    report();
+    task();
   });
 }
 
@@ -310,7 +310,8 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
   else if (neighbor->ago == 0)
     atomKK->sync(Host,
                  RMASS_MASK | TAG_MASK | TYPE_MASK |
-                     (checks_speed() ? V_MASK | MASK_MASK : EMPTY_MASK));
+                     (checks_speed() ? V_MASK | MASK_MASK : EMPTY_MASK) |
+                     (checks_expansion() ? SPH_RHO_MASK | MASK_MASK : EMPTY_MASK));
   const bigint nbeyond = Fluid::compute(tally);
   atomKK->modified(pair->execution_space, modified_mask());
 

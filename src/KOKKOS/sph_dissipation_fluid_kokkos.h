@@ -64,7 +64,6 @@ namespace SPHDissipation {
     double elastic_energy(Moment) override;
     void heating(double *, double *) const override;
     double received_heat(int groupbit) const override;
-    void announce() override;
     double memory_usage() const override;
 
     typedef Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> Gradient;
@@ -121,6 +120,7 @@ namespace SPHDissipation {
     bool has_own_forces() const override;
     double wall_energy(double *) const override;
     void on_host(const std::function<void()> &) override;
+    void for_report(const std::function<void()> &) override;
     void build_host_list();
     void grow();
     void set_states();

@@ -273,6 +273,7 @@ bigint Fluid::compute(PairTally *tally)
   if (neighbor->ago == 0) {
     check.masses();
     if (checks_speed()) check_speed();
+    if (checks_expansion()) check_expansion();
   }
   if (update->setupflag) check.numbers();
   remember_densities();
@@ -454,6 +455,12 @@ void Fluid::keep_densities()
 
 void Fluid::begin_step(double dt)
 {
+  if (look_after > 0.0 && (moving += dt) > look_after)
+    for_report([this]() {
+      FluidState state(lmp, *engine, *exchange, *model);
+      state.run(1, not_fluid(), pressures());
+      check_elasticity(state);
+    });
   if (!engine->constants().states) return;
   set_step(dt);
   advance_states();
@@ -747,6 +754,37 @@ void Fluid::check_speed()
 
 /* ---------------------------------------------------------------------- */
 
+bool Fluid::checks_expansion() const
+{
+  return !expanded && !model->constants().tension && !update->setupflag;
+}
+
+/* ----------------------------------------------------------------------
+   Without tension, nothing holds a fluid together where its pressure would be negative.  Spray is a small part of a fluid.
+------------------------------------------------------------------------- */
+
+void Fluid::check_expansion()
+{
+  constexpr double MANY = 0.5,
+                   THIN = 0.9;    // of the particles; density over that without pressure
+  bigint mine[2] = {0, 0}, all[2];
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!has_type(atom->type[i]) || is_boundary(i)) continue;
+    mine[0]++;
+    if (atom->rho[i] < THIN * model->coeffs[atom->type[i]].eos.rho_min) mine[1]++;
+  }
+  MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  expanded = (all[1] > MANY * all[0]);
+  if (expanded && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style {} tension no: the density of {} of {} particles is below {:g} of "
+                   "that at which the pressure ends: the fluid flies apart without resistance; use "
+                   "tension yes where a flow needs suction",
+                   style, all[1], all[0], THIN);
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool Fluid::has_forces() const
 {
   return over_all<int>(world, has_own_forces(), MPI_MIN);
@@ -812,7 +850,10 @@ void Fluid::set_mean_density(int groupbit)
 
 void Fluid::announce()
 {
-  if (pair->compute_flag) report();    // pair_modify compute yes
+  if (pair->compute_flag)    // pair_modify compute yes
+    for_report([this]() {
+      report();
+    });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -835,7 +876,9 @@ void Fluid::report()
     check.sizes(not_fluid());
     check.state_times();
     check.surface();
-    state.warn(style, shift->wanted);
+    state.warn_of_density(style);
+    moving = 0.0;
+    check_elasticity(state);
   }
   announced = true;
   if (follows) check.followed_densities(densities_before);
@@ -850,6 +893,20 @@ void Fluid::report()
   };
   check.energies(heat, not_fluid());
   check.neighbors(*engine, not_fluid(), dim, support);
+}
+
+/* ----------------------------------------------------------------------
+   Of the motion at the start, or, of a fluid at rest, of that which something drives later.  Shifting prevents a shear
+   elasticity; noise moves a fluid at rest.
+------------------------------------------------------------------------- */
+
+void Fluid::check_elasticity(FluidState &state)
+{
+  look_after = 0.0;
+  if (shift->wanted) return;
+  const double wait = state.warn_of_elasticity(style, moving);
+  if (!model->choice.thermal) look_after = wait;
+  moving = 0.0;
 }
 
 /* ----------------------------------------------------------------------

@@ -39,6 +39,7 @@ namespace SPHDissipation {
   struct ForceSum;
   class ForceStage;
   class FlowStage;
+  class FluidState;
   class LimitStage;
   class NeighborSearch;
   class NoiseStage;
@@ -173,7 +174,7 @@ namespace SPHDissipation {
 
     void set_mean_density(int groupbit);
     void find_volumes();
-    virtual void announce();
+    void announce();
 
     // before the first forces of a run that may continue the last one: one of the integrators begins anew; on any rank,
     // what the fluid touches moves otherwise
@@ -211,6 +212,10 @@ namespace SPHDissipation {
 
     virtual void on_host(const std::function<void()> &task) { task(); }
 
+    // the same for a report, which needs the pairs of the last forces
+
+    virtual void for_report(const std::function<void()> &task) { task(); }
+
     NeighList *neighbors();    // half, of the particles as they are now
 
     // what compute() consists of, on the host; another one may do each of them elsewhere.  set_pressure()
@@ -237,7 +242,9 @@ namespace SPHDissipation {
     at_rest() const;    // strains are zero: in a minimization; in a rerun, which does not know them
     double **extrapolated_spin() const;    // nullptr without spins
     int integrated = 0;                    // bits of the groups of its integrators
-    bool checks_speed() const;             // that of the particles, at the next neighbor list
+    // what is checked at the next neighbor list, of the particles
+    bool checks_speed() const;
+    bool checks_expansion() const;
 
    private:
     bool set_up = false;       // since pair_style and pair_coeff
@@ -255,11 +262,16 @@ namespace SPHDissipation {
     bool checks_places = false;    // at the first forces of a run
     bigint shared_places = 0;      // pairs of particles in the same place that a warning was about
     int fast_lists = 0;    // neighbor lists in a row with fast particles; -1: there was a warning
+    bool expanded = false;      // there was a warning
+    double look_after = 0.0;    // time to the next look at the motion of a fluid from rest, or 0
+    double moving = 0.0;        // time since the last one
 
     void check_setup();
     void check_places();
     void remember_densities();
     void check_speed();
+    void check_expansion();
+    void check_elasticity(FluidState &);
     void find_own_types();
     void check_all_interact();
     bool step_follows() const;    // a fix sets the time step by the limits

@@ -343,85 +343,101 @@ double LatticeStrain::largest(int type) const
   return found;
 }
 
+/* ---------------------------------------------------------------------- */
+
+bool FluidState::is_far_off(int type, double density) const
+{
+  constexpr double FAR_OFF = 0.1;    // density over rho0
+  constexpr double SPARSE = 0.01;    // the same, where no particle has a full support
+  const double rho0 = model.coeffs[type].eos.rho0;
+  const double least = has_full_support(type) ? 1.0 - FAR_OFF : SPARSE;
+  return density < least * rho0 || density > (1.0 + FAR_OFF) * rho0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidState::warn_of_density(const std::string &fix_style) const
+{
+  if (comm->me != 0) return;
+  for (int type = 1; type <= atom->ntypes; type++) {
+    if (!has_type(type)) continue;
+    const double rho = mean_density(type), rho0 = model.coeffs[type].eos.rho0;
+    if (model.choice.continuity) {
+      const Mean &mean = means[best(type)];
+      const double by_masses = rho0 * mean.sum / mean.count;
+      if (is_far_off(type, by_masses))
+        error->warning(FLERR,
+                       "The masses of type {} have the mean density {:g}, which is far from its "
+                       "rho0 {:g}: the mass of a particle should be rho0 times its volume, also "
+                       "with density continuity; use set mass",
+                       type, by_masses, rho0);
+      if (is_far_off(type, rho))
+        error->warning(
+            FLERR, "The mean density {:g} of type {} is far from its rho0 {:g}; use set sph/rho",
+            rho, type, rho0);
+    } else if (is_far_off(type, rho))
+      error->warning(FLERR,
+                     "The mean density {:g} of type {} is far from its rho0 {:g}: the mass of a "
+                     "particle should be rho0 times its volume; use the set command, or keyword "
+                     "density of fix {}",
+                     rho, type, rho0, fix_style);
+  }
+}
+
 /* ----------------------------------------------------------------------
    A shear wave of wave number k with the viscosity mu and the elasticity G has the rates
    g = nu k^2/2 +- sqrt[(nu k^2/2)^2 - G k^2/rho]: for a small G, mu appears to be too small by the
    part G rho/(mu k)^2 of it; from 1/4 on the wave oscillates.  If G < 0, it grows in the end.  The
    arrangement yields to waves of a vorticity beyond k sqrt(|G|/rho), whose strains exceed 1; sound has no
    vorticity.  If G < 0, short waves grow from rounding errors, at the rate |G|/mu at most.
+   What is driven from rest has most of its velocity after the time 1/(nu k^2), without elasticity.
 ------------------------------------------------------------------------- */
 
-void FluidState::warn(const std::string &fix_style, bool evened_out)
+double FluidState::warn_of_elasticity(const std::string &fix_style, double moving)
 {
-  constexpr double FAR_OFF = 0.1;           // density over rho0
-  constexpr double SPARSE = 0.01;           // the same, where no particle has a full support
   constexpr double REGULAR = 0.001;         // spread of the density; disordered particles yield
   constexpr double ELASTIC_PART = 0.25;     // of the viscosity
   constexpr double FEW = 10.0;              // particles, whose densities may be equal by chance
   constexpr double SHEARED = 0.1;           // vorticity over the rate of density
+  constexpr double STRAINED = 0.001;        // vorticity times the time for which a flow is driven
   constexpr double FROM_ROUNDOFF = 20.0;    // ln of the growth of a wave that is no longer small
 
   // with density continuity, the pressure is that of the flow, and equal densities are no regular arrangement
 
-  const bool shears = (engine.constants().dim > 1) && !evened_out && !model.choice.continuity;
+  if (engine.constants().dim == 1 || model.choice.continuity) return 0.0;
   LatticeStrain strain(lmp, engine, exchange);
-  double length = 0.0;
-  if (shears) {
-    strain.run(full);
-    length = longest_wave();
-  }
-  if (comm->me != 0) return;
+  strain.run(full);
+  const double k = MY_2PI / longest_wave();
 
   int worst = 0;    // type of the largest part
-  double largest_part = ELASTIC_PART, elasticity_of_worst = 0.0;
+  double largest_part = ELASTIC_PART, elasticity_of_worst = 0.0, wait = 0.0;
   for (int type = 1; type <= atom->ntypes; type++) {
     if (!has_type(type)) continue;
-    const double rho = mean_density(type), rho0 = model.coeffs[type].eos.rho0;
-    const double least = has_full_support(type) ? 1.0 - FAR_OFF : SPARSE;
-    const auto far_off = [=](double density) {
-      return density < least * rho0 || density > (1.0 + FAR_OFF) * rho0;
-    };
-    if (model.choice.continuity) {
-      const Mean &mean = means[best(type)];
-      const double by_masses = rho0 * mean.sum / mean.count;
-      if (far_off(by_masses))
-        error->warning(FLERR,
-                       "The masses of type {} have the mean density {:g}, which is far from its "
-                       "rho0 {:g}: the mass of a particle should be rho0 times its volume, also "
-                       "with density continuity; use set mass",
-                       type, by_masses, rho0);
-      if (far_off(rho))
-        error->warning(
-            FLERR, "The mean density {:g} of type {} is far from its rho0 {:g}; use set sph/rho",
-            rho, type, rho0);
-    } else if (far_off(rho))
-      error->warning(FLERR,
-                     "The mean density {:g} of type {} is far from its rho0 {:g}: the mass of a "
-                     "particle should be rho0 times its volume; use the set command, or keyword "
-                     "density of fix {}",
-                     rho, type, rho0, fix_style);
-    if (far_off(rho)) continue;
-
-    const double mu = model.viscosity(0, type, type);
-    if (!shears || count(type, FULL) < FEW || spread(type) > REGULAR || mu == 0.0) continue;
+    const double rho = mean_density(type), mu = model.viscosity(0, type, type);
+    if (is_far_off(type, rho) || count(type, FULL) < FEW || spread(type) > REGULAR || mu == 0.0)
+      continue;
     const double elasticity = mean_pressure(type) * strain.largest(type) / count(type, FULL);
-    const double k = MY_2PI / length;
     const double part = fabs(elasticity) * rho / (mu * mu * k * k);
     const double vorticity_sq = strain.vorticity_squared(type) / count(type, FULL);
     const double rate_sq = strain.rate_squared(type) / count(type, FULL);
-    const bool sheared = (vorticity_sq > SHEARED * SHEARED * rate_sq);
     const double growth = std::min(
         fabs(elasticity) / mu, MY_2PI * sqrt(fabs(elasticity) / rho) / engine.constants().support);
     const bool rearranges =
         (elasticity < 0.0 && growth * update->dt * update->nsteps > FROM_ROUNDOFF);
-    if (part < largest_part || !(sheared || rearranges) ||
-        vorticity_sq > k * k * fabs(elasticity) / rho)
+    const bool strained = (moving == 0.0 || vorticity_sq * moving * moving > STRAINED * STRAINED);
+    const bool sheared = (strained && vorticity_sq > SHEARED * SHEARED * rate_sq);
+    if (part < ELASTIC_PART || vorticity_sq > k * k * fabs(elasticity) / rho) continue;
+    if (!sheared && !rearranges) {
+      wait = std::max(wait, rho / (mu * k * k));
       continue;
+    }
+    if (part < largest_part) continue;
     worst = type;
     largest_part = part;
     elasticity_of_worst = elasticity;
   }
-  if (worst)
+  if (!worst) return wait;
+  if (comm->me == 0)
     error->warning(FLERR,
                    "The mean pressure {:.3g} of type {} gives its arrangement of particles a shear "
                    "elasticity of {:.2g}, which exceeds the viscosity: shear waves as long as the "
@@ -429,4 +445,5 @@ void FluidState::warn(const std::string &fix_style, bool evened_out)
                    "pressure or, for large strains, its keyword shift",
                    mean_pressure(worst), worst, elasticity_of_worst,
                    elasticity_of_worst < 0.0 ? "grow" : "oscillate", fix_style);
+  return 0.0;
 }

@@ -75,12 +75,15 @@ namespace SPHDissipation {
     double mean_pressure(int type) const;
     std::string table() const;    // for the log
 
-    // Warn, on rank 0, of types whose density is far from rho0, and of the one whose arrangement has
-    // the largest shear elasticity over its viscosity, if its motion is a shear that the arrangement
-    // survives; evened_out: shifting prevents it.  fix_style = the integrator, whose
-    // keyword helps
+    // Warn, on rank 0, of types whose density is far from rho0.  fix_style = the integrator, whose keyword helps
 
-    void warn(const std::string &fix_style, bool evened_out);
+    void warn_of_density(const std::string &fix_style) const;
+
+    // Warn, on rank 0, of the type whose arrangement has the largest shear elasticity over its viscosity, if its motion is a
+    // shear that the arrangement survives.  moving = time for which what drives it has acted, 0: at the start.  Returns that
+    // after which to look again, the decay time of the longest waves, if there is no such motion yet, else 0.
+
+    double warn_of_elasticity(const std::string &fix_style, double moving);
 
     // masses of the owned and ghost particles of run(), and of those with a bit of also, times one
     // factor for each type, so that the mean density of the type is rho0 if the volumes do not depend
@@ -109,6 +112,7 @@ namespace SPHDissipation {
     std::vector<Range> ranges;    // by type and set
 
     double count(int type, Set set) const { return means[type * NSET + set].count; }
+    bool is_far_off(int type, double density) const;
     int best(int type) const { return type * NSET + (has_full_support(type) ? FULL : ALL); }
     void find_full_support();
     void add_up(const std::function<double(int)> &pressure);

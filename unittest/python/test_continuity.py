@@ -564,6 +564,21 @@ def test_no_warning_of_the_shear_elasticity(lammps):
         assert any("shear elasticity" in one for one in result.warnings) == warns, result.warnings
 
 
+@pytest.mark.parametrize("tension, omega, warned", [("no", 1.0, True), ("yes", 1.0, False), ("no", 0.05, False)])
+def test_warning_of_a_fluid_that_flies_apart(lammps, tension, omega, warned):
+    """A square that rotates, Mach number 0.1."""
+    p = lattice(2, 16)
+    p.x[:, :2] -= 8.0
+    p.lo, p.hi = np.array([-60.0, -60.0, -0.5]), np.array([60.0, 60.0, 0.5])
+    p.v[:, 0], p.v[:, 1] = omega * p.x[:, 1], -omega * p.x[:, 0]
+    p.esph[:] = 0.0
+    write(lammps.path("box.data"), p)
+    result = lammps(text(2, f"density continuity tension {tension}", "1.0 113.0 0.1 0.3 3.0", boundary=free(2)) + "timestep 0.003\nrun 300\nrun 50\n",
+                    ranks=2)
+    lines = [one for one in result.warnings if "flies apart" in one]
+    assert len(lines) == warned and (not warned or "of 256 particles is below 0.9" in lines[0]), lines
+
+
 def test_no_warning_of_a_quiet_fluid(lammps):
     write(lammps.path("box.data"), free_drop())
     result = lammps(text(2, "density continuity") + "run 20\nwrite_data a.data\n")

@@ -120,6 +120,21 @@ def test_warning_of_a_lattice_that_rearranges(lammps, steps, warned):
     assert len(lines) == warned, lines
 
 
+@pytest.mark.parametrize("force, keywords, warned", [
+    ("0 v_u 0", "", True), ("0 v_strong 0", "", False), ("v_u 0 0", "", False), ("0 0 0", "", False), ("0 v_u 0", "shift 0.1", False)],
+    ids=["shear", "fast", "sound", "rest", "shift"])
+def test_warning_of_a_flow_from_rest(lammps, force, keywords, warned):
+    """In the second of two runs, after 1/(nu k^2) = 33.9."""
+    text = WAVE.format(dim=2, lattice="hex", cells=24, width=4, c0=20, mu=0.5, kappa=1.0, depth="-0.1 0.1", support="4 pb 5", step=0.02,
+                       every=100, keywords=keywords, steps=1000)
+    text = text.replace("velocity all set 0 v_u 0", f"variable strong atom 0.1*cos(v_k*x)\nfix D all addforce {force.replace('v_u', 'v_weak')}")
+    text = text.replace("fix D", "variable weak atom 1e-4*cos(v_k*x)\nfix D") + "run 1000\n"
+    log = lammps(text).log
+    lines = [line for line in lammps.results[-1].warnings if "shear elasticity" in line]
+    assert len(lines) == warned, lines
+    assert not warned or log.index("shear elasticity") > log.index("Loop time")
+
+
 def test_no_warning_for_a_handful_of_particles(lammps):
     """One disordered fluid in 100 types, most of which have one or two particles: their densities are equal by chance."""
     particles = disordered(2, (16, 10), jitter=0.1, spread=0.0, speed=1e-4)
