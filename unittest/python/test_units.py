@@ -146,6 +146,8 @@ FLOWS = {
     "plain": Flow(fixes=ENERGY + SPECTRUM, values=(*OF_ENERGY, *OF_SPECTRUM)),
     "flat": Flow(dim=2, pair="eos tait", coeff="gamma 6.5 pb 1.0[p]"),
     "mg/fr": Flow(pair="shear mg/fr bulk volume kernel quintic"),
+    "mg/fr2": Flow(walls=True, pair="shear mg/fr2", fixes=STICK),
+    "frozen_body": Flow(walls=True, body=True, pair="density continuity tension yes", fixes=STICK + BODY),
     "morris": Flow(walls=True, pair="shear morris kernel cubic", fixes=STICK + ENERGY, values=OF_ENERGY),
     "espanol": Flow(walls=True, pair="shear espanol kernel wendland/c6 limit yes", kappa="0.2[pt]", fixes=STICK),
     "spins": Flow(walls=True, **SPIN, integrator="inertia 0.16 0.1[ll]", fixes=STICK.replace("no\n", "no spin rate 0.5\n") + ENERGY +
