@@ -319,12 +319,6 @@ void FixSPHWall::setup_pre_exchange()
 void FixSPHWall::setup(int vflag)
 {
   if (!checked) check_thickness(find_fluid(force));
-  if (!checked && bodies && comm->me == 0 && !utils::strmatch(force->pair_style, "^hybrid") &&
-      (bodies->size() > 1 || modify->get_fix_by_style("^sph/wall").size() > 1))
-    error->warning(FLERR,
-                   "Fix {} {}: bodies have no contact forces: only the fluid keeps them apart "
-                   "from each other and from walls",
-                   id, style);
   if (!checked && bodies) check_tension(find_fluid(force));
   checked = true;
   if (bodies && find_fluid(force)->viscous->active()) check_masses();

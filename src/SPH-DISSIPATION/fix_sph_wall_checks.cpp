@@ -35,7 +35,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <vector>
 
@@ -332,9 +331,10 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
   const double support = fluid->support_radius();
   const int dim = fluid->dimension();
 
-  std::vector<int> everything(nall);
-  std::iota(everything.begin(), everything.end(), 0);
-  const Cells cells(x, everything, support);
+  std::vector<int> members;    // fluid and walls, not particles of other pair styles
+  for (int i = 0; i < nall; i++)
+    if (fluid->has_type(atom->type[i])) members.push_back(i);
+  const Cells cells(x, members, support);
 
   // for each particle j within the support radius of particle i
 

@@ -14,6 +14,7 @@
 #include "sph_dissipation_boundary_stage.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "force.h"
 #include "math_extra.h"
@@ -133,6 +134,7 @@ void BoundaryStage::begin(NeighList *list)
   if (found) {
     surface.run(group_bits, pairs, body_of);
     sum_bodies();
+    warn_of_contact();
   }
   const bool before = (!found && surface_step != update->ntimestep);
   surface_step = update->ntimestep;
@@ -175,6 +177,36 @@ void BoundaryStage::sum_bodies()
     });
     return 0;
   });
+}
+
+/* ----------------------------------------------------------------------
+   where particles of two bodies, or of a body and a wall, are so close that no fluid fits between them; another pair style may keep
+   them apart.  Once
+------------------------------------------------------------------------- */
+
+void BoundaryStage::warn_of_contact()
+{
+  constexpr double CLOSE = 1.5;    // spacings
+  if (!body_bits || warned_of_contact || utils::strmatch(force->pair_style, "^hybrid")) return;
+  std::vector<int> members;
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    if (atom->mask[i] & group_bits) members.push_back(i);
+  const Parameters &par = engine.parameters();
+  const Cells cells(atom->x, members, par.support);
+  int touching = 0;
+  for (int i = 0; i < atom->nlocal && !touching; i++) {
+    if (!(atom->mask[i] & body_bits)) continue;
+    const double volume = engine.rows().reference_volume(i);
+    cells.near(atom->x[i], CLOSE * spacing_of(par.dim, volume), [&](int j, const double *, double) {
+      if (body_of[j] != body_of[i]) touching = 1;
+    });
+  }
+  warned_of_contact = over_all(world, touching, MPI_MAX);
+  if (warned_of_contact && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style {}: a body touches another one, or a wall, in step {}: bodies have "
+                   "no contact forces, only the fluid keeps them apart",
+                   style, update->ntimestep);
 }
 
 /* ---------------------------------------------------------------------- */

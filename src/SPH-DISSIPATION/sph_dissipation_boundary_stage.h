@@ -177,6 +177,8 @@ namespace SPHDissipation {
 
     void find_bodies();
     void sum_bodies();
+    bool warned_of_contact = false;
+    void warn_of_contact();
     double begin_frozen(int i, const double *gravity);
     enum class FrictionPart { ALL, ADDED, BODY };    // factor of surface_factor(), less 1, 1
     void find_surface_pairs();

@@ -17,7 +17,9 @@
 #include "comm.h"
 #include "error.h"
 #include "math_extra.h"
+#include "pair_sph_bulk.h"
 #include "sph_dissipation_create.h"
+#include "sph_dissipation_fluid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +59,10 @@ class SPHDissipation::OpenBand : protected Pointers {
 OpenBand::OpenBand(LAMMPS *lmp, const OpenPlane &plane, int groupbit, double lo, double hi) :
     Pointers(lmp), plane(plane), at_node(plane.nnodes())
 {
+  const Fluid *const fluid = find_fluid(force);
   std::vector<double> mine;
   for (int i = 0; i < atom->nlocal; i++) {
+    if (!fluid->has_type(atom->type[i])) continue;
     const double *const x = atom->x[i];
     const bool mine_of_zone = atom->mask[i] & groupbit;
     const double height = plane.height(x);

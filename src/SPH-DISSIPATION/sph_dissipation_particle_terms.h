@@ -221,7 +221,7 @@ namespace SPHDissipation {
         else if (!(now > 0.0))
           now = rho0;
       } else {
-        if (!(mask[i] & bodies) || !(before < 0.0)) return;
+        if (!(mask[i] & bodies) || !(before < 0.0 && now > 0.0)) return;
         sum = -all;
         if (!keeps) now += all + before;
       }

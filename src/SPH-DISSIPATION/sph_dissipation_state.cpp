@@ -221,7 +221,9 @@ double FluidState::longest_wave() const
   constexpr double FAR = 1.0e300;
   double edge[6] = {FAR, FAR, FAR, FAR, FAR, FAR}, all[6];    // smallest x, -x, y, -y, z, -z
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & group) || (atom->mask[i] & not_fluid)) continue;
+    if (!(atom->mask[i] & group) || (atom->mask[i] & not_fluid) ||
+        model.coeffs[atom->type[i]].other)
+      continue;
     for (int d = 0; d < 3; d++) {
       edge[2 * d] = std::min(edge[2 * d], atom->x[i][d]);
       edge[2 * d + 1] = std::min(edge[2 * d + 1], -atom->x[i][d]);

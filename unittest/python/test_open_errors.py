@@ -212,6 +212,15 @@ def test_zone_that_overlaps_a_wall(lammps):
             "fix in", "fix S solid sph/wall\nfix in", 1))
 
 
+def test_particles_of_another_pair_style(lammps):
+    """They are not in the way of the zone."""
+    channel = Channel()
+    lammps(channel.text(lammps, INLET, OUTLET, velocity=lambda place: place * 0 + [U, 0, 0]).replace(
+        "read_data box.data", "read_data box.data extra/atom/types 1").replace("pair_style sph/bulk", (
+            "create_atoms 2 random 200 5 NULL\nset type 2 mass 1.0\npair_style hybrid sph/bulk zero 3.0")).replace(
+        "pair_coeff * * ", "pair_coeff * 2 zero\npair_coeff 1 1 sph/bulk ") + "run 20\n")
+
+
 def test_zone_group_with_walls(lammps):
     channel = Channel(box="walls")
     refused(lammps, "moved by fix", channel=channel, edit=lambda text: text.replace("pair_style", "group in union in wall\npair_style"))

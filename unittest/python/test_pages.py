@@ -160,8 +160,8 @@ def potentials(monkeypatch):
     monkeypatch.setenv("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
 
 
-# what is true of these inputs: a body and a floor that might meet; LAMMPS's own, about masses
-WARNED = {"ground floor sph/wall": "bodies have no contact forces", "hybrid sph/bulk bond": "Atom style hybrid defines both"}
+# of LAMMPS, about masses
+WARNED = {"hybrid sph/bulk bond": "Atom style hybrid defines both"}
 
 
 @pytest.mark.parametrize("text, finds", INPUTS)

@@ -834,6 +834,19 @@ def test_layers_for_a_support_radius(lammps, support, thinner, needed):
         assert all(f"needs {needed} layers" in line for line in lines)
 
 
+def test_points_of_contact_inside_of_a_wall(lammps):
+    """Particles of another pair style, wherever they are, are neither fluid nor wall to the checks of layers and masses."""
+    text = ("units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nlattice sq 1.0 origin 0.5 0.5 0.0\n"
+            "region box block 0 12 -6 10 -0.5 0.5\ncreate_box 3 box\nregion all block INF INF -4 6 INF INF\ncreate_atoms 1 region all\n"
+            "region wall block INF INF INF 0 INF INF\nset region wall type 2\nset type 1*2 mass 1.0\n{points}set type 3 mass 1e-8\n"
+            "group fluid type 1\ngroup wall type 2\nneighbor 0.5 bin\npair_style hybrid/overlay sph/bulk zero 2.0\n"
+            "pair_coeff 1*2 1*2 sph/bulk 1.0 10.0 0.1 0.3 4.0\npair_coeff 3 3 zero\npair_coeff 1*2 3 none\n"
+            "fix 1 fluid sph/bulk\nfix 2 wall sph/wall\nrun 0\n")
+    points = "region points block INF INF -3.5 0.5 INF INF\ncreate_atoms 3 region points\ncreate_atoms 3 region points\n"
+    for some in ("", points):
+        assert not lammps(text.format(points=some)).warnings
+
+
 @pytest.mark.parametrize("dim", [2, 3])
 def test_layers_of_a_cup(lammps, dim):
     """Cut from a lattice, its surface is not smooth."""
