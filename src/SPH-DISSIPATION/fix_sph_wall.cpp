@@ -319,6 +319,7 @@ void FixSPHWall::setup_pre_exchange()
 void FixSPHWall::setup(int vflag)
 {
   if (!checked) check_thickness(find_fluid(force));
+  if (!checked) check_pieces(find_fluid(force));
   if (!checked && bodies) check_tension(find_fluid(force));
   checked = true;
   if (bodies && find_fluid(force)->viscous->active()) check_masses();

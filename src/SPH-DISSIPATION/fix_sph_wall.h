@@ -122,6 +122,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   bool check_movers() const;
   void check_masses() const;
   void check_tension(const SPHDissipation::Fluid *) const;
+  void check_pieces(const SPHDissipation::Fluid *) const;
   void set_acting();
   void note_forces();
   void add_rest_of_heat();

@@ -15,6 +15,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "group.h"
@@ -30,11 +31,13 @@
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_value.h"
+#include "sph_dissipation_wall_motion.h"
 #include "sph_dissipation_wall_terms.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -233,6 +236,70 @@ void FixSPHWall::check_masses() const
           "body of {} less mass than its particles have",
           id, style, other->id, other->style, light);
   }
+}
+
+/* ----------------------------------------------------------------------
+   Warn if a periodic border cuts a body, or a wall that rotates, in two: it has particles on both sides of the border and none
+   in some other part of the box, but the first part of the box does not continue the image of the last one.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::check_pieces(const Fluid *fluid) const
+{
+  using Bits = long long;
+  constexpr double WIDTH = 1.5;    // of a part, in spacings, or more
+  constexpr int MOST = 60;
+  if (!bodies && !motion->rotates()) return;
+  const std::size_t n = bodies ? bodies->size() : 1;
+  double spacing = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit)
+      spacing = std::max(spacing,
+                         spacing_of(fluid->dimension(),
+                                    atom->rmass[i] / fluid->model->coeffs[atom->type[i]].eos.rho0));
+  spacing = over_all(world, spacing, MPI_MAX);
+
+  const double *const h = domain->h;
+  const double edges[3][3] = {{h[0], 0.0, 0.0}, {h[5], h[1], 0.0}, {h[4], h[3], h[2]}};
+  std::vector<int> cut(n, 0);
+  for (int d = 0; d < domain->dimension; d++) {
+    double across[3];
+    MathExtra::cross3(edges[d], motion->velocity().axis, across);
+    if (!domain->periodicity[d] ||
+        (!bodies && MathExtra::len3(across) < 1.0e-6 * MathExtra::len3(edges[d])))
+      continue;
+    const int parts = static_cast<int>(
+        std::min(static_cast<double>(MOST), floor(MathExtra::len3(edges[d]) / (WIDTH * spacing))));
+    if (parts < 3) continue;
+    std::vector<Bits> filled(n, 0), filled_all(n);
+    std::vector<int> image(2 * n, MAXSMALLINT), image_all(2 * n);    // least of first part, - last
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (!(atom->mask[i] & groupbit)) continue;
+      const int shift[3] = {static_cast<int>((atom->image[i] & IMGMASK) - IMGMAX),
+                            static_cast<int>((atom->image[i] >> IMGBITS & IMGMASK) - IMGMAX),
+                            static_cast<int>((atom->image[i] >> IMG2BITS) - IMGMAX)};
+      double place[3];
+      domain->x2lamda(atom->x[i], place);
+      const int part = std::min(std::max(static_cast<int>(parts * place[d]), 0), parts - 1);
+      const int k = bodies ? bodies->of(i) : 0;
+      filled[k] |= Bits(1) << part;
+      if (part == 0) image[2 * k] = std::min(image[2 * k], shift[d]);
+      if (part == parts - 1) image[2 * k + 1] = std::min(image[2 * k + 1], -shift[d]);
+    }
+    const int size = static_cast<int>(n);
+    MPI_Allreduce(filled.data(), filled_all.data(), size, MPI_LONG_LONG, MPI_BOR, world);
+    MPI_Allreduce(image.data(), image_all.data(), 2 * size, MPI_INT, MPI_MIN, world);
+    for (std::size_t k = 0; k < n; k++) {
+      const bool at_both = (filled_all[k] & 1) && (filled_all[k] >> (parts - 1) & 1);
+      const bool through = filled_all[k] == (Bits(1) << parts) - 1;
+      if (at_both && !through && image_all[2 * k] != 1 - image_all[2 * k + 1]) cut[k] = 1;
+    }
+  }
+  const int number = std::accumulate(cut.begin(), cut.end(), 0);
+  if (number && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {} {}: a periodic border cuts {} in two, which turns about a wrong center; "
+                   "use set image, so that it is one piece",
+                   style, id, bodies ? fmt::format("{} of {} bodies", number, n) : "the wall");
 }
 
 /* ----------------------------------------------------------------------

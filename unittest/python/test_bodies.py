@@ -156,6 +156,17 @@ def periodic(newton="on", rigid="rigid molecule", extra="", options="", **settin
         "set group all mass 1.0\nset region third image 1 NULL NULL\n").replace("set type 2 mass 1.0\n", "")
 
 
+def test_bodies_cut_by_a_border(lammps):
+    """A warning; not of bodies that are one piece, or that go through the whole box."""
+    image = "set region third image 1 NULL NULL\n"
+    through = "region third block EDGE EDGE -6 -4 EDGE EDGE\n"
+    for text, torn in ((periodic(), 0), (periodic().replace(image, ""), 1), (periodic().replace(image, "set region body image 1 1 NULL\n" + image), 0),
+                       (re.sub(r"region third sphere.*\n", through, periodic().replace(image, "")), 0)):
+        for ranks in (1, 4):
+            lines = [line for line in lammps(text + "run 0\n", ranks=ranks).warnings if "a periodic border cuts" in line]
+            assert len(lines) == torn and all("cuts 1 of 2 bodies in two" in line for line in lines), lines
+
+
 @pytest.mark.parametrize("viscous", ["explicit", "implicit tolerance 1e-13"])
 def test_ranks_and_periodic_borders(lammps, viscous):
     """Two bodies that cross the borders of box and processors; momentum is that of the start."""

@@ -588,6 +588,18 @@ def test_position_of_the_axis_is_in_the_restart_file(lammps):
     np.testing.assert_allclose(last["x"][own], turned + [15, 9, 0], rtol=0, atol=1e-11)
 
 
+def test_wheel_cut_by_a_border(lammps):
+    """A warning, unless its image flags make it one piece, or it does not rotate."""
+    text = ("units lj\ndimension 2\natom_style sph/bulk\nlattice sq 1.0 origin 0.5 0.5 0.0\nregion box block 0 16 0 16 -0.5 0.5\n"
+            "create_box 2 box\ncreate_atoms 1 box\nregion left sphere 0 8 0 3.2\nregion right sphere 16 8 0 3.2\nset region left type 2\n"
+            "set region right type 2\n{image}set group all mass 1.0\ngroup fluid type 1\ngroup wheel type 2\nneighbor 0.5 bin\npair_style sph/bulk\n"
+            "pair_coeff * * 1.0 10.0 0.1 0.3 3.0\nfix 1 fluid sph/bulk\nfix 2 wheel sph/wall {motion}\nrun 0\n")
+    turns, image = "rotate 0 8 0 0 0 1 0.1", "set region right image -1 NULL NULL\n"
+    for keywords, warned in ((dict(motion=turns, image=""), 1), (dict(motion=turns, image=image), 0), (dict(motion="velocity 1 0 0", image=""), 0)):
+        lines = [line for line in lammps(text.format(**keywords)).warnings if "a periodic border cuts the wall in two" in line]
+        assert len(lines) == warned, keywords
+
+
 def test_data_file_round_trip(lammps):
     (particles, owner), walls = vessel(2)
     run_vessel(lammps, particles, owner, one_fluid(2), walls, "run 20\nvelocity all scale 0.3\nwrite_data out.data\n" + dump("before.dump", owner)
