@@ -69,7 +69,14 @@ void Bodies::init(bool by_molecule_in, bool lagging_in)
 
 int Bodies::of(int i) const
 {
-  return by_molecule ? number.at(atom->molecule[i]) : 0;
+  if (!by_molecule) return 0;
+  const auto found = number.find(atom->molecule[i]);
+  if (found == number.end())
+    error->one(FLERR, Error::NOLASTLINE,
+               "Fix {} {}: molecule {} of particle {} was no body when the run began; bodies must "
+               "be there at the start of a run",
+               id, owner, atom->molecule[i], atom->tag[i]);
+  return found->second;
 }
 
 /* ----------------------------------------------------------------------

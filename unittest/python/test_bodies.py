@@ -304,6 +304,15 @@ def test_errors(lammps, change, words):
     assert result.code and words in result.error
 
 
+def test_bodies_that_are_added_in_a_run(lammps):
+    """*fix deposit* with a molecule, which *fix rigid/small* makes a body."""
+    lammps.path("two.mol").write_text("two\n\n2 atoms\n\nCoords\n\n1 0 0 0\n2 1 0 0\n\nTypes\n\n1 2\n2 2\n\nMasses\n\n1 1\n2 1\n")
+    text = drop(rigid="rigid/small molecule mol T", extra="fix D body deposit 1 0 5 4711 region top mol T rigid 2 near 1.0\nrun 20\n")
+    result = lammps(text.replace("units lj", "units lj\natom_modify map yes\nmolecule T two.mol").replace("neighbor 0.5 bin", (
+        "neighbor 0.5 bin\ncomm_modify cutoff 9.0\nregion top block -5 5 7 8 EDGE EDGE")), check=False)
+    assert result.code and "was no body when the run began" in result.error
+
+
 def test_bodies_that_are_fluid(lammps):
     """LAMMPS's fix alone makes no body."""
     text = small(lammps, "1.0 5.0 0.7 1.8 2.5") + "run 0\n"
