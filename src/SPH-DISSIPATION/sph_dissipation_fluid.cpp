@@ -992,6 +992,8 @@ void Fluid::check_time_step(const CoeffTable &table)
    as well, with the speed of sound at its density and energy, and the thinnest one of the fluid.
    A type without particles counts with its coefficients.  All code that needs the largest stable
    time step uses this function.
+   A heavy body pushes light fluid with its own modulus: the sound of its particles is as fast as in this fluid, but for the
+   half of the kernel that the body has.
 ------------------------------------------------------------------------- */
 
 CoeffTable Fluid::coeff_table()
@@ -999,7 +1001,7 @@ CoeffTable Fluid::coeff_table()
   const double inertia = smallest_inertia();
   const int n = atom->ntypes;
   const Eos eos = model->choice.eos;
-  enum { SPEED, SOUND, MOTION, THINNESS, NMOST };    // u + c, c, u, rho0/rho
+  enum { SPEED, SOUND, ACTING, MOTION, THINNESS, NMOST };    // u + acting c, c, acting c, u, rho0/rho
   std::vector<double> mine(NMOST * (n + 1), 0.0), all(NMOST * (n + 1));
   const auto most = [n](std::vector<double> &of, int what, int type) -> double & {
     return of[what * (n + 1) + type];
@@ -1009,26 +1011,31 @@ CoeffTable Fluid::coeff_table()
 
   double &fastest = most(mine, MOTION, 0);
   const auto sound_of = sound();
+  const double lightest = boundary->has_bodies() ? lightest_fluid() : 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
     const TypeCoeff &coeff = model->coeffs[type];
     if (coeff.other) continue;
     const double rho = atom->rho[i], c = sound_of(i, rho), v = MathExtra::len3(atom->v[i]);
+    const double acting = (lightest > 0.0 && boundary->is_body(i))
+        ? c * std::max(1.0, 0.5 * sqrt(coeff.eos.rho0 / lightest))
+        : c;
     fastest = std::max(fastest, v);
-    const double values[NMOST] = {c + v, c, v, is_boundary(i) ? 0.0 : coeff.eos.rho0 / rho};
+    const double values[NMOST] = {acting + v, c, acting, v,
+                                  is_boundary(i) ? 0.0 : coeff.eos.rho0 / rho};
     for (int k = 0; k < NMOST; k++) most(mine, k, type) = std::max(most(mine, k, type), values[k]);
   }
   MPI_Allreduce(mine.data(), all.data(), NMOST * (n + 1), MPI_DOUBLE, MPI_MAX, world);
   for (int i = 1; i <= n; i++) {
     if (most(all, SPEED, i) == 0.0 && eos != Eos::IDEAL)
-      most(all, SPEED, i) = most(all, SOUND, i) = model->coeffs[i].eos.c0;
+      most(all, SPEED, i) = most(all, SOUND, i) = most(all, ACTING, i) = model->coeffs[i].eos.c0;
     if (most(all, THINNESS, i) == 0.0) most(all, THINNESS, i) = 1.0;
   }
 
   const double h = stability_length(), hsq = h * h;
   CoeffTable table(most(all, MOTION, 0));
   const auto sound_step = [&](int type) {
-    const double speed = most(all, SPEED, type), c = most(all, SOUND, type);
+    const double speed = most(all, SPEED, type), c = most(all, ACTING, type);
     return acoustic_step(h, speed, [&](double dt) {
       const double more = model->stiffness(type, dt);
       return (more > 0.0) ? most(all, MOTION, type) + sqrt(c * c + more) - speed : 0.0;
@@ -1059,6 +1066,19 @@ CoeffTable Fluid::coeff_table()
                     diffusion_of);
     }
   return table;
+}
+
+/* ----------------------------------------------------------------------
+   smallest reference density of particles of the fluid
+------------------------------------------------------------------------- */
+
+double Fluid::lightest_fluid() const
+{
+  double mine = HUGE_VAL;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (has_type(atom->type[i]) && !is_boundary(i))
+      mine = std::min(mine, model->coeffs[atom->type[i]].eos.rho0);
+  return over_all(world, mine, MPI_MIN);
 }
 
 /* ----------------------------------------------------------------------

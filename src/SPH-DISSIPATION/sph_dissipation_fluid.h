@@ -284,6 +284,7 @@ namespace SPHDissipation {
     void find_temperature();
     double stability_length() const;
     double smallest_inertia() const;
+    double lightest_fluid() const;
     std::string skin_text(const CoeffTable &) const;
     std::function<double(int i)> pressures() const;    // of owned particles, with that of states
     void announce_noise(double rate);

@@ -346,6 +346,19 @@ def test_density_ratios(lammps, mass):
     assert table["KinEng"].max() < 1.05 * table["KinEng"][0] and table["KinEng"][-1] < table["KinEng"][0]
 
 
+def test_accuracy_beside_stiff_bodies(lammps):
+    """A heavy body with the speed of sound of the fluid has a larger modulus: at the time step of the table, the error of the energy is no larger."""
+    error = {}
+    for mass in (1.0, 100.0):
+        text = drop(boundary="p p p", mass=mass, coeff="1.0 10.0 0.003 0.008 ", step=0.001, jitter=0.05)
+        text = re.sub(r"pair_coeff 2 2 \S+ \S+", f"pair_coeff 2 2 {mass} 10.0", text)
+        step = float(re.search(r"largest stable time step with viscous explicit (\S+),", lammps(text + "run 0\n").log)[1])
+        table = lammps(text.replace("timestep 0.001", f"timestep {0.98 * step}") + "thermo 10\nrun 500\n").thermo()[-1]
+        error[mass] = np.abs(table["c_E"] - table["c_E"][0]).max() / table["KinEng"][0]
+    print(error)
+    assert error[100.0] < 1.5 * error[1.0]
+
+
 # ---- thermal noise --------------------------------------------------------------------------------------------------
 
 
