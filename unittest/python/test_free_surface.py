@@ -110,7 +110,7 @@ def test_gravity_by_variables(lammps):
 @pytest.mark.parametrize("words, message", [
     ("gravity v_none -1 0", "Variable none for fix sph/wall gravity does not exist"),
     ("gravity v_a -1 0", "Variable a for fix sph/wall gravity is not an equal-style variable"),
-    ("gravity 0 -1 v_z", "velocity and gravity must lie in the plane in 2d"), ("gravity 0 v_inf 0", "Fix sph/wall gravity must be finite, not inf"),
+    ("gravity 0 -1 v_z", "velocity and gravity must lie in the plane in 2d"), ("gravity 0 v_inf 0", "Fix sph/wall gravity: variable inf is inf at step 0: values must be finite"),
     ("gravity 0 -1", "fix sph/wall gravity")])
 def test_gravity_that_is_refused(lammps, words, message):
     variables = "variable a atom x\nvariable z equal 0.0\nvariable inf equal exp(1000)\n"

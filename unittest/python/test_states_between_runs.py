@@ -19,7 +19,8 @@ NUMBER = 100    # particles
 
 READ = "read_dump snap.dump 0 x y vx vy"
 COMMANDS = {
-    "displace_atoms": ("displace_atoms all ramp x 0 0.5 y 0 10", "displace_atoms all random .01 .01 0 5"),
+    "displace_atoms": ("displace_atoms all ramp x 0 0.5 y 0 10", "displace_atoms all random .01 .01 0 5", "displace_atoms some move .3 0 0",
+                       "displace_atoms some rotate 5 5 0 0 0 1 3"),
     "set x": ("variable X atom 1.01*x\nset group all x v_X",),
     "change_box ... remap": ("change_box all x scale .98 y scale .97 remap",),
     "change_box without remap": ("change_box all x final 0 12", "change_box all boundary f p p"),
@@ -94,7 +95,7 @@ def run(lammps, fluid, command):
             """)
         result = Result(0, "", lammps.path("after.log").read_text())
     else:
-        result = lammps(text + "log after.log\n" + command + "\n" + after, check=False)
+        result = lammps(text + "log after.log\n" + command + "\n" + after, ranks=2 if fluid == "liquid" else 1, check=False)
         result.log = lammps.path("after.log").read_text()
     return result, lammps.frame("before.dump"), None if result.code else lammps.frame("after.dump")
 
