@@ -219,6 +219,42 @@ def test_values_are_finite(lammps, atoms, commands, words, first, ranks, number)
     assert "ERROR on proc" not in result.output
 
 
+def each_number(line):
+    """The line with X in the place of each of its numbers."""
+    words = line.split()
+    for k, word in enumerate(words):
+        if re.fullmatch(r"-?[.\d]+", word):
+            yield " ".join([*words[:k], "X", *words[k + 1:]])
+
+
+COEFFS = [f"pair_coeff * * 1 10 .1 .3 2.7 {line}" for keywords in (
+    "pb 1", "gamma 7", "cv 1 conductivity .5", "cv 1 gruneisen .5 1", "drag 1 .5 .5 .5", "power .5 .1 1", "carreau 1 .5 1 .1", "cross 1 .5 .1", "yield 1 1",
+    "smagorinsky 1 1", "cv 1 arrhenius 1 1 2", "relax 1 1", "solute .1") for line in each_number(keywords) if " X" in line]
+COEFFS += [line.replace("pair_coeff X", "pair_coeff *") for line in each_number("pair_coeff * * 1.0 10 .1 .3 2.7") if not line.endswith("* * X 10 .1 .3 2.7")]
+NUMBERS = (COEFFS + ["pair_coeff 1 2 mu X", "pair_coeff 1 2 interdrag X", "pair_coeff 1 2 tension X"]
+           + [f"pair_style sph/bulk {words}" for words in ("temp X 5", "temp energy X 5", "density continuity delta X")]
+           + [f"fix I all sph/bulk {words}" for words in ("shift X", "temperature X", "viscous implicit tolerance X")]
+           + [f"fix W W sph/wall {words}" for words in ("velocity X 0 0", "rotate X 6 0 0 0 1 1", "rotate 6 6 0 0 0 X 1", "rotate 6 6 0 0 0 1 X", "gravity 0 X 0",
+                                                        "heat temp X", "heat flux X")]
+           + [f"fix O W sph/open F {words}" for words in ("X 0 0 1 0 0 8 velocity 0 0 0", "0 0 0 1 X 0 8 velocity 0 0 0", "0 0 0 1 0 0 X velocity 0 0 0")]
+           + [f"fix O W sph/open F 0 0 0 1 0 0 8 {words}" for words in ("velocity 0 X 0", "density X", "pressure X", "energy X", "temperature X", "average X",
+                                                                        "spacing X", "area X")]
+           + [f"fix R all sph/refine 1 {words}" for words in ("volume X", "spacing X", "volume 1 split X", "volume 1 merge X", "volume 1 wait X", "volume 1 fraction X")]
+           + [f"fix D all sph/dt 1 {words}" for words in ("acoustic X", "viscous X", "force X", "min X", "max X")])
+
+
+@pytest.mark.parametrize("number", ["inf", "nan"])
+def test_numbers_of_commands_are_finite(lammps, number):
+    """All refuse such words when they are read, and none takes one for a name."""
+    base = header(2, style="sph/bulk relax 1 solute") + SQUARE + ONE_FLUID.format("volume mass", "", "F", "")
+    accepted = []
+    for line in NUMBERS:
+        result = lammps(base + line.replace("X", number) + "\n", check=False)
+        if result.code != 1 or not re.search(f"parameter instead of '{number}'|must be .*, not {number}", result.error):
+            accepted.append((line, result.error))
+    assert not accepted
+
+
 @pytest.mark.parametrize("atoms, commands, words", [
     ("sph/bulk", ONE_FLUID.format("density continuity", "", "all", "") + "set group five sph/rho -1\n",
      "density must be >= 0, which that of particle 5 is not; use set sph/rho, where 0 stands for rho0"),
