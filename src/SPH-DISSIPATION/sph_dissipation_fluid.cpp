@@ -993,7 +993,8 @@ void Fluid::check_time_step(const CoeffTable &table)
    A type without particles counts with its coefficients.  All code that needs the largest stable
    time step uses this function.
    A heavy body pushes light fluid with its own modulus: the sound of its particles is as fast as in this fluid, but for the
-   half of the kernel that the body has.
+   half of the kernel that the body has.  Walls act with the pressure of the fluid, and do not move by it: neither the speed
+   of sound of their type nor its density counts.
 ------------------------------------------------------------------------- */
 
 CoeffTable Fluid::coeff_table()
@@ -1001,7 +1002,8 @@ CoeffTable Fluid::coeff_table()
   const double inertia = smallest_inertia();
   const int n = atom->ntypes;
   const Eos eos = model->choice.eos;
-  enum { SPEED, SOUND, ACTING, MOTION, THINNESS, NMOST };    // u + acting c, c, acting c, u, rho0/rho
+  // u + acting c, c, acting c, u, rho0/rho of the fluid, 1 of walls and 2 of bodies
+  enum { SPEED, SOUND, ACTING, MOTION, THINNESS, KIND, NMOST };
   std::vector<double> mine(NMOST * (n + 1), 0.0), all(NMOST * (n + 1));
   const auto most = [n](std::vector<double> &of, int what, int type) -> double & {
     return of[what * (n + 1) + type];
@@ -1017,20 +1019,40 @@ CoeffTable Fluid::coeff_table()
     const TypeCoeff &coeff = model->coeffs[type];
     if (coeff.other) continue;
     const double rho = atom->rho[i], c = sound_of(i, rho), v = MathExtra::len3(atom->v[i]);
-    const double acting = (lightest > 0.0 && boundary->is_body(i))
-        ? c * std::max(1.0, 0.5 * sqrt(coeff.eos.rho0 / lightest))
-        : c;
+    const bool body = boundary->is_body(i);
+    const double acting = body ? c * std::max(1.0, 0.5 * sqrt(coeff.eos.rho0 / lightest)) : c;
     fastest = std::max(fastest, v);
-    const double values[NMOST] = {acting + v, c, acting, v,
-                                  is_boundary(i) ? 0.0 : coeff.eos.rho0 / rho};
+    const bool fluid = !is_boundary(i);
+    const double values[NMOST] = {acting + v,
+                                  c,
+                                  acting,
+                                  v,
+                                  fluid ? coeff.eos.rho0 / rho : 0.0,
+                                  body ? 2.0 : fluid ? 0.0 : 1.0};
     for (int k = 0; k < NMOST; k++) most(mine, k, type) = std::max(most(mine, k, type), values[k]);
   }
   MPI_Allreduce(mine.data(), all.data(), NMOST * (n + 1), MPI_DOUBLE, MPI_MAX, world);
+  std::vector<bool> walls_alone(n + 1);
+  double slowest = HUGE_VAL, thinnest = HUGE_VAL;    // of the fluid
   for (int i = 1; i <= n; i++) {
-    if (most(all, SPEED, i) == 0.0 && eos != Eos::IDEAL)
+    const bool empty = (most(all, SPEED, i) == 0.0), fluid = (most(all, THINNESS, i) > 0.0);
+    walls_alone[i] = !fluid && most(all, KIND, i) == 1.0;
+    if (fluid) {
+      slowest = std::min(slowest, most(all, SOUND, i));
+      thinnest = std::min(thinnest, model->coeffs[i].eos.rho0 / most(all, THINNESS, i));
+    }
+    if (empty && eos != Eos::IDEAL)
       most(all, SPEED, i) = most(all, SOUND, i) = most(all, ACTING, i) = model->coeffs[i].eos.c0;
-    if (most(all, THINNESS, i) == 0.0) most(all, THINNESS, i) = 1.0;
+    if (!fluid) most(all, THINNESS, i) = 1.0;
   }
+  for (int i = 1; i <= n; i++)
+    if (walls_alone[i] && most(all, ACTING, i) > slowest) {
+      most(all, ACTING, i) = slowest;
+      most(all, SPEED, i) = most(all, MOTION, i) + slowest;
+    }
+  const auto density = [&](int i) {
+    return walls_alone[i] ? HUGE_VAL : model->coeffs[i].eos.rho0 / most(all, THINNESS, i);
+  };
 
   const double h = stability_length(), hsq = h * h;
   CoeffTable table(most(all, MOTION, 0));
@@ -1045,8 +1067,8 @@ CoeffTable Fluid::coeff_table()
     for (int j = i; j <= n; j++) {
       const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
       if (a.other || b.other) continue;
-      const double rho =
-          std::min(a.eos.rho0 / most(all, THINNESS, i), b.eos.rho0 / most(all, THINNESS, j));
+      const double least = std::min(density(i), density(j));
+      const double rho = (least < HUGE_VAL) ? least : (thinnest < HUGE_VAL) ? thinnest : a.eos.rho0;
       PairInertia damped;
       damped.hsq = hsq;
       damped.rho = rho;

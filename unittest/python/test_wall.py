@@ -846,6 +846,17 @@ def test_layers_for_a_support_radius(lammps, support, thinner, needed):
         assert all(f"needs {needed} layers" in line for line in lines)
 
 
+def test_time_step_beside_walls_of_another_fluid(lammps):
+    """Density and speed of sound of the wall's type make no difference to the step, nor to the stages of rkl2."""
+    text = ("units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nlattice sq 1.0 origin 0.5 0.5 0.0\n"
+            "region box block 0 8 -3 9 -0.5 0.5\ncreate_box 2 box\ncreate_atoms 1 box\nregion fluid block INF INF 0 6 INF INF\n"
+            "group fluid region fluid\ngroup wall subtract all fluid\nset group wall type 2\nset type 1 mass 1.0\nset type 2 mass {rho}\n"
+            "neighbor 0.5 bin\npair_style sph/bulk\npair_coeff * * 1.0 10.0 5.0 15.0 3.0\npair_coeff 2 2 {rho} {c} 5.0 15.0 3.0\n"
+            "fix 1 fluid sph/bulk viscous rkl2\nfix 2 wall sph/wall\ntimestep 0.01\nrun 0\n")
+    lines = {re.search(r"largest stable time step with viscous.*", lammps(text.format(rho=rho, c=c)).log)[0] for rho, c in ((1.0, 10.0), (0.01, 30.0), (100.0, 3.0))}
+    assert len(lines) == 1, lines
+
+
 def test_points_of_contact_inside_of_a_wall(lammps):
     """Particles of another pair style, wherever they are, are neither fluid nor wall to the checks of layers and masses."""
     text = ("units lj\ndimension 2\nboundary p f p\natom_style sph/bulk\nlattice sq 1.0 origin 0.5 0.5 0.0\n"
