@@ -80,6 +80,18 @@ def test_pressure(lammps):
     assert abs(table["PotEng"][0] - 22.7714189679794) < 1e-11
 
 
+@pytest.mark.parametrize("options", ["", "volume mass", "density continuity tension yes", "temp 0.3 5", "limit yes"])
+def test_forces_do_not_depend_on_the_density_of_a_body(lammps, options):
+    """Of one bulk modulus, with any bulk viscosity of the type of the body."""
+    found = []
+    for ratio in (1.0, 0.1, 0.5, 2.0, 10.0):
+        text = small(lammps, "1.0 5.0 0.7 1.8 2.5 pb 1.5", options)
+        text = text.replace("fix 1 fluid", f"pair_coeff 2 2 {ratio} {5.0 / np.sqrt(ratio):.17g} 0.7 {1.8 + ratio} 2.5 pb 1.5\nset type 2 mass {ratio}\nfix 1 fluid")
+        found.append(forces(lammps, text + "run 0\n")[1])
+    for other in found[1:]:
+        assert np.abs(other - found[0]).max() < 1e-13 * np.abs(found[0]).max()
+
+
 # ---- motion ---------------------------------------------------------------------------------------------------------
 
 
