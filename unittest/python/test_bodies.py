@@ -944,9 +944,9 @@ def test_equipartition_with_density_continuity(lammps):
 @pytest.mark.long
 @pytest.mark.parametrize("mu, kappa", [(0.2, 0.5), (0.02, 0.05), (0.004, 0.05)])
 def test_equipartition_of_any_viscosity_with_density_continuity(lammps, mu, kappa):
-    """Within three standard errors, which are 0.003 to 0.015."""
+    """Within three standard errors, which are 0.003 to 0.015 and known within a fifth, and 0.01 for the time step."""
     mean, error = equipartition(lammps, 80000, CONTINUITY, mu, kappa)
-    assert np.all(np.abs(mean - 1) < 3 * error + 0.002) and error.max() < 0.02
+    assert np.all(np.abs(mean - 1) < 3 * error + 0.01) and error.max() < 0.02
 
 
 @pytest.mark.long
