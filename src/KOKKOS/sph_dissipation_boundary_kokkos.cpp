@@ -219,9 +219,9 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
           const Particle &f = loop.particle[j];
           const double kernel_weight =
               loop.par.weight_norm * K::shape(Kokkos::sqrt(rsq) / loop.par.support);
-          const double height = add_fluid(f, w, r, kernel_weight, s, loop.rho[j],
-                                          loop.weight[j * loop.each], loop.reference_volume(j),
-                                          loop.zeta_term[j], total);
+          const double height =
+              add_fluid(f, w, r, kernel_weight, s, loop.rho[j], loop.weight[j * loop.each],
+                        loop.reference_volume(j), loop.zeta_term[j], total);
           if (loop.spin) add_fluid_spin(loop.spin[j].w, f.vol * kernel_weight, height, s, total);
           if (with_heat)
             add_fluid_heat(loop.flow[HEAT_FLOW][j], f.vol * kernel_weight,

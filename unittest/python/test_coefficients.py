@@ -349,7 +349,7 @@ def test_restart_file_with_other_settings(lammps):
                        struct.pack("<7i", form - 1, 0, 0, 1, 1, 0, 0): "written by an older version",
                        struct.pack("<7i", form + 1, 0, 0, 1, 1, 0, 0): "written by a newer version",
                        struct.pack("<7i", form, 17, 0, 1, 1, 0, 0): "damaged: pair style sph/bulk kernel is 17",
-                       struct.pack("<7i", form, 0, 0, 5, 1, 0, 0): "damaged: pair style sph/bulk shear is 5"}.items():
+                       struct.pack("<7i", form, 0, 0, 5, 1, 0, 0): "damaged: pair style sph/bulk has no such shear form"}.items():
         lammps.path("bad.restart").write_bytes(data.replace(head, new))
         result = lammps("read_restart bad.restart\n", check=False)
         assert result.code != 0 and re.search(words, result.error), result.error or result.output[-2000:]

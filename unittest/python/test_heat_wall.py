@@ -76,11 +76,11 @@ def heating(particles, owner, fluids, T, walls, volume="number"):
     F[np.ix_(solid, solid)] = 0.0
     w = particles.mass / of["rho0"] if volume == "mass" else np.ones(len(owner))
     V = w / (W @ w)
-    rho = particles.mass / V
+    cell = particles.mass / of["rho0"]
+    density = cell / V
     weight = np.where(wet, V * W, 0.0)
     seen = solid & (weight.sum(axis=1) > 0.0)
-    V[seen] = particles.mass[seen] * weight.sum(axis=1)[seen] / (weight @ (rho * wet))[seen]
-    cell = particles.mass / of["rho0"]
+    V[seen] = cell[seen] * weight.sum(axis=1)[seen] / (weight @ (density * wet))[seen]
     normal, depth = ref.surface_of(model, -r, dist, F, solid, wet, cell)
 
     weight = np.where(of["k"] > 0.0, weight, 0.0)

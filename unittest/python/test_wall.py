@@ -1086,17 +1086,20 @@ def test_densities_of_walls(lammps):
         np.testing.assert_allclose(found, alike, rtol=0, atol=0.001)
 
 
-@pytest.mark.parametrize("shear, kernel, flow", [("mg", "wendland/c2", 1.070), ("mg/fr2", "wendland/c2", 1.006), ("mg/fr2", "quintic", 1.002)])
-def test_flow_rate_with_three_spacings(lammps, shear, kernel, flow):
-    """A channel of 20 hexagonal rows along its walls at a Reynolds number of 1, over the exact flow rate."""
-    a = (4 / 3)**0.25
-    rows = 20 / a
-    text = (header(2, boundary="p f p") + f"lattice custom 1.0 a1 {a} 0 0 a2 0 {2 / a} 0 a3 0 0 1 basis 0.25 0.25 0 basis 0.75 0.75 0\n"
+@pytest.mark.parametrize("shear, kernel, rows, flow", [
+    ("mg", "wendland/c2", "hex", 1.070), ("mg/fr2", "wendland/c2", "hex", 1.006), ("mg/fr2", "wendland/c2", "sq", 1.009),
+    ("mg/fr2", "quintic", "hex", 1.002), ("mg/fr2", "quintic", "sq", 1.002)])
+def test_flow_rate_with_three_spacings(lammps, shear, kernel, rows, flow):
+    """A channel of 20 rows along its walls at a Reynolds number of 1, over the exact flow rate."""
+    a = (4 / 3)**0.25 if rows == "hex" else 1.0  # distance in a row
+    height = 20 / a
+    second = "basis 0.75 0.75 0" if rows == "hex" else "basis 0.25 0.75 0"
+    text = (header(2, boundary="p f p") + f"lattice custom 1.0 a1 {a} 0 0 a2 0 {2 / a} 0 a3 0 0 1 basis 0.25 0.25 0 {second}\n"
             f"region box block 0 {8 * a} {-4 / a} {24 / a} -0.5 0.5 units box\ncreate_box 1 box\ncreate_atoms 1 box\n"
-            f"region inside block INF INF 0 {rows} INF INF units box\ngroup fluid region inside\ngroup walls subtract all fluid\n"
-            f"set group all mass 1.0\npair_style sph/bulk kernel {kernel} shear {shear}\npair_coeff * * 1.0 1.5 {0.05 * rows} intrinsic 3.0\n"
-            f"variable u atom 0.4*y*({rows}-y)/{rows}^2\nvelocity fluid set v_u 0 0\nfix I fluid sph/bulk density rho0\n"
-            f"fix G fluid gravity {0.04 / rows} vector 1 0 0\nfix W walls sph/wall\ntimestep 0.1\n"
+            f"region inside block INF INF 0 {height} INF INF units box\ngroup fluid region inside\ngroup walls subtract all fluid\n"
+            f"set group all mass 1.0\npair_style sph/bulk kernel {kernel} shear {shear}\npair_coeff * * 1.0 1.5 {0.05 * height} intrinsic 3.0\n"
+            f"variable u atom 0.4*y*({height}-y)/{height}^2\nvelocity fluid set v_u 0 0\nfix I fluid sph/bulk density rho0\n"
+            f"fix G fluid gravity {0.04 / height} vector 1 0 0\nfix W walls sph/wall\ntimestep 0.1\n"
             "variable flow equal vcm(fluid,x)*15.0\nfix A all ave/time 1 200 1000 v_flow\nthermo_style custom step f_A\nthermo 1000\nrun 2000\n")
     assert lammps(text).thermo()[-1]["f_A"][-1] == pytest.approx(flow, abs=0.003)
 
