@@ -419,6 +419,18 @@ void FluidChecks::surface() const
                      style, type.eos.pb, i);
   }
   const Shear shear = model.choice.shear;
+  constexpr double LEAST_KAPPA = 0.4;    // of mu: theory page, admissible range
+  for (int i = 1; i <= atom->ntypes; i++) {
+    const TypeCoeff &type = model.coeffs[i];
+    const double mu = type.viscosity[MU];
+    if ((shear == Shear::MG_FR2 || shear == Shear::MICROPOLAR_FR2) && !type.other &&
+        model.choice.limit != Limit::YES && type.kappa < LEAST_KAPPA * mu)
+      error->warning(FLERR,
+                     "Pair style {} density continuity: with shear mg/fr2, motions of a free "
+                     "surface may gain energy where kappa {:g} of type {} is below {:g} mu; use a "
+                     "larger kappa, limit yes, or shear mg",
+                     style, type.kappa, i, LEAST_KAPPA);
+  }
   if ((shear == Shear::MORRIS || shear == Shear::ESPANOL) && !model.constants().inviscid)
     error->warning(FLERR,
                    "Pair style {} density continuity: shear {} exerts a torque on a fluid "

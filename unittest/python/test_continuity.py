@@ -537,6 +537,7 @@ def test_data_file_with_a_negative_density(lammps):
 @pytest.mark.parametrize("words, options, lines, warning", [
     ("1 10 0.1 0.3 3 pb 1", "", "run 0\n", "presses free surfaces outward"), ("1 10 0.1 0.3 3", "shear morris", "run 0\n", "shear morris exerts a torque"),
     ("1 10 0.1 0.3 3", "shear espanol", "run 0\n", "shear espanol exerts a torque"),
+    ("1 10 0.1 0.039 3", "shear mg/fr2", "run 0\n", "may gain energy where kappa 0.039 of type 1 is below 0.4 mu"),
     ("1 10 0.1 0.3 3", "", "neigh_modify every 1 check no\nvelocity all ramp vx -2 2 y -1 1\nrun 1\n", "are faster than 0.1 c0")])
 def test_warnings(lammps, words, options, lines, warning):
     write(lammps.path("box.data"), free_drop())
