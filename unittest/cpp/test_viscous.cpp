@@ -215,7 +215,8 @@ static Configuration small(int dim, unsigned seed)
 static std::vector<std::string> forms(int dim)
 {
   if (dim == 1) return {"mg", "mg/fr", "mg/fr2", "morris", "espanol", "none"};
-  return {"mg", "mg/fr", "mg/fr2", "morris", "espanol", "none", "micropolar", "micropolar/fr2"};
+  if (dim == 2) return {"mg", "mg/fr2", "morris", "espanol", "none", "micropolar"};
+  return {"mg", "mg/fr", "morris", "espanol", "none", "micropolar/fr2"};
 }
 
 /* ---------------------------------------------------------------------- */
