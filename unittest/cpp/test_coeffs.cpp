@@ -114,7 +114,7 @@ TEST(Coeffs, factors_as_numbers)
     EXPECT_EQ(shear_factor(Shear::MORRIS, n, 0.7, 0.6), 2.0);
     EXPECT_NEAR(shear_factor(Shear::ESPANOL, n, 0.7, 0.6), espanol[n - 1], 1e-15);
     EXPECT_EQ(shear_factor(Shear::NONE, n, 0.7, 0.6), 0.0);
-    EXPECT_NEAR(intrinsic_kappa(Shear::MG, n, 2.0), 2.0 * kappa[n - 1], 1e-15);
+    EXPECT_DOUBLE_EQ(intrinsic_kappa(Shear::MG, n, 2.0), 2.0 * kappa[n - 1]);
     EXPECT_EQ(intrinsic_kappa(Shear::MG, n, 2.0), intrinsic_kappa(Shear::MG_FR, n, 2.0));
     EXPECT_EQ(intrinsic_kappa(Shear::MG, n, 2.0), intrinsic_kappa(Shear::MG_FR2, n, 2.0));
     EXPECT_EQ(shear_factor(Shear::MG_FR2, n, 0.7, 0.6), 2.0 * n / 0.6);

@@ -118,7 +118,7 @@ TEST(Kernel, slope_is_finite_at_zero_and_positive_inside)
   for_every_kernel([](Kernel kernel, int n) {
     const double at_zero = kernel_slope(kernel, n, 0.0, R);
     EXPECT_TRUE(std::isfinite(at_zero));
-    EXPECT_NEAR(kernel_slope(kernel, n, 1e-9 * R, R), at_zero, 1e-8 * at_zero);
+    EXPECT_NEAR(kernel_slope(kernel, n, 1e-10 * R, R), at_zero, 1e-8 * at_zero);
     for (int k = 0; k < 1000; k++) EXPECT_GT(kernel_slope(kernel, n, k * R / 1000.0, R), 0.0);
   });
 }

@@ -1,9 +1,14 @@
-"""Fixtures shared by the behaviour tests; the tools they hand out are in helpers.py."""
+"""Fixtures shared by the behaviour tests; the tools they hand out are in helpers.py.
+
+The summary tells how near the deviations of a file are to their tolerances, as unittest/cpp/margin.h does for the tests in C++.
+"""
 
 import os
+import re
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / folder) for folder in ("python", "examples", "tools")]
@@ -31,3 +36,62 @@ def lammps(tmp_path):
 def shared_lammps(tmp_path_factory):
     """LAMMPS in one folder for all tests of a file, for results that several tests compare with."""
     return Lammps(tmp_path_factory.mktemp("shared"))
+
+
+# ---------------------------------------------------------------------------------------------
+# margins
+
+ROUND_OFF, ROOM = 1e-6, 4.0    # larger tolerances are those of a method, whose errors are the same on all processors
+NUMBER = r"(?:np\.\w+\()?([-+]?[0-9.]+(?:e[-+]?[0-9]+)?)\)?"
+Approx = type(pytest.approx(1.0))
+margins = {}                   # by place: the largest ratio of a deviation to its tolerance, and this tolerance
+
+
+def note_margin(ratio, tolerance, place):
+    """Of comparisons that hold: what is beyond its tolerance belongs to a test that wants a difference, or has failed."""
+    if tolerance <= ROUND_OFF and ratio <= 1.0 and (place not in margins or ratio > margins[place][0]):
+        margins[place] = ratio, tolerance
+
+
+def pytest_assertion_pass(item, lineno, orig, expl):
+    """assert deviation < tolerance"""
+    for deviation, tolerance in re.findall(f"(?<![\\w.]){NUMBER} <=? {NUMBER}(?![\\w.])", expl.split("\n")[0]):
+        if float(tolerance) > 0.0:
+            note_margin(abs(float(deviation)) / float(tolerance), float(tolerance), f"{item.path.name}:{lineno}")
+
+
+def caller():
+    """The line of a test that compares by a function."""
+    frame = sys._getframe(2)
+    while frame and (frame.f_code.co_filename == __file__ or os.path.dirname(frame.f_code.co_filename) != os.path.dirname(__file__)):
+        frame = frame.f_back
+    return f"{os.path.basename(frame.f_code.co_filename)}:{frame.f_lineno}" if frame else "?"
+
+
+def approx_equal(self, actual, compare=Approx.__eq__):
+    same = compare(self, actual)
+    tolerance = max(self.rel or 0.0, self.abs or 0.0) or 1e-6    # the last is the default of pytest
+    if same and tolerance <= ROUND_OFF and np.ndim(actual) == 0 and actual != self.expected:
+        note_margin(abs(actual - self.expected) / self.tolerance, tolerance, caller())
+    return same
+
+
+def assert_allclose(actual, desired, rtol=1e-7, atol=0.0, compare=np.testing.assert_allclose, **kwargs):
+    compare(actual, desired, rtol=rtol, atol=atol, **kwargs)
+    allowed = np.broadcast_to(atol + rtol * np.abs(desired), np.broadcast(actual, desired).shape)
+    difference = np.abs(np.subtract(actual, desired))
+    if (allowed > 0.0).any():
+        note_margin((difference[allowed > 0.0] / allowed[allowed > 0.0]).max(), rtol or atol, caller())
+
+
+Approx.__eq__ = approx_equal
+Approx.DEFAULT_ABSOLUTE_TOLERANCE = 0.0    # rel alone: with the default of pytest, 1e-12, numbers below 1 had more
+np.testing.assert_allclose = assert_allclose
+
+
+def pytest_terminal_summary(terminalreporter):
+    for place, (ratio, tolerance) in margins.items():
+        if ratio * ROOM > 1.0:
+            terminalreporter.write_line(f"less than a factor of {ROOM:g} of room: {ratio:.2g} of the tolerance {tolerance:.1e}, {place}")
+    if margins:
+        terminalreporter.write_line(f"largest deviation: {max(margins.values())[0]:.2g} of its tolerance")
