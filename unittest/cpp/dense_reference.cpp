@@ -655,7 +655,8 @@ int System::beyond_limit(const std::string &shear_form) const
   return count;
 }
 
-Viscous System::bulk(const std::string &form, const std::string &shear_form, bool limited) const
+Viscous System::bulk(const std::string &form, const std::string &shear_form, bool limited,
+                     bool matrix) const
 {
   Vector amplitude(N);
   for (int k = 0; k < N; k++) amplitude(k) = bulk_amplitude(k, form, shear_form);
@@ -684,9 +685,14 @@ Viscous System::bulk(const std::string &form, const std::string &shear_form, boo
     left.setFromTriplets(entries.begin(), entries.end());
   }
 
+  Viscous result;
+  const Vector rate = right * velocity();
+  result.force = -(left.transpose() * amplitude.cwiseProduct(rate));
+  result.heating = amplitude.cwiseProduct(rate).cwiseProduct(left * velocity());
+  if (!matrix) return result;
+
   // sum over particles of amplitude times the outer product of both rows
 
-  Viscous result;
   result.R = Matrix::Zero(N * n, N * n);
   for (int k = 0; k < N; k++) {
     if (amplitude(k) == 0.0L) continue;
@@ -698,8 +704,6 @@ Viscous System::bulk(const std::string &form, const std::string &shear_form, boo
         column[left.innerIndexPtr()[a]] += factor * left.valuePtr()[a];
     }
   }
-  result.force = -(result.R * velocity());
-  result.heating = amplitude.cwiseProduct(right * velocity()).cwiseProduct(left * velocity());
   return result;
 }
 

@@ -183,7 +183,8 @@ class System {
 
   Viscous shear(const std::string &form) const;
   Micropolar micropolar(const std::string &form = "micropolar") const;
-  Viscous bulk(const std::string &form, const std::string &shear_form, bool limited = false) const;
+  Viscous bulk(const std::string &form, const std::string &shear_form, bool limited = false,
+               bool matrix = true) const;    // without the matrix R: half of the time of many tests
 
   // with B B^T = 2 kT times the friction matrix of shear, micropolar, and bulk terms (dense_noise.cpp)
   Noise noise(const std::string &shear_form, bool has_bulk, bool limited, Real kT) const;

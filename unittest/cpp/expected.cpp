@@ -90,7 +90,7 @@ const Expected::Term &Expected::bulk(const std::string &form, const std::string 
 {
   const std::string key = (limited ? "limited bulk " : "bulk ") + form + " with " + shear_form;
   if (terms.count(key) == 0) {
-    const auto viscous = dense.bulk(form, shear_form, limited);
+    const auto viscous = dense.bulk(form, shear_form, limited, false);
     terms[key] = {viscous.force, viscous.heating};
   }
   return terms[key];

@@ -22,8 +22,10 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <thread>
 
 using namespace LAMMPS_NS;
 
@@ -77,8 +79,20 @@ int LammpsDriver::ranks()
   return n;
 }
 
+// ranks sleep while rank 0 computes a reference: waiting MPI calls would take a processor of another test
+
+static void sleep_until_all_are_here()
+{
+  MPI_Request request;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  int done = 0;
+  for (int turn = 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE), !done; turn++)
+    if (turn > 10) std::this_thread::sleep_for(std::chrono::microseconds(50));
+}
+
 void LammpsDriver::broadcast(std::vector<double> &values)
 {
+  sleep_until_all_are_here();
   MPI_Bcast(values.data(), values.size(), MPI_DOUBLE, 0, MPI_COMM_WORLD);
 }
 
@@ -101,6 +115,7 @@ std::vector<std::string> LammpsDriver::instruction_sets()
 
 bool LammpsDriver::command(const std::string &line)
 {
+  sleep_until_all_are_here();
   try {
     lmp->input->one(line);
   } catch (LAMMPSException &e) {

@@ -281,6 +281,8 @@ TEST(DenseReference, power_is_the_sum_of_heating)
       EXPECT_GE(shear.heating.minCoeff(), 0.0L);
       for (const auto &bulk : BULK) {
         const Viscous volume = system.bulk(bulk, form);
+        EXPECT_LE((volume.force + volume.R * u).cwiseAbs().maxCoeff(),
+                  1e-17L * (volume.R.cwiseAbs() * u.cwiseAbs()).maxCoeff());
         EXPECT_NEAR(-u.dot(volume.force), volume.heating.sum(),
                     1e-15L * volume.heating.cwiseAbs().sum());
       }

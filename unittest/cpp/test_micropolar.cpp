@@ -83,7 +83,7 @@ static Reference reference(const Configuration &config, const System &system,
                            const DenseReference::Micropolar &micropolar, const std::string &eos,
                            const std::string &bulk)
 {
-  const auto volume = system.bulk(bulk, "micropolar");
+  const auto volume = system.bulk(bulk, "micropolar", false, false);
   Reference result;
   result.force = spread(system.conservative_force(eos) + micropolar.force + volume.force,
                         config.size(), config.dim, false);
