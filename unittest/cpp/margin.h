@@ -27,7 +27,7 @@
 
 namespace Margin {
 
-constexpr double ROUND_OFF = 1.0e-6, ROOM = 4.0;
+constexpr double ROUND_OFF = 2.0e-7, ROOM = 4.0;
 
 struct Worst {
   double ratio, tolerance;
@@ -52,7 +52,7 @@ inline const auto *const printer = ::testing::AddGlobalTestEnvironment(new Print
 
 inline void note(double deviation, double tolerance, const char *file, int line)
 {
-  if (!(tolerance > 0.0) || tolerance > ROUND_OFF || !(deviation >= 0.0)) return;
+  if (!(tolerance > 0.0) || tolerance >= ROUND_OFF || !(deviation >= 0.0)) return;
   std::string place = file;
   place = place.substr(place.find_last_of('/') + 1) + ":" + std::to_string(line);
   auto &one = worst.emplace(place, Worst{-1.0, 0.0}).first->second;

@@ -41,22 +41,28 @@ def shared_lammps(tmp_path_factory):
 # ---------------------------------------------------------------------------------------------
 # margins
 
-ROUND_OFF, ROOM = 1e-6, 4.0    # larger tolerances are those of a method, whose errors are the same on all processors
+ROUND_OFF, ROOM = 2e-7, 4.0    # larger tolerances are for errors of a method, the same on all processors, or for digits of a text
 NUMBER = r"(?:np\.\w+\()?([-+]?[0-9.]+(?:e[-+]?[0-9]+)?)\)?"
+COMPARISON = re.compile(f"(?<![\\w.]){NUMBER} <=? {NUMBER}(?![\\w.])")
 Approx = type(pytest.approx(1.0))
 margins = {}                   # by place: the largest ratio of a deviation to its tolerance, and this tolerance
 
 
+def of_round_off(tolerance, size, relative):
+    """Whether a tolerance is; without a relative one, small numbers of any size may be."""
+    return tolerance < ROUND_OFF * abs(size) or not relative and tolerance < 5e-3 * ROUND_OFF
+
+
 def note_margin(ratio, tolerance, place):
     """Of comparisons that hold: what is beyond its tolerance belongs to a test that wants a difference, or has failed."""
-    if tolerance <= ROUND_OFF and ratio <= 1.0 and (place not in margins or ratio > margins[place][0]):
+    if ratio <= 1.0 and (place not in margins or ratio > margins[place][0]):
         margins[place] = ratio, tolerance
 
 
 def pytest_assertion_pass(item, lineno, orig, expl):
     """assert deviation < tolerance"""
-    for deviation, tolerance in re.findall(f"(?<![\\w.]){NUMBER} <=? {NUMBER}(?![\\w.])", expl.split("\n")[0]):
-        if float(tolerance) > 0.0:
+    for deviation, tolerance in COMPARISON.findall(expl.partition("\n")[0]):
+        if 0.0 < float(tolerance) < ROUND_OFF:
             note_margin(abs(float(deviation)) / float(tolerance), float(tolerance), f"{item.path.name}:{lineno}")
 
 
@@ -70,22 +76,26 @@ def caller():
 
 def approx_equal(self, actual, compare=Approx.__eq__):
     same = compare(self, actual)
-    tolerance = max(self.rel or 0.0, self.abs or 0.0) or 1e-6    # the last is the default of pytest
-    if same and tolerance <= ROUND_OFF and np.ndim(actual) == 0 and actual != self.expected:
-        note_margin(abs(actual - self.expected) / self.tolerance, tolerance, caller())
+    if same and np.ndim(actual) == 0 and actual != self.expected and of_round_off(self.tolerance, self.expected, self.rel):
+        note_margin(abs(actual - self.expected) / self.tolerance, self.tolerance, caller())
     return same
 
 
-def assert_allclose(actual, desired, rtol=1e-7, atol=0.0, compare=np.testing.assert_allclose, **kwargs):
+def assert_allclose(actual, desired, rtol=None, atol=0.0, compare=np.testing.assert_allclose, **kwargs):
+    """atol alone means no rtol: with numpy's default, 1e-7 of the number would pass, too."""
+    if rtol is None:
+        rtol = 0.0 if np.any(atol) else 1e-7
     compare(actual, desired, rtol=rtol, atol=atol, **kwargs)
+    size = np.abs(desired).max(initial=0.0)
     allowed = np.broadcast_to(atol + rtol * np.abs(desired), np.broadcast(actual, desired).shape)
-    difference = np.abs(np.subtract(actual, desired))
-    if (allowed > 0.0).any():
-        note_margin((difference[allowed > 0.0] / allowed[allowed > 0.0]).max(), rtol or atol, caller())
+    if (allowed > 0.0).any() and of_round_off(allowed.max(), size, rtol):
+        ratio = np.abs(np.subtract(actual, desired))[allowed > 0.0] / allowed[allowed > 0.0]
+        note_margin(ratio.max(), allowed.max(), caller())
 
 
+# pytest: rel alone means no absolute tolerance; with its default, 1e-12, small numbers would have more
 Approx.__eq__ = approx_equal
-Approx.DEFAULT_ABSOLUTE_TOLERANCE = 0.0    # rel alone: with the default of pytest, 1e-12, numbers below 1 had more
+Approx.DEFAULT_ABSOLUTE_TOLERANCE = 0.0
 np.testing.assert_allclose = assert_allclose
 
 

@@ -421,6 +421,11 @@ def fluid(dim, options="", coeff=None, mu=0.5, kappa=2.0, c0=10.0, rho0=1.0, sup
 INTEGRATE = "fix FLUID all sph/bulk\ntimestep 0.005\n"
 
 
+def as_written(values):
+    """Single numbers of particles as data files have them, with 16 digits; vectors are there with all digits."""
+    return np.vectorize(lambda value: float(f"{value:.16g}"))(values)
+
+
 def relative(difference, scale):
     """Largest absolute entry of `difference` over that of `scale`."""
     return np.abs(difference).max() / np.abs(scale).max()

@@ -129,12 +129,14 @@ def test_dense_reference(lammps, dim, style, volume, second, newton, ranks):
     x = particles.x
     flow = heating(particles, owner, fluids, 2.0 + 0.1 * x[:, 0] + 0.05 * x[:, 1], [("temp", 3.0 + 0.2 * x[:, 0]), ("flux", 0.5)], volume)
     rate = lammps.frame("f.dump")["desph"]
-    assert relative((rate - flow.sum(axis=1))[owner < 0], flow.sum(axis=1)) < 1e-11
+    # with a single conducting neighbor, the fit behind the surface divides by 0.01 of its terms, and multiplies by (depth/d)^2: round-off, too
+    bound = 2e-13 if second else 1.5e-11
+    assert relative((rate - flow.sum(axis=1))[owner < 0], flow.sum(axis=1)) < bound
     scale = np.abs(flow.sum(axis=1)).sum()
     for wall in (0, 1):
         given = -flow[owner == wall].sum()
         assert abs(given) > 1e-3 * scale
-        assert table[f"f_W{wall}[7]"][0] == pytest.approx(given, abs=1e-12 * scale)
+        assert table[f"f_W{wall}[7]"][0] == pytest.approx(given, abs=0.1 * bound * scale)
         assert table[f"f_W{wall}[8]"][0] == 0.0
 
 

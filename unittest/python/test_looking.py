@@ -180,7 +180,7 @@ def test_scaled_places(lammps, box):
         found[name] = np.array(words[begin + 3:begin + 3 + 3 * int(words[begin + 1])], dtype=float).reshape(-1, 3)
     assert len(found["xyz"]) > 50
     np.testing.assert_allclose(found["s"], found["xyz"], atol=1e-13)
-    np.testing.assert_allclose(found["su"], found["u"], atol=1e-13)
+    np.testing.assert_allclose(found["su"], found["u"], atol=2e-12)    # LAMMPS adds 512 images and subtracts them: 5.7e-14 of the edges
     assert to_vtk("gz.dump.gz", cwd=lammps.path(".")).returncode == 0 and lammps.path("gz.0000.vtk").exists()
 
 
@@ -294,9 +294,7 @@ def test_thermo(lammps):
         assert all(list(run) == list(whole)[:len(run)] for run, whole in zip(runs, found))    # the first output of style multi may be cut
         assert [list(run.values())[0][0] for run in runs] == [list(run.values())[0][0] for run in found[:len(runs)]]
         assert all(len(run["KinEng"]) == len(whole["KinEng"]) > 0 for run, whole in zip(runs[:-1], found))
-        for run, whole in zip(runs, found):
-            for name in run:
-                assert list(run[name]) == list(whole[name][:len(run[name])])
+        assert all(list(run[name]) == list(whole[name][:len(run[name])]) for run, whole in zip(runs, found) for name in run)
     killed = log[:log.index("Loop time")]
     assert list(sph.thermo(killed)[0]["v_n"]) == [0, 1, 2] and sph.progress(killed) == (None, None)
     with pytest.raises(ValueError, match="text of a log"):

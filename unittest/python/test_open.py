@@ -33,18 +33,19 @@ CHANNELS = {
 @pytest.mark.parametrize("outlet", ["density 1.0", "density 1.0 condition characteristic", "condition fixed"])
 @pytest.mark.parametrize("name", CHANNELS)
 def test_uniform_stream(lammps, name, outlet):
-    """After ten flow-throughs, for all outlets at the square lattice, for the default on all lattices."""
+    """After ten flow-throughs at the square lattice, for all outlets; after five on the others, for the default."""
     if outlet != "density 1.0" and name not in ("square", "oblique"):
         pytest.skip("covered by the other lattices")
     channel = Channel(**CHANNELS[name])
-    steps = int(10 * channel.length / U / 0.25)
+    passes = 10 if name == "square" else 5
+    steps = int(passes * channel.length / U / 0.25)
     lammps(channel.text(lammps, f"velocity {channel.vector(U)}", outlet, velocity=stream, timestep=0.25)
            + dump("out.dump", steps) + f"thermo_style custom step {columns('in', 'out')}\n"
            f"thermo_modify norm no format float %.17g\nthermo {steps}\nrun {steps}\n")
     first, last = lammps.frames("out.dump")
     assert len(np.intersect1d(first["id"], last["id"])) == 0, "a particle of the start is still there"
     (table,) = lammps.results[-1].thermo()
-    assert table["f_in[1]"][-1] > 9 * len(first["id"]) * channel.length / (channel.length + 2 * channel.zone)
+    assert table["f_in[1]"][-1] > 0.9 * passes * len(first["id"]) * channel.length / (channel.length + 2 * channel.zone)
     errors = (np.abs(last["v"] - U * channel.along).max() / U, np.abs(last["c_RHO"] - 1.0).max())
     print("velocity, density", *errors)
     assert max(errors) < 1e-10

@@ -1,4 +1,4 @@
-"""Small versions of the examples with open ends: the decaying flow through a pipe, and the plane channel."""
+"""Small versions of the examples with open ends: the decaying flow through a pipe, the plane channel, and the flow past a cylinder."""
 
 import importlib.util
 import sys
@@ -115,3 +115,18 @@ def test_what_enters_and_leaves_does_not_depend_on_the_number_of_ranks(channel):
         np.testing.assert_allclose(other.mass_out, one.mass_out, rtol=1e-12)
         np.testing.assert_allclose(other.u, one.u, rtol=0, atol=1e-9)
         assert (other.lost == 0.0).all()
+
+
+@pytest.mark.long    # test_open_pulse, test_wall and the channel above have its parts; the tests of the examples have its drag
+def test_drag_of_a_cylinder(lammps):
+    """Between an inlet, an outlet and free-slip sides, against finite elements in the same domain; the particles are too coarse for more."""
+    example = analysis("cylinder")
+    job = example.QUICK
+    run(lammps, "cylinder", "run", ranks=2, **job)
+    found = example.Run(lammps.folder, "run", job["Re"], job["mean"])
+    wanted = next(row for row in example.table(EXAMPLES / "cylinder" / "reference.csv") if row["domain"] == "small" and row["Re"] == job["Re"])
+    assert abs(found.drag / wanted["drag"] - 1) < example.QUICK_DRAG
+    assert abs(found.lift_t[found.t > found.t[-1] - job["mean"]].mean()) < 0.05 * found.drag
+    # what enters also leaves, and the stream has the velocity asked for
+    number = lammps.results[-1].thermo()[-1]["v_particles"]
+    assert np.ptp(number) < 0.01 * number.mean()

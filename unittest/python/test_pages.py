@@ -1,10 +1,12 @@
 """Every input on every page of the manual runs as printed; searches find the page that answers; pages are short.
 
-A code block of language LAMMPS that sets up a box and runs is an input of its own. Any other one is a fragment: its parts
+A code block of language LAMMPS that sets up a box and runs is an input of its own; of a long run whose results the page does not
+tell, ./sphd test runs the first fifth, ./sphd test --all the whole. Any other one is a fragment: its parts
 (between empty lines) are commands for a fluid that is there already, and LAMMPS must take them. Blocks below the heading
 Syntax, and those with types I J, have words in place of values and are left out.
 """
 
+import os
 import re
 from pathlib import Path
 
@@ -167,6 +169,8 @@ WARNED = {"hybrid sph/bulk bond": "Atom style hybrid defines both"}
 @pytest.mark.parametrize("text, finds", INPUTS)
 def test_inputs_run(lammps, text, finds):
     """... without a warning; finds: the numbers after "The input finds", which are in the last line of output, rounded"""
+    if not finds and not os.environ.get("SPHD_ALL"):
+        text = re.sub(r"^(\s*run +)(\d{4,})\b", lambda run: f"{run[1]}{int(run[2]) // 5}", text, flags=re.MULTILINE)
     result = lammps(text, timeout=300)
     assert "Loop time" in result.log
     assert all(any(words in text and warning in line for words, warning in WARNED.items()) for line in result.warnings), result.warnings

@@ -51,7 +51,7 @@ def test_plan(lammps, case):
     limits = {name: step for name, step in plan.limits.items() if step < 1e300}
     assert table(result.log) == pytest.approx({**limits, "all": plan.explicit}, rel=5e-4)    # four digits
     assert f"Created {plan.number} atoms" in result.log
-    assert float(re.search(r"^timestep +(\S+)", text, re.MULTILINE)[1]) < plan.largest
+    assert float(re.search(r"^timestep +(\S+)", text, re.MULTILINE)[1]) / plan.largest < 1.0
     if "temperature" in case:
         rate = float(re.search(r"largest viscous rate times time step (\S+)", result.log)[1])
         assert rate == pytest.approx(plan.rate * plan.dt, rel=5e-3)
@@ -117,7 +117,7 @@ def test_sound(lammps, wave):
     assert bool(words) == bool(plan.fluid.relax) == ("real" not in wave and "water" not in wave)
     wave_number = 2 * np.pi / plan.args.length
     box = re.search(r"^lattice +hex (\S+)\n.*block 0 (\d+)", text, re.MULTILINE)
-    assert float(box[1]) * int(box[2]) == pytest.approx(plan.args.length, rel=1e-7)
+    assert box[1] == f"{plan.args.length / int(box[2]):.8g}"
     # velocity u, relative density r = div of the displacement, strains x: u' = k (c0^2 r + sum g x) - nu k^2 u, r' = -k u, x' = r' - x/tau
     size = 2 + len(pairs)
     matrix = np.zeros((size, size))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import test_micropolar as micro
-from helpers import Particles, SUPPORT, disordered, drop, dump, fluid, free, header, lattice, relative, undump
+from helpers import Particles, SUPPORT, as_written, disordered, drop, dump, fluid, free, header, lattice, relative, undump
 
 FULL = "thermo_modify norm no format float %.17g\n"
 
@@ -164,7 +164,7 @@ def unit_lattice(name, cells, width):
 class Wave:
     """A sound wave as long as the box along x, of a lattice of particles with rho = rho0 = c0 = 1."""
 
-    AMPLITUDE = 1e-5
+    AMPLITUDE = 6e-6    # larger: nonlinear terms; smaller: round-off of positions and densities
 
     def __init__(self, lammps, name, cells, support, pb, width=1):
         self.lammps, self.pb, self.support = lammps, pb, support
@@ -245,15 +245,16 @@ def test_standing_wave_on_a_line(lammps, time):
     """Damping and frequency of sound and the rate of the relaxation."""
     wave = Wave(lammps, "line", 64, 5.0, 1.0)
     tau = time / wave.k
+    step = 2 * STEP if time > 10 else STEP    # a strain that follows slowly changes by more than its round-off
     process = [(0.5, tau)]
     exact = cubic(wave.q, wave.square, 0.5, tau)
-    (sound, state), (decay, other) = modes(one_step(wave.q, wave.square, process, STEP), STEP)
-    u, _ = wave.run(state, process, STEP, 600, 15)
-    compare(fitted(u, 15 * STEP), exact[0], sound)
-    steps = max(int(1.0 / abs(decay.real) / STEP), 1)
+    (sound, state), (decay, other) = modes(one_step(wave.q, wave.square, process, step), step)
+    u, _ = wave.run(state, process, step, 600, 15)
+    compare(fitted(u, 15 * step), exact[0], sound)
+    steps = max(int(1.0 / abs(decay.real) / step), 1)
     steps = 4 if time < 0.1 else min(steps, 600)
-    _, x = wave.run(other * 1.0 / abs(wave.q * other[0] + other[3]), process, STEP, steps, steps)
-    compare(np.log(x[-1] / x[0]) / (steps * STEP), exact[1], decay.real)
+    _, x = wave.run(other * 1.0 / abs(wave.q * other[0] + other[3]), process, step, steps, steps)
+    compare(np.log(x[-1] / x[0]) / (steps * step), exact[1], decay.real)
 
 
 LATTICES = {"sq": (64, 5), "hex": (60, 3), "sc": (64, 5), "bcc": (50, 4), "fcc": (40, 3)}
@@ -279,6 +280,7 @@ def test_standing_wave_on_a_lattice(lammps, name, time):
 def test_two_processes_and_a_constant_viscosity(lammps):
     """Together: the sound of a wave and the slower of its rates."""
     wave = Wave(lammps, "line", 64, 5.0, 1.0)
+    wave.AMPLITUDE = 3e-6
     processes, timestep = [(0.3, 0.3 / wave.k), (0.2, 4.0 / wave.k)], 0.2
     roots = modes(one_step(wave.q, wave.square, processes, timestep, nu=0.5), timestep)
     u, _ = wave.run(roots[0][1], processes, timestep, 600, 15, kappa=0.5)
@@ -646,7 +648,7 @@ def test_data_file_out_and_in(lammps, pairs_of):
     lammps(room(2, 2) + "pair_style sph/bulk\nread_data out.data\nfix FLUID all sph/bulk\ntimestep 0.005\n" + dump("after.dump", 1, columns(2)) + "run 0\n")
     before, after = lammps.frame("before.dump"), lammps.frame("after.dump")
     for k in (1, 2):
-        np.testing.assert_allclose(after[f"d_rho_relaxed{k}"], before[f"d_rho_relaxed{k}"], rtol=5e-16)
+        np.testing.assert_array_equal(after[f"d_rho_relaxed{k}"], as_written(before[f"d_rho_relaxed{k}"]))
     lammps(case(lammps) + "run 20\nvelocity all scale 0.3\n" + dump("scaled.dump", 1, columns(2)) + "write_data scaled.data pair ii\nrun 0\n")
     lammps(room(2, 2) + "pair_style sph/bulk\nread_data scaled.data\nfix FLUID all sph/bulk\ntimestep 0.005\n" + dump("again.dump", 1, columns(2)) + "run 0\n")
     same(lammps.frame("scaled.dump"), lammps.frame("again.dump"), 1e-13)
@@ -714,7 +716,7 @@ def test_data_file_of_many_processes(lammps, count):
     frame = lammps.frame("out.dump")
     np.testing.assert_allclose(strain_of(frame, count), np.broadcast_to([0.0, *np.linspace(-0.1, 0.1, count - 1)], state.shape), atol=1e-14)
     lammps(text.format("out.data") + dump("again.dump", 1, columns(count)) + "run 0\n", ranks=2)
-    np.testing.assert_allclose(relaxed_of(lammps.frame("again.dump"), count), relaxed_of(frame, count), rtol=5e-16)
+    np.testing.assert_array_equal(relaxed_of(lammps.frame("again.dump"), count), as_written(relaxed_of(frame, count)))
 
 
 # ---- other commands ----------------------------------------------------------------------------------------------

@@ -397,9 +397,9 @@ def test_memory(lammps, dim, keywords, per_point, ranks):
 
 def test_time(lammps):
     """A spectrum takes less time than ten steps without vector loops, which it does not have either: processor time, the smallest of two runs."""
-    disordered(3, 24).write(lammps.path("box.data"))
+    disordered(3, 16).write(lammps.path("box.data"))
     text = (header(3) + "read_data box.data\n" + fluid(3, "simd none", support=4.0) + INTEGRATE + "run 10\n"
-            "compute S all sph/spectrum 24 24 24 deconvolve yes\nfix S all ave/time 1 1 1 c_S[1]\nrun 10\n")
+            "compute S all sph/spectrum 16 16 16 deconvolve yes\nfix S all ave/time 1 1 1 c_S[1]\nrun 10\n")
     steps, both = [], []
     for _ in range(2):
         log = lammps(text).log

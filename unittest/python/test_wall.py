@@ -189,17 +189,21 @@ def expected(dim, style, name, options):
     return model, omega, ref.forces(model, state, [wall_now(**wall) for wall in WALLS[dim][name]])
 
 
-def assert_forces(frame, owner, want, style, bound=8e-12):
+# The fit that continues the spin divides by a difference of 0.001 of its terms, and behind the surface multiplies by up to (depth/d)^2: round-off, too
+BOUND, SPIN = 1e-12, 25.0
+
+
+def assert_forces(frame, owner, want, style, bound=BOUND):
     difference = {"force": relative(frame["f"] - want["f"], want["f"])}
     if style == MICRO:
-        difference["torque"] = relative(torque_of(frame) - want["torque"], want["torque"])
+        difference["torque"] = relative(torque_of(frame) - want["torque"], want["torque"]) / SPIN
     wet = owner < 0
     for k in range(owner.max() + 1):
         each = vector(frame, *[f"f_W{k}[{i}]" for i in range(1, 7)])
         own = owner == k
         assert (each[~own] == 0.0).all()
         difference[f"force on wall {k}"] = relative(each[own, :3] - want["f"][own], want["f"])
-        difference[f"couple on wall {k}"] = relative(each[own, 3:] - want["torque"][own], want["torque"]) if style == MICRO \
+        difference[f"couple on wall {k}"] = relative(each[own, 3:] - want["torque"][own], want["torque"]) / SPIN if style == MICRO \
             else np.abs(each[own, 3:]).max()
         wet |= own & (np.abs(want["f"]).max(axis=1) > 0.0)
     difference["density"] = relative((frame["c_V[4]"] - want["rho"])[wet], want["rho"])
@@ -208,15 +212,15 @@ def assert_forces(frame, owner, want, style, bound=8e-12):
     assert max(difference.values()) < bound, difference
 
 
-def assert_global(table, owner, want, walls, style, bound=8e-12):
+def assert_global(table, owner, want, walls, style, bound=2e-13):
     for k, wall in enumerate(walls):
         own = owner == k
         point = np.array(wall["rotate"][0]) if wall.get("rotate") else np.zeros(3)
         f = want["f"][own]
         t = np.cross(want["x"][own] - point, f) + want["torque"][own]
         total = np.array([table[f"f_W{k}[{i}]"][0] for i in range(1, 7)])
-        assert relative(total[:3] - f.sum(axis=0), f) < bound
-        assert relative(total[3:] - t.sum(axis=0), t) < bound
+        assert relative(total[:3] - f.sum(axis=0), np.abs(f).sum(axis=0)) < bound
+        assert relative(total[3:] - t.sum(axis=0), np.abs(t).sum(axis=0)) < bound
 
 
 @pytest.mark.parametrize("dim, style, name, options", CASES)
