@@ -221,6 +221,11 @@ class Lammps:
             raise AssertionError(f"LAMMPS hangs (no end after {timeout} s):\n{output[-3000:]}") from None
         return Result(process.returncode, output, log.read_text() if log.exists() else "")
 
+    def skip_without(self, simd):
+        """Skips a test of an instruction set that this processor does not have."""
+        if "not in this processor" in self(f"pair_style sph/bulk simd {simd}\n", check=False).output:
+            pytest.skip(f"no {simd} here")
+
     def frames(self, name):
         return read_dump(self.path(name))
 

@@ -69,6 +69,7 @@ def ten_particles(volume="number"):
 
 @pytest.mark.parametrize("simd", ["auto", "none", "avx2"])
 def test_ten_particles(lammps, simd):
+    lammps.skip_without(simd)
     write(lammps.path("box.data"), ten_particles(), TEN[:, 5])
     lammps(text(2, f"density continuity tension yes simd {simd}", "1.0 10.0 0.1 0.3 0.5") + FIELDS + dump("a.dump", extra=WANTED) + "run 0\n")
     frame = lammps.frame("a.dump")
@@ -150,6 +151,8 @@ def random_set(dim, cells, seed=1, ntypes=1, jitter=0.3, keep=0.7):
     (2, 14, 2, "mass", "on", 1, ""), (2, 14, 2, "number", "off", 2, ""), (3, 7, 2, "mass", "on", 4, ""),
     (2, 14, 1, "number", "on", 4, "tension no"), (3, 7, 2, "number", "off", 1, "simd none"), (1, 40, 2, "number", "on", 2, "simd avx2")])
 def test_dense_reference(lammps, dim, cells, types, volume, newton, ranks, options):
+    if "simd" in options:
+        lammps.skip_without(options.split()[-1])
     p, rho = random_set(dim, cells, ntypes=types)
     rho0, c0 = np.array([1.0, 1.5]), np.array([10.0, 7.0])
     rho *= rho0[p.type - 1]
