@@ -63,7 +63,7 @@ def pytest_assertion_pass(item, lineno, orig, expl):
     """assert deviation < tolerance"""
     for deviation, tolerance in COMPARISON.findall(expl.partition("\n")[0]):
         if 0.0 < float(tolerance) < ROUND_OFF:
-            note_margin(abs(float(deviation)) / float(tolerance), float(tolerance), f"{item.path.name}:{lineno}")
+            note_margin(abs(float(deviation)) / float(tolerance), float(tolerance), f"{os.path.basename(item.location[0])}:{lineno}")
 
 
 def caller():
