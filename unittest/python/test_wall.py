@@ -1090,6 +1090,24 @@ def test_densities_of_walls(lammps):
         np.testing.assert_allclose(found, alike, rtol=0, atol=0.001)
 
 
+@pytest.mark.parametrize("ratio", [10, 1000])
+def test_drop_on_a_wall_of_another_density(lammps, ratio):
+    """A heavy drop in a light fluid rests on a wall, whose reference density is that of neither."""
+    light, wall = 1.0 / ratio, 0.2
+    result = lammps(
+        header(2, boundary="p f p") + "lattice sq 400.0 origin 0.5 0.5 0\nregion box block 0 1.6 -0.2 1.2 -0.5 0.5 units box\n"
+        "create_box 3 box\ncreate_atoms 3 box\nregion below block INF INF INF 0 INF INF units box\n"
+        "region above block INF INF 1.0 INF INF INF units box\nregion drop sphere 0.8 0.0 0 0.5 units box\nset region drop type 2\n"
+        "group below region below\ngroup above region above\ngroup walls union below above\nset group walls type 1\n"
+        f"group fluid subtract all walls\ngroup drop type 2\nset type 1 mass {0.0025 * wall}\nset type 2 mass 0.0025\nset type 3 mass {0.0025 * light}\n"
+        f"pair_style sph/bulk volume mass\npair_coeff 1 1 {wall} 20.0 0.1 intrinsic 0.2 pb 20.0\npair_coeff 2 2 1.0 10.0 0.1 intrinsic 0.2 pb 20.0\n"
+        f"pair_coeff 3 3 {light} {10 * ratio**0.5} {0.1 * light**0.5} intrinsic 0.2 pb 20.0\npair_coeff 2 3 tension 0.5\n"
+        "fix I fluid sph/bulk\nfix G drop gravity 1.0 vector 0 -1 0\nfix B below sph/wall\nfix A above sph/wall\nfix T all sph/dt 10\n"
+        "variable least equal bound(drop,ymin)\nthermo_style custom step v_least\nthermo 100\nrun 2000\n")
+    least = result.thermo()[0]["v_least"]
+    assert 0.2 * 0.05 < least.min() and least.max() < 0.6 * 0.05
+
+
 @pytest.mark.parametrize("shear, kernel, rows, flow", [
     ("mg", "wendland/c2", "hex", 1.070), ("mg/fr2", "wendland/c2", "hex", 1.006), ("mg/fr2", "wendland/c2", "sq", 1.009),
     ("mg/fr2", "quintic", "hex", 1.002), ("mg/fr2", "quintic", "sq", 1.002)])
