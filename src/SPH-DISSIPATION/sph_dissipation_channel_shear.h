@@ -35,8 +35,8 @@ template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_
 // -a F V_i V_j (u.r) r
 typedef AlongBySquare<ShearChannel, ShearChannel::BY_SQUARE> AlongRBySquare;
 
-// AlongR or, with FR2, AlongRBySquare with the viscosities of the particles: their arithmetic mean within a fluid, for which there is a dissipation
-// function, and the harmonic one between two fluids; that of the fluid next to a boundary particle, which has none
+// AlongR or, with FR2, AlongRBySquare with the viscosities of the particles: their arithmetic mean within a fluid, for which there
+// is a dissipation function, and the harmonic one between two fluids; that of the fluid next to a boundary particle, which has none
 // ONE_FLUID: there is no pair of two
 template <bool ONE_FLUID, bool FR2>
 struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE> {
