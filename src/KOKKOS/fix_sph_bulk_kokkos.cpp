@@ -23,7 +23,6 @@
 #include "sph_dissipation_fluid_kokkos.h"
 #include "sph_dissipation_integrate.h"
 #include "sph_dissipation_masks_kokkos.h"
-#include "sph_dissipation_shift_terms.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -178,10 +177,6 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_devi
   const ParticlesKokkos<DeviceType> particles(atomKK, AtomVecSPHBulkKokkos::of(atom));
   const TimeStep step = time_step();
   const VolumeStep volume = changes_volume ? volume_step_on_device() : VolumeStep();
-  const bool shifts = half == BEGIN && shift_speed > 0.0;
-  typename FluidKokkos<DeviceType>::Gradient gradient;
-  if (shifts) gradient = dynamic_cast<FluidKokkos<DeviceType> *>(fluid)->gradient_on_device();
-  const double speed = shift_speed, support = fluid ? fluid->support_radius() : 0.0, dt = dtv;
   const int bit = groupbit;
 
   for_each<DeviceType>(
@@ -192,7 +187,6 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_devi
         else
           step.end(particles, i);
         if (changes_volume) volume.begin(i);
-        if (shifts) shift_particle(speed, support, dt, &gradient(i, 0), &particles.x(i, 0));
       });
   atomKK->modified(space, modified_mask(half));
 }
@@ -217,18 +211,16 @@ template <class DeviceType> VolumeStep FixSPHBulkKokkos<DeviceType>::volume_step
 
 template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
 {
-  if (remap_v_flag || exact) return true;
-  if (shift_speed == 0.0) return false;
-  const auto *const fluidKK = dynamic_cast<FluidKokkos<DeviceType> *>(fluid);
-  return !fluidKK || !fluidKK->computes_on_device();
+  return remap_v_flag || exact;
 }
 
 /* ----------------------------------------------------------------------
-   as reset_extrapolation() of the CPU style
+   with reset_extrapolation() of the CPU style
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::post_integrate()
 {
+  shift_particles();
   if (!first_instance || (integrated_groups & 1)) return;
   const auto space = execution_space;
   atomKK->sync(space, MOTION | EXTRAPOLATION | MASK_MASK);

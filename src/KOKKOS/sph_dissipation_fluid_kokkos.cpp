@@ -339,7 +339,10 @@ template <class DeviceType> void FluidKokkos<DeviceType>::grow()
   reach(data->heat, "sph:heat", n);
   data->weight = reach(weight, "sph:weight", data->each ? n : 1);
   if (model->choice.limit != Limit::NO) reach(bound_of, "sph:bound", n);
-  if (shift->wanted) reach(gradient_of, "sph:gradient", n);
+  if (!shift->movers.empty()) {
+    reach(shift_row, "sph:shift_row", n);
+    reach(shift_return, "sph:shift_return", n);
+  }
   if (!(engine->parameters().delta > 0.0)) return;
   reach(diffusion_row, "sph:diffusion_row", n);
   reach(impedance, "sph:impedance", n);
@@ -567,10 +570,83 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::sum_gradient()
+template <class DeviceType> void FluidKokkos<DeviceType>::shift_particles(double keep)
 {
-  if (!on_device) return Fluid::sum_gradient();
-  sum_pairs<ShiftLoopKokkos>("sph:gradient", gradient_of);
+  constexpr uint64_t CHANGED = X_MASK | V_MASK | VEST_MASK | ESPH_MASK;
+  const auto space = on_device ? pair->execution_space : Host;
+  atomKK->sync(space, CHANGED | MASK_MASK | RMASS_MASK);
+  if (!on_device) {
+    Fluid::shift_particles(keep);
+    return atomKK->modified(space, CHANGED);
+  }
+  const ShiftDataKokkos<DeviceType> shifting = {*data, shift->law(), shift_row.data()};
+  const auto v = atomKK->k_v.template view<DeviceType>();
+  const auto mask = atomKK->k_mask.template view<DeviceType>();
+  const auto rmass = atomKK->k_rmass.template view<DeviceType>();
+  const int nall = atom->nlocal + atom->nghost;
+  for_each<DeviceType>(
+      "sph:shift_row", nall, KOKKOS_LAMBDA(int i) {
+        ShiftRow &row = shifting.row[i];
+        row = ShiftRow();
+        row.mass = rmass(i);
+        for (int d = 0; d < 3; d++) row.v[d] = v(i, d) - shifting.data.particle[i].u[d];
+      });
+  for (const ShiftMover &mover : shift->movers)
+    for_each<DeviceType>(
+        "sph:shift_mover", nall, KOKKOS_LAMBDA(int i) {
+          if (mask(i) & mover.groupbit)
+            let_shift(mover, shifting.law.support, shifting.data.particle[i].vol, shifting.row[i]);
+        });
+  with_kernel(model->choice.kernel, [&](auto kernel) {
+    run_shift<decltype(kernel)>(shifting);
+  });
+
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+  const auto x = atomKK->k_x.template view<DeviceType>();
+  const auto vest = avec.k_vest.template view<DeviceType>();
+  const auto esph = avec.k_esph.template view<DeviceType>();
+  const auto sums = shift_return;
+  const double dt = update->dt;
+  for_each<DeviceType>(
+      "sph:shift", atom->nlocal, KOKKOS_LAMBDA(int i) {
+        if (shifting.row[i].vol == 0.0) return;
+        double to[3][3];
+        for (int d = 0; d < 3; d++) {
+          to[0][d] = x(i, d);
+          to[1][d] = v(i, d);
+          to[2][d] = vest(i, d);
+        }
+        finish_shift(shifting.row[i], sums(i), dt, keep, to[0], to[1], to[2], esph(i));
+        for (int d = 0; d < 3; d++) {
+          x(i, d) = to[0][d];
+          v(i, d) = to[1][d];
+          vest(i, d) = to[2][d];
+        }
+      });
+  atomKK->modified(space, CHANGED);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class K>
+void FluidKokkos<DeviceType>::run_shift(const ShiftDataKokkos<DeviceType> &shifting)
+{
+  const int n = pair->list->inum;
+  ShiftRow *const row = shifting.row;
+  for_each<DeviceType>(
+      "sph:shift_contact", atom->nlocal, KOKKOS_LAMBDA(int i) {
+        const double vol = shifting.data.particle[i].vol;
+        row[i].contact = contact_inverse<K>(shifting.law.dim, shifting.law.support, vol);
+      });
+  for_each<DeviceType>("sph:shift_sums", n, ShiftLoopKokkos<DeviceType, K>{shifting});
+  send_to_ghosts({field(row, row->q, 6)});
+  for_each<DeviceType>("sph:shift_exchange", n, ShiftExchangeKokkos<DeviceType, K>{shifting});
+  send_to_ghosts({field(row, row->d, 3)});
+  for_each<DeviceType>("sph:shift_tensor", n, ShiftTensorKokkos<DeviceType, K>{shifting});
+  send_to_ghosts({field(row, row->w, 3)});
+  for_each<DeviceType>("sph:shift_return", n,
+                       ShiftReturnKokkos<DeviceType, K>{shifting, shift_return.data()});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -742,7 +818,7 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
   for (int k = 0; k < Flows::NUMBER; k++) of_flows += bytes_of(flow[k], flow_rate[k]);
   return Fluid::memory_usage() + boundary_device->memory_usage() + of_flows +
       bytes_of(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of,
-               gradient_of, diffusion_row, impedance, data->heat);
+               shift_row, shift_return, diffusion_row, impedance, data->heat);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -20,6 +20,7 @@
 #include "sph_dissipation_masks_kokkos.h"
 #include "sph_dissipation_parameters.h"
 #include "sph_dissipation_rows.h"
+#include "sph_dissipation_shift_terms.h"
 
 #include <vector>
 
@@ -31,6 +32,7 @@ namespace SPHDissipation {
   class Threads;
   template <class DeviceType> class BoundaryStageKokkos;
   template <class DeviceType> struct LoopDataKokkos;
+  template <class DeviceType> struct ShiftDataKokkos;
 
   // the fields of particles that the forces read and modify; the atom style leaves out those that it
   // does not have
@@ -66,9 +68,6 @@ namespace SPHDissipation {
     double received_heat(int groupbit) const override;
     double memory_usage() const override;
 
-    typedef Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> Gradient;
-    Gradient gradient_on_device() const { return gradient_of; }    // of owned particles
-
     // on the device where that computes; public because CUDA asks for it of functions with lambdas
 
     void sum_density() override;
@@ -78,7 +77,8 @@ namespace SPHDissipation {
     void set_reference_volume() override;
     bigint set_pressure() override;
     void set_boundary() override;
-    void sum_gradient() override;
+    void shift_particles(double keep) override;
+    template <class K> void run_shift(const ShiftDataKokkos<DeviceType> &);
     void sum_forces(PairTally *, const StepPlan &) override;
     void sum_flows() override;
     void evaluate_diffusion() override;
@@ -112,7 +112,8 @@ namespace SPHDissipation {
     Array<double>
         flow_rate[Flows::NUMBER];    // of states, and of heat if boundaries give it, see FlowStage
     Array<double> bound_of;          // of the limit, see LimitStage
-    Gradient gradient_of;
+    Array<ShiftRow> shift_row;       // see ShiftStage
+    Array<ShiftReturn> shift_return;
     Array<DiffusionRow> diffusion_row;    // see DiffusionStage
     Array<double> impedance;
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;

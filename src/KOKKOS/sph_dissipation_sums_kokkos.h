@@ -161,23 +161,103 @@ namespace SPHDissipation {
     }
   };
 
-  template <class DeviceType, class K> struct ShiftLoopKokkos {
+  // A shift of the particles, as ShiftStage::run(): four loops over the pairs of the last forces
+
+  template <class DeviceType> struct ShiftDataKokkos {
     LoopDataKokkos<DeviceType> data;
-    Kokkos::View<double *[3], Kokkos::LayoutRight, DeviceType> gradient;
+    ShiftLaw law;
+    ShiftRow *row;    // of owned and ghost particles
+
+    KOKKOS_INLINE_FUNCTION void velocity(int i, double *v) const
+    {
+      velocity_in_shift(row[i], data.particle[i].u, v);
+    }
+
+    // function(j, a_ij, r_ij at the new places) for the neighbors with which particle i shifts
+
+    template <class K, class Function>
+    KOKKOS_INLINE_FUNCTION void for_partners(int i, const Function &function) const
+    {
+      if (row[i].vol == 0.0) return;
+      for_neighbors(data, i, [&](int j, const double *r, double rsq) {
+        const double share = shift_share(pair_slope<K>(data, rsq), row[i], row[j]);
+        if (share == 0.0) return;
+        double moved[3];
+        for (int d = 0; d < 3; d++) moved[d] = r[d] + (row[i].d[d] - row[j].d[d]);
+        function(j, share, moved);
+      });
+    }
+  };
+
+  template <class DeviceType, class K> struct ShiftLoopKokkos : ShiftDataKokkos<DeviceType> {
+    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+    {
+      const auto &data = this->data;
+      const auto &law = this->law;
+      const int i = data.ilist(ii);
+      ShiftRow &own = this->row[i];
+      if (own.vol == 0.0) return;
+      ShiftSum sum;
+      for_neighbors(data, i, [&](int j, const double *r, double rsq) {
+        const Particle &other = data.particle[j];
+        const double slope = pair_slope<K>(data, rsq);
+        const double shape = K::shape(Kokkos::sqrt(rsq) / law.support);
+        double u[3];
+        for (int d = 0; d < 3; d++) u[d] = data.particle[i].u[d] - other.u[d];
+        add_to_shift(law, r, u, other.vol, slope,
+                     concentration_push(other.vol, slope, shape, own.contact),
+                     shift_share(slope, own, this->row[j]), sum);
+      });
+      set_shift(law, sum, own);
+    }
+  };
+
+  template <class DeviceType, class K> struct ShiftExchangeKokkos : ShiftDataKokkos<DeviceType> {
+    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+    {
+      const int i = this->data.ilist(ii);
+      ShiftExchange sum;
+      double own[3], other[3];
+      this->velocity(i, own);
+      this->template for_partners<K>(i, [&](int j, double share, const double *) {
+        this->velocity(j, other);
+        for (int d = 0; d < 3; d++) {
+          sum.moved[d] += share * this->row[j].q[d];
+          sum.slip[d] += share * (own[d] - other[d]);
+        }
+      });
+      set_displacement(sum, this->row[i]);
+    }
+  };
+
+  template <class DeviceType, class K> struct ShiftTensorKokkos : ShiftDataKokkos<DeviceType> {
+    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+    {
+      const int i = this->data.ilist(ii);
+      ShiftTensor sum;
+      this->template for_partners<K>(i, [&](int, double share, const double *r) {
+        add_square(this->law.dim, share, r, sum.a);
+      });
+      set_return(this->law.dim, sum, this->row[i]);
+    }
+  };
+
+  template <class DeviceType, class K> struct ShiftReturnKokkos : ShiftDataKokkos<DeviceType> {
+    ShiftReturn *sum;    // of owned particles
 
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
     {
-      const int i = data.ilist(ii);
-      const double contact =
-          contact_inverse<K>(data.par.dim, data.par.support, data.particle[i].vol);
-      double sum[3] = {0.0, 0.0, 0.0};
-      for_neighbors(data, i, [&](int j, const double *r, double rsq) {
-        const double q = Kokkos::sqrt(rsq) / data.par.support;
-        const double push = concentration_push(
-            data.particle[j].vol, data.par.slope_norm * K::slope(q), K::shape(q), contact);
-        for (int d = 0; d < 3; d++) sum[d] += push * r[d];
+      const int i = this->data.ilist(ii);
+      ShiftReturn total;
+      double own[3], other[3], push[3];
+      this->velocity(i, own);
+      this->template for_partners<K>(i, [&](int j, double share, const double *r) {
+        this->velocity(j, other);
+        total.work +=
+            impulse_of_pair(share, this->row[i], this->row[j], own, other, r, push);
+        for (int d = 0; d < 3; d++) total.impulse[d] += push[d];
       });
-      for (int d = 0; d < 3; d++) gradient(i, d) = sum[d];
+      sum[i] = total;
     }
   };
 

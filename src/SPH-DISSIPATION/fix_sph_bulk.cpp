@@ -34,7 +34,6 @@
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_rows.h"
-#include "sph_dissipation_shift_terms.h"
 #include "sph_dissipation_solvers.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_threads.h"
@@ -141,7 +140,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
 {
   if (!atom->style_match(style)) error->all(FLERR, "Fix {} requires atom style {}", style, style);
   read_keywords(narg, arg);
-  if (lmp->citeme && shift_speed > 0.0) lmp->citeme->add(cite_shift);
+  if (lmp->citeme && shifts_particles()) lmp->citeme->add(cite_shift);
   if (lmp->citeme && viscous->mode == Viscous::RKL2) lmp->citeme->add(cite_rkl2);
 
   time_integrate = 1;
@@ -177,8 +176,9 @@ void FixSPHBulk::read_keywords(int narg, char **arg)
       if (!temperature) temperature.reset(new Value);
       temperature->set(lmp, key.word());
     } else if (key.is("shift")) {
-      shift_speed = key.number();
-      key.demand(shift_speed >= 0.0, ">= 0");
+      shift_by_rate = (strcmp(key.word(), "auto") == 0);
+      shift_speed = shift_by_rate ? 0.0 : key.number();
+      key.demand(shift_speed >= 0.0, "auto or >= 0");
     } else if (key.is("viscous")) {
       viscous->mode = static_cast<Viscous>(key.choice({"explicit", "rkl2", "implicit"}));
     } else if (key.is("stages")) {
@@ -241,17 +241,11 @@ void FixSPHBulk::init()
   extrapolation = viscous->extrapolation(noise);
   balanced = fluid && fluid->model->choice.own_temperatures && fluid->pair->compute_flag;
   exact = balanced || has_viscous_stage();
-  if (noise && shift_speed > 0.0)
+  if (noise && shifts_particles())
     error->all(FLERR,
                "Fix {} shift cannot be used with temp of pair style {}: a shifted fluid has no "
                "thermal equilibrium",
                style, style);
-  if (shift_speed > 0.0 && fluid && fluid->model->choice.continuity)
-    error->all(
-        FLERR,
-        "Fix {} shift cannot be used with density continuity of pair style {}: it would push "
-        "particles out of free surfaces",
-        style, style);
   diffuses = fluid && fluid->model->choice.delta > 0.0 && fluid->pair->compute_flag;
   if (density_flag && fluid && fluid->model->choice.continuity)
     error->all(FLERR,
@@ -260,14 +254,14 @@ void FixSPHBulk::init()
                style, style);
   if (density_flag && !fluid)
     error->all(FLERR, "Fix {} density requires pair style {}", style, style);
-  if (shift_speed > 0.0 && update->whichflag != 2) {
+  if (shifts_particles() && update->whichflag != 2) {
     if (!fluid) error->all(FLERR, "Fix {} shift requires pair style {}", style, style);
     if (!fluid->pair->compute_flag)
       error->all(FLERR,
                  "Fix {} shift needs the forces of pair style {}, which pair_modify compute no "
                  "leaves out",
                  style, style);
-    fluid->shift->wanted = true;
+    fluid->shift->movers.push_back({groupbit, shift_by_rate, shift_speed});
   }
 
   if (temperature) {
@@ -711,7 +705,6 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
   warn_of_jump();
   begin_step();
   integrate(BEGIN);
-  if (shift_speed > 0.0) shift_particles();
 }
 
 /* ----------------------------------------------------------------------
@@ -811,26 +804,20 @@ void FixSPHBulk::warn_of_jump() const
         style, dtv, dt_of_forces);
 }
 
-/* ---------------------------------------------------------------------- */
-
-void FixSPHBulk::shift_particles()
-{
-  const double support = fluid->support_radius();
-  fluid->team().for_each(nlocal_group(), [&](int i) {
-    if (atom->mask[i] & groupbit)
-      shift_particle(shift_speed, support, dtv, &fluid->shift->gradient[3 * i], atom->x[i]);
-  });
-}
-
 /* ----------------------------------------------------------------------
-   particles that no fix of this kind integrates move with the velocity that
-   another fix gave them
+   Shift the particles of all fixes of this kind, which have done the first half of the step.  Particles that none of them
+   integrates move with the velocity that another fix gave them.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::post_integrate()
 {
-  if (!first_instance || (integrated_groups & 1)) return;
-  reset_extrapolation();
+  shift_particles();
+  if (first_instance && !(integrated_groups & 1)) reset_extrapolation();
+}
+
+void FixSPHBulk::shift_particles()
+{
+  if (first_instance && fluid && fluid->shift->due()) fluid->shift_particles(time_step().keep);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -76,7 +76,7 @@ class FixSPHBulk : public Fix {
   void arrive(int i);
   void depart(int i);
 
-  bool shifts_particles() const { return shift_speed > 0.0; }
+  bool shifts_particles() const { return shift_by_rate || shift_speed > 0.0; }
   bool has_viscous_stage() const;
 
  protected:
@@ -84,12 +84,14 @@ class FixSPHBulk : public Fix {
   bool diffuses = false;          // densities change by the diffusion of volume
   bool exact = false;             // motion and heat exchange energy exactly, see integrate()
   double shift_speed = 0.0;       // scale and twice the limit of the velocity of particle shifting
+  bool shift_by_rate = false;     // which follows the local rate of shear instead
   int remap_v_flag = 0;           // fix deform remaps velocities at periodic boundaries
   int integrated_groups = 0;      // bits of all groups with an integrator of this kind
   bool first_instance = false;    // acts for the particles outside all these groups
   SPHDissipation::Fluid *fluid = nullptr;    // of the same name, if there is one
   void check_set_up();
   void begin_step();
+  void shift_particles();    // of all fixes of this kind, by the first one
   int nlocal_group() const;
   int bits_not_followed() const;    // of groups whose particles get their extrapolation elsewhere
   SPHDissipation::TimeStep time_step() const;
@@ -136,7 +138,6 @@ class FixSPHBulk : public Fix {
   SPHDissipation::Fluid *find_own_fluid() const;
   void warn_not_integrated();
   void add_remapped_velocity();
-  void shift_particles();
   bool has_torques() const;
   void set_temperatures();
   void set_inertia_of(int i, double &inertia) const;    // unless it has one

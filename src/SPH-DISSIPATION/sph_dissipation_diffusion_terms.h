@@ -25,9 +25,7 @@
 // the heat could be negative.  The gradient makes hydrostatic pressure exact: M. Antuono et al., Comput. Phys. Commun.
 // 181, 532 (2010), in variables that conserve volume and have a known heat.
 
-#include "sph_dissipation_function.h"
-
-#include <cmath>
+#include "sph_dissipation_tensor.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -51,10 +49,6 @@ namespace SPHDissipation {
   SPH_FUNCTION int place_of_volume(int dim)
   {
     return (dim == 3) ? 3 : 2;
-  }
-  SPH_FUNCTION int size_of_tensor(int dim)
-  {
-    return dim * (dim + 1) / 2;
   }
   inline int number_of_sums(int dim, bool alike)
   {
@@ -83,27 +77,6 @@ namespace SPHDissipation {
     return 7.0 * delta * h / hsq * stiffness / impedance;
   }
 
-  // Smallest eigenvalue of a symmetric tensor of which the upper half is given by rows
-
-  SPH_FUNCTION double smallest_eigenvalue(int dim, const double *t)
-  {
-    if (dim == 1) return t[0];
-    if (dim == 2) {
-      const double half = 0.5 * (t[0] - t[2]);
-      return 0.5 * (t[0] + t[2]) - std::sqrt(half * half + t[1] * t[1]);
-    }
-    const double mean = (t[0] + t[3] + t[5]) / 3.0;
-    const double a = t[0] - mean, b = t[3] - mean, c = t[5] - mean;
-    const double off = t[1] * t[1] + t[2] * t[2] + t[4] * t[4];
-    const double p = std::sqrt((a * a + b * b + c * c + 2.0 * off) / 6.0);
-    if (!(p > 1.0e-12 * mean)) return mean;
-    const double det = a * (b * c - t[4] * t[4]) - t[1] * (t[1] * c - t[4] * t[2]) +
-        t[2] * (t[1] * t[4] - b * t[2]);
-    const double cosine = std::fmin(std::fmax(0.5 * det / (p * p * p), -1.0), 1.0);
-    constexpr double THIRD_OF_CIRCLE = 2.0943951023931954923;
-    return mean + 2.0 * p * std::cos(std::acos(cosine) / 3.0 + THIRD_OF_CIRCLE);
-  }
-
   // Gradient of the pressure from the sums of a particle.  filled = sum_j V_j F r r, the tensor of these sums without the
   // impedances.  Returns the smallest eigenvalue of it, which is 1 inside of all fluids.  Where that is near zero, neighbors
   // are too few, or on one line or plane: the gradient is zero there.
@@ -114,25 +87,8 @@ namespace SPHDissipation {
                                         double *g)
   {
     const double smallest = smallest_eigenvalue(dim, filled);
-    const double *const d = sums + size_of_tensor(dim);
-    const double *const t = sums;
     for (int k = 0; k < dim; k++) g[k] = 0.0;
-    if (!(smallest >= LEAST_SUPPORT)) return smallest;
-    if (dim == 1)
-      g[0] = d[0] / t[0];
-    else if (dim == 2) {
-      const double inverse = 1.0 / (t[0] * t[2] - t[1] * t[1]);
-      g[0] = inverse * (t[2] * d[0] - t[1] * d[1]);
-      g[1] = inverse * (t[0] * d[1] - t[1] * d[0]);
-    } else {
-      const double xx = t[3] * t[5] - t[4] * t[4], xy = t[2] * t[4] - t[1] * t[5];
-      const double xz = t[1] * t[4] - t[2] * t[3], yy = t[0] * t[5] - t[2] * t[2];
-      const double yz = t[1] * t[2] - t[0] * t[4], zz = t[0] * t[3] - t[1] * t[1];
-      const double inverse = 1.0 / (t[0] * xx + t[1] * xy + t[2] * xz);
-      g[0] = inverse * (xx * d[0] + xy * d[1] + xz * d[2]);
-      g[1] = inverse * (xy * d[0] + yy * d[1] + yz * d[2]);
-      g[2] = inverse * (xz * d[0] + yz * d[1] + zz * d[2]);
-    }
+    if (smallest >= LEAST_SUPPORT) solve_tensor(dim, sums, sums + size_of_tensor(dim), g);
     return smallest;
   }
 

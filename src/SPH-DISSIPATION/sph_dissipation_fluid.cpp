@@ -114,7 +114,8 @@ void Fluid::coeff(int narg, char **arg)
 
 void Fluid::init()
 {
-  shift->wanted = continued = false;
+  continued = false;
+  shift->movers.clear();
   integrated = 0;
   for (const Fix *const fix : modify->get_fix_by_style("^" + style)) integrated |= fix->groupbit;
   viscous->configure(ViscousSettings(), 0, style);
@@ -307,7 +308,6 @@ bigint Fluid::compute(PairTally *tally)
     temperature->restore();
   }
   const bigint nbeyond = sum_before_forces(plan, find_rates);
-  if (shift->wanted) sum_gradient();
   sum_forces(tally, plan);
   if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
   if (par.loops_of_flows) sum_flows();
@@ -387,7 +387,7 @@ void Fluid::sum_density()
 {
   const bool minimize = (update->whichflag == 2);
   const Constants &par = model->constants();
-  const bool slopes_read = viscous->active() || !open->empty() || shift->wanted ||
+  const bool slopes_read = viscous->active() || !open->empty() || !shift->movers.empty() ||
       par.limit != Limit::NO || par.thermal || par.loops_of_flows || par.delta > 0.0;
   density->run(neighbors(), minimize ? nullptr : atom->vest,
                minimize ? nullptr : extrapolated_spin(), at_rest(), missing_time(), not_fluid(),
@@ -508,9 +508,9 @@ void Fluid::set_boundary()
   boundary->run(neighbors());
 }
 
-void Fluid::sum_gradient()
+void Fluid::shift_particles(double keep)
 {
-  shift->run();
+  shift->run(keep);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -903,7 +903,7 @@ void Fluid::report()
 void Fluid::check_elasticity(FluidState &state)
 {
   look_after = 0.0;
-  if (shift->wanted) return;
+  if (!shift->movers.empty()) return;
   const double wait = state.warn_of_elasticity(style, moving);
   if (!model->choice.thermal) look_after = wait;
   moving = 0.0;

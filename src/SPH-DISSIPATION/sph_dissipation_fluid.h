@@ -127,6 +127,8 @@ namespace SPHDissipation {
     int diffusion_interval() const;
     bool diffusion_is_new() const;
     void begin_step(double dt);
+    // in the middle of a step, see ShiftStage::run()
+    virtual void shift_particles(double keep);
 
     // Potential energy of the last forces, on this processor, added to those of the particles (nullptr: to none)
 
@@ -228,7 +230,6 @@ namespace SPHDissipation {
     virtual void set_reference_volume();    // of boundary particles
     virtual bigint set_pressure();
     virtual void set_boundary();
-    virtual void sum_gradient();    // of the concentration, for shifting
     virtual void sum_forces(PairTally *, const StepPlan &);
     virtual void sum_flows();             // of conduction
     virtual void evaluate_diffusion();    // of volume

@@ -444,40 +444,132 @@ void DiffusionStage::set_rows(int not_fluid, int integrated)
 
 /* ---------------------------------------------------------------------- */
 
-void ShiftStage::run()
+ShiftLaw ShiftStage::law() const
 {
-  const int nall = atom->nlocal + atom->nghost;
-  const std::size_t n = 3 * (std::size_t) nall;
+  const Parameters &par = engine.parameters();
+  return {par.dim,
+          par.support,
+          STEPS_OF_SHIFT * update->dt,
+          kernel_slope_integral(par.kernel, par.dim, par.support),
+          par.continuity};
+}
 
-  gradient.resize(3 * (std::size_t) atom->nmax);
-  std::fill_n(gradient.begin(), n, 0.0);
-  contact.resize(nall);
+template <class Sum, class Add> const Sum *ShiftStage::sum_up(const Add &add)
+{
+  constexpr int WIDTH = sizeof(Sum) / sizeof(double);
+  sums.assign(WIDTH * rows.size(), 0.0);
+  engine.sum_pairs(thread_sums, sums.data(), sums.size(),
+                   [&](int i, int j, bigint entry, double *total) {
+                     auto *const sum = reinterpret_cast<Sum *>(total);
+                     add(i, j, entry, sum[i], sum[j]);
+                   });
+  exchange.reverse({{sums.data(), WIDTH, WIDTH}});
+  return reinterpret_cast<const Sum *>(sums.data());
+}
 
-  const LoopData &pairs = engine.pairs();
-  const int dim = engine.parameters().dim;
-  with_kernel(engine.parameters().kernel, [&](auto k) {
+void ShiftStage::run(double keep)
+{
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  const ShiftLaw law = this->law();
+  const Particle *const particle = engine.particle;
+  rows.resize(nall);
+  with_kernel(engine.parameters().kernel, [&](auto kernel) {
     engine.for_each(nall, [&](int i) {
-      contact[i] =
-          contact_inverse<decltype(k)>(dim, engine.parameters().support, engine.particle[i].vol);
+      const double vol = particle[i].vol;
+      ShiftRow &row = rows[i];
+      row = ShiftRow();
+      row.mass = atom->rmass[i];
+      row.contact = contact_inverse<decltype(kernel)>(law.dim, law.support, vol);
+      for (const ShiftMover &mover : movers)
+        if (atom->mask[i] & mover.groupbit) let_shift(mover, law.support, vol, row);
+      for (int d = 0; d < 3; d++) row.v[d] = atom->v[i][d] - particle[i].u[d];
     });
-
-    engine.sum_pairs(sums, gradient.data(), n, [&](int i, int j, bigint entry, double *sum) {
-      const Particle &a = engine.particle[i], &b = engine.particle[j];
-      double r[3];
-      MathExtra::sub3(a.x, b.x, r);
-      const double shape = k.shape(MathExtra::len3(r) / engine.parameters().support);
+    const auto crowding = sum_up<ShiftSum>([&](int i, int j, bigint entry, ShiftSum &a,
+                                               ShiftSum &b) {
+      const Particle &p = particle[i], &q = particle[j];
+      double r[3], u[3], back[3], other[3];
+      MathExtra::sub3(p.x, q.x, r);
+      MathExtra::sub3(p.u, q.u, u);
+      MathExtra::sub3(q.x, p.x, back);
+      MathExtra::sub3(q.u, p.u, other);
       const double slope = engine.slope(i, j, entry);
-      const double push_i = concentration_push(b.vol, slope, shape, contact[i]);
-      const double push_j = concentration_push(a.vol, slope, shape, contact[j]);
-      for (int d = 0; d < 3; d++) {
-        sum[3 * i + d] += push_i * r[d];
-        sum[3 * j + d] -= push_j * r[d];
-      }
+      const double shape = kernel.shape(MathExtra::len3(r) / law.support);
+      const double share = shift_share(slope, rows[i], rows[j]);
+      const double push_i = concentration_push(q.vol, slope, shape, rows[i].contact);
+      const double push_j = concentration_push(p.vol, slope, shape, rows[j].contact);
+      add_to_shift(law, r, u, q.vol, slope, push_i, share, a);
+      add_to_shift(law, back, other, p.vol, slope, push_j, share, b);
+    });
+    engine.for_each(nlocal, [&](int i) {
+      set_shift(law, crowding[i], rows[i]);
     });
     return 0;
   });
+  exchange.forward({field(rows.data(), rows[0].q, 6)});
 
-  exchange.reverse({{gradient.data(), 3, 3}});
+  const auto share_of = [&](int i, int j, bigint entry) {
+    return shift_share(engine.slope(i, j, entry), rows[i], rows[j]);
+  };
+  const auto velocities = [&](int i, int j, double *v, double *w) {
+    velocity_in_shift(rows[i], particle[i].u, v);
+    velocity_in_shift(rows[j], particle[j].u, w);
+  };
+  const auto exchanged = sum_up<ShiftExchange>([&](int i, int j, bigint entry, ShiftExchange &a,
+                                                   ShiftExchange &b) {
+    const double share = share_of(i, j, entry);
+    if (share == 0.0) return;
+    double v[3], w[3];
+    velocities(i, j, v, w);
+    for (int d = 0; d < 3; d++) {
+      a.moved[d] += share * rows[j].q[d];
+      b.moved[d] += share * rows[i].q[d];
+      a.slip[d] += share * (v[d] - w[d]);
+      b.slip[d] -= share * (v[d] - w[d]);
+    }
+  });
+  engine.for_each(nlocal, [&](int i) {
+    set_displacement(exchanged[i], rows[i]);
+  });
+  exchange.forward({field(rows.data(), rows[0].d, 3)});
+
+  const auto distance = [&](int i, int j, double *r) {
+    for (int d = 0; d < 3; d++)
+      r[d] = particle[i].x[d] - particle[j].x[d] + (rows[i].d[d] - rows[j].d[d]);
+  };
+  const auto tensors = sum_up<ShiftTensor>([&](int i, int j, bigint entry, ShiftTensor &a,
+                                               ShiftTensor &b) {
+    const double share = share_of(i, j, entry);
+    if (share == 0.0) return;
+    double r[3];
+    distance(i, j, r);
+    add_square(law.dim, share, r, a.a);
+    add_square(law.dim, share, r, b.a);
+  });
+  engine.for_each(nlocal, [&](int i) {
+    set_return(law.dim, tensors[i], rows[i]);
+  });
+  exchange.forward({field(rows.data(), rows[0].w, 3)});
+
+  const auto returned = sum_up<ShiftReturn>([&](int i, int j, bigint entry, ShiftReturn &a,
+                                                ShiftReturn &b) {
+    const double share = share_of(i, j, entry);
+    if (share == 0.0) return;
+    double r[3], v[3], w[3], push[3];
+    distance(i, j, r);
+    velocities(i, j, v, w);
+    const double work = impulse_of_pair(share, rows[i], rows[j], v, w, r, push);
+    for (int d = 0; d < 3; d++) {
+      a.impulse[d] += push[d];
+      b.impulse[d] -= push[d];
+    }
+    a.work += work;
+    b.work -= work;
+  });
+  engine.for_each(nlocal, [&](int i) {
+    if (rows[i].vol > 0.0)
+      finish_shift(rows[i], returned[i], update->dt, keep, atom->x[i], atom->v[i], atom->vest[i],
+                   atom->esph[i]);
+  });
 }
 
 /* ----------------------------------------------------------------------

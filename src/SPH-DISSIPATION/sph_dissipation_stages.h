@@ -17,7 +17,9 @@
 #include "pointers.h"
 #include "sph_dissipation_diffusion_terms.h"
 #include "sph_dissipation_rows.h"
+#include "sph_dissipation_shift_terms.h"
 #include "sph_dissipation_threads.h"
+#include "update.h"
 
 #include <functional>
 #include <vector>
@@ -228,25 +230,29 @@ namespace SPHDissipation {
     void set_rows(int not_fluid, int integrated);
   };
 
-  // Minus the gradient of the concentration of the particles, for particle shifting:
-  //   gradient_i = sum_j V_j F r_ij [1 + 0.2 (W_ij/W(V_i^(1/n)))^4]  (1/length)
-  // points to where there are fewer.  The second term keeps particles from pairing, P. N. Sun et al., Comput.
-  // Methods Appl. Mech. Eng. 315, 25 (2017).
+  // Particle shifting, see sph_dissipation_shift_terms.h: not in a force computation, but every few steps, after the first
+  // half of the step, with the pairs and the volumes of the last forces
 
   class ShiftStage : public Stage {
    public:
     using Stage::Stage;
 
-    bool wanted = false;    // by a fix that shifts particles, from its init(), in every run
+    std::vector<ShiftMover> movers;    // by the fixes, from their init(), in every run
 
-    void run();    // with the volumes of particles set
-    double memory_usage() const override { return bytes(gradient, contact, sums); }
+    bool due() const { return !movers.empty() && (update->ntimestep - 1) % STEPS_OF_SHIFT == 0; }
+    ShiftLaw law() const;
 
-    std::vector<double> gradient;    // of owned atoms, three numbers each
+    // Change positions, velocities, extrapolated velocities, and internal energies of owned particles.  keep: as of TimeStep
+    void run(double keep);
+    double memory_usage() const override { return bytes(rows, sums, thread_sums); }
 
    private:
-    std::vector<double> contact;    // 1/W(V^(1/n)) of atoms, in units of the norm of the kernel
-    ThreadSums<double> sums;
+    std::vector<ShiftRow> rows;    // of owned and ghost particles
+    std::vector<double> sums;      // rows of one of the structs of sums
+    ThreadSums<double> thread_sums;
+
+    // sums of owned particles of what add(i, j, entry, sum of i, sum of j) adds for each pair
+    template <class Sum, class Add> const Sum *sum_up(const Add &);
   };
 
   // Pass 2: forces, torques and heating of owned atoms and the contributions to ghost atoms, onto

@@ -20,6 +20,7 @@
 
 #include "sph_dissipation_rows.h"
 #include "sph_dissipation_settings.h"
+#include "sph_dissipation_tensor.h"
 
 #include <cmath>
 
@@ -148,18 +149,6 @@ namespace SPHDissipation {
   };
 
   struct BoundaryHeatSum : BoundaryHeatSums<OneNumber> {};
-
-  SPH_FUNCTION double inner_product(const double *a, const double *b)
-  {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  }
-
-  SPH_FUNCTION void cross_product(const double *a, const double *b, double *c)
-  {
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-  }
 
   // Velocity of a wall: of a point on the axis, and a rotation about it.  r = vector from that point
 
