@@ -59,8 +59,8 @@ namespace SPHDissipation {
     // After the pressures, before pass 2: set the values of all boundary particles
     void run(NeighList *);
 
-    // After run(): set the values again for other velocities and pressures of the fluid.  increments: the pressures are those
-    // of PressureStage::set_bulk_term(), all is linear in the velocities, and symmetric friction changes no velocity
+    // After run(): set the values again for other velocities and pressures of the fluid.  increments: the pressures are
+    // those of PressureStage::set_bulk_term(), all is linear in the velocities, and symmetric friction changes no velocity
     void extend(bool increments);
 
     // After run() and before increments: note which particles push.  Without tension, a negative mean pressure counts as 0
@@ -82,8 +82,8 @@ namespace SPHDissipation {
     void add_linear_friction();
 
     // With thermal noise, the forces of walls on the fluid have an energy; with free surfaces, their repulsion has.  After
-    // pass 2: add the repulsion to the forces of the engine and of LAMMPS; add minus its work, with noise also minus the work
-    // of the pressure of the walls, to the heating
+    // pass 2: add the repulsion to the forces of the engine and of LAMMPS; add minus its work, with noise also minus the
+    // work of the pressure of the walls, to the heating
 
     void repel(PairTally *);
 
@@ -124,7 +124,8 @@ namespace SPHDissipation {
       engine.for_each(n, function);
     }
 
-    // Called by Boundary::set_heat() if the fluid conducts heat; value = temperature of the surface, or heat per area and time
+    // Called by Boundary::set_heat() if the fluid conducts heat; value = temperature of the surface, or heat per area and
+    // time
 
     void set_heat(int i, WallHeat, double value, const Surface &);
 
@@ -193,8 +194,8 @@ namespace SPHDissipation {
     void find_bits();
     void begin(NeighList *);
 
-    // Force on the fluid particle of a pair along r, times 1/r: by the pressure of the wall, 0 unless that has an energy, and
-    // by the repulsion; approach = -r.u
+    // Force on the fluid particle of a pair along r, times 1/r: by the pressure of the wall, 0 unless that has an energy,
+    // and by the repulsion; approach = -r.u
 
     struct WallForce {
       double r[3], approach, pressing, repulsion;

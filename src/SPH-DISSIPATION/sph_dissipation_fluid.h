@@ -117,8 +117,8 @@ namespace SPHDissipation {
     // Called by the integrator when a run begins; dt = the time step that has left the states, Changes since the last run
 
     virtual void begin_run(double dt, bool continues, const Changes &);
-    // With density continuity: keep the densities of owned particles at the next forces, whose sums change not by motion, but
-    // by particles that come, go, split, or merge
+    // With density continuity: keep the densities of owned particles at the next forces, whose sums change not by motion,
+    // but by particles that come, go, split, or merge
     void keep_densities();
 
     // Steps between two evaluations of the diffusion of volume; true if the last forces have evaluated it
