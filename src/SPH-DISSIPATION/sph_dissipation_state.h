@@ -36,7 +36,7 @@ namespace SPHDissipation {
 
     void run(const std::vector<double> &weight);
 
-    // Return the sum of weight times d2c/dgamma2 over c, for the direction of shear with the largest absolute value
+    // Return the sum of weight times d2c/dgamma2 over c, for the direction of shear with the largest |sum|
 
     double largest(int type) const;
 
