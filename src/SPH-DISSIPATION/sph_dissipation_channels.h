@@ -77,8 +77,8 @@ template <class... Term> struct Form {
   }
 };
 
-// Forms with all optional terms, for the runs that use any of them.  The form espanol, whose terms are all the others of
-// fluids without spins, has no loops of its own.
+// Forms with all optional terms, for runs that use any of them, and for the form espanol, which has all other terms of
+// fluids without spins.
 #undef CHANNEL_TERMS
 #define OPTIONAL_TERMS
 #define OptionalTerm(One) , One

@@ -55,7 +55,7 @@ std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool
 }
 
 /* ----------------------------------------------------------------------
-   without IDs, the first one of the first rank that has any
+   Find the particle with the lowest ID; without IDs, the first one on the first rank that has any.
 ------------------------------------------------------------------------- */
 
 std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool(int)> &wrong,
@@ -236,7 +236,7 @@ void FluidChecks::noise() const
 }
 
 /* ----------------------------------------------------------------------
-   dim 1: the particles are on a line along x or y, whose periodic images must not interact
+   Check, for dim 1, that the particles are on a line along x or y, and that periodic images of the line do not interact.
 ------------------------------------------------------------------------- */
 
 void FluidChecks::line_of_particles(double support) const
@@ -321,7 +321,7 @@ std::set<Kind> SPHDissipation::all_kinds(LAMMPS *lmp)
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether there can be pairs of two kinds, by the rules of NPair.
+   Return whether there can be pairs of two kinds, by the rules of NPair.
 ------------------------------------------------------------------------- */
 
 bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b)
@@ -344,13 +344,13 @@ bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b
 }
 
 /* ----------------------------------------------------------------------
-   also those that another fix moves, as the particles of a rigid body: their densities need all neighbors
+   Check also particles that another fix moves, as those of a rigid body: their densities need all neighbors.
 ------------------------------------------------------------------------- */
 
 void FluidChecks::fluid_lists() const
 {
   if (!neighbor->nex_type && !neighbor->nex_group && !neighbor->includegroup) return;
-  int others = 0;    // which have checks of their own
+  int others = 0;    // groups with checks of their own
   for (const auto &name : {"^sph/wall", "^sph/open"})
     for (const auto &ifix : modify->get_fix_by_style(name)) others |= ifix->groupbit;
 
@@ -390,7 +390,7 @@ void FluidChecks::room() const
 
 void FluidChecks::state_times() const
 {
-  constexpr double SHORT = 1.0e-3;    // over the time step
+  constexpr double SHORT = 1.0e-3;    // time over the time step
   if (comm->me != 0) return;
   for (int i = 1; i <= atom->ntypes; i++) {
     if (model.coeffs[i].other) continue;
@@ -456,7 +456,7 @@ void FluidChecks::masses() const
 }
 
 /* ----------------------------------------------------------------------
-   Not what a command has set, of any particle.  Between two times the diffusion changes the offsets of densities.
+   Leave out states that a command has set for any particle.  Between two times, diffusion changes the offsets of densities.
 ------------------------------------------------------------------------- */
 
 void FluidChecks::kept_states(const Changes &changes, bool densities_follow) const

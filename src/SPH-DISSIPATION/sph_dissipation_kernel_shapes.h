@@ -140,7 +140,7 @@ struct QuinticSpline {
   }
 };
 
-// call function(KernelClass()) for the kernel chosen at run time, on the host
+// Call function(KernelClass()) for the kernel chosen at run time, on the host
 
 template <class Function> SPH_HOST_INLINE auto with_kernel(Kernel kernel, Function &&function)
 {
