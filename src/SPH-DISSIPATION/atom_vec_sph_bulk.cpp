@@ -31,8 +31,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// names known to compute property/atom, in the order of their index, those of spins last; LAMMPS has a property
-// temperature itself
+// Names for compute property/atom, in the order of their index, those of spins last; "temperature" is a name of LAMMPS
 
 static constexpr const char *PROPERTY[] = {
     "numden", "dnumden", "vol",       "rho",        "esph",     "desph",
@@ -111,8 +110,8 @@ void AtomVecSPHBulk::process_args(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   room for states; a column with the density.  Data files have them before the position: lines of velocities have no
-   room, because the buffer of WriteData::velocities() has a limited width
+   Make room for states, and a column for the density.  Data files have them before the position: lines of velocities have no
+   room, because the buffer of WriteData::velocities() has a limited width.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::add_columns(int narg, char **arg)
@@ -158,7 +157,7 @@ void AtomVecSPHBulk::add_columns(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   in data files, a state that has no column of its own stands in the last one of another channel
+   Put a state without its own column in data files into the last column of another channel (used), or clear that column.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::share_columns(int ilocal, bool used) const
@@ -170,7 +169,7 @@ void AtomVecSPHBulk::share_columns(int ilocal, bool used) const
 }
 
 /* ----------------------------------------------------------------------
-   where LAMMPS writes a data file, with or without coefficients; style hybrid calls pack_data_pre() alone
+   Warn of densities that a data file does not have; style hybrid calls pack_data_pre() alone.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::pack_data(double **buf)
@@ -197,7 +196,8 @@ void AtomVecSPHBulk::pack_data_pre(int ilocal)
 }
 
 /* ----------------------------------------------------------------------
-   read_data drops what a line has beyond its buffer.  The fields are those of style hybrid, if there is one
+   Stop if the line of an atom exceeds the buffer of read_data, which would drop the rest.  With style hybrid, the fields are
+   those of hybrid.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::check_data_line(int ilocal) const
@@ -259,7 +259,7 @@ void AtomVecSPHBulk::add_spins()
 }
 
 /* ----------------------------------------------------------------------
-   not through atom: when replicate deletes the old atom style, this points to the new one
+   Remove the arrays through owner, not through atom: when replicate deletes the old atom style, atom is the new one.
 ------------------------------------------------------------------------- */
 
 AtomVecSPHBulk::~AtomVecSPHBulk()
@@ -271,16 +271,16 @@ AtomVecSPHBulk::~AtomVecSPHBulk()
                                   return field.name == own.name;
                                 }),
                  fields.end());
-    if (in_views && !own.cols) owner->dvector[own.index] = nullptr;    // not its memory
+    if (in_views && !own.cols) owner->dvector[own.index] = nullptr;    // memory of the views
     owner->remove_custom(own.index, CUSTOM_DOUBLE, own.cols);
   }
 }
 
 /* ----------------------------------------------------------------------
-   declare an array that class Atom has no member for, with one value per atom or with columns
-   class Atom owns it as a custom property, so that the library and other commands know it
-   it is no field of fields_grow: style hybrid deletes its sub-styles before it frees those
-   a vector not by class AtomKokkos, which would sync the atom style that is only being made
+   Add an array that class Atom has no member for, with one value per atom or with columns.  Class Atom owns the array as a
+   custom property, which the library and other commands can read.  The array is not in fields_grow: style hybrid deletes its
+   sub-styles before it frees such arrays.  Do not call add_custom() of class AtomKokkos for a vector: it would sync the atom
+   style during its construction.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double ***array, int cols)
@@ -417,7 +417,7 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
                "yield, smagorinsky, or arrhenius of pair_coeff");
   const std::vector<double> temperature = (index == TSPH) ? temperatures() : std::vector<double>();
 
-  // what is an array, in the order of the names
+  // arrays in the order of the names
 
   const double *const array[VESTX] = {
       nullptr, nullptr,     vfrac,     rho, esph, desph, temperature.data(),
@@ -447,7 +447,7 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
 }
 
 /* ----------------------------------------------------------------------
-   0 where a negative number says that the state is not known yet; amounts may be negative
+   Return a state for output: 0 if a negative number marks an unknown state; amounts may be negative.
 ------------------------------------------------------------------------- */
 
 double AtomVecSPHBulk::state_value(int slot, int i) const
@@ -457,7 +457,7 @@ double AtomVecSPHBulk::state_value(int slot, int i) const
 }
 
 /* ----------------------------------------------------------------------
-   which the pair style knows, with its heat capacities
+   Return the temperatures of owned particles, from the pair style, which has the heat capacities.
 ------------------------------------------------------------------------- */
 
 std::vector<double> AtomVecSPHBulk::temperatures() const
@@ -475,7 +475,7 @@ std::vector<double> AtomVecSPHBulk::temperatures() const
 }
 
 /* ----------------------------------------------------------------------
-   style hybrid does not ask its sub-styles: there the own arrays are not counted
+   Return bytes.  Style hybrid does not call this function: there the own arrays are not counted.
 ------------------------------------------------------------------------- */
 
 double AtomVecSPHBulk::memory_usage()

@@ -49,8 +49,8 @@ static constexpr double NODES =
     3.0;    // nodes of the plane per radius in which the fluid is measured
 static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
-// in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves.
-// Files without a format begin with the size.
+// Numbers in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves.  Files
+// without a format begin with the size.
 
 static constexpr int FORMAT = 1004;
 enum {
@@ -62,7 +62,7 @@ enum {
   NHEAD = PLANE + 6
 };
 
-// the vector of the fix, after the balance
+// Places in the vector of the fix, behind the balance
 
 enum { COUNT = OpenBalance::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
@@ -235,8 +235,8 @@ void FixSPHOpen::measure_sound(std::vector<double> &mine)
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether a particle at x may have pairs of zone and fluid: near the plane, and, in a zone with a
-   region, which may have fluid at its sides, all along.
+   Return whether a particle at x may have pairs of zone and fluid: near the plane, or, in a zone with a region, which may
+   have fluid at its sides, anywhere.
 ------------------------------------------------------------------------- */
 
 bool FixSPHOpen::zone_near(const double *x, double reach) const
@@ -288,8 +288,8 @@ void FixSPHOpen::keep_states()
 }
 
 /* ----------------------------------------------------------------------
-   Find the particles of the zone and the fluid near it before each neighbor list, and so before all forces
-   of a setup: number and order of the particles stay the same from one list to the next, ...
+   Find the particles of the zone and the fluid near the zone before each neighbor list, and so before all forces of a setup:
+   number and order of the particles do not change from one list to the next, unless has_lost_members().
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::find_members()
@@ -302,7 +302,7 @@ void FixSPHOpen::find_members()
 }
 
 /* ----------------------------------------------------------------------
-   ... unless a fix defined before this one, such as sph/refine, has changed them in this step
+   Return true if another fix, such as sph/refine, may have changed number and order of the particles in this step.
 ------------------------------------------------------------------------- */
 
 bool FixSPHOpen::has_lost_members() const

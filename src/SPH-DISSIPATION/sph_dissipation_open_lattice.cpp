@@ -27,21 +27,21 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// The particles near the far end of a buffer zone, of all processors, also those not of the zone
+// The particles near the far end of a buffer zone, of all processors, in the zone or not
 
 class SPHDissipation::OpenBand : protected Pointers {
  public:
   // Collect the particles between two heights.
   OpenBand(class LAMMPS *, const OpenPlane &, int groupbit, double lo, double hi);
 
-  // Tell whether one of the zone, or of any kind, is behind x, not farther beside it than this.
+  // Return whether a particle of the zone, or of any kind, is behind x, at most beside from the line through x.
   bool has_behind(const double *x, double beside, bool any_kind = false) const;
 
-  // Return the distance of the nearest one of the zone behind x, or in front of it, not farther beside it
-  // than this; infinite if there is none.
+  // Return the distance of the nearest particle of the zone behind x, or in front of x, at most beside from the line through
+  // x; infinite if there is none.
   double next(const double *x, double beside, bool behind) const;
 
-  // Tell whether any one, or one that is not of the zone, is closer to x than this.
+  // Return whether any particle, or one that is not of the zone, is closer to x than this distance.
   bool has_near(const double *x, double distance, bool other = false) const;
 
  private:

@@ -23,7 +23,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // What a buffer zone does to the fluid in one force computation
+  // Forces, work and heat of a buffer zone on the fluid in one force computation
 
   struct OpenImpact {
     double force[3], torque[3];    // torque about the origin, of forces and couples
@@ -34,8 +34,8 @@ namespace SPHDissipation {
     void add(const Spin &, const double *couple);
   };
 
-  // Gives the particles of buffer zones the density and pressure that act in the pair forces, and sums
-  // up what the zones do to the fluid, from the pairs of a particle of a zone and one of the fluid.
+  // Sets the density and pressure of particles of buffer zones that act in the pair forces, and sums up the impact of the
+  // zones on the fluid, over the pairs of a particle of a zone and one of the fluid.
 
   class OpenStage : public Stage {
    public:
@@ -48,8 +48,8 @@ namespace SPHDissipation {
     int bits_of(int fluid_bit) const;         // groups of the zones whose fluid has this bit
     double state_energy(int i) const;         // energy that states hold, at the last densities
 
-    // from OpenZone::set_states(): density and pressure of a particle, which keeps its bulk term; with which temperature it
-    // conducts heat, if the fluid does
+    // Called by OpenZone::set_states(): set density and pressure of a particle, which keeps its bulk term; set its
+    // temperature in conduction, if the fluid conducts heat
     void set_state(int i, double rho, double pressure);
     void set_temperature(int i, double temperature);
     const Particle &particle(int i) const { return engine.particle[i]; }

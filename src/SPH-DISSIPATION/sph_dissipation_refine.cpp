@@ -170,7 +170,7 @@ void RefinePairs::settle()
 }
 
 /* ----------------------------------------------------------------------
-   Tell the leader of a family: the first daughter has the ID of the parent, below the new ones.
+   Return whether i leads its family: the first daughter has the ID of the parent, below the new IDs.
 ------------------------------------------------------------------------- */
 
 bool RefinePairs::is_first(int i) const
@@ -268,7 +268,7 @@ void RefinePairs::find(NeighList *full, double farthest)
 }
 
 /* ----------------------------------------------------------------------
-   Set r to the way from the point of one item to that of another one.
+   Set r to the vector from the point of one item to that of another one.
 ------------------------------------------------------------------------- */
 
 void RefineResidual::offset(int from, int to, double *r) const

@@ -73,7 +73,7 @@ void WallMotion::init()
 }
 
 /* ----------------------------------------------------------------------
-   Evaluate all values at this time step; true if a variable took something from a compute.
+   Evaluate all values at this time step; return true if a variable reads a compute.
 ------------------------------------------------------------------------- */
 
 bool WallMotion::evaluate(double *result)
@@ -121,8 +121,8 @@ void WallMotion::start()
 }
 
 /* ----------------------------------------------------------------------
-   Set the rates to the changes over the step before this one, as the parabola through now and the two
-   steps to come has them.  In a run of no steps, ramp() of variables would have no slope.
+   Set the rates to the changes over the step before this one of the parabola through the present values and those of the
+   next two steps.  In a run of no steps, ramp() of variables would have no slope.
 ------------------------------------------------------------------------- */
 
 void WallMotion::estimate_rates()
