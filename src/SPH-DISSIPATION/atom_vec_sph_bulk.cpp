@@ -73,13 +73,9 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
   add_array("shear_rate", &shear_rate);
   add_array("trace", &trace, NTRACE);
 
-  // strings with peratom variables to include in each AtomVec method
-  // strings cannot contain fields in corresponding AtomVec default strings
-  // order of fields in a string does not matter
-  // except: fields_data_atom & fields_data_vel must match data file
-  // rho, drho, vfrac are computed anew in every step, for owned and ghost atoms, by the
-  // pair style, with density continuity from rho and rho_sum of the last one; vest and
-  // desph_before of restart files are those of the last step
+  // Fields of each AtomVec method, but for its default fields; the order matters in fields_data_atom and fields_data_vel
+  // alone, which must match data files.  In every step, the pair style computes rho, drho, vfrac of owned and ghost atoms,
+  // with density continuity from rho and rho_sum of the last step; restart files have vest and desph_before of the last step
 
   fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
   const std::vector<std::string> kept = {
@@ -295,8 +291,8 @@ void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double 
 }
 
 /* ----------------------------------------------------------------------
-   set local copies of all grow ptrs used by this class, except defaults
-   needed in replicate when 2 atom classes exist and it calls pack_restart()
+   Set the pointers of this class to the arrays, after they have grown; grow the own arrays.  Command replicate needs the
+   pointers when it calls pack_restart(), while two atom styles exist.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::grow_pointers()
@@ -333,8 +329,7 @@ void AtomVecSPHBulk::show_custom_vectors()
 }
 
 /* ----------------------------------------------------------------------
-   clear extra forces starting at atom N
-   nbytes = # of bytes to clear for a per-atom vector
+   Clear the heating from atom n on; nbytes = # of bytes to clear in a per-atom vector.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::force_clear(int n, size_t nbytes)
@@ -343,8 +338,7 @@ void AtomVecSPHBulk::force_clear(int n, size_t nbytes)
 }
 
 /* ----------------------------------------------------------------------
-   modify what AtomVec::data_atom() just unpacked
-   or initialize other atom quantities
+   Check the numbers of an atom from a data file, and set all others.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::data_atom_post(int ilocal)
@@ -371,7 +365,7 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
 }
 
 /* ----------------------------------------------------------------------
-   zero what AtomVec::unpack_restart() did not unpack, and only a force computation can set
+   Set the numbers to 0 that restart files do not have, since the force computation sets them.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::unpack_restart_init(int ilocal)
@@ -382,8 +376,7 @@ void AtomVecSPHBulk::unpack_restart_init(int ilocal)
 }
 
 /* ----------------------------------------------------------------------
-   assign an index to named atom property and return index
-   return -1 if name is unknown to this atom style
+   Return the index of a named atom property; -1 if this atom style does not have the name.
 ------------------------------------------------------------------------- */
 
 int AtomVecSPHBulk::property_atom(const std::string &name)
@@ -397,8 +390,7 @@ int AtomVecSPHBulk::property_atom(const std::string &name)
 }
 
 /* ----------------------------------------------------------------------
-   pack per-atom data into buf for ComputePropertyAtom
-   index maps to data specific to this atom style
+   Pack an atom property into buf for ComputePropertyAtom; index = from property_atom().
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int groupbit)

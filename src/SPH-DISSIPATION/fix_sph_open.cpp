@@ -186,7 +186,7 @@ void FixSPHOpen::init()
   lattice->init(support, fluidbit);
   if (lattice->are_new()) warn_of_styles();
 
-  // a small radius, because it smooths the profile, but large enough for a few particles
+  // choose a small radius, because averages smooth the profile, but large enough for a few particles
 
   constexpr double PART = 0.6, WIDTHS = 2.2;
   radius = std::min(support, std::max(PART * support, WIDTHS * lattice->width()));
@@ -198,9 +198,8 @@ void FixSPHOpen::init()
 }
 
 /* ----------------------------------------------------------------------
-   Set the times of averages and of the memory of waves: heat and fix adapt change the speed of sound, whose
-   mean and, with new neighbor lists, least value near the plane they follow.  crossings = what
-   measure_sound() has found, summed over all processors.
+   Set the times of averages and of the memory of waves, from the mean and, with new neighbor lists, the least speed of sound
+   near the plane, which heat and fix adapt change.  crossings = sums of measure_sound() over all processors.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_times(const double *crossings)
@@ -330,9 +329,8 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Correct the move to that of the mean velocity of the step, and let particles enter and leave.  Along
-   the plane they move with the given velocity, if there is one: with their own, particles that
-   leave would gather, or enter walls.
+   Correct the move to that of the mean velocity of the step, and let particles enter and leave.  Along the plane, particles
+   move with the given velocity, if there is one: with their own velocity, particles that leave would gather, or enter walls.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::post_integrate()
@@ -395,7 +393,7 @@ void FixSPHOpen::compress(int i)
         return one.first < other;
       });
   if (found == states.end() || found->first != i) return;
-  if (fluid->model->choice.continuity) return;    // it keeps its density
+  if (fluid->model->choice.continuity) return;    // the particle keeps its density
   const double rho = sums[found - states.begin()] + update->dt * atom->drho[i];
   condition->keep(i, condition->at_density(i, found->second, rho));
 }
@@ -429,8 +427,8 @@ void FixSPHOpen::set_velocity(int i)
 }
 
 /* ----------------------------------------------------------------------
-   Set spin and internal energy of a particle of the zone to the given ones, if it moves into the fluid; the energy
-   with the state, if that includes the heat.
+   Set spin and internal energy of a particle of the zone to the given values, if the particle moves into the fluid.
+   set_state() sets the energy if states include the heat.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_spin(int i)
@@ -494,8 +492,8 @@ void FixSPHOpen::set_states(OpenStage &stage, const double *all)
 }
 
 /* ----------------------------------------------------------------------
-   Measure the fluid near the plane, and count its particles that leave faster than sound.  It is in the group of
-   the zone while variables are evaluated, which both need.
+   Measure the fluid near the plane, and count its particles that leave faster than sound.  Both need the variables at these
+   particles, which therefore have the group of the zone during the evaluation.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
@@ -545,8 +543,8 @@ void FixSPHOpen::warn(double nsupersonic)
 }
 
 /* ----------------------------------------------------------------------
-   Set density and pressure of a particle of the zone.  Its bulk term is its own: where it counts, the
-   particle has a full support.
+   Set density and pressure of a particle of the zone.  The particle keeps its own bulk term: where the term acts on fluid,
+   the particle has a full support.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_state(OpenStage &stage, int i)

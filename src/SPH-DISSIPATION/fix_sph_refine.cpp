@@ -50,8 +50,8 @@ static constexpr double SPLIT = 1.6, MERGE = 0.6;    // defaults: volume over ta
 static constexpr double WIDEST = 1.0 / 1.5;          // target spacing over the support radius
 static constexpr double NEVER = -INFINITY;           // step of the last event
 
-// Each particle keeps the step of its last event; and, if that was a split that its daughters can
-// undo as a whole, the lowest of their new IDs, else 0
+// Numbers of each particle: step of the last event; family = lowest new ID of the daughters of a split that they can undo as
+// a whole, else 0
 
 enum { STEP, FAMILY, NPAST };
 

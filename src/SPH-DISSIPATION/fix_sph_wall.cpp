@@ -77,7 +77,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     heat(WallHeat::ADIABATIC), heat_value(new Value), gravity(new Value[3]),
     by_molecule(atom->molecule_flag)
 {
-  std::string others;    // a keyword that bodies do not have
+  std::string others;    // first keyword that bodies do not have
   for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
     if (key.is("velocity", 3)) motion->set_velocity(key.words());
     if (key.is("rotate", 7)) motion->set_rotation(key.words());

@@ -165,7 +165,7 @@ bool FixSPHWall::check_movers() const
   if (group->count(igroup) == 0)
     error->all(FLERR, "Fix {} group {} has no particles", style, group->names[igroup]);
   std::vector<int> movers(atom->nlocal, 0);
-  bool lagging = false, on_step = false;    // some of them
+  bool lagging = false, on_step = false;    // some movers do so
   for (const auto &other : modify->get_fix_list()) {
     if (other == this || !(other->time_integrate || dynamic_cast<FixSPHWall *>(other))) continue;
     if (other->rigid_flag) {
@@ -401,7 +401,7 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
     if (fluid->has_type(atom->type[i])) members.push_back(i);
   const Cells cells(x, members, support);
 
-  // for each particle j within the support radius of particle i
+  // call function(j, r, distance) for each particle j within the support radius of particle i
 
   auto for_neighbors = [&](int i, auto &&function) {
     cells.near(x[i], support, [&](int j, const double *r, double rsq) {
@@ -437,7 +437,7 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
     }
     if (nearest > 1.25 * spacing || !(lengths > 0.0)) continue;
 
-    double depth = 0.0;    // also of one layer with fluid on both sides, which cancel each other
+    double depth = 0.0;    // stays 0 for one layer with fluid on both sides, where normals cancel
     if (MathExtra::len3(normal) > ONE_SIDE * lengths) {
       MathExtra::norm3(normal);
       for_neighbors(i, [&](int j, const double *r, double) {

@@ -177,7 +177,7 @@ void FluidChecks::styles() const
                "use one with all types",
                style);
 
-  // other atom styles sum drho of ghost atoms, which here has been communicated already
+  // other atom styles sum drho of ghost atoms, which this pair style has communicated already
 
   for (const auto &other : utils::split_words(atom->get_style()))
     if (other == "sph" || other == "rheo" || other == "rheo/thermal" || other == "mdpd")
@@ -635,7 +635,7 @@ void FluidChecks::energies(const std::function<double(int)> &heat, int boundary_
 }
 
 /* ----------------------------------------------------------------------
-   as far as data files have their places; with newton off, the owners of both particles have a pair
+   Count pairs in the same place, to the digits of data files; with newton off, the owners of both particles have a pair.
 ------------------------------------------------------------------------- */
 
 bigint FluidChecks::places(const Engine &engine, double support, bigint before) const
@@ -664,8 +664,8 @@ bigint FluidChecks::places(const Engine &engine, double support, bigint before) 
 }
 
 /* ----------------------------------------------------------------------
-   single particles may be alone, but each particle in a fluid has more than two neighbors along
-   each axis
+   Warn of too few neighbors: single particles may be alone, but a particle in a fluid has more than two neighbors along each
+   axis.
 ------------------------------------------------------------------------- */
 
 void FluidChecks::neighbors(const Engine &engine, int boundary_bits, int dim, double support) const
@@ -674,7 +674,7 @@ void FluidChecks::neighbors(const Engine &engine, int boundary_bits, int dim, do
     return !model.coeffs[atom->type[i]].other && !(atom->mask[i] & boundary_bits);
   };
 
-  // a pair is known to the owner of one of its particles, or to both with newton off
+  // the owner of one of the particles has the pair; with newton off, the owners of both
 
   bigint number[2] = {0, 0}, all[2];    // of fluid particles, of their neighbors
   for (int i = 0; i < atom->nlocal; i++) number[0] += is_fluid(i);

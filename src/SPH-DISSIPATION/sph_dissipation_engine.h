@@ -27,9 +27,9 @@
 #include <string>
 #include <vector>
 
-// GCC, Clang, and their descendants can compile single functions for other instruction sets than
-// the rest of LAMMPS.  NVIDIA's compilers define the macros of GCC, but cannot; MinGW's GCC does
-// not align the stack for their registers (GCC bug 54412).
+// GCC, Clang, and their descendants can compile single functions for other instruction sets than the rest of LAMMPS.
+// NVIDIA's compilers define the macros of GCC, but cannot do this; MinGW's GCC does not align the stack for the registers
+// (GCC bug 54412).
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__EDG__) && !defined(__NVCC__) &&         \
     !defined(__NVCOMPILER) && !defined(__PGI) && !(defined(__MINGW32__) && !defined(__clang__)) && \
@@ -90,7 +90,7 @@ namespace SPHDissipation {
     bigint *first;
     int *count;
     Offset *neighbor;
-    double *slope;     // F, or nullptr: pass 2 computes it again
+    double *slope;     // F, or nullptr: pass 2 computes F again
     double *square;    // F (e.u)^2, if mu is not constant
 
     const NoiseData *noise;    // of pass 2 with noise

@@ -83,7 +83,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
 Fluid::~Fluid() = default;
 
 /* ----------------------------------------------------------------------
-   global settings
+   Read the arguments of pair_style.
 ------------------------------------------------------------------------- */
 
 void Fluid::settings(int narg, char **arg)
@@ -99,7 +99,7 @@ void Fluid::settings(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   set coeffs for one or more type pairs
+   Read the arguments of pair_coeff.
 ------------------------------------------------------------------------- */
 
 void Fluid::coeff(int narg, char **arg)
@@ -310,7 +310,7 @@ bigint Fluid::compute(PairTally *tally)
   const bigint nbeyond = sum_before_forces(plan, find_rates);
   if (shift->wanted) sum_gradient();
   sum_forces(tally, plan);
-  if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
+  if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on heat
   if (par.loops_of_flows) sum_flows();
   if (par.delta > 0.0) sum_diffusion();
   if (!open->empty()) open->sum_impacts(neighbors());

@@ -56,9 +56,8 @@ namespace SPHDissipation {
 
   // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
   // viscous forces between pairs, and a bulk force from the rate of change of the particle volume.
-  // It owns what the commands set, the pair loops, and the stages around them, and runs them in
-  // their order.  The pair style is LAMMPS's interface to it; fixes and computes get it from
-  // find_fluid().
+  // Owns the settings, the pair loops, and the stages around the loops, and runs the stages in their order.  The pair style
+  // is the interface of LAMMPS to this class; fixes and computes call find_fluid().
 
   class Fluid : protected Pointers {
    public:
@@ -70,7 +69,7 @@ namespace SPHDissipation {
     const bool spins;
     const std::string style;    // name of pair, atom, and integrator style, without suffix
 
-    const std::unique_ptr<FluidModel> model;    // what the pair style's commands set
+    const std::unique_ptr<FluidModel> model;    // settings and coefficients
 
    protected:
     const std::unique_ptr<Engine> engine;

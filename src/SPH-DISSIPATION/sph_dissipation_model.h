@@ -46,9 +46,8 @@ namespace SPHDissipation {
     int other = 0;         // 1: the type belongs to another style of pair_style hybrid
   };
 
-  // The fluids as the commands of a pair style describe them: the choices of pair_style, the
-  // coefficients of each type and the viscosities of each pair of types of pair_coeff; in and out of
-  // restart and data files.  setflag is that of class Pair: which types and pairs of types are set.
+  // Settings of pair_style, and coefficients of types and of pairs of types from pair_coeff; writes and reads restart files,
+  // writes data files.  setflag is that of class Pair: which types and pairs of types are set.
 
   class FluidModel : protected Pointers {
    public:
@@ -131,7 +130,7 @@ namespace SPHDissipation {
 
    private:
     // Coefficient that extract() returns: first the viscosities, then the coefficients of unlike types, then those of types,
-    // whose value for two types is the mean, which nothing reads; known = value when the model set it last
+    // whose value for two types is the mean and has no other meaning; known = value when the model set it last
 
     struct Variable {
       std::string name;

@@ -26,8 +26,9 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// Return the first number of the settings in a restart file: VERSION, which every change of the stored numbers raises, in
-// the lower 16 bits, and a hash of the names of all coefficients above.  Older versions begin with a number below 10.
+// Return the first number of the settings in a restart file: VERSION in the lower 16 bits, and a hash of the names of all
+// coefficients above.  Raise VERSION with any other change of the stored numbers.  Older versions begin with a number below
+// 10.
 
 static constexpr int VERSION = 1007;
 

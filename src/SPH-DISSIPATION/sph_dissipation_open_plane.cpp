@@ -83,8 +83,8 @@ bool OpenPlane::beside(const double *x, double slack) const
 }
 
 /* ----------------------------------------------------------------------
-   Take the image that is least beside the normal: in a box that is not orthogonal, that need not be the
-   one that is closest along its edges.
+   Return the offset of the image that is least beside the normal: in a box that is not orthogonal, this image need not be
+   the closest one along the edges.
 ------------------------------------------------------------------------- */
 
 OpenPlane::Offset OpenPlane::offset(const double *from, const double *to) const
@@ -282,8 +282,8 @@ void OpenSamples::init()
 }
 
 /* ----------------------------------------------------------------------
-   Take back what was measured at this time: forces are computed again at the start of a run, and twice
-   in a step with a viscous stage.
+   Begin to measure at a time; undo a measurement of the same time: forces are computed again at the start of a run, and
+   twice in a step with viscous rkl2 or implicit.
 ------------------------------------------------------------------------- */
 
 void OpenSamples::begin(double time)

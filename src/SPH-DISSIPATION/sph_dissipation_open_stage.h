@@ -29,7 +29,7 @@ namespace SPHDissipation {
     double force[3], torque[3];    // torque about the origin, of forces and couples
     double power;                  // work and heat
 
-    // Add what acts on a particle of the fluid; heat = that of all other channels.
+    // Add the force, or the couple, on a particle of the fluid; heat = of all channels but the first.
     void add(const Particle &, const ForceSum &, double heat);
     void add(const Spin &, const double *couple);
   };

@@ -27,21 +27,21 @@ template <class Real> SPH_INLINE Real dot(const Real *a, const Real *b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// F V_i V_j
+// Return F V_i V_j, 0 for r = 0
 
 template <class Real> SPH_INLINE Real volumes_slope(Real rsq, double vol_i, Real vol_j, Real slope)
 {
   return if_positive(rsq, vol_i * vol_j * slope);
 }
 
-// pressure and bulk term of the form density, P1 (12), (18): F (g_i + g_j) r
+// Return the force of pressure and bulk term of the form density, F (g_i + g_j) r, over r; P1 (12), (18)
 
 template <class Real> SPH_INLINE Real pressing_term(double g_i, Real g_j, Real slope)
 {
   return (g_i + g_j) * slope;
 }
 
-// metric of the drag along e: r or r^2
+// Return the metric of the drag along e: r or r^2
 
 template <bool BY_DISTANCE, class Real> SPH_INLINE Real metric_of(Real rsq)
 {

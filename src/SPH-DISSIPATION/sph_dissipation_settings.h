@@ -14,8 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_SETTINGS_H
 #define LMP_SPH_DISSIPATION_SETTINGS_H
 
-// Choices of pair_style, words of pair_coeff, and what follows from them without the formulas of the channels: nearly all
-// files read no more of the fluid.  No LAMMPS include.
+// Choices of pair_style, words of pair_coeff, and numbers that follow without the formulas of the channels: nearly all files
+// need no more of the fluid.  No LAMMPS include.
 
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_flows.h"
@@ -27,7 +27,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // forms of the shear force and of the bulk force, see the headers of these channels
+  // Forms of the shear force, see the header of this channel
 
   enum class Shear { NONE, MG, MG_FR, MORRIS, ESPANOL, MICROPOLAR, MG_FR2, MICROPOLAR_FR2 };
 
@@ -87,7 +87,7 @@ namespace SPHDissipation {
 
   constexpr double DEFAULT_DELTA = 0.1;
 
-  // choices of the pair_style command
+  // Choices of the pair_style command
 
   struct Settings {
     Kernel kernel = Kernel::WENDLAND_C2;
@@ -107,7 +107,7 @@ namespace SPHDissipation {
     bool tension = true;        // the pressure may be negative
   };
 
-  // viscosities of the pairs of types, in the order of pair_coeff
+  // Viscosities of the pairs of types, in the order of pair_coeff
   enum Viscosity { MU, MU_R, GAMMA1, GAMMA2, NVISCOSITY };
   constexpr const char *VISCOSITY_NAMES[] = {"mu", "mu_r", "gamma1", "gamma2"};
   inline int number_of_viscosities(bool spins)
@@ -115,7 +115,7 @@ namespace SPHDissipation {
     return spins ? NVISCOSITY : MU_R;
   }
 
-  // What a keyword of pair_coeff requires of pair_style, see FluidModel::keyword_that_needs()
+  // Requirements of keywords of pair_coeff, see FluidModel::keyword_that_needs()
   enum Requirement {
     NOTHING = 0,
     HEAT_CAPACITY = 1,    // temperatures: a heat capacity, and no heat bath of one temperature

@@ -386,12 +386,11 @@ void FluidState::warn_of_density(const std::string &fix_style) const
 }
 
 /* ----------------------------------------------------------------------
-   A shear wave of wave number k with the viscosity mu and the elasticity G has the rates
-   g = nu k^2/2 +- sqrt[(nu k^2/2)^2 - G k^2/rho]: for a small G, mu appears to be too small by the
-   part G rho/(mu k)^2 of it; from 1/4 on the wave oscillates.  If G < 0, it grows in the end.  The
-   arrangement yields to waves of a vorticity beyond k sqrt(|G|/rho), whose strains exceed 1; sound has no
-   vorticity.  If G < 0, short waves grow from rounding errors, at the rate |G|/mu at most.
-   What is driven from rest has most of its velocity after the time 1/(nu k^2), without elasticity.
+   Warn of a shear elasticity G of the arrangement.  A shear wave of wave number k with the viscosity mu has the rates
+   g = nu k^2/2 +- sqrt[(nu k^2/2)^2 - G k^2/rho]: for a small G, mu appears to be too small by the part G rho/(mu k)^2; from
+   1/4 on, the wave oscillates.  If G < 0, the wave grows in the end, and short waves grow from rounding errors, at the rate
+   |G|/mu at most.  The arrangement yields to waves of a vorticity beyond k sqrt(|G|/rho), whose strains exceed 1; sound has
+   no vorticity.  Without elasticity, a flow that is driven from rest has most of its velocity after the time 1/(nu k^2).
 ------------------------------------------------------------------------- */
 
 double FluidState::warn_of_elasticity(const std::string &fix_style, double moving)

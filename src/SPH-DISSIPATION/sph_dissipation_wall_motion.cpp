@@ -98,10 +98,9 @@ void WallMotion::demand_finite() const
 }
 
 /* ----------------------------------------------------------------------
-   Set values and rates at the start of a run.  Variables that are functions of time get their rate
-   from the values in the next steps.  Those that depend on the particles are not known in advance:
-   they keep the rate of the last step, if a run ended with it, and so do those that no longer
-   change.
+   Set values and rates at the start of a run.  Variables that are functions of time get their rate from the values in the
+   next steps.  Variables that depend on the particles are not known in advance: they keep the rate of the last step of a
+   run, and so do variables that no longer change.
 ------------------------------------------------------------------------- */
 
 void WallMotion::start()
