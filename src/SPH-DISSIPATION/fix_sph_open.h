@@ -96,8 +96,8 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
 
-  // Owned particles of a zone with heat, in ascending order: their states in the last forces, and their sums over
-  // the neighbors; until they move on
+  // Owned particles of a zone with heat, in ascending order, with their states in the last forces; densities by sums over
+  // the neighbors; both valid until particles change sides
   std::vector<std::pair<int, SPHDissipation::OpenState>> states;
   std::vector<double> sums;
 

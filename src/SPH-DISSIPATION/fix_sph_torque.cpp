@@ -124,8 +124,8 @@ void FixSPHTorque::check_receivers()
 }
 
 /* ----------------------------------------------------------------------
-   Add the torque to the particles.  It acts at the end of the step, hence its power is that with the
-   spins extrapolated there, and the work of a step that of the mean power at both ends.
+   Add the torque to the particles.  The torque acts at the end of the step: the power is that with the spins extrapolated
+   there, and the work of a step that of the mean power at both ends.
 ------------------------------------------------------------------------- */
 
 void FixSPHTorque::post_force(int /*vflag*/)

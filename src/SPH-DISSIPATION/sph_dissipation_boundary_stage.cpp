@@ -118,7 +118,9 @@ void BoundaryStage::run(NeighList *list)
   extend_temperatures(false);
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Find the pairs of this step and move the surfaces; with a new neighbor list, find candidates, bodies, and surfaces before.
+------------------------------------------------------------------------- */
 
 void BoundaryStage::begin(NeighList *list)
 {
@@ -649,7 +651,9 @@ void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &
     if (!(atom->mask[i] & group_bits)) add(i, energy_of_repulsion(stiffness(i), over(i)));
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Find the pairs of fluid and boundary particles in a new neighbor list, and share them among the threads.
+------------------------------------------------------------------------- */
 
 void BoundaryStage::find_candidates(NeighList *list)
 {

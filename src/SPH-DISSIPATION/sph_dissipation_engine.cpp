@@ -202,7 +202,9 @@ LoopData Engine::part(int thread) const
   return part;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Set the rows of atoms between the passes; with temp energy, internal energies are a copy.
+------------------------------------------------------------------------- */
 
 void Engine::set_rows()
 {

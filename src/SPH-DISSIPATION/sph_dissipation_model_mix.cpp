@@ -491,7 +491,9 @@ double FluidModel::pair_value(int k, int i, int j)
   return (a * b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Put the k-th variable of type i with types up to i into the arrays for extract().
+------------------------------------------------------------------------- */
 
 void FluidModel::publish(int k, int i)
 {

@@ -391,7 +391,9 @@ void NoiseStage::share_work()
   });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Set reach and share, see NoiseStage, from eta and the bounds of particles with a negative coefficient of the bulk term.
+------------------------------------------------------------------------- */
 
 void NoiseStage::set_shares(const double *bound, int not_fluid)
 {

@@ -87,7 +87,7 @@ namespace SPHDissipation {
     double heat;                // 2 k/dt, for the random flow of heat
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
     double dt;
-    const Acceleration *acceleration;    // of all forces and torques, after them
+    const Acceleration *acceleration;    // by all forces and torques
     double *total;                       // sums of a loop by particle, accumulated
   };
 

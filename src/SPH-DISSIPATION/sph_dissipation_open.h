@@ -56,7 +56,7 @@ namespace SPHDissipation {
           (x[2] - point[2]) * normal[2];
     }
     bool beside(const double *x) const;                  // beyond the sides of the zone
-    bool beside(const double *x, double slack) const;    // ... and no place so near is within them
+    bool beside(const double *x, double slack) const;    // ... by more than slack
 
     // Distance of a place from the line along the normal through another one, and along that line, with
     // periodic images
@@ -66,7 +66,7 @@ namespace SPHDissipation {
     };
     Offset offset(const double *from, const double *to) const;
 
-    bool is_at(const double *) const;    // this point, with this normal after it
+    bool is_at(const double *) const;    // has the point and the normal of these six numbers
     bool limited() const { return region; }
 
     int nnodes() const { return count[0] * count[1]; }
@@ -283,7 +283,7 @@ namespace SPHDissipation {
     OpenState state(int i) const;
     double prescribed_density(int i) const { return reference(i, ZONE).rho; }    // without waves
     double heat(int i) const { return reference(i, ZONE).q; }    // per mass, without waves
-    double temperature(int i, const OpenState &) const;          // with which it conducts heat
+    double temperature(int i, const OpenState &) const;          // in the conduction of heat
     double sound_at_rest(int i, bool of_zone) const;    // at the density rho0; also of the fluid
 
     OpenState at_density(int i, const OpenState &, double rho) const;    // and the same entropy
@@ -297,7 +297,7 @@ namespace SPHDissipation {
     // Functions of an owned particle of the fluid near the plane; more = its pressure beyond the equation of state
 
     OpenSample sample(int i, const Particle &, double more) const;
-    bool is_supersonic(int i, const Particle &) const;    // on its way out
+    bool is_supersonic(int i, const Particle &) const;    // leaves faster than sound
 
    private:
     enum Kind { LAGGED, CHARACTERISTIC, FIXED };

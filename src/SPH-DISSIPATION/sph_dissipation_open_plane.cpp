@@ -43,7 +43,7 @@ void OpenPlane::set(char **arg)
   if (domain->dimension == 2 && normal[2] != 0.0)
     error->all(FLERR, "{}: the normal of the plane must lie in the xy plane in 2d", owner);
   if (!(length > 0.0)) error->all(FLERR, "{}: length must be > 0, not {}", owner, arg[6]);
-  for (double &component : normal) component /= largest;    // whose square may be out of range
+  for (double &component : normal) component /= largest;    // squares may be out of range
   MathExtra::norm3(normal);
 }
 
@@ -159,7 +159,7 @@ void OpenPlane::set_tangents()
   }
 
   if (known == 0) {
-    double axis[3] = {0.0, 0.0, 0.0};    // the one farthest from the normal
+    double axis[3] = {0.0, 0.0, 0.0};    // axis farthest from the normal
     if (domain->dimension == 2)
       axis[2] = 1.0;
     else

@@ -46,7 +46,7 @@ namespace SPHDissipation {
     bool empty() const { return zones.empty(); }
     int bits() const { return zone_bits; }    // groups of all zones
     int bits_of(int fluid_bit) const;         // groups of the zones whose fluid has this bit
-    double state_energy(int i) const;         // energy that states hold, at the last densities
+    double state_energy(int i) const;         // energy of the states, at the last densities
 
     // Called by OpenZone::set_states(): set density and pressure of a particle, which keeps its bulk term; set its
     // temperature in conduction, if the fluid conducts heat
@@ -58,7 +58,7 @@ namespace SPHDissipation {
       return engine.constants().states ? engine.state_pressure[i] : 0.0;
     }
 
-    void run();                       // after the pressures, before those of boundaries
+    void run();                       // after the pressures, before BoundaryStage::run()
     void sum_impacts(NeighList *);    // after pass 2
     double memory_usage() const override
     {
@@ -79,7 +79,7 @@ namespace SPHDissipation {
 
     PairSubset pairs;    // pairs of fluid and one zone
 
-    // Sums over these pairs, which are zero outside of impact(): it works in proportion to the pairs.
+    // Sums over these pairs; zero outside of impact(), whose work then is proportional to the number of pairs.
     std::vector<ForceSum> forces;
     ChannelSums side;
     std::vector<double> divergence, flow;

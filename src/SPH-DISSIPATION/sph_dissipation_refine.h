@@ -42,7 +42,7 @@ namespace SPHDissipation {
     double mask;      // bits of its groups
     double volume;    // now
     double most;      // volume that a merge may give it
-    double family;    // lowest new ID of the daughters of the split that it comes from; 0: none
+    double family;    // lowest new ID of the daughters of its split; 0: none
     Lump lump;
 
     // partner of a merge: ID of the chosen particle, or family that merges as a whole; settled: nonzero when the choice is
@@ -87,7 +87,7 @@ namespace SPHDissipation {
    private:
     Fix *fix;
     std::vector<RefineItem> items;
-    int first = 0, count = 0;    // which numbers of an item are sent
+    int first = 0, count = 0;    // numbers of an item in the message
   };
 
   // Finds the partners of merges.  Each particle that should merge chooses the nearest possible partner; two that have
@@ -179,7 +179,7 @@ namespace SPHDissipation {
     void carry_out(NeighList *full, const Changed &changed);
 
     RefineItems items;
-    tagint highest = 0;    // ID that was ever given
+    tagint highest = 0;    // highest ID that was ever given
 
    private:
     RefineBalance &balance;

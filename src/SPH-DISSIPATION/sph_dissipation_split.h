@@ -175,7 +175,7 @@ namespace SPHDissipation {
 
   inline double daughter_inertia(const Lump &parent, const Stencil &stencil, int dim, bool &rotate)
   {
-    constexpr double LEAST = 0.8;    // over that of a body of the same shape
+    constexpr double LEAST = 0.8;    // over the inertia of a body of the same shape
     double second = 0.0;
     for (int k = 0; k < stencil.n; k++) second += dot(stencil.d[k], stencil.d[k]) / stencil.n;
     const double remaining = parent.inertia - (dim == 3 ? 2.0 / 3.0 : 1.0) * second;

@@ -89,7 +89,9 @@ void FluidState::find_full_support()
   exchange.forward({{full.data(), 1, 1}});
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Sum up means and ranges by type and set, over all ranks.
+------------------------------------------------------------------------- */
 
 void FluidState::add_up(const std::function<double(int)> &pressure)
 {

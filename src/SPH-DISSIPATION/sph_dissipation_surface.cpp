@@ -86,7 +86,9 @@ void SurfaceStage::begin()
   });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Find the surface near particles with one of these bits; the normals of owned ones are vectors toward the fluid before.
+------------------------------------------------------------------------- */
 
 void SurfaceStage::find(int bits)
 {

@@ -54,7 +54,7 @@ namespace SPHDissipation {
    private:
     bool is_variable = false;
     std::string variable_name;
-    int variable = -1;    // its index
+    int variable = -1;    // index of the variable
     bool by_atom = false;
     double number = 0.0;
     std::vector<double> column;    // by owned particle
@@ -93,8 +93,8 @@ namespace SPHDissipation {
     const std::string owner;
     const int narg;
     char **const arg;
-    int at, end;            // range of its words
-    std::string keyword;    // empty: in front of the first one
+    int at, end;            // range of the words of the keyword
+    std::string keyword;    // empty: in front of the first keyword
     bool known = true;
   };
 

@@ -46,7 +46,10 @@ void StiffStage::configure(const ViscousSettings &settings_in, int groups_in,
   style = style_in;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Set acting to keep * now + scale * (f - own), from the forces of other styles, f - own; set increment to acting before
+   less keep * now.
+------------------------------------------------------------------------- */
 
 static void carry(double scale, const double *f, const double *own, const double *now, double keep,
                   double *acting, double *increment)
@@ -259,7 +262,9 @@ void ViscousStage::set_guess()
   });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Set guess and force of all unknowns, from vest and the forces of LAMMPS, and the mean velocity.
+------------------------------------------------------------------------- */
 
 void ViscousStage::gather()
 {
@@ -309,7 +314,9 @@ void ViscousStage::set_velocities(const Unknowns &values)
   exchange.forward({field(particle, particle->u, 3), engine.spins()});
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Find cdot and the bulk term for the velocities in the rows of the loops.
+------------------------------------------------------------------------- */
 
 void ViscousStage::set_bulk_term()
 {
@@ -323,7 +330,9 @@ void ViscousStage::set_bulk_term()
   pressure.set_bulk_term(bound, boundary.bits());
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Note the values of boundary particles for increments of 0 in the fluid, to subtract them later.
+------------------------------------------------------------------------- */
 
 void ViscousStage::find_rest()
 {
@@ -376,7 +385,9 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
   for (int k = 0; k < rows_of_bodies; k++) out[first_of_bodies() + k] = -on_bodies[k];
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Set out = (M + h Gamma) in.
+------------------------------------------------------------------------- */
 
 void StiffStage::apply(const Unknowns &in, Unknowns &out)
 {

@@ -189,7 +189,7 @@ namespace SPHDissipation {
     // v + dt/m times the forces of other styles, which travels with the particle until begin() replaces it by the guess of
     // v_b.  keep: 0 if v is added later, else 1
 
-    void begin_carrying();    // before these, which threads may call for different particles
+    void begin_carrying();    // before the next two, which threads may call for different particles
     void carry_force(int i, double keep);
     void carry_torque(int i, const double *inertia, double **omegaest);
 

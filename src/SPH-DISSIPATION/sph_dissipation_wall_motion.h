@@ -58,8 +58,8 @@ namespace SPHDissipation {
     struct Component {
       Value value;
       double now = 0.0;     // at the end of the last step
-      double mean = 0.0;    // mean of its values at both ends of this step
-      double rate = 0.0;    // rate of its change
+      double mean = 0.0;    // mean of the values at both ends of this step
+      double rate = 0.0;    // time derivative
     };
     static constexpr int NVALUES = 4;
 
