@@ -213,8 +213,7 @@ void FixSPHOpen::set_times(const double *crossings)
 }
 
 /* ----------------------------------------------------------------------
-   Append number and sum of the times in which sound crosses a support radius, of particles of zone and fluid near
-   the plane.
+   Append number and sum of the times in which sound crosses a support radius, of particles of zone and fluid near the plane.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::measure_sound(std::vector<double> &mine)
@@ -524,9 +523,8 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
 }
 
 /* ----------------------------------------------------------------------
-   Warn, with each new neighbor list until the first time, of a gap, and of fluid that leaves faster than
-   sound, from where no wave comes back, so that nothing can be prescribed.  nsupersonic = such particles
-   of all processors.
+   Warn, with each new neighbor list until the first time, of a gap, and of fluid that leaves faster than sound, from where
+   no wave comes back, so that nothing can be prescribed.  nsupersonic = such particles of all processors.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn(double nsupersonic)

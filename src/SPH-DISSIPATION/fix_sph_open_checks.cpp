@@ -344,9 +344,8 @@ void FixSPHOpen::warn_of_masses()
 }
 
 /* ----------------------------------------------------------------------
-   Warn if the sums of the kernel give the zone, where its particles have a full support, another density
-   than the prescribed one.  At the side of a jet the density of single particles may be lower, hence the
-   largest and the mean.
+   Warn if the sums of the kernel give the zone, where its particles have a full support, another density than the prescribed
+   one.  At the side of a jet the density of single particles may be lower, hence the largest and the mean.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn_of_density()

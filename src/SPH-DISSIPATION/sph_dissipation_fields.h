@@ -69,8 +69,7 @@ namespace SPHDissipation {
 
     // Density continuity: rho_sum is the sum in rho at the last forces, negative for bodies, see ParticleRows::add_offset();
     // 0 before the first sum (a new particle also has rho = 0, which means rho0).  Last evaluation of the diffusion: rates
-    // of volume and internal energy, filled part of the support, 1 inside of the fluid; rate of the volume of the evaluation
-    // before
+    // of volume and internal energy, filled part of the support, 1 inside of the fluid; rate of the volume before
     double *rho_sum = nullptr, *vol_rate = nullptr, *vol_rate_before = nullptr;
     double *vol_heat = nullptr, *vol_support = nullptr;
     double *shear_rate =

@@ -58,8 +58,7 @@ namespace SPHDissipation {
     bool beside(const double *x) const;                  // beyond the sides of the zone
     bool beside(const double *x, double slack) const;    // ... by more than slack
 
-    // Distance of a place from the line along the normal through another one, and along that line, with
-    // periodic images
+    // Distance of a place from the line along the normal through another one, and along that line, with periodic images
     struct Offset {
       double beside, ahead;
       double distance() const { return std::sqrt(beside * beside + ahead * ahead); }
