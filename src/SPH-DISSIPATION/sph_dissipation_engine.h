@@ -371,8 +371,9 @@ namespace SPHDissipation {
     std::vector<FlowRow> &heat() { return flow[HEAT_FLOW]; }
     std::vector<std::vector<double>> flow_rate;    // rates of each flow in the last forces
     std::vector<double> viscosity;                 // mu of atoms, if any mu is not constant
-    std::vector<double> energy;                    // internal energy of atoms, with temp energy
-    void set_wall_energy(const double *);          // energy in the forces of walls, of owned atoms
+    std::vector<double>
+        energy;    // internal energy of owned and ghost atoms, if particles have temperatures (temp energy)
+    void set_wall_energy(const double *);    // energy in the forces of walls, of owned atoms
     void forget_wall_energy();
     std::vector<Excess> excess;    // of owned and ghost atoms; empty: of no particle
 

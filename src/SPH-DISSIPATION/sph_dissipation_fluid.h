@@ -234,7 +234,8 @@ namespace SPHDissipation {
     virtual bool has_own_forces() const;    // on this processor
     void report();
     double missing_time() const;
-    bool at_rest() const;    // strains are zero: in a minimization, and in a rerun, which has none
+    bool
+    at_rest() const;    // strains are zero: in a minimization, and in a rerun, which has no strains
     double **extrapolated_spin() const;    // nullptr without spins
     int integrated = 0;                    // bits of the groups of its integrators
     // true if the next neighbor list checks the speeds, or the expansion, of the particles

@@ -25,7 +25,7 @@ namespace SPHDissipation {
     double dtv, dtf;
     double keep;             // 1; or 0: the extrapolated velocity is the increment alone
     double extrapolation;    // increments of half a step by which vest goes beyond the middle
-    bool balanced;           // internal energies get half of the rate at each end of the step
+    bool balanced;           // temp energy: internal energies get half of the rate at each end
 
     // Begin or end the step of particle i, kick it only, or set its extrapolated quantities as without forces.
     // Particles: arrays, on host or device, as functions of i and the direction; without spins some are empty.
